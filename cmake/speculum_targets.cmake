@@ -1,0 +1,32 @@
+# Flags shared by every target of this project.
+add_library(speculum_flags INTERFACE)
+target_compile_options(speculum_flags INTERFACE -Wall -Wextra -Wno-missing-field-initializers)
+# Same expression, same bits on every CPU: no contraction into fused multiply-adds.
+target_compile_options(speculum_flags INTERFACE -ffp-contract=off)
+if(SPECULUM_WARNINGS_AS_ERRORS)
+  target_compile_options(speculum_flags INTERFACE -Werror)
+endif()
+if(SPECULUM_SANITIZE)
+  target_compile_options(speculum_flags INTERFACE -fsanitize=${SPECULUM_SANITIZE} -fno-omit-frame-pointer
+                                                  -fno-sanitize-recover=all)
+  target_link_options(speculum_flags INTERFACE -fsanitize=${SPECULUM_SANITIZE})
+endif()
+
+# speculum_library(NAME PUBLIC dep... PRIVATE dep...): the static library of src/NAME. Its headers are included as
+# "NAME/header.hpp", and only by targets that link NAME: the include path holds nothing but that one folder.
+function(speculum_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  set(include_dir ${PROJECT_BINARY_DIR}/include/${name})
+  file(MAKE_DIRECTORY ${include_dir})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_dir}/${name} SYMBOLIC COPY_ON_ERROR)
+  if(sources)
+    add_library(${name} STATIC ${sources})
+    target_include_directories(${name} PUBLIC ${include_dir})
+    target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} speculum_flags)
+  else()
+    add_library(${name} INTERFACE)
+    target_include_directories(${name} INTERFACE ${include_dir})
+    target_link_libraries(${name} INTERFACE ${ARG_PUBLIC})
+  endif()
+endfunction()

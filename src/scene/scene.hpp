@@ -1,0 +1,119 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scene/mesh.hpp"
+
+namespace speculum {
+
+// The scene file's content with defaults applied, before any time is chosen. Metres, degrees, linear RGB, world space
+// right-handed with +Y up, as in docs/scene_format.md.
+
+struct Sky {
+  glm::dvec3 zenith, horizon, ground;
+};
+
+struct Environment {
+  glm::dvec3 background{0.0};
+  std::optional<Sky> sky;
+  glm::dvec3 ambient{0.0};
+
+  // Radiance of a ray of unit direction `d` (world) that hits nothing.
+  glm::dvec3 radiance(const glm::dvec3& d) const;
+};
+
+struct CameraSpec {
+  glm::dvec3 position{0.0};
+  glm::dvec3 target{0.0};
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  double verticalFov = 60.0;  // degrees
+  double near = 0.001;        // metres; depth precision only
+  double orbitSpeed = 0.0;    // degrees per second about `up` around `target`
+};
+
+struct Copies {
+  int count = 1;
+  glm::dvec3 step{0.0};
+};
+
+struct Object {
+  std::string name;
+  int mesh = -1;  // index into Scene::meshes
+  glm::dvec3 position{0.0};
+  glm::dvec3 rotation{0.0};  // pitch, yaw, roll; R = Ry Rx Rz
+  glm::dvec3 scale{1.0};
+  glm::dvec3 spin{0.0};  // degrees per second added to rotation
+  std::optional<glm::dvec3> color;
+  std::optional<glm::dvec3> specular;
+  std::optional<double> shininess;
+  Copies copies;
+};
+
+struct Orbit {
+  glm::dvec3 center{0.0};
+  glm::dvec3 axis{0.0, 1.0, 0.0};
+  double speed = 0.0;  // degrees per second, right-hand rule
+};
+
+struct PointLight {
+  std::string name;
+  glm::dvec3 position{0.0};
+  glm::dvec3 color{1.0};
+  double intensity = 1.0;
+  double radius = 0.05;
+  double glow = 1.0;
+  bool castsShadow = false;
+  std::optional<Orbit> orbit;
+};
+
+enum class Fresnel { none, schlick };
+
+struct Ripple {
+  double amplitude = 0.0;  // metres
+  double wavelength = 0.5;
+  double speed = 0.2;
+};
+
+struct Mirror {
+  std::string name;
+  glm::dvec3 position{0.0};
+  glm::dvec3 rotation{0.0};
+  glm::dvec3 spin{0.0};
+  glm::dvec2 size{0.0};
+  std::vector<glm::dvec3> polygon;  // world; empty when position, rotation, size are used
+  glm::dvec3 reflectance{0.95};
+  Fresnel fresnel = Fresnel::none;
+  glm::dvec3 baseColor{0.0};
+  double roughness = 0.0;
+  std::optional<Ripple> ripple;
+  bool twoSided = false;
+  glm::dvec3 backColor{0.1};
+  bool castsLight = false;
+};
+
+// One entry of the scene's [settings] table, kept raw: the frame library knows the keys.
+struct SettingEntry {
+  std::string key;
+  std::variant<bool, int64_t, double, std::string, std::vector<double>> value;
+  int line = 0;
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::string title;
+  Environment environment;
+  CameraSpec camera;
+  std::vector<SettingEntry> settings;
+  std::vector<Object> objects;
+  std::vector<PointLight> lights;
+  std::vector<Mirror> mirrors;
+  std::vector<Mesh> meshes;        // each model file once
+  std::vector<Texture> textures;   // each picture file once
+};
+
+}  // namespace speculum

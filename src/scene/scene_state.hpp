@@ -1,0 +1,58 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "optics/affine.hpp"
+#include "scene/scene.hpp"
+
+namespace speculum {
+
+// Everything that moves, at one time, in world space and double. Planner, renderer and reference tracer all read this,
+// so that they cannot disagree on where things are.
+
+struct CameraPose {
+  glm::dvec3 eye{0.0};
+  glm::dmat3 worldToView{1.0};  // rows: right, up, back (right-handed, looking down -z)
+  double verticalFov = 1.0;     // radians
+  double near = 0.001;          // metres
+};
+
+// Throws std::invalid_argument when eye and target coincide or `up` is parallel to the view direction.
+CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,
+                  double near);
+
+struct InstanceState {
+  int object = 0;  // index into Scene::objects
+  int copy = 0;
+  int mesh = 0;            // index into Scene::meshes
+  Affine worldFromMesh;    // takes Vertex::position (already relative to Mesh::center) to world
+  glm::dvec3 center{0.0};  // world, of the bounding sphere
+  double radius = 0.0;     // metres
+};
+
+struct LightState {
+  glm::dvec3 position{0.0};  // world
+};
+
+struct MirrorState {
+  std::vector<glm::dvec3> polygon;  // world, counter-clockwise seen from the front
+  glm::dvec3 origin{0.0};           // local (0, 0): the centre, or a polygon's first vertex
+  glm::dvec3 normal{0.0, 0.0, 1.0};  // world, unit, to the front
+  glm::dvec3 axisX{1.0, 0.0, 0.0};   // world, unit; for ripples
+  glm::dvec3 axisY{0.0, 1.0, 0.0};
+};
+
+struct SceneState {
+  double time = 0.0;  // seconds
+  CameraPose camera;
+  std::vector<InstanceState> instances;  // sorted by mesh, then object, then copy
+  std::vector<LightState> lights;        // parallel to Scene::lights
+  std::vector<MirrorState> mirrors;      // parallel to Scene::mirrors
+};
+
+// Pure function of scene and time. Angles are reduced in double, so 1e6 s of animation is as exact as one.
+SceneState evaluate(const Scene& scene, double timeSeconds);
+
+}  // namespace speculum
