@@ -42,7 +42,7 @@ double srgbDecode(double encoded);
 Image8 toDisplay(const LinearImage& image, double exposure, ToneMap toneMap);
 
 // All throw std::runtime_error with the file's name, what is wrong and what would be right.
-Image8 readImage8(const std::filesystem::path& file);             // PNG, JPEG
+Image8 readImage8(const std::filesystem::path& file);  // PNG, JPEG
 void writePng(const std::filesystem::path& file, const Image8& image);
 LinearImage readExr(const std::filesystem::path& file);
 void writeExr(const std::filesystem::path& file, const LinearImage& image);  // float RGB

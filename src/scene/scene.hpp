@@ -112,8 +112,8 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<PointLight> lights;
   std::vector<Mirror> mirrors;
-  std::vector<Mesh> meshes;        // each model file once
-  std::vector<Texture> textures;   // each picture file once
+  std::vector<Mesh> meshes;       // each model file once
+  std::vector<Texture> textures;  // each picture file once
 };
 
 }  // namespace speculum

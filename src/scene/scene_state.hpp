@@ -37,8 +37,8 @@ struct LightState {
 };
 
 struct MirrorState {
-  std::vector<glm::dvec3> polygon;  // world, counter-clockwise seen from the front
-  glm::dvec3 origin{0.0};           // local (0, 0): the centre, or a polygon's first vertex
+  std::vector<glm::dvec3> polygon;   // world, counter-clockwise seen from the front
+  glm::dvec3 origin{0.0};            // local (0, 0): the centre, or a polygon's first vertex
   glm::dvec3 normal{0.0, 0.0, 1.0};  // world, unit, to the front
   glm::dvec3 axisX{1.0, 0.0, 0.0};   // world, unit; for ripples
   glm::dvec3 axisY{0.0, 1.0, 0.0};

@@ -1,0 +1,50 @@
+#include "optics/affine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+double radiansReduced(double degrees) {
+  return glm::radians(std::remainder(degrees, 360.0));
+}
+
+}  // namespace
+
+glm::dmat3 normalMatrix(const glm::dmat3& linear) {
+  double largest = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      largest = std::max(largest, std::abs(linear[c][r]));
+    }
+  }
+  if (largest == 0.0) {
+    return glm::dmat3(0.0);
+  }
+  const glm::dmat3 m = linear * (1.0 / largest);
+  const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  return glm::dot(m[0], cofactor[0]) < 0.0 ? -1.0 * cofactor : cofactor;
+}
+
+glm::dmat3 rotationAboutAxis(const glm::dvec3& axis, double degrees) {
+  const glm::dvec3 u = glm::normalize(axis);
+  const double angle = radiansReduced(degrees);
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  const glm::dmat3 cross(0.0, u.z, -u.y, -u.z, 0.0, u.x, u.y, -u.x, 0.0);
+  return c * glm::dmat3(1.0) + s * cross + (1.0 - c) * glm::outerProduct(u, u);
+}
+
+glm::dmat3 rotationFromDegrees(const glm::dvec3& pitchYawRoll) {
+  const glm::dvec3 a(radiansReduced(pitchYawRoll.x), radiansReduced(pitchYawRoll.y), radiansReduced(pitchYawRoll.z));
+  const glm::dvec3 c(std::cos(a.x), std::cos(a.y), std::cos(a.z));
+  const glm::dvec3 s(std::sin(a.x), std::sin(a.y), std::sin(a.z));
+  const glm::dmat3 x(1, 0, 0, 0, c.x, s.x, 0, -s.x, c.x);
+  const glm::dmat3 y(c.y, 0, -s.y, 0, 1, 0, s.y, 0, c.y);
+  const glm::dmat3 z(c.z, s.z, 0, -s.z, c.z, 0, 0, 0, 1);
+  return y * x * z;
+}
+
+}  // namespace speculum

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace speculum {
+
+// A plane as a point on it and a unit normal. Kept in this form because n.x = d loses |d| * 2^-53 to a far-off origin.
+struct Plane {
+  glm::dvec3 point{0.0};
+  glm::dvec3 normal{0.0, 0.0, 1.0};
+
+  // Signed distance of p, metres, positive on the side the normal points to. Differences are taken first.
+  double distance(const glm::dvec3& p) const { return glm::dot(normal, p - point); }
+};
+
+// Newell's area vector of a closed polygon (Sutherland, Sproull, Schumacker 1974), taken relative to the first vertex:
+// half of it has the polygon's area as length; it points to where the vertices run counter-clockwise.
+glm::dvec3 newellVector(std::span<const glm::dvec3> polygon);
+
+double polygonArea(std::span<const glm::dvec3> polygon);
+
+// What makes a polygon unusable as a mirror, or nothing: fewer than 3 vertices, non-finite, area below 1e-8 diameter^2,
+// a vertex further than 1e-4 diameters off the plane, not convex.
+std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon);
+
+// Sutherland-Hodgman (1974): the part of a convex polygon with dot(normal, v - point) >= 0.
+std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep);
+
+}  // namespace speculum
