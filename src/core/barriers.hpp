@@ -1,0 +1,75 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace speculum {
+
+class Image;
+class Buffer;
+
+// Every dependency of the project has a name, so that a test can leave each out in turn and see it missed.
+enum class BarrierKind {
+  offscreenBeforeWrite,         // resolved or single-sample colour: earlier samplings and writes -> attachment
+  offscreenSamplesBeforeWrite,  // multisampled colour
+  offscreenDepthBeforeWrite,    // late depth writes of the pass before -> clear
+  offscreenToSample,            // attachment -> fragment shader
+  mainBeforeWrite,
+  mainSamplesBeforeWrite,
+  mainDepthBeforeWrite,
+  mainToSample,
+  swapchainBeforeWrite,    // acquired image (or the last read back) -> attachment
+  swapchainBeforeOverlay,  // attachment of the pass before -> attachment that loads it
+  swapchainToPresent,
+  readbackToCopy,    // attachment or sampled image -> transfer source
+  readbackFromCopy,  // transfer source -> what it was before
+  uploadBeforeCopy,  // image in any state -> transfer destination
+  uploadToRead,      // transfer write -> shader, index and vertex reads
+  mipmapToBlit,      // a level written -> source of the next level's blit
+};
+inline constexpr int barrierKindCount = static_cast<int>(BarrierKind::mipmapToBlit) + 1;
+
+std::string_view barrierName(BarrierKind kind);  // the enumerator's name
+std::optional<BarrierKind> barrierFromName(std::string_view name);
+std::span<const BarrierKind> allBarrierKinds();
+
+// What a pass's targets are for; decides which kinds of barrier guard them.
+enum class TargetRole { offscreen, main, swapchain };
+
+// Records the project's barriers. Leaving a kind out keeps its layout transition and drops the dependency.
+class Barriers {
+ public:
+  void omit(std::optional<BarrierKind> kind) { omitted_ = kind; }
+  std::optional<BarrierKind> omitted() const { return omitted_; }
+
+  void colorBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  void samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  void depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  void colorToSample(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  void swapchainBeforeOverlay(VkCommandBuffer commands, Image& image) const;
+  void swapchainToPresent(VkCommandBuffer commands, Image& image) const;
+  void readbackToCopy(VkCommandBuffer commands, Image& image) const;
+  void readbackFromCopy(VkCommandBuffer commands, Image& image, VkImageLayout layout) const;
+  void readbackToHost(VkCommandBuffer commands) const;
+  void uploadBeforeCopy(VkCommandBuffer commands, Image& image) const;
+  void uploadToRead(VkCommandBuffer commands, Image& image) const;
+  void uploadToRead(VkCommandBuffer commands, const Buffer& buffer) const;
+  // `level` becomes a transfer source; `levels` - 1 blits later all are, and mipmapsToRead makes them readable.
+  void mipmapToBlit(VkCommandBuffer commands, Image& image, uint32_t level) const;
+
+ private:
+  struct Scope {
+    VkPipelineStageFlags stages;
+    VkAccessFlags access;
+  };
+  void record(VkCommandBuffer commands, BarrierKind kind, Image& image, Scope before, Scope after,
+              VkImageLayout layout) const;
+
+  std::optional<BarrierKind> omitted_;
+};
+
+}  // namespace speculum

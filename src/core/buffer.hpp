@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstring>
+#include <span>
+#include <string>
+
+#include "core/device.hpp"
+
+namespace speculum {
+
+enum class BufferPlace {
+  host,    // mapped and coherent, written by the CPU every frame
+  device,  // filled once through Uploader
+};
+
+// A buffer with memory of its own. `bytes` 0 is allowed and becomes 4: Vulkan has no empty buffers.
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferPlace place, const std::string& name);
+
+  VkBuffer get() const { return buffer_.get(); }
+  VkDeviceSize bytes() const { return bytes_; }
+  explicit operator bool() const { return static_cast<bool>(buffer_); }
+  std::byte* mapped() const { return mapped_; }  // null in BufferPlace::device
+  VkDescriptorBufferInfo descriptor() const { return {buffer_.get(), 0, VK_WHOLE_SIZE}; }
+
+  // Into a host buffer; throws std::out_of_range past its end.
+  void write(std::span<const std::byte> data, VkDeviceSize offset = 0) const;
+  template <typename T>
+  void writeObject(const T& value, VkDeviceSize offset = 0) const {
+    write(std::as_bytes(std::span(&value, 1)), offset);
+  }
+  template <typename T>
+  void writeSpan(std::span<const T> values, VkDeviceSize offset = 0) const {
+    write(std::as_bytes(values), offset);
+  }
+
+ private:
+  Memory memory_;
+  BufferHandle buffer_;
+  VkDeviceSize bytes_ = 0;
+  std::byte* mapped_ = nullptr;
+};
+
+}  // namespace speculum

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/device.hpp"
+
+namespace speculum {
+
+struct DescriptorBinding {
+  uint32_t binding = 0;
+  VkDescriptorType type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  uint32_t count = 1;
+  VkShaderStageFlags stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+};
+
+DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,
+                                                    const std::string& name);
+
+// Hands out sets and grows by whole pools. Sets live until reset() or the allocator's end; they are not freed singly.
+class DescriptorAllocator {
+ public:
+  explicit DescriptorAllocator(Device& device) : device_(&device) {}
+
+  VkDescriptorSet allocate(VkDescriptorSetLayout layout);
+  void reset();
+
+ private:
+  DescriptorPoolHandle createPool() const;
+
+  Device* device_;
+  std::vector<DescriptorPoolHandle> pools_;
+  size_t current_ = 0;
+};
+
+// Collects writes and applies them at once.
+class DescriptorWriter {
+ public:
+  DescriptorWriter& buffer(uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo& info);
+  DescriptorWriter& image(uint32_t binding, const VkDescriptorImageInfo& info, uint32_t element = 0);  // with sampler
+  void update(Device& device, VkDescriptorSet set);
+
+ private:
+  std::deque<VkDescriptorBufferInfo> buffers_;
+  std::deque<VkDescriptorImageInfo> images_;
+  std::vector<VkWriteDescriptorSet> writes_;
+};
+
+}  // namespace speculum

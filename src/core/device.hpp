@@ -1,0 +1,180 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/barriers.hpp"
+#include "core/handle.hpp"
+
+namespace speculum {
+
+class Window;
+
+enum class RenderPath { automatic, dynamic, renderPass };
+std::string_view renderPathName(RenderPath path);  // auto, dynamic, renderpass
+std::optional<RenderPath> renderPathFromName(std::string_view name);
+
+struct DeviceOptions {
+  std::string gpu;           // empty: the best; an index, or part of the name in any case
+  bool validation = false;   // core and synchronisation validation of VK_LAYER_KHRONOS_validation
+  Window* window = nullptr;  // null: headless, without any surface extension
+  RenderPath renderPath = RenderPath::automatic;
+};
+
+struct DeviceInfo {
+  int index = 0;
+  std::string name;
+  std::string driver;  // name and version
+  uint32_t apiVersion = 0;
+  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+  uint64_t memoryBytes = 0;  // of the largest device-local heap
+  bool dynamicRendering = false;
+  std::string unusable;  // empty, or the feature that is missing
+};
+
+struct DeviceCaps {
+  VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;  // for RGBA16F colour and D32F depth alike
+  double timestampPeriod = 0.0;                             // nanoseconds per tick
+  uint32_t timestampValidBits = 0;                          // 0: no timestamps
+  bool pipelineStatistics = false;
+  bool sampleRateShading = false;
+  bool depthClamp = false;
+  bool fillModeNonSolid = false;
+  bool dynamicRendering = false;
+  bool memoryBudget = false;
+};
+
+struct MemoryBudget {
+  uint64_t budgetBytes = 0;  // of device-local heaps: the driver's advice, or the heaps' size
+  uint64_t usedBytes = 0;    // by this process
+};
+
+// Throws std::runtime_error with what is missing, where, and how to mend it.
+[[noreturn]] void throwVulkanError(VkResult result, std::string_view what);
+void check(VkResult result, std::string_view what);
+std::string resultName(VkResult result);
+
+class Memory;
+
+// Instance, the chosen GPU, logical device and its one queue. Outlives everything made from it.
+class Device {
+ public:
+  explicit Device(const DeviceOptions& options);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  // Every GPU the loader offers, for `speculum info`. Throws as the constructor does when there is no Vulkan.
+  static std::vector<DeviceInfo> list();
+
+  VkInstance instance() const { return instance_.get(); }
+  VkPhysicalDevice physical() const { return physical_; }
+  VkDevice get() const { return device_.get(); }
+  VkQueue queue() const { return queue_; }
+  uint32_t queueFamily() const { return queueFamily_; }
+  VkSurfaceKHR surface() const { return surface_.get(); }  // null when headless
+  const DeviceInfo& info() const { return info_; }
+  const DeviceCaps& caps() const { return caps_; }
+  const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
+  const VkPhysicalDeviceProperties& properties() const { return properties_; }
+  RenderPath renderPath() const { return renderPath_; }  // dynamic or renderPass
+  bool validation() const { return messenger_.get() != VK_NULL_HANDLE; }
+
+  // The wanted count or the next lower one that the device has; says so in the log, once per count.
+  VkSampleCountFlagBits sampleCount(int wanted) const;
+
+  Barriers& barriers() { return barriers_; }
+  void waitIdle() const;
+
+  // Warnings and errors of the validation layer since the start; 0 is the only good figure.
+  int validationMessages() const;
+  std::vector<std::string> lastValidationMessages() const;  // the latest 32, oldest first
+  void clearValidationMessages();
+
+  uint64_t allocatedBytes() const { return allocatedBytes_; }  // live device memory of this process
+  MemoryBudget memoryBudget() const;
+  Memory allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted, std::string_view name);
+
+  template <typename T>
+  void setName(T object, std::string_view name) const {
+    setObjectName(objectType<T>(), reinterpret_cast<uint64_t>(object), name);
+  }
+  void beginLabel(VkCommandBuffer commands, std::string_view name) const;
+  void endLabel(VkCommandBuffer commands) const;
+  void beginRendering(VkCommandBuffer commands, const VkRenderingInfo& info) const;
+  void endRendering(VkCommandBuffer commands) const;
+  void setFrontFace(VkCommandBuffer commands, VkFrontFace frontFace) const;
+
+  // Called with Image::id() when an image dies; caches of framebuffers drop theirs. Returns a key for remove.
+  int addImageObserver(std::function<void(uint64_t)> observer);
+  void removeImageObserver(int key);
+  void imageDestroyed(uint64_t id);
+
+ private:
+  friend class Memory;
+  struct Functions;
+  struct MessageLog;
+  struct DestroyInstance {
+    using pointer = VkInstance;
+    void operator()(VkInstance instance) const;
+  };
+  struct DestroyDevice {
+    using pointer = VkDevice;
+    void operator()(VkDevice device) const;
+  };
+  static void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
+                               const VkAllocationCallbacks* allocator);
+  using MessengerHandle = Handle<VkDebugUtilsMessengerEXT, &Device::destroyMessenger>;
+
+  void createInstance(const DeviceOptions& options);
+  void choosePhysicalDevice(const std::string& gpu);
+  void createDevice(RenderPath path);
+  void setObjectName(VkObjectType type, uint64_t object, std::string_view name) const;
+
+  std::unique_ptr<MessageLog> messages_;
+  std::unique_ptr<VkInstance, DestroyInstance> instance_;
+  MessengerHandle messenger_;
+  SurfaceHandle surface_;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  VkPhysicalDeviceProperties properties_{};
+  VkPhysicalDeviceMemoryProperties memoryProperties_{};
+  DeviceInfo info_;
+  DeviceCaps caps_;
+  RenderPath renderPath_ = RenderPath::dynamic;
+  uint32_t queueFamily_ = 0;
+  std::unique_ptr<VkDevice, DestroyDevice> device_;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::unique_ptr<Functions> functions_;
+  Barriers barriers_;
+  std::atomic<uint64_t> allocatedBytes_{0};
+  std::vector<std::pair<int, std::function<void(uint64_t)>>> imageObservers_;
+};
+
+// One allocation of device memory, counted in Device::allocatedBytes().
+class Memory {
+ public:
+  Memory() = default;
+  Memory(Device& device, MemoryHandle memory, uint64_t bytes, VkMemoryPropertyFlags properties);
+  Memory(Memory&& other) noexcept;
+  Memory& operator=(Memory&& other) noexcept;
+  ~Memory();
+
+  VkDeviceMemory get() const { return memory_.get(); }
+  uint64_t bytes() const { return bytes_; }
+  VkMemoryPropertyFlags properties() const { return properties_; }
+
+ private:
+  Device* device_ = nullptr;
+  MemoryHandle memory_;
+  uint64_t bytes_ = 0;
+  VkMemoryPropertyFlags properties_ = 0;
+};
+
+}  // namespace speculum

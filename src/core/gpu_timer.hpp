@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/device.hpp"
+
+namespace speculum {
+
+struct PassTiming {
+  std::string name;
+  double gpuMs = 0.0;  // 0 where the queue has no timestamps
+  bool hasStatistics = false;
+  uint64_t triangles = 0;  // that left clipping
+  uint64_t fragments = 0;  // fragment shader invocations
+};
+
+struct FrameTimings {
+  uint64_t frame = 0;              // number of the frame; 0: none has finished yet
+  double gpuMs = 0.0;              // from the first pass's start to the last one's end
+  std::vector<PassTiming> passes;  // in the order of recording
+};
+
+// Timestamps and pipeline statistics of one frame in flight. Both stamps of a pass are taken at the bottom of the pipe,
+// so that passes do not overlap in the figures and their times add up to the frame's.
+class GpuTimer {
+ public:
+  explicit GpuTimer(Device& device, const std::string& name);
+
+  void reset(VkCommandBuffer commands, uint64_t frame);  // at the start of the frame's commands
+  int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
+  void end(VkCommandBuffer commands, int slot);
+  FrameTimings read() const;  // after the frame's fence
+
+ private:
+  static constexpr uint32_t maxPasses = 512;
+
+  Device& device_;
+  QueryPoolHandle stamps_;      // null where the queue has none
+  QueryPoolHandle statistics_;  // null where the device has none
+  uint64_t frame_ = 0;
+  std::vector<PassTiming> passes_;
+};
+
+}  // namespace speculum

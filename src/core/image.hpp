@@ -1,0 +1,107 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/buffer.hpp"
+
+namespace speculum {
+
+struct ImageDesc {
+  VkExtent2D extent{1, 1};
+  VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
+  VkImageUsageFlags usage = 0;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  uint32_t mipLevels = 1;
+  std::string name;
+};
+
+inline constexpr VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  // linear radiance
+inline constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;           // reversed Z: 0 is infinitely far
+
+uint32_t mipLevelCount(VkExtent2D extent);  // down to 1x1
+
+// A 2D image with a view of all its levels. Owns its memory, or borrows the image of a swapchain.
+class Image {
+ public:
+  Image() = default;
+  Image(Device& device, const ImageDesc& desc);
+  Image(Device& device, VkImage borrowed, const ImageDesc& desc);
+  Image(Image&& other) noexcept;
+  Image& operator=(Image&& other) noexcept;
+  ~Image();
+
+  VkImage get() const { return image_; }
+  VkImageView view() const { return view_.get(); }
+  const ImageDesc& desc() const { return desc_; }
+  VkExtent2D extent() const { return desc_.extent; }
+  VkFormat format() const { return desc_.format; }
+  VkSampleCountFlagBits samples() const { return desc_.samples; }
+  VkImageAspectFlags aspect() const;
+  uint64_t bytes() const { return memory_.bytes(); }
+  uint64_t id() const { return id_; }  // never reused in a process, unlike handles; 0 for an empty image
+  explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
+
+  // The layout that recording has reached: commands run in the order of recording on the one queue.
+  VkImageLayout layout() const { return layout_; }
+  void setLayout(VkImageLayout layout) { layout_ = layout; }
+
+  VkDescriptorImageInfo descriptor(VkSampler sampler) const {
+    return {sampler, view_.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  }
+
+ private:
+  void createView();
+  void release();
+
+  Device* device_ = nullptr;
+  ImageDesc desc_;
+  uint64_t id_ = 0;
+  Memory memory_;
+  ImageHandle owned_;
+  VkImage image_ = VK_NULL_HANDLE;
+  ImageViewHandle view_;
+  VkImageLayout layout_ = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+struct SamplerDesc {
+  VkFilter filter = VK_FILTER_LINEAR;
+  VkSamplerMipmapMode mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+  VkSamplerAddressMode addressMode = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  float maxLod = VK_LOD_CLAMP_NONE;  // 0: level 0 only
+};
+SamplerHandle createSampler(Device& device, const SamplerDesc& desc, const std::string& name);
+
+// Copies that are finished on return; for loading, not for every frame.
+class Uploader {
+ public:
+  explicit Uploader(Device& device);
+
+  // A device buffer (usage gets TRANSFER_DST added) that holds `data`.
+  Buffer buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name);
+  template <typename T>
+  Buffer buffer(std::span<const T> data, VkBufferUsageFlags usage, const std::string& name) {
+    return buffer(std::as_bytes(data), usage, name);
+  }
+  // A sampled image whose level 0 is `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout. With
+  // `mipmaps` all further levels are made by halving blits, which are right only for linear formats such as RGBA16F.
+  Image image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
+              const std::string& name);
+
+  // `pixels` of level 0, tightly packed in the image's own format. The image keeps its layout.
+  std::vector<std::byte> read(Image& image);
+  std::vector<float> readFloats(Image& image);  // of an RGBA16F image: r, g, b, a per texel
+
+  // Records with `record`, submits and waits.
+  void run(const std::function<void(VkCommandBuffer)>& record);
+
+ private:
+  void generateMipmaps(VkCommandBuffer commands, Image& image);
+
+  Device& device_;
+  CommandPoolHandle pool_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  FenceHandle fence_;
+};
+
+}  // namespace speculum

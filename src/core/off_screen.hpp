@@ -1,0 +1,76 @@
+#pragma once
+
+#include <string>
+
+#include "core/image.hpp"
+#include "core/pass.hpp"
+#include "core/retire_queue.hpp"
+
+namespace speculum {
+
+// One multisampled colour and one depth image that several OffScreen targets use in turn; as large as the largest asks.
+class SharedAttachments {
+ public:
+  SharedAttachments(Device& device, VkSampleCountFlagBits samples, const std::string& name);
+
+  // Grows to cover `extent`; the old images are retired. Never shrinks: see trim.
+  void require(VkExtent2D extent, RetireQueue& retired);
+  // Makes the images exactly `extent`, or none for 0x0.
+  void trim(VkExtent2D extent, RetireQueue& retired);
+
+  VkSampleCountFlagBits samples() const { return samples_; }
+  VkExtent2D extent() const { return extent_; }
+  uint64_t bytes() const { return color_.bytes() + depth_.bytes(); }
+  Image* color() { return color_ ? &color_ : nullptr; }  // null at one sample
+  Image* depth() { return depth_ ? &depth_ : nullptr; }
+
+ private:
+  Device* device_;
+  VkSampleCountFlagBits samples_;
+  std::string name_;
+  VkExtent2D extent_{0, 0};
+  Image color_;
+  Image depth_;
+};
+
+struct OffScreenDesc {
+  std::string name;
+  VkExtent2D extent{1, 1};
+  VkFormat format = colorFormat;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  bool depth = true;
+  VkFilter filter = VK_FILTER_LINEAR;
+  TargetRole role = TargetRole::offscreen;
+  SharedAttachments* shared = nullptr;  // outlives the target; its sample count replaces `samples`
+};
+
+// A render target that is sampled later: single-sample colour, with depth and multisampled colour of its own or shared.
+class OffScreen {
+ public:
+  OffScreen(Device& device, const OffScreenDesc& desc, RetireQueue& retired);
+
+  // Does nothing if the extent is the present one. Content is lost.
+  void resize(VkExtent2D extent, RetireQueue& retired);
+  // Moves all images to the queue; for a target that dies while frames that use it are in flight.
+  void retire(RetireQueue& retired);
+
+  const OffScreenDesc& desc() const { return desc_; }
+  VkExtent2D extent() const { return desc_.extent; }
+  VkSampleCountFlagBits samples() const { return desc_.samples; }
+  uint64_t bytes() const;  // without shared attachments
+  Image& color() { return color_; }
+  PassTargets targets();
+  VkDescriptorImageInfo descriptor() const { return color_.descriptor(sampler_.get()); }
+
+ private:
+  void createImages(RetireQueue& retired);
+
+  Device* device_;
+  OffScreenDesc desc_;
+  SamplerHandle sampler_;
+  Image color_;
+  Image samples_;
+  Image depth_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "core/image.hpp"
+
+namespace speculum {
+
+class GpuTimer;
+class RenderPassCache;
+
+// `color` is multisampled exactly when `resolve` is given. Any extent not below the render area will do.
+struct PassTargets {
+  Image* color = nullptr;
+  Image* resolve = nullptr;
+  Image* depth = nullptr;
+  TargetRole role = TargetRole::offscreen;
+
+  Image& output() const { return resolve ? *resolve : *color; }
+  VkSampleCountFlagBits samples() const { return color->samples(); }
+};
+
+// Pixels of the target. May start outside it and be larger: an image of a part of a screen has the screen's size here
+// and minus the part's corner.
+struct PassViewport {
+  float x = 0.0f;
+  float y = 0.0f;
+  float width = 0.0f;
+  float height = 0.0f;
+};
+
+struct PassDesc {
+  std::string name;
+  PassTargets targets;
+  VkRect2D renderArea{};  // pixels of the target; only these are cleared and written
+  PassViewport viewport;
+  VkRect2D scissor{};  // pixels of the target, within the render area
+  VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+  std::array<float, 4> clearColor{0.0f, 0.0f, 0.0f, 1.0f};
+  float clearDepth = 0.0f;  // reversed Z: infinitely far
+  bool loadColor = false;   // else cleared
+  bool loadDepth = false;
+  bool storeDepth = false;
+  bool storeSamples = false;       // multisampled colour is kept for a later pass that loads it
+  bool sampledAfterwards = true;   // the output becomes readable in fragment shaders; ignored for the swapchain
+  bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
+};
+
+// The whole of `targets` in one go: area, viewport and scissor cover the output.
+PassDesc fullPass(std::string name, const PassTargets& targets);
+
+// From construction to end: debug label, timestamps, statistics, barriers before and after, rendering on the device's
+// render path. Viewport, scissor and front face are set. Made by Renderer::beginPass.
+class PassScope {
+ public:
+  PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc);
+  ~PassScope();
+  PassScope(const PassScope&) = delete;
+  PassScope& operator=(const PassScope&) = delete;
+
+  VkCommandBuffer commands() const { return commands_; }
+  const PassDesc& desc() const { return desc_; }
+
+ private:
+  friend class Renderer;
+  enum class Kind { scene, overlay };
+  PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc,
+            Kind kind);
+  void recordBarriersBefore();
+  void beginDynamic();
+  void beginRenderPass();
+
+  Device& device_;
+  RenderPassCache& renderPasses_;
+  GpuTimer& timer_;
+  VkCommandBuffer commands_;
+  PassDesc desc_;
+  Kind kind_;
+  bool dynamic_;
+  int timerSlot_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/render_pass_cache.hpp"
+#include "core/retire_queue.hpp"
+#include "core/shader_library.hpp"
+
+namespace speculum {
+
+// Dynamic: viewport, scissor, front face. Everything else is fixed here.
+struct GraphicsPipelineDesc {
+  std::string name;
+  std::string vert;  // e.g. "scene.vert"
+  std::string frag;
+  std::vector<uint32_t> vertConstants;  // specialisation constants 0, 1, ... of the vertex shader
+  std::vector<uint32_t> fragConstants;
+  std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
+  uint32_t pushConstantBytes = 0;                 // offset 0, vertex and fragment stage
+  VkFormat color = colorFormat;
+  VkFormat depth = depthFormat;  // VK_FORMAT_UNDEFINED: the pass has none
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  bool depthTest = true;
+  bool depthWrite = true;
+  VkCompareOp depthCompare = VK_COMPARE_OP_GREATER;  // reversed Z
+  bool depthClamp = true;                            // nothing is cut at the near plane; ignored where not supported
+  bool sampleShading = false;                        // one invocation per sample; ignored where not supported
+  bool blend = false;                                // source alpha over destination
+  bool lines = false;                                // wireframe; filled where not supported
+  VkCullModeFlags cullMode = VK_CULL_MODE_NONE;
+  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  std::vector<VkVertexInputBindingDescription> vertexBindings;
+  std::vector<VkVertexInputAttributeDescription> vertexAttributes;
+};
+
+// The driver's compiled pipelines on disk, one file per GPU and driver. Damaged and foreign files are ignored.
+class PipelineCache {
+ public:
+  // `directory` empty: nothing is read or written.
+  PipelineCache(Device& device, const std::filesystem::path& directory);
+  ~PipelineCache();  // saves
+  PipelineCache(const PipelineCache&) = delete;
+  PipelineCache& operator=(const PipelineCache&) = delete;
+
+  VkPipelineCache get() const { return cache_.get(); }
+  const std::filesystem::path& file() const { return file_; }
+  bool loaded() const { return loaded_; }  // whether a file was found and taken
+  bool save() const;                       // true if written, or nothing was to be written
+
+ private:
+  Device& device_;
+  std::filesystem::path file_;
+  bool loaded_ = false;
+  PipelineCacheHandle cache_;
+};
+
+class Pipeline;
+
+// Makes pipelines, and makes them anew when a shader changed.
+class PipelineFactory {
+ public:
+  PipelineFactory(Device& device, ShaderLibrary& shaders, RenderPassCache& renderPasses, PipelineCache& cache,
+                  RetireQueue& retired);
+
+  // Compiles changed shaders and rebuilds the pipelines that use them; old ones are retired. Returns whether any was.
+  bool reload();
+  const std::string& errors() const { return shaders_.errors(); }
+  bool watching() const { return shaders_.watching(); }
+
+ private:
+  friend class Pipeline;
+  PipelineHandle build(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
+
+  Device& device_;
+  ShaderLibrary& shaders_;
+  RenderPassCache& renderPasses_;
+  PipelineCache& cache_;
+  RetireQueue& retired_;
+  std::vector<Pipeline*> pipelines_;
+};
+
+// A graphics pipeline and its layout. Stays where it was made (hot reload knows its address); hold it by unique_ptr
+// or std::optional. The factory outlives it.
+class Pipeline {
+ public:
+  Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc);
+  ~Pipeline();  // the Vulkan objects go to the retire queue
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  void bind(VkCommandBuffer commands) const;
+  VkPipeline get() const { return pipeline_.get(); }
+  VkPipelineLayout layout() const { return layout_.get(); }
+  const GraphicsPipelineDesc& desc() const { return desc_; }
+  void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const;
+  template <typename T>
+  void push(VkCommandBuffer commands, const T& constants) const {
+    pushBytes(commands, &constants, sizeof constants);
+  }
+
+ private:
+  friend class PipelineFactory;
+  void pushBytes(VkCommandBuffer commands, const void* data, uint32_t bytes) const;
+
+  PipelineFactory& factory_;
+  GraphicsPipelineDesc desc_;
+  PipelineLayoutHandle layout_;
+  PipelineHandle pipeline_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "core/descriptors.hpp"
+#include "core/gpu_timer.hpp"
+#include "core/off_screen.hpp"
+#include "core/pipeline.hpp"
+#include "core/swap_chain.hpp"
+
+namespace speculum {
+
+inline constexpr uint32_t framesInFlight = 2;
+
+struct RendererOptions {
+  Window* window = nullptr;      // null: an image of `extent` takes the swapchain's place
+  VkExtent2D extent{1280, 720};  // headless only
+  PresentMode presentMode = PresentMode::fifo;
+  std::filesystem::path spirvDir;                         // empty: dataDirectory("shaders")
+  std::filesystem::path shaderDir;                        // GLSL to watch; empty: none
+  std::optional<std::filesystem::path> pipelineCacheDir;  // none: userCacheDir(); empty path: no file
+};
+
+// Display-referred pixels as they were in the swapchain image: RGBA, 8 bits each, rows from the top.
+struct Pixels {
+  VkExtent2D extent{0, 0};
+  std::vector<uint8_t> rgba;
+};
+
+class Renderer;
+
+// What a frame that is being recorded gives to those who record it. Valid from beginFrame to endFrame.
+struct Frame {
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  uint32_t index = 0;                          // frame in flight, 0 or 1: choose per-frame buffers by it
+  uint32_t imageIndex = 0;                     // of the swapchain; 0 when headless
+  uint64_t number = 0;                         // counts from 1
+  VkExtent2D extent{0, 0};                     // of the display image
+  DescriptorAllocator* descriptors = nullptr;  // sets from it live for this frame only
+  RetireQueue* retired = nullptr;
+  bool capture = false;  // set it before endFrame to make Renderer::readback possible
+};
+
+// Two frames in flight on one queue, into a window's swapchain or an image in its place. Frames are ordered by
+// barriers.
+class Renderer {
+ public:
+  Renderer(Device& device, const RendererOptions& options);
+  ~Renderer();  // waits for the device
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // Nothing while the window is paused or its swapchain could not be made. Waits for the frame before the last one.
+  std::optional<Frame> beginFrame();
+  PassScope beginPass(Frame& frame, const PassDesc& desc);
+  // A pass of its own that loads and stores the display image, within a VkRenderPass on either path.
+  PassScope beginOverlay(Frame& frame);
+  void endFrame(Frame& frame);
+
+  // The display image as a pass target: UNORM colour without depth. The role makes barriers swapchain ones.
+  PassTargets displayTargets(Frame& frame);
+  VkFormat displayFormat() const;
+  VkExtent2D displayExtent() const;
+  uint32_t displayImageCount() const;  // at least 2, as Dear ImGui wants it
+  VkRenderPass overlayRenderPass();    // compatible with beginOverlay's; may change when displayFormat() does
+  void resizeHeadless(VkExtent2D extent);
+
+  // The display image of the last frame that had `capture` set. Waits. Throws std::logic_error if there was none.
+  Pixels readback();
+  void waitIdle();  // also collects timings and retired objects
+
+  // Of the last frame that has finished; of the very last one after waitIdle().
+  const FrameTimings& timings() const { return timings_; }
+  uint64_t frameNumber() const { return frameNumber_; }
+  // Rebuilds what changed on disk; call it between frames. Cheap when no directory is watched.
+  bool reloadShaders() { return pipelines_.reload(); }
+
+  Device& device() { return device_; }
+  PipelineFactory& pipelines() { return pipelines_; }
+  Uploader& uploader() { return uploader_; }
+  RetireQueue& retired() { return retired_; }
+  bool headless() const { return !swapChain_; }
+  PipelineCache& pipelineCache() { return pipelineCache_; }
+
+ private:
+  struct Slot {
+    Slot(Device& device, uint32_t index);
+    CommandPoolHandle pool;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    SemaphoreHandle acquired;
+    FenceHandle finished;
+    DescriptorAllocator descriptors;
+    GpuTimer timer;
+    uint64_t number = 0;  // of the frame submitted last; 0: none is pending
+  };
+  void finish(Slot& slot);
+  std::optional<uint32_t> acquireImage(Slot& slot);
+  Image& displayImage(uint32_t imageIndex);
+  void recordCapture(Frame& frame);
+  void submit(Slot& slot, const Frame& frame);
+  void createHeadlessImage(VkExtent2D extent);
+
+  Device& device_;
+  Window* window_;
+  RenderPassCache renderPasses_;
+  ShaderLibrary shaders_;
+  PipelineCache pipelineCache_;
+  Uploader uploader_;
+  std::optional<SwapChain> swapChain_;
+  Image headlessImage_;
+  std::array<Slot, framesInFlight> slots_;
+  RetireQueue retired_;
+  PipelineFactory pipelines_;
+  FrameTimings timings_;
+  uint64_t frameNumber_ = 0;
+  bool swapChainStale_ = false;
+  Buffer capture_;
+  VkExtent2D captureExtent_{0, 0};
+  VkFormat captureFormat_ = VK_FORMAT_UNDEFINED;
+};
+
+}  // namespace speculum

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/platform.hpp"
+#include "core/retire_queue.hpp"
+
+#include "core/device.hpp"
+
+namespace speculum {
+
+struct ShaderChange {
+  std::vector<std::string> changed;  // names whose SPIR-V is new, e.g. "mirror.frag"
+  std::string errors;                // the compiler's words on files that did not compile; empty if all did
+};
+
+// SPIR-V modules by the name of their GLSL file ("mirror.frag" is read from mirror.frag.spv). With a directory of
+// GLSL, its files replace the built ones: compiled at start, and again when they or what they include change.
+class ShaderLibrary {
+ public:
+  // `spirvDir` holds the built modules; `glslDir` empty: no watching.
+  ShaderLibrary(Device& device, std::filesystem::path spirvDir, std::filesystem::path glslDir = {});
+
+  // Throws std::runtime_error naming the file when there is no such module or it is not SPIR-V.
+  VkShaderModule module(const std::string& name);
+
+  bool watching() const { return !glslDir_.empty(); }
+  // Looks at the files' times and compiles what is newer. A file that fails keeps its module. Replaced modules are
+  // destroyed at once: pipelines do not need theirs after creation.
+  ShaderChange poll();
+  const std::string& errors() const { return errors_; }  // of the files that fail at present
+
+ private:
+  struct Entry {
+    ShaderModuleHandle module;
+    std::vector<uint8_t> code;
+    double newest = 0.0;  // modification time of the newest source seen
+    std::string error;
+  };
+  std::vector<uint8_t> load(const std::string& name);
+  bool compile(const std::string& name, Entry& entry);
+  double newestSource(const std::string& name) const;
+  void setCode(const std::string& name, Entry& entry, std::vector<uint8_t> code);
+
+  Device& device_;
+  std::filesystem::path spirvDir_;
+  std::filesystem::path glslDir_;
+  TemporaryDirectory output_;
+  std::map<std::string, Entry> entries_;
+  std::string errors_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/retire_queue.hpp"
+#include "core/window.hpp"
+
+namespace speculum {
+
+enum class PresentMode { fifo, mailbox, immediate };
+
+// The window's images, UNORM. Made anew when the window's size changes or the surface says so.
+class SwapChain {
+ public:
+  SwapChain(Device& device, Window& window, PresentMode mode);
+
+  // Waits until the device is idle. False, leaving the chain unusable until the next call, for a window without pixels.
+  bool recreate();
+  bool usable() const { return static_cast<bool>(swapchain_); }
+
+  // Index of an image that `acquired` will be signalled for; nothing when the chain must be made anew first.
+  std::optional<uint32_t> acquire(VkSemaphore acquired);
+  // False when the chain must be made anew.
+  bool present(uint32_t image);
+
+  VkExtent2D extent() const { return extent_; }
+  VkFormat format() const { return format_.format; }
+  PresentMode presentMode() const { return mode_; }
+  Image& image(uint32_t index) { return images_[index]; }
+  uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
+  VkSemaphore renderFinished(uint32_t index) const { return renderFinished_[index].get(); }
+
+ private:
+  void chooseFormat();
+  VkPresentModeKHR choosePresentMode(PresentMode wanted);
+  void createImages();
+
+  Device& device_;
+  Window& window_;
+  PresentMode mode_;
+  VkPresentModeKHR presentMode_;
+  VkSurfaceFormatKHR format_{};
+  VkExtent2D extent_{0, 0};
+  SwapchainHandle swapchain_;
+  std::vector<Image> images_;
+  std::vector<SemaphoreHandle> renderFinished_;  // per image: presentation may still wait on it when a frame is reused
+};
+
+}  // namespace speculum

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace speculum {
+
+enum class Key { unknown, escape, enter, tab, space, leftShift, leftControl, w, a, s, d, q, e, r, f1, f2, f11, f12 };
+enum class MouseButton { left, right, middle };
+
+struct KeyEvent {
+  Key key = Key::unknown;
+  bool pressed = false;
+  bool repeat = false;
+};
+struct MouseButtonEvent {
+  MouseButton button = MouseButton::left;
+  bool pressed = false;
+};
+
+// Set the members of interest; positions are in screen coordinates of the window, origin top left.
+struct WindowCallbacks {
+  std::function<void(const KeyEvent&)> key;
+  std::function<void(const MouseButtonEvent&)> mouseButton;
+  std::function<void(double x, double y)> cursor;
+  std::function<void(double dx, double dy)> scroll;
+};
+
+struct WindowOptions {
+  std::string title = "Speculum";
+  int width = 1280;  // screen coordinates
+  int height = 720;
+  bool visible = true;
+};
+
+// A window of the desktop. The only class that talks to GLFW; use it from the main thread.
+class Window {
+ public:
+  // Throws std::runtime_error when there is no display or no Vulkan surface support.
+  explicit Window(const WindowOptions& options);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  void pollEvents();
+  void waitEvents(double timeoutSeconds);  // for a paused window: sleeps until something happens
+  bool shouldClose() const;
+  void requestClose();
+
+  VkExtent2D framebufferExtent() const;  // pixels; 0x0 is possible
+  VkExtent2D size() const;               // screen coordinates
+  void resize(int width, int height);    // screen coordinates
+  void iconify();
+  void restore();
+  // X11 keeps the size of an iconified window, so the size alone does not tell.
+  bool iconified() const;
+  bool paused() const;  // iconified, or without a pixel
+  bool takeResized();   // whether the framebuffer changed its size since the last call
+  float contentScale() const;
+  void setTitle(const std::string& title);
+  bool keyDown(Key key) const;
+  void setCallbacks(WindowCallbacks callbacks);
+
+  GLFWwindow* native() const { return window_.get(); }
+  std::vector<const char*> requiredInstanceExtensions() const;
+  VkSurfaceKHR createSurface(VkInstance instance) const;  // owned by the caller
+
+ private:
+  struct Library {
+    Library();
+    ~Library();
+  };
+  struct Destroy {
+    void operator()(GLFWwindow* window) const;
+  };
+  static Window* of(GLFWwindow* window);
+  void installCallbacks();
+
+  Library library_;
+  std::unique_ptr<GLFWwindow, Destroy> window_;
+  WindowCallbacks callbacks_;
+  bool resized_ = false;
+};
+
+}  // namespace speculum
