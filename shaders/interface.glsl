@@ -1,0 +1,73 @@
+// What the CPU writes every frame; src/systems/gpu_types.hpp declares the same and asserts the same offsets.
+// "Relative" is world space minus the eye of the pass's view: small numbers near the eye wherever the scene lies.
+
+struct ViewData {
+  mat4 clipFromRelative;
+  vec4 rayX;  // direction of the ray through a pixel: rayX * x + rayY * y + rayOrigin, relative, not normalised
+  vec4 rayY;
+  vec4 rayOrigin;
+  vec4 clipPlane;  // (n, h): a point p (relative) is drawn where n.p + h >= 0
+  vec4 ambient;
+  vec4 background;  // w: 1 with a sky, else 0
+  vec4 zenith;
+  vec4 horizon;
+  vec4 ground;
+  uint firstLight;
+  uint lightCount;
+  uint pad0;
+  uint pad1;
+};
+
+struct LightData {
+  vec4 position;    // relative; w: radius in metres
+  vec4 irradiance;  // at 1 m, facing the light
+  vec4 glow;        // radiance of the glyph
+};
+
+struct InstanceData {
+  mat4 clipFromMesh;
+  vec4 relativeFromMesh[3];  // rows
+  vec4 normalFromMesh[3];    // rows; w of the first: sign of the transform's determinant
+  vec4 clipPlane;            // in mesh space
+  vec4 diffuse;              // w: 1 replaces the material's
+  vec4 specular;             // w: 1 replaces the material's
+  vec4 shininess;            // x: 0 keeps the material's
+};
+
+struct MaterialData {
+  vec4 diffuse;   // w: 1 with a texture
+  vec4 specular;  // w: shininess
+  vec4 emission;
+};
+
+struct MirrorData {
+  vec4 plane;        // (n, h): facing the eye, h > 0 is the eye's distance
+  vec4 reflectance;  // w: 1 for Schlick's Fresnel
+  vec4 baseColor;    // of the diffuse layer or of the back; w: one of the mirror* constants
+  vec4 lookup;       // texel of the image = pixel of the pass * xy + zw
+  ivec4 image;       // width and height of the image's used part in texels; z: one of the lookup* constants
+};
+
+const float mirrorImage = 0.0;
+const float mirrorBackground = 1.0;
+const float mirrorBack = 2.0;
+const int lookupFetch = 0;
+const int lookupBilinear = 1;
+const int lookupBox = 2;
+
+layout(set = 0, binding = 0, std430) readonly buffer Views { ViewData views[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Lights { LightData lights[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Instances { InstanceData instances[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Materials { MaterialData materials[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Mirrors { MirrorData mirrors[]; };
+layout(set = 0, binding = 5, std430) readonly buffer MirrorVertices { vec4 mirrorVertices[]; };  // clip space
+
+layout(push_constant) uniform DrawConstants {
+  uint viewIndex;
+  uint drawIndex;  // material or mirror
+}
+draw;
+
+vec3 rayThrough(ViewData view, vec2 pixel) {
+  return view.rayX.xyz * pixel.x + view.rayY.xyz * pixel.y + view.rayOrigin.xyz;
+}

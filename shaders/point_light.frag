@@ -1,0 +1,33 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "interface.glsl"
+#include "shading.glsl"
+
+layout(location = 0) flat in uint lightIndex;
+layout(location = 0) out vec4 color;
+
+bool visible(ViewData view, vec3 ray, float t) {
+  return t > 0.0 && dot(view.clipPlane.xyz, ray * t) + view.clipPlane.w >= 0.0;
+}
+
+// Ray against sphere. The squared distance of centre and ray is taken directly: the textbook discriminant cancels for
+// small, distant glyphs.
+void main() {
+  ViewData view = views[draw.viewIndex];
+  vec4 sphere = lights[lightIndex].position;
+  vec3 ray = safeNormalize(rayThrough(view, gl_FragCoord.xy));
+  float middle = dot(ray, sphere.xyz);
+  vec3 offset = sphere.xyz - middle * ray;
+  float halfChord2 = sphere.w * sphere.w - dot(offset, offset);
+  if (halfChord2 < 0.0) {
+    discard;
+  }
+  float halfChord = sqrt(halfChord2);
+  float t = visible(view, ray, middle - halfChord) ? middle - halfChord : middle + halfChord;
+  if (!visible(view, ray, t)) {
+    discard;
+  }
+  vec4 clip = view.clipFromRelative * vec4(ray * t, 1.0);
+  gl_FragDepth = clamp(clip.z / clip.w, 0.0, 1.0);
+  color = storable(lights[lightIndex].glow.rgb);
+}

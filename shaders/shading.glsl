@@ -1,0 +1,52 @@
+// Radiance of a surface and of the background, as docs/picture.md defines them.
+
+const float pi = 3.14159265358979;
+const float halfMax = 65504.0;
+
+struct Surface {
+  vec3 position;  // relative
+  vec3 normal;    // unit, towards the viewer's side
+  vec3 diffuse;
+  vec3 specular;
+  vec3 emission;
+  float shininess;
+};
+
+vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
+
+vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
+  vec3 toLight = light.position.xyz - surface.position;
+  float distance2 = dot(toLight, toLight);
+  vec3 l = safeNormalize(toLight);
+  float cosine = clamp(dot(surface.normal, l), 0.0, 1.0);
+  if (cosine == 0.0) {
+    return vec3(0.0);
+  }
+  vec3 brdf = surface.diffuse / pi;
+  if (max(surface.specular.r, max(surface.specular.g, surface.specular.b)) > 0.0) {
+    float lobe = clamp(dot(surface.normal, safeNormalize(l + toViewer)), 0.0, 1.0);
+    brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe, 1e-6), surface.shininess));
+  }
+  return light.irradiance.rgb * (cosine / max(distance2, light.position.w * light.position.w)) * brdf;
+}
+
+vec3 surfaceRadiance(ViewData view, Surface surface) {
+  vec3 toViewer = safeNormalize(-surface.position);
+  vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
+  for (uint i = 0; i < view.lightCount; ++i) {
+    radiance += lightRadiance(lights[view.firstLight + i], surface, toViewer);
+  }
+  return radiance;
+}
+
+vec3 backgroundRadiance(ViewData view, vec3 direction) {
+  if (view.background.w == 0.0) {
+    return view.background.rgb;
+  }
+  float y = safeNormalize(direction).y;
+  return y >= 0.0 ? mix(view.horizon.rgb, view.zenith.rgb, sqrt(y))
+                  : mix(view.horizon.rgb, view.ground.rgb, min(1.0, -8.0 * y));
+}
+
+// The target is half float: past its range some drivers store infinity, and one such sample spoils a resolve.
+vec4 storable(vec3 radiance) { return vec4(clamp(radiance, 0.0, halfMax), 1.0); }

@@ -1,0 +1,240 @@
+#include "frame/frame_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <sstream>
+
+namespace speculum {
+
+namespace {
+
+// A pass before its place in the order of recording is known.
+struct Node {
+  PlannedPass pass;
+  glm::dvec3 throughput{1.0};  // per channel
+  std::vector<int> children;   // nodes
+};
+
+// A mirror that deserves a pass, if the budget reaches it.
+struct Candidate {
+  double priority = 0.0;
+  int parent = 0;   // node
+  size_t draw = 0;  // index into the parent's mirrors
+  std::vector<glm::dvec3> visible;
+  double areaPx = 0.0;
+  glm::dvec3 throughput{1.0};
+  int order = 0;  // of discovery; settles ties so that plans are reproducible
+
+  bool operator<(const Candidate& other) const {
+    return priority != other.priority ? priority < other.priority : order > other.order;
+  }
+};
+
+double largest(const glm::dvec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+// Schlick's F grows towards grazing; the flattest view of a polygon is that of its farthest vertex.
+glm::dvec3 reflectanceBound(const Mirror& mirror, const Plane& plane, const glm::dvec3& eye,
+                            std::span<const glm::dvec3> visible) {
+  if (mirror.fresnel == Fresnel::none) {
+    return mirror.reflectance;
+  }
+  double farthest = 0.0;
+  for (const glm::dvec3& p : visible) {
+    farthest = std::max(farthest, glm::length(p - eye));
+  }
+  const double cosine = farthest > 0.0 ? std::clamp(plane.distance(eye) / farthest, 0.0, 1.0) : 1.0;
+  return mirror.reflectance + (1.0 - mirror.reflectance) * std::pow(1.0 - cosine, 5.0);
+}
+
+std::string number(double value) {
+  std::ostringstream out;
+  out.precision(3);
+  out << value;
+  return out.str();
+}
+
+class Planner {
+ public:
+  Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height)
+      : scene_(scene), state_(state), settings_(settings.reflection) {
+    plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, state.camera.near);
+    plan_.width = width;
+    plan_.height = height;
+  }
+
+  FramePlan plan() {
+    Node& root = nodes_.emplace_back();
+    root.pass.view = mainView(state_.camera, plan_.projection, plan_.width, plan_.height);
+    root.pass.areaPx = root.pass.view.rect.area();
+    fill(0);
+    while (!candidates_.empty()) {
+      const Candidate best = candidates_.top();
+      candidates_.pop();
+      expand(best);
+    }
+    record(0, -1);
+    return std::move(plan_);
+  }
+
+ private:
+  void fill(int node);
+  void consider(int node, int mirror);
+  void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
+  void expand(const Candidate& candidate);
+  int record(int node, int parent);
+  bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
+
+  const Scene& scene_;
+  const SceneState& state_;
+  const ReflectionSettings& settings_;
+  FramePlan plan_;
+  std::vector<Node> nodes_;
+  std::priority_queue<Candidate> candidates_;
+  int discovered_ = 0;
+};
+
+// What is drawn in a node's view, and which of its mirrors are candidates for passes.
+void Planner::fill(int node) {
+  const View view = nodes_[node].pass.view;
+  for (size_t i = 0; i < state_.instances.size(); ++i) {
+    if (sphereVisible(view, state_.instances[i].center, state_.instances[i].radius)) {
+      nodes_[node].pass.instances.push_back(static_cast<int>(i));
+    }
+  }
+  for (size_t i = 0; i < scene_.lights.size(); ++i) {
+    const PointLight& light = scene_.lights[i];
+    if (light.glow > 0.0 && sphereVisible(view, state_.lights[i].position, light.radius)) {
+      nodes_[node].pass.lights.push_back(static_cast<int>(i));
+    }
+  }
+  for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
+    const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);
+    if (!last) {
+      consider(node, static_cast<int>(i));
+    }
+  }
+}
+
+bool Planner::behindEye(const View& view, std::span<const glm::dvec3> polygon) const {
+  return std::all_of(polygon.begin(), polygon.end(),
+                     [&](const glm::dvec3& p) { return (view.worldToView * (p - view.eye)).z >= 0.0; });
+}
+
+void Planner::skip(const View& view, int mirror, SkipReason reason, std::string detail) {
+  SkippedMirror skipped{mirror, view.path, static_cast<int>(view.path.size()), reason, std::move(detail)};
+  skipped.path.push_back(mirror);
+  plan_.skipped.push_back(std::move(skipped));
+}
+
+void Planner::consider(int node, int mirror) {
+  PlannedPass& pass = nodes_[node].pass;
+  const View& view = pass.view;
+  const Mirror& material = scene_.mirrors[mirror];
+  const MirrorState& geometry = state_.mirrors[mirror];
+  if (behindEye(view, geometry.polygon)) {
+    return skip(view, mirror, SkipReason::behind);
+  }
+  const double height = glm::dot(geometry.normal, view.eye - geometry.origin);
+  MirrorDraw draw{.mirror = mirror, .plane = {geometry.origin, geometry.normal}};
+  draw.back = height <= 0.0 && !(material.twoSided && height < 0.0);
+  draw.polygon = clippedPart(view, geometry.polygon);
+  const std::vector<glm::dvec3> visible = visiblePart(view, geometry.polygon);
+  if (height < 0.0) {
+    draw.plane.normal = -draw.plane.normal;
+    std::reverse(draw.polygon.begin(), draw.polygon.end());
+  }
+  if (draw.back) {
+    if (!visible.empty() && height < 0.0) {
+      pass.mirrors.push_back(std::move(draw));
+    }
+    return skip(view, mirror, SkipReason::backface, height == 0.0 ? "the eye is in its plane" : "");
+  }
+  if (visible.empty()) {
+    return skip(view, mirror, SkipReason::outside);
+  }
+  const double area = screenArea(toClip(view, plan_.projection, visible), plan_.width, plan_.height);
+  const glm::dvec3 throughput = nodes_[node].throughput * reflectanceBound(material, draw.plane, view.eye, visible);
+  pass.mirrors.push_back(std::move(draw));
+  if (static_cast<int>(view.path.size()) >= settings_.maxDepth) {
+    return skip(view, mirror, SkipReason::maxDepth, "max_depth " + std::to_string(settings_.maxDepth));
+  }
+  if (area < settings_.minPixels) {
+    return skip(view, mirror, SkipReason::minPixels, number(area) + " px");
+  }
+  if (largest(throughput) < settings_.minThroughput) {
+    return skip(view, mirror, SkipReason::minThroughput, number(largest(throughput)));
+  }
+  candidates_.push(
+      {area * largest(throughput), node, pass.mirrors.size() - 1, visible, area, throughput, discovered_++});
+}
+
+void Planner::expand(const Candidate& candidate) {
+  const View& parent = nodes_[candidate.parent].pass.view;
+  const MirrorDraw& draw = nodes_[candidate.parent].pass.mirrors[candidate.draw];
+  if (static_cast<int>(nodes_.size()) > settings_.maxPasses) {
+    return skip(parent, draw.mirror, SkipReason::maxPasses, "max_passes " + std::to_string(settings_.maxPasses));
+  }
+  const glm::dvec2 picture = glm::dvec2(plan_.width, plan_.height) * settings_.scale;
+  const glm::dvec2 ratio = picture / parent.pictureSize;
+  const PixelRect& outer = parent.rect;
+  const int x0 = static_cast<int>(std::floor(outer.x * ratio.x));
+  const int y0 = static_cast<int>(std::floor(outer.y * ratio.y));
+  const int x1 = static_cast<int>(std::ceil((outer.x + outer.width) * ratio.x));
+  const int y1 = static_cast<int>(std::ceil((outer.y + outer.height) * ratio.y));
+  const PixelRect rect =
+      screenRect(toClip(parent, plan_.projection, candidate.visible), picture.x, picture.y, {x0, y0, x1 - x0, y1 - y0});
+  if (rect.empty()) {
+    return skip(parent, draw.mirror, SkipReason::outside);
+  }
+  Node node;
+  node.pass.view = reflectedView(parent, draw.mirror, draw.plane, candidate.visible, rect, picture);
+  node.pass.depth = static_cast<int>(parent.path.size());
+  node.pass.areaPx = candidate.areaPx;
+  node.pass.throughput = largest(candidate.throughput);
+  node.pass.parent = static_cast<int>(candidate.draw);  // until record() knows the order
+  node.throughput = candidate.throughput;
+  const int index = static_cast<int>(nodes_.size());
+  nodes_[candidate.parent].children.push_back(index);
+  nodes_.push_back(std::move(node));
+  fill(index);
+}
+
+// Depth first, so that an image lives no longer than until its parent is drawn. Returns the pass's index, -1 for main.
+int Planner::record(int node, int) {
+  std::vector<int> childPasses;
+  for (const int child : nodes_[node].children) {
+    const size_t draw = static_cast<size_t>(nodes_[child].pass.parent);
+    const int pass = record(child, node);
+    nodes_[node].pass.mirrors[draw].pass = pass;
+    childPasses.push_back(pass);
+  }
+  const int index = node == 0 ? -1 : static_cast<int>(plan_.passes.size());
+  for (const int pass : childPasses) {
+    plan_.passes[pass].parent = index;
+  }
+  if (node == 0) {
+    plan_.main = std::move(nodes_[0].pass);
+  } else {
+    plan_.passes.push_back(std::move(nodes_[node].pass));
+  }
+  return index;
+}
+
+}  // namespace
+
+std::string_view skipReasonName(SkipReason reason) {
+  static constexpr std::array<std::string_view, 9> names = {"behind",    "backface",   "outside",
+                                                            "hidden",    "min_pixels", "min_throughput",
+                                                            "max_depth", "max_passes", "unchanged"};
+  return names[static_cast<size_t>(reason)];
+}
+
+FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height) {
+  return Planner(scene, state, settings, width, height).plan();
+}
+
+}  // namespace speculum

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frame/settings.hpp"
+#include "frame/view.hpp"
+
+namespace speculum {
+
+enum class SkipReason {
+  behind,         // behind the eye
+  backface,       // the eye sees its back, or its edge
+  outside,        // outside the view, the mirror it is seen in, or behind that mirror's plane
+  hidden,         // behind something else
+  minPixels,      // smaller than reflection.min_pixels
+  minThroughput,  // lets less through than reflection.min_throughput
+  maxDepth,       // reflection.max_depth
+  maxPasses,      // reflection.max_passes was spent on better ones
+  unchanged,      // an image of an earlier frame serves
+};
+std::string_view skipReasonName(SkipReason reason);
+
+// A mirror drawn in some view.
+struct MirrorDraw {
+  int mirror = 0;                   // index into Scene::mirrors
+  bool back = false;                // its painted back is seen
+  int pass = -1;                    // index into FramePlan::passes of its image; -1: it shows the background
+  std::vector<glm::dvec3> polygon;  // world, cut by the view's clip plane, counter-clockwise for the view's eye
+  Plane plane;                      // world; facing the view's eye
+};
+
+// One pass: a view and what is drawn in it.
+struct PlannedPass {
+  View view;
+  int parent = -1;                  // index into FramePlan::passes; -1: the main view
+  int depth = -1;                   // of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
+  double areaPx = 0.0;              // of the mirror's visible part, in screen pixels
+  double throughput = 1.0;          // upper bound over that part, largest channel, with this mirror's own reflectance
+  std::vector<int> instances;       // visible, indices into SceneState::instances, ascending
+  std::vector<int> lights;          // whose glyphs are visible, indices into Scene::lights
+  std::vector<MirrorDraw> mirrors;  // in the order of Scene::mirrors
+};
+
+struct SkippedMirror {
+  int mirror = 0;
+  std::vector<int> path;  // mirrors from the eye, ending with this one
+  int depth = 0;
+  SkipReason reason = SkipReason::outside;
+  std::string detail;
+};
+
+struct FramePlan {
+  Projection projection;
+  int width = 0;  // pixels of the picture
+  int height = 0;
+  std::vector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
+  PlannedPass main;
+  std::vector<SkippedMirror> skipped;
+};
+
+// Which passes a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. Recursion is
+// spent best first, by visible pixels times throughput.
+FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height);
+
+}  // namespace speculum

@@ -1,0 +1,332 @@
+#include "frame/settings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
+
+#include "scene/scene_loader.hpp"
+
+namespace speculum {
+
+namespace {
+
+using nlohmann::ordered_json;
+using Problem = std::optional<std::string>;
+
+// How one key is read from text and written as JSON.
+struct Setting {
+  SettingInfo info;
+  std::function<Problem(Settings&, std::string_view)> set;
+  std::function<ordered_json(const Settings&)> get;
+};
+
+std::optional<double> parseNumber(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::string quoted(std::string_view text) {
+  return "'" + std::string(text) + "'";
+}
+
+template <typename Group>
+Setting number(SettingInfo info, Group Settings::*group, double Group::*member, double low, double high) {
+  return {info,
+          [=](Settings& s, std::string_view text) -> Problem {
+            const std::optional<double> value = parseNumber(text);
+            if (!value || *value < low || *value > high) {
+              return quoted(text) + " is not a number in range (" + std::string(info.range) + ")";
+            }
+            (s.*group).*member = *value;
+            return std::nullopt;
+          },
+          [=](const Settings& s) -> ordered_json { return (s.*group).*member; }};
+}
+
+template <typename Group>
+Setting integer(SettingInfo info, Group Settings::*group, int Group::*member, int low, int high,
+                bool powerOfTwo = false) {
+  return {info,
+          [=](Settings& s, std::string_view text) -> Problem {
+            const std::optional<double> value = parseNumber(text);
+            const bool whole = value && *value >= low && *value <= high && *value == std::floor(*value);
+            const int n = whole ? static_cast<int>(*value) : 0;
+            if (!whole || (powerOfTwo && (n & (n - 1)) != 0)) {
+              return quoted(text) + " is not one of the whole numbers allowed (" + std::string(info.range) + ")";
+            }
+            (s.*group).*member = n;
+            return std::nullopt;
+          },
+          [=](const Settings& s) -> ordered_json { return (s.*group).*member; }};
+}
+
+template <typename Group, typename Enum>
+Setting choice(SettingInfo info, Group Settings::*group, Enum Group::*member,
+               std::vector<std::pair<std::string, Enum>> names) {
+  return {info,
+          [=](Settings& s, std::string_view text) -> Problem {
+            for (const auto& [name, value] : names) {
+              if (name == text) {
+                (s.*group).*member = value;
+                return std::nullopt;
+              }
+            }
+            return quoted(text) + " is not a choice (" + std::string(info.range) + ")";
+          },
+          [=](const Settings& s) -> ordered_json {
+            for (const auto& [name, value] : names) {
+              if ((s.*group).*member == value) {
+                return name;
+              }
+            }
+            return nullptr;
+          }};
+}
+
+Setting boolean(SettingInfo info, bool ViewSettings::*member) {
+  return {info,
+          [=](Settings& s, std::string_view text) -> Problem {
+            if (text != "true" && text != "false") {
+              return quoted(text) + " is not a choice (true | false)";
+            }
+            s.view.*member = text == "true";
+            return std::nullopt;
+          },
+          [=](const Settings& s) -> ordered_json { return s.view.*member; }};
+}
+
+std::optional<glm::dvec3> parseColor(std::string_view text) {
+  if (!text.empty() && text.front() == '[' && text.back() == ']') {
+    text = text.substr(1, text.size() - 2);
+  }
+  glm::dvec3 color(0.0);
+  for (int channel = 0; channel < 3; ++channel) {
+    const size_t comma = channel < 2 ? text.find(',') : text.size();
+    if (comma == std::string_view::npos) {
+      return std::nullopt;
+    }
+    std::string_view part = text.substr(0, comma);
+    while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
+    while (!part.empty() && part.back() == ' ') part.remove_suffix(1);
+    const std::optional<double> value = parseNumber(part);
+    if (!value || *value < 0.0) {
+      return std::nullopt;
+    }
+    color[channel] = *value;
+    text.remove_prefix(channel < 2 ? comma + 1 : comma);
+  }
+  return color;
+}
+
+Setting clearColor(SettingInfo info) {
+  return {info,
+          [](Settings& s, std::string_view text) -> Problem {
+            const std::optional<glm::dvec3> color = parseColor(text);
+            if (!color) {
+              return quoted(text) + " is not a colour (three linear values >= 0, such as 0.1,0.2,0.3)";
+            }
+            s.view.clearColor = color;
+            return std::nullopt;
+          },
+          [](const Settings& s) -> ordered_json {
+            if (!s.view.clearColor) {
+              return nullptr;
+            }
+            const glm::dvec3& c = *s.view.clearColor;
+            return ordered_json::array({c.x, c.y, c.z});
+          }};
+}
+
+Setting text(SettingInfo info, std::string DebugSettings::*member) {
+  return {info,
+          [=](Settings& s, std::string_view value) -> Problem {
+            s.debug.*member = value;
+            return std::nullopt;
+          },
+          [=](const Settings& s) -> ordered_json { return s.debug.*member; }};
+}
+
+std::vector<Setting> reflectionTable() {
+  using R = ReflectionSettings;
+  const auto group = &Settings::reflection;
+  return {
+      number<R>({"reflection.scale", "0.125 .. 4", "resolution of mirror images relative to the screen"}, group,
+                &R::scale, 0.125, 4.0),
+      integer<R>({"reflection.samples", "1 2 4 8", "samples a pixel of mirror images"}, group, &R::samples, 1, 8, true),
+      integer<R>({"reflection.max_depth", "0 .. 32", "mirrors seen directly need 1, mirrors in mirrors one more each"},
+                 group, &R::maxDepth, 0, 32),
+      number<R>({"reflection.min_pixels", "0 ..", "smallest visible mirror area worth a pass"}, group, &R::minPixels,
+                0.0, 1e12),
+      number<R>({"reflection.min_throughput", "0 .. 1", "a bounce that lets less through is dropped"}, group,
+                &R::minThroughput, 0.0, 1.0),
+      integer<R>({"reflection.max_passes", "1 ..", "most mirror passes a frame, best first"}, group, &R::maxPasses, 1,
+                 1000000),
+      integer<R>({"reflection.update_interval", "1 ..", "mirror images are rendered anew every n-th frame"}, group,
+                 &R::updateInterval, 1, 1000000),
+      choice<R, ClipMethod>(
+          {"reflection.clip", "clip_distance | oblique | none", "how geometry behind a mirror is cut"}, group, &R::clip,
+          {{"clip_distance", ClipMethod::clipDistance}, {"oblique", ClipMethod::oblique}, {"none", ClipMethod::none}}),
+  };
+}
+
+std::vector<Setting> viewTable() {
+  using V = ViewSettings;
+  const auto group = &Settings::view;
+  return {
+      integer<V>({"view.samples", "1 2 4 8", "samples a pixel of the main view"}, group, &V::samples, 1, 8, true),
+      number<V>({"view.exposure", "0 .. 1e6", "factor on radiance before the tone curve"}, group, &V::exposure, 0.0,
+                1e6),
+      choice<V, ToneMap>({"view.tone_map", "clamp | aces", "tone curve"}, group, &V::toneMap,
+                         {{"clamp", ToneMap::clamp}, {"aces", ToneMap::aces}}),
+      clearColor({"view.clear_color", "r,g,b (linear, >= 0)", "replaces the scene's background and sky"}),
+      choice<V, TextureFilter>({"view.texture_filter", "bilinear | trilinear", "lookup of textures"}, group,
+                               &V::textureFilter,
+                               {{"bilinear", TextureFilter::bilinear}, {"trilinear", TextureFilter::trilinear}}),
+      boolean({"view.wireframe", "true | false", "edges of triangles only"}, &V::wireframe),
+  };
+}
+
+const std::vector<Setting>& table() {
+  static const std::vector<Setting> settings = [] {
+    std::vector<Setting> all = reflectionTable();
+    std::vector<Setting> view = viewTable();
+    std::move(view.begin(), view.end(), std::back_inserter(all));
+    all.push_back(text({"debug.omit_barrier", "name of a barrier", "leaves one barrier out; validation must notice"},
+                       &DebugSettings::omitBarrier));
+    return all;
+  }();
+  return settings;
+}
+
+const Setting* find(std::string_view key) {
+  const auto& all = table();
+  const auto it = std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.info.key == key; });
+  return it == all.end() ? nullptr : &*it;
+}
+
+std::string unknownKey(std::string_view key) {
+  std::vector<std::string> keys;
+  for (const Setting& setting : table()) {
+    keys.emplace_back(setting.info.key);
+  }
+  const std::optional<std::string> nearest = nearestName(key, keys);
+  return "unknown setting (" + (nearest ? "did you mean " + *nearest + "?" : "see speculum --help for the keys") + ")";
+}
+
+std::string entryText(const SettingEntry& entry) {
+  struct Visitor {
+    std::string operator()(bool value) const { return value ? "true" : "false"; }
+    std::string operator()(int64_t value) const { return std::to_string(value); }
+    std::string operator()(double value) const { return ordered_json(value).dump(); }
+    std::string operator()(const std::string& value) const { return value; }
+    std::string operator()(const std::vector<double>& values) const { return ordered_json(values).dump(); }
+  };
+  return std::visit(Visitor{}, entry.value);
+}
+
+bool takesText(const Setting& setting) {
+  return setting.get(Settings()).is_string();
+}
+
+size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t above = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::span<const SettingInfo> settingInfos() {
+  static const std::vector<SettingInfo> infos = [] {
+    std::vector<SettingInfo> list;
+    for (const Setting& setting : table()) {
+      list.push_back(setting.info);
+    }
+    return list;
+  }();
+  return infos;
+}
+
+std::optional<std::string> setSetting(Settings& settings, std::string_view key, std::string_view value) {
+  const Setting* setting = find(key);
+  if (!setting) {
+    return std::string(key) + ": " + unknownKey(key);
+  }
+  if (const Problem problem = setting->set(settings, value)) {
+    return std::string(key) + ": " + *problem;
+  }
+  return std::nullopt;
+}
+
+std::string settingValue(const Settings& settings, std::string_view key) {
+  const Setting* setting = find(key);
+  if (!setting) {
+    return {};
+  }
+  const ordered_json value = setting->get(settings);
+  return value.is_string() ? value.get<std::string>() : value.is_null() ? std::string() : value.dump();
+}
+
+Settings settingsOf(const Scene& scene) {
+  Settings settings;
+  for (const SettingEntry& entry : scene.settings) {
+    const Setting* setting = find(entry.key);
+    Problem problem = setting && std::holds_alternative<std::string>(entry.value) && !takesText(*setting)
+                          ? entry.key + ": a string is the wrong type (" + std::string(setting->info.range) + ")"
+                          : setSetting(settings, entry.key, entryText(entry));
+    if (problem) {
+      throw InputError(scene.file.string() + ":" + std::to_string(entry.line) + ": " + *problem);
+    }
+  }
+  return settings;
+}
+
+ordered_json settingsJson(const Settings& settings) {
+  ordered_json json = ordered_json::object();
+  for (const Setting& setting : table()) {
+    json[std::string(setting.info.key)] = setting.get(settings);
+  }
+  return json;
+}
+
+std::optional<std::string> nearestName(std::string_view word, std::span<const std::string> candidates) {
+  const std::string* best = nullptr;
+  size_t bestDistance = std::max<size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const size_t distance = editDistance(word, candidate);
+    if (distance < bestDistance) {
+      bestDistance = distance;
+      best = &candidate;
+    }
+  }
+  return best ? std::optional(*best) : std::nullopt;
+}
+
+Environment effectiveEnvironment(const Scene& scene, const Settings& settings) {
+  Environment environment = scene.environment;
+  if (settings.view.clearColor) {
+    environment.background = *settings.view.clearColor;
+    environment.sky.reset();
+  }
+  return environment;
+}
+
+}  // namespace speculum

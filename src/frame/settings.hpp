@@ -1,0 +1,74 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/image.hpp"
+#include "scene/scene.hpp"
+
+namespace speculum {
+
+enum class ClipMethod { clipDistance, oblique, none };
+enum class TextureFilter { bilinear, trilinear };
+
+struct ReflectionSettings {
+  double scale = 1.0;  // resolution of mirror images relative to the screen
+  int samples = 4;
+  int maxDepth = 4;
+  double minPixels = 1.0;
+  double minThroughput = 0.0005;
+  int maxPasses = 64;
+  int updateInterval = 1;  // frames
+  ClipMethod clip = ClipMethod::clipDistance;
+};
+
+struct ViewSettings {
+  int samples = 4;
+  double exposure = 1.0;
+  ToneMap toneMap = ToneMap::clamp;
+  std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene
+  TextureFilter textureFilter = TextureFilter::bilinear;
+  bool wireframe = false;
+};
+
+struct DebugSettings {
+  std::string omitBarrier;  // name of a barrier that is not recorded, to show that validation notices; empty: none
+};
+
+struct Settings {
+  ReflectionSettings reflection;
+  ViewSettings view;
+  DebugSettings debug;
+};
+
+// One key of the table that `--set`, a scene's [settings] and the panel share.
+struct SettingInfo {
+  std::string_view key;
+  std::string_view range;  // for people: "0.125 .. 4", "1 2 4 8"
+  std::string_view help;
+};
+std::span<const SettingInfo> settingInfos();
+
+// Sets one key. The value is text as on a command line: numbers, true/false, names, colours as "r,g,b" or "[r, g, b]".
+// Returns what is wrong and what would be right, or nothing.
+std::optional<std::string> setSetting(Settings& settings, std::string_view key, std::string_view value);
+std::string settingValue(const Settings& settings, std::string_view key);
+
+// Defaults, then the scene's [settings]. Throws InputError with FILE:LINE.
+Settings settingsOf(const Scene& scene);
+
+// Every key with its value, as numbers, booleans and strings.
+nlohmann::ordered_json settingsJson(const Settings& settings);
+
+// The candidate with the smallest edit distance to `word`, if one is near enough to be what was meant.
+std::optional<std::string> nearestName(std::string_view word, std::span<const std::string> candidates);
+
+// The environment with view.clear_color applied.
+Environment effectiveEnvironment(const Scene& scene, const Settings& settings);
+
+}  // namespace speculum

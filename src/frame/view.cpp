@@ -1,0 +1,110 @@
+#include "frame/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optics/reflection.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Planes through the eye and the polygon's edges, turned inwards. An edge that points at the eye bounds nothing.
+std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
+  glm::dvec3 inside(0.0);
+  for (const glm::dvec3& p : polygon) {
+    inside += p - eye;
+  }
+  std::vector<glm::dvec3> cone;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = polygon[i] - eye;
+    const glm::dvec3 b = polygon[(i + 1) % polygon.size()] - eye;
+    const glm::dvec3 n = glm::cross(a, b);
+    const double length = glm::length(n);
+    if (length <= 1e-14 * glm::length(a) * glm::length(b)) {
+      continue;
+    }
+    cone.push_back(glm::dot(n, inside) < 0.0 ? n / -length : n / length);
+  }
+  return cone;
+}
+
+}  // namespace
+
+View mainView(const CameraPose& camera, const Projection& projection, int width, int height) {
+  View view;
+  view.eye = camera.eye;
+  view.worldToView = camera.worldToView;
+  view.rect = {0, 0, width, height};
+  view.pictureSize = glm::dvec2(width, height);
+  const double fx = projection.focal / projection.aspect;
+  const double fy = projection.focal;
+  const glm::dmat3 viewToWorld = glm::transpose(camera.worldToView);
+  // w + x, w - x, w + y, w - y >= 0 with w = -z.
+  for (const glm::dvec3& n :
+       {glm::dvec3(fx, 0, -1), glm::dvec3(-fx, 0, -1), glm::dvec3(0, fy, -1), glm::dvec3(0, -fy, -1)}) {
+    view.cone.push_back(viewToWorld * glm::normalize(n));
+  }
+  return view;
+}
+
+View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,
+                   const PixelRect& rect, const glm::dvec2& pictureSize) {
+  View view;
+  view.eye = reflectPoint(parent.eye, plane);
+  view.worldToView = parent.worldToView * reflectionLinear(plane.normal);
+  view.clip = plane;
+  view.cone = coneThrough(view.eye, visible);
+  view.rect = rect;
+  view.pictureSize = pictureSize;
+  view.path = parent.path;
+  view.path.push_back(mirror);
+  return view;
+}
+
+std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
+  if (!view.clip) {
+    return {polygon.begin(), polygon.end()};
+  }
+  double reach = 0.0;
+  double highest = -1e300;
+  for (const glm::dvec3& p : polygon) {
+    reach = std::max({reach, glm::length(p - view.clip->point), glm::length(p - polygon[0])});
+    highest = std::max(highest, view.clip->distance(p));
+  }
+  // A mirror in the plane of the one it would be seen in shows nothing; rounding must not lift it off.
+  if (highest <= 1e-12 * reach) {
+    return {};
+  }
+  return clipPolygon(polygon, *view.clip);
+}
+
+std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
+  std::vector<glm::dvec3> part = clippedPart(view, polygon);
+  for (const glm::dvec3& normal : view.cone) {
+    if (part.size() < 3) {
+      return {};
+    }
+    part = clipPolygon(part, Plane{view.eye, normal});
+  }
+  return part.size() < 3 ? std::vector<glm::dvec3>() : part;
+}
+
+bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {
+  if (view.clip && view.clip->distance(center) < -radius) {
+    return false;
+  }
+  return std::all_of(view.cone.begin(), view.cone.end(),
+                     [&](const glm::dvec3& normal) { return glm::dot(normal, center - view.eye) >= -radius; });
+}
+
+std::vector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon) {
+  std::vector<glm::dvec4> clip;
+  clip.reserve(polygon.size());
+  for (const glm::dvec3& p : polygon) {
+    clip.push_back(projection.clip(view.worldToView * (p - view.eye)));
+  }
+  return clip;
+}
+
+}  // namespace speculum

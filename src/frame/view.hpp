@@ -1,0 +1,48 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "optics/polygon.hpp"
+#include "optics/projection.hpp"
+#include "scene/scene_state.hpp"
+
+namespace speculum {
+
+// What one pass looks through: the camera, or the camera reflected in a chain of mirrors. All views of a frame share
+// one projection, so that a mirror's image lines up with the view it is seen from, pixel by pixel.
+struct View {
+  glm::dvec3 eye{0.0};           // world; reflected about every mirror of the path
+  glm::dmat3 worldToView{1.0};   // V R1 .. Rk, linear part; apply it to differences from `eye`
+  std::optional<Plane> clip;     // world; only what is on its positive side is drawn
+  std::vector<glm::dvec3> cone;  // world, inward unit normals of planes through `eye` that bound what can be seen
+  PixelRect rect;                // pixels of the whole picture at this view's resolution
+  glm::dvec2 pictureSize{0.0};   // pixels of the whole picture at this view's resolution; need not be whole
+  std::vector<int> path;         // mirrors from the eye, indices into Scene::mirrors; empty for the main view
+
+  // An odd number of reflections turns counter-clockwise into clockwise.
+  bool mirrored() const { return path.size() % 2 == 1; }
+};
+
+// The camera's view of a picture of `width` x `height` pixels.
+View mainView(const CameraPose& camera, const Projection& projection, int width, int height);
+
+// The view that a mirror's plane makes of `parent`. `plane` faces the parent's eye, `visible` is the part of the mirror
+// that the parent sees (world), `scale` the resolution of mirror images relative to the screen.
+View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,
+                   const PixelRect& rect, const glm::dvec2& pictureSize);
+
+// The part of a convex polygon (world) that the view can see: cut by its clip plane and by its cone.
+std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon);
+
+// The polygon cut by the clip plane alone; vertices within rounding of the plane count as on it.
+std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3> polygon);
+
+bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
+
+// World positions to clip space, with the difference from the eye taken first.
+std::vector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon);
+
+}  // namespace speculum
