@@ -58,7 +58,7 @@ class Barriers {
   void uploadBeforeCopy(VkCommandBuffer commands, Image& image) const;
   void uploadToRead(VkCommandBuffer commands, Image& image) const;
   void uploadToRead(VkCommandBuffer commands, const Buffer& buffer) const;
-  // `level` becomes a transfer source; `levels` - 1 blits later all are, and mipmapsToRead makes them readable.
+  // `level` becomes a transfer source. Goes through the levels in order; the last makes the whole image one.
   void mipmapToBlit(VkCommandBuffer commands, Image& image, uint32_t level) const;
 
  private:

@@ -37,7 +37,7 @@ class Buffer {
   }
 
  private:
-  Memory memory_;
+  Memory memory_;  // freed after the buffer, and thereby unmapped
   BufferHandle buffer_;
   VkDeviceSize bytes_ = 0;
   std::byte* mapped_ = nullptr;

@@ -19,7 +19,8 @@ struct DescriptorBinding {
 DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,
                                                     const std::string& name);
 
-// Hands out sets and grows by whole pools. Sets live until reset() or the allocator's end; they are not freed singly.
+// Hands out sets and grows by whole pools of 64 sets with 1024 image descriptors; a set must fit into one pool. Sets
+// live until reset() or the allocator's end; they are not freed singly.
 class DescriptorAllocator {
  public:
   explicit DescriptorAllocator(Device& device) : device_(&device) {}
@@ -33,6 +34,7 @@ class DescriptorAllocator {
   Device* device_;
   std::vector<DescriptorPoolHandle> pools_;
   size_t current_ = 0;
+  size_t setsInCurrent_ = 0;
 };
 
 // Collects writes and applies them at once.

@@ -12,6 +12,7 @@
 
 #include "core/barriers.hpp"
 #include "core/handle.hpp"
+#include "core/instance.hpp"
 
 namespace speculum {
 
@@ -62,6 +63,7 @@ void check(VkResult result, std::string_view what);
 std::string resultName(VkResult result);
 
 class Memory;
+struct PhysicalDevice;
 
 // Instance, the chosen GPU, logical device and its one queue. Outlives everything made from it.
 class Device {
@@ -85,18 +87,18 @@ class Device {
   const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
   const VkPhysicalDeviceProperties& properties() const { return properties_; }
   RenderPath renderPath() const { return renderPath_; }  // dynamic or renderPass
-  bool validation() const { return messenger_.get() != VK_NULL_HANDLE; }
+  bool validation() const { return instance_.validation(); }
 
   // The wanted count or the next lower one that the device has; says so in the log, once per count.
-  VkSampleCountFlagBits sampleCount(int wanted) const;
+  VkSampleCountFlagBits sampleCount(int wanted);
 
   Barriers& barriers() { return barriers_; }
   void waitIdle() const;
 
   // Warnings and errors of the validation layer since the start; 0 is the only good figure.
-  int validationMessages() const;
-  std::vector<std::string> lastValidationMessages() const;  // the latest 32, oldest first
-  void clearValidationMessages();
+  int validationMessages() const { return instance_.messages().count(); }
+  std::vector<std::string> lastValidationMessages() const { return instance_.messages().latest(); }  // 32, oldest first
+  void clearValidationMessages() { instance_.messages().clear(); }
 
   uint64_t allocatedBytes() const { return allocatedBytes_; }  // live device memory of this process
   MemoryBudget memoryBudget() const;
@@ -120,27 +122,17 @@ class Device {
  private:
   friend class Memory;
   struct Functions;
-  struct MessageLog;
-  struct DestroyInstance {
-    using pointer = VkInstance;
-    void operator()(VkInstance instance) const;
-  };
-  struct DestroyDevice {
+  struct Destroy {
     using pointer = VkDevice;
-    void operator()(VkDevice device) const;
+    void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
   };
-  static void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
-                               const VkAllocationCallbacks* allocator);
-  using MessengerHandle = Handle<VkDebugUtilsMessengerEXT, &Device::destroyMessenger>;
 
-  void createInstance(const DeviceOptions& options);
-  void choosePhysicalDevice(const std::string& gpu);
-  void createDevice(RenderPath path);
+  void choosePath(RenderPath wanted);
+  void createDevice(const PhysicalDevice& chosen);
+  void loadFunctions();
   void setObjectName(VkObjectType type, uint64_t object, std::string_view name) const;
 
-  std::unique_ptr<MessageLog> messages_;
-  std::unique_ptr<VkInstance, DestroyInstance> instance_;
-  MessengerHandle messenger_;
+  Instance instance_;
   SurfaceHandle surface_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties_{};
@@ -149,11 +141,12 @@ class Device {
   DeviceCaps caps_;
   RenderPath renderPath_ = RenderPath::dynamic;
   uint32_t queueFamily_ = 0;
-  std::unique_ptr<VkDevice, DestroyDevice> device_;
+  std::unique_ptr<VkDevice, Destroy> device_;
   VkQueue queue_ = VK_NULL_HANDLE;
   std::unique_ptr<Functions> functions_;
   Barriers barriers_;
   std::atomic<uint64_t> allocatedBytes_{0};
+  VkSampleCountFlags reportedSampleCounts_ = 0;
   std::vector<std::pair<int, std::function<void(uint64_t)>>> imageObservers_;
 };
 
@@ -171,6 +164,8 @@ class Memory {
   VkMemoryPropertyFlags properties() const { return properties_; }
 
  private:
+  void release();
+
   Device* device_ = nullptr;
   MemoryHandle memory_;
   uint64_t bytes_ = 0;

@@ -72,36 +72,4 @@ struct SamplerDesc {
 };
 SamplerHandle createSampler(Device& device, const SamplerDesc& desc, const std::string& name);
 
-// Copies that are finished on return; for loading, not for every frame.
-class Uploader {
- public:
-  explicit Uploader(Device& device);
-
-  // A device buffer (usage gets TRANSFER_DST added) that holds `data`.
-  Buffer buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name);
-  template <typename T>
-  Buffer buffer(std::span<const T> data, VkBufferUsageFlags usage, const std::string& name) {
-    return buffer(std::as_bytes(data), usage, name);
-  }
-  // A sampled image whose level 0 is `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout. With
-  // `mipmaps` all further levels are made by halving blits, which are right only for linear formats such as RGBA16F.
-  Image image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
-              const std::string& name);
-
-  // `pixels` of level 0, tightly packed in the image's own format. The image keeps its layout.
-  std::vector<std::byte> read(Image& image);
-  std::vector<float> readFloats(Image& image);  // of an RGBA16F image: r, g, b, a per texel
-
-  // Records with `record`, submits and waits.
-  void run(const std::function<void(VkCommandBuffer)>& record);
-
- private:
-  void generateMipmaps(VkCommandBuffer commands, Image& image);
-
-  Device& device_;
-  CommandPoolHandle pool_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  FenceHandle fence_;
-};
-
 }  // namespace speculum

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "core/image.hpp"
 
@@ -54,10 +55,9 @@ PassDesc fullPass(std::string name, const PassTargets& targets);
 // render path. Viewport, scissor and front face are set. Made by Renderer::beginPass.
 class PassScope {
  public:
-  PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc);
-  ~PassScope();
   PassScope(const PassScope&) = delete;
   PassScope& operator=(const PassScope&) = delete;
+  ~PassScope();
 
   VkCommandBuffer commands() const { return commands_; }
   const PassDesc& desc() const { return desc_; }
@@ -67,7 +67,7 @@ class PassScope {
   enum class Kind { scene, overlay };
   PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc,
             Kind kind);
-  void recordBarriersBefore();
+  void recordBarriersBefore(Kind kind);
   void beginDynamic();
   void beginRenderPass();
 
@@ -76,7 +76,6 @@ class PassScope {
   GpuTimer& timer_;
   VkCommandBuffer commands_;
   PassDesc desc_;
-  Kind kind_;
   bool dynamic_;
   int timerSlot_;
 };

@@ -16,8 +16,9 @@ std::filesystem::path executablePath();
 std::filesystem::path userCacheDir();   // $XDG_CACHE_HOME/speculum or ~/.cache/speculum; not created
 std::filesystem::path userConfigDir();  // $XDG_CONFIG_HOME/speculum or ~/.config/speculum; not created
 
-// The directory of shipped data `name` ("shaders", "scenes", "models"): beside the executable, in the source tree two
-// levels above it, or in <prefix>/share/speculum. Throws std::runtime_error that lists the places looked at.
+// The directory of shipped data `name` ("shaders", "scenes", "models"): beside the executable, in
+// <prefix>/share/speculum, or up to three folders above the executable. Throws std::runtime_error that lists the places
+// looked at.
 std::filesystem::path dataDirectory(std::string_view name);
 
 struct ProcessResult {

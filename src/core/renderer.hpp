@@ -10,6 +10,7 @@
 #include "core/off_screen.hpp"
 #include "core/pipeline.hpp"
 #include "core/swap_chain.hpp"
+#include "core/uploader.hpp"
 
 namespace speculum {
 
@@ -95,11 +96,14 @@ class Renderer {
     DescriptorAllocator descriptors;
     GpuTimer timer;
     uint64_t number = 0;  // of the frame submitted last; 0: none is pending
+    Buffer capture;
+    VkExtent2D captureExtent{0, 0};
   };
   void finish(Slot& slot);
   std::optional<uint32_t> acquireImage(Slot& slot);
   Image& displayImage(uint32_t imageIndex);
-  void recordCapture(Frame& frame);
+  bool prepareSwapChain();
+  void recordCapture(Slot& slot, const Frame& frame);
   void submit(Slot& slot, const Frame& frame);
   void createHeadlessImage(VkExtent2D extent);
 
@@ -117,9 +121,8 @@ class Renderer {
   FrameTimings timings_;
   uint64_t frameNumber_ = 0;
   bool swapChainStale_ = false;
-  Buffer capture_;
-  VkExtent2D captureExtent_{0, 0};
-  VkFormat captureFormat_ = VK_FORMAT_UNDEFINED;
+  bool recording_ = false;
+  std::optional<uint32_t> captureSlot_;  // that holds the latest capture
 };
 
 }  // namespace speculum

@@ -2,13 +2,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/platform.hpp"
-#include "core/retire_queue.hpp"
-
 #include "core/device.hpp"
+#include "core/platform.hpp"
 
 namespace speculum {
 
@@ -37,18 +36,18 @@ class ShaderLibrary {
   struct Entry {
     ShaderModuleHandle module;
     std::vector<uint8_t> code;
-    double newest = 0.0;  // modification time of the newest source seen
-    std::string error;
+    std::vector<std::filesystem::path> sources;  // GLSL it was made from, includes too; empty: a built one
+    double newest = 0.0;                         // modification time of the newest source seen
+    std::string error;                           // why its GLSL does not compile at present
   };
-  std::vector<uint8_t> load(const std::string& name);
-  bool compile(const std::string& name, Entry& entry);
-  double newestSource(const std::string& name) const;
+  bool compile(const std::string& name, Entry& entry);  // whether the SPIR-V changed
+  void collectErrors();
   void setCode(const std::string& name, Entry& entry, std::vector<uint8_t> code);
 
   Device& device_;
   std::filesystem::path spirvDir_;
   std::filesystem::path glslDir_;
-  TemporaryDirectory output_;
+  std::optional<TemporaryDirectory> output_;
   std::map<std::string, Entry> entries_;
   std::string errors_;
 };

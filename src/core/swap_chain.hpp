@@ -27,20 +27,22 @@ class SwapChain {
 
   VkExtent2D extent() const { return extent_; }
   VkFormat format() const { return format_.format; }
-  PresentMode presentMode() const { return mode_; }
+  PresentMode presentMode() const { return mode_; }  // in use: FIFO where the wanted one is missing
+  bool copyable() const { return copyable_; }        // whether its images can be read back
   Image& image(uint32_t index) { return images_[index]; }
   uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
   VkSemaphore renderFinished(uint32_t index) const { return renderFinished_[index].get(); }
 
  private:
   void chooseFormat();
-  VkPresentModeKHR choosePresentMode(PresentMode wanted);
+  void choosePresentMode(PresentMode wanted);
   void createImages();
 
   Device& device_;
   Window& window_;
-  PresentMode mode_;
-  VkPresentModeKHR presentMode_;
+  PresentMode mode_ = PresentMode::fifo;
+  VkPresentModeKHR vulkanMode_ = VK_PRESENT_MODE_FIFO_KHR;
+  bool copyable_ = false;
   VkSurfaceFormatKHR format_{};
   VkExtent2D extent_{0, 0};
   SwapchainHandle swapchain_;

@@ -1,0 +1,42 @@
+#include "core/buffer.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace speculum {
+
+Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferPlace place, const std::string& name)
+    : bytes_(std::max<VkDeviceSize>(bytes, 4)) {
+  const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                .size = bytes_,
+                                .usage = usage,
+                                .sharingMode = VK_SHARING_MODE_EXCLUSIVE};
+  VkBuffer buffer = VK_NULL_HANDLE;
+  check(vkCreateBuffer(device.get(), &info, nullptr, &buffer), "create buffer " + name);
+  buffer_ = {device.get(), buffer};
+  device.setName(buffer, name);
+  VkMemoryRequirements requirements{};
+  vkGetBufferMemoryRequirements(device.get(), buffer, &requirements);
+  const VkMemoryPropertyFlags properties =
+      place == BufferPlace::host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+                                 : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+  memory_ = device.allocate(requirements, properties, name);
+  check(vkBindBufferMemory(device.get(), buffer, memory_.get(), 0), "bind the memory of " + name);
+  if (place == BufferPlace::host) {
+    void* data = nullptr;
+    check(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &data), "map the memory of " + name);
+    mapped_ = static_cast<std::byte*>(data);
+  }
+}
+
+void Buffer::write(std::span<const std::byte> data, VkDeviceSize offset) const {
+  if (!mapped_ || offset + data.size() > bytes_) {
+    throw std::out_of_range("a write of " + std::to_string(data.size()) + " bytes at " + std::to_string(offset) +
+                            " does not fit into a mapped buffer of " + std::to_string(mapped_ ? bytes_ : 0));
+  }
+  if (!data.empty()) {
+    std::memcpy(mapped_ + offset, data.data(), data.size());
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,104 @@
+#include "core/descriptors.hpp"
+
+#include <array>
+
+namespace speculum {
+
+DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,
+                                                    const std::string& name) {
+  std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
+  for (const DescriptorBinding& binding : bindings) {
+    layoutBindings.push_back({.binding = binding.binding,
+                              .descriptorType = binding.type,
+                              .descriptorCount = binding.count,
+                              .stageFlags = binding.stages});
+  }
+  const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                             .bindingCount = static_cast<uint32_t>(layoutBindings.size()),
+                                             .pBindings = layoutBindings.data()};
+  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+  check(vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout), "create descriptor set layout " + name);
+  device.setName(layout, name);
+  return {device.get(), layout};
+}
+
+DescriptorPoolHandle DescriptorAllocator::createPool() const {
+  constexpr uint32_t sets = 64;
+  constexpr std::array<VkDescriptorPoolSize, 5> sizes{{
+      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets},
+      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, sets},
+      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets},
+      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, sets},
+      {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16 * sets},
+  }};
+  const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                        .maxSets = sets,
+                                        .poolSizeCount = sizes.size(),
+                                        .pPoolSizes = sizes.data()};
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool), "create a descriptor pool");
+  device_->setName(pool, "descriptor sets");
+  return {device_->get(), pool};
+}
+
+VkDescriptorSet DescriptorAllocator::allocate(VkDescriptorSetLayout layout) {
+  for (;;) {
+    const bool fresh = current_ == pools_.size();
+    if (fresh) {
+      pools_.push_back(createPool());
+    }
+    const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                           .descriptorPool = pools_[current_].get(),
+                                           .descriptorSetCount = 1,
+                                           .pSetLayouts = &layout};
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    const VkResult result = vkAllocateDescriptorSets(device_->get(), &info, &set);
+    if (result == VK_SUCCESS) {
+      ++setsInCurrent_;
+      return set;
+    }
+    // A set that does not fit into an empty pool fits into none.
+    if (setsInCurrent_ == 0 || (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL)) {
+      throwVulkanError(result, "allocate a descriptor set");
+    }
+    ++current_;
+    setsInCurrent_ = 0;
+  }
+}
+
+void DescriptorAllocator::reset() {
+  for (const DescriptorPoolHandle& pool : pools_) {
+    check(vkResetDescriptorPool(device_->get(), pool.get(), 0), "reset a descriptor pool");
+  }
+  current_ = 0;
+  setsInCurrent_ = 0;
+}
+
+DescriptorWriter& DescriptorWriter::buffer(uint32_t binding, VkDescriptorType type,
+                                           const VkDescriptorBufferInfo& info) {
+  writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                     .dstBinding = binding,
+                     .descriptorCount = 1,
+                     .descriptorType = type,
+                     .pBufferInfo = &buffers_.emplace_back(info)});
+  return *this;
+}
+
+DescriptorWriter& DescriptorWriter::image(uint32_t binding, const VkDescriptorImageInfo& info, uint32_t element) {
+  writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                     .dstBinding = binding,
+                     .dstArrayElement = element,
+                     .descriptorCount = 1,
+                     .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                     .pImageInfo = &images_.emplace_back(info)});
+  return *this;
+}
+
+void DescriptorWriter::update(Device& device, VkDescriptorSet set) {
+  for (VkWriteDescriptorSet& write : writes_) {
+    write.dstSet = set;
+  }
+  vkUpdateDescriptorSets(device.get(), static_cast<uint32_t>(writes_.size()), writes_.data(), 0, nullptr);
+}
+
+}  // namespace speculum

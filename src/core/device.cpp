@@ -1,0 +1,234 @@
+#include "core/device.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/physical_device.hpp"
+#include "core/window.hpp"
+
+namespace speculum {
+
+struct Device::Functions {
+  PFN_vkCmdBeginRendering beginRendering = nullptr;
+  PFN_vkCmdEndRendering endRendering = nullptr;
+  PFN_vkCmdSetFrontFace setFrontFace = nullptr;
+  PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
+  PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
+};
+
+std::string_view renderPathName(RenderPath path) {
+  switch (path) {
+    case RenderPath::dynamic:
+      return "dynamic";
+    case RenderPath::renderPass:
+      return "renderpass";
+    case RenderPath::automatic:
+      break;
+  }
+  return "auto";
+}
+
+std::optional<RenderPath> renderPathFromName(std::string_view name) {
+  for (const RenderPath path : {RenderPath::automatic, RenderPath::dynamic, RenderPath::renderPass}) {
+    if (name == renderPathName(path)) {
+      return path;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<DeviceInfo> Device::list() {
+  const Instance instance{DeviceOptions{}};
+  std::vector<DeviceInfo> infos;
+  for (const PhysicalDevice& device : physicalDevices(instance.get())) {
+    infos.push_back(device.info);
+  }
+  return infos;
+}
+
+Device::Device(const DeviceOptions& options) : instance_(options) {
+  if (options.window) {
+    surface_ = {instance_.get(), options.window->createSurface(instance_.get())};
+  }
+  const std::vector<PhysicalDevice> devices = physicalDevices(instance_.get());
+  const PhysicalDevice& chosen = choose(devices, options.gpu);
+  physical_ = chosen.handle;
+  properties_ = chosen.properties;
+  info_ = chosen.info;
+  caps_ = chosen.caps;
+  vkGetPhysicalDeviceMemoryProperties(physical_, &memoryProperties_);
+  choosePath(options.renderPath);
+  queueFamily_ = chooseQueueFamily(chosen, surface_.get());
+  createDevice(chosen);
+  loadFunctions();
+  setName(queue_, "graphics queue");
+  spdlog::info("GPU {}: {}, {}, render path {}", info_.index, info_.name, info_.driver, renderPathName(renderPath_));
+}
+
+Device::~Device() = default;
+
+void Device::choosePath(RenderPath wanted) {
+  if (wanted == RenderPath::dynamic && !caps_.dynamicRendering) {
+    throw std::runtime_error("--render-path dynamic: " + info_.name +
+                             " has no dynamic rendering (use auto or renderpass)");
+  }
+  const bool dynamic = wanted == RenderPath::automatic ? caps_.dynamicRendering : wanted == RenderPath::dynamic;
+  renderPath_ = dynamic ? RenderPath::dynamic : RenderPath::renderPass;
+}
+
+void Device::createDevice(const PhysicalDevice& chosen) {
+  std::vector<const char*> extensions;
+  if (surface_) {
+    extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  }
+  if (caps_.memoryBudget) {
+    extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+  }
+  VkPhysicalDeviceDynamicRenderingFeatures dynamic{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, .dynamicRendering = VK_TRUE};
+  VkPhysicalDeviceExtendedDynamicStateFeaturesEXT state{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_FEATURES_EXT, .extendedDynamicState = VK_TRUE};
+  void* next = nullptr;
+  if (renderPath_ == RenderPath::dynamic) {
+    dynamic.pNext = std::exchange(next, &dynamic);
+    if (!chosen.core13) {
+      for (const char* name : {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME,
+                               VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME}) {
+        extensions.push_back(name);
+      }
+    }
+  }
+  if (!chosen.core13) {
+    extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME);
+    state.pNext = std::exchange(next, &state);
+  }
+  const VkPhysicalDeviceFeatures features{
+      .sampleRateShading = chosen.features.sampleRateShading,
+      .depthClamp = chosen.features.depthClamp,
+      .fillModeNonSolid = chosen.features.fillModeNonSolid,
+      .samplerAnisotropy = chosen.features.samplerAnisotropy,
+      .pipelineStatisticsQuery = chosen.features.pipelineStatisticsQuery,
+      .shaderSampledImageArrayDynamicIndexing = chosen.features.shaderSampledImageArrayDynamicIndexing,
+      .shaderClipDistance = VK_TRUE,
+  };
+  const float priority = 1.0f;
+  const VkDeviceQueueCreateInfo queueInfo{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                          .queueFamilyIndex = queueFamily_,
+                                          .queueCount = 1,
+                                          .pQueuePriorities = &priority};
+  const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                .pNext = next,
+                                .queueCreateInfoCount = 1,
+                                .pQueueCreateInfos = &queueInfo,
+                                .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
+                                .ppEnabledExtensionNames = extensions.data(),
+                                .pEnabledFeatures = &features};
+  VkDevice device = VK_NULL_HANDLE;
+  check(vkCreateDevice(physical_, &info, nullptr, &device), "create the logical device of " + info_.name);
+  device_.reset(device);
+  vkGetDeviceQueue(device, queueFamily_, 0, &queue_);
+
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+  caps_.timestampValidBits = families[queueFamily_].timestampValidBits;
+}
+
+void Device::loadFunctions() {
+  functions_ = std::make_unique<Functions>();
+  const auto load = [this]<typename F>(F& function, const char* core, const char* extension) {
+    function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), core));
+    if (!function) {
+      function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), extension));
+    }
+  };
+  load(functions_->beginRendering, "vkCmdBeginRendering", "vkCmdBeginRenderingKHR");
+  load(functions_->endRendering, "vkCmdEndRendering", "vkCmdEndRenderingKHR");
+  load(functions_->setFrontFace, "vkCmdSetFrontFace", "vkCmdSetFrontFaceEXT");
+  if (instance_.hasDebugUtils()) {
+    const auto loadInstance = [this]<typename F>(F& function, const char* name) {
+      function = reinterpret_cast<F>(vkGetInstanceProcAddr(instance_.get(), name));
+    };
+    loadInstance(functions_->setName, "vkSetDebugUtilsObjectNameEXT");
+    loadInstance(functions_->beginLabel, "vkCmdBeginDebugUtilsLabelEXT");
+    loadInstance(functions_->endLabel, "vkCmdEndDebugUtilsLabelEXT");
+  }
+}
+
+VkSampleCountFlagBits Device::sampleCount(int wanted) {
+  VkSampleCountFlags count = 1;
+  for (VkSampleCountFlags candidate = 1; static_cast<int>(candidate) <= std::clamp(wanted, 1, 64); candidate *= 2) {
+    if (caps_.sampleCounts & candidate) {
+      count = candidate;
+    }
+  }
+  const auto asked = static_cast<VkSampleCountFlags>(std::clamp(wanted, 1, 64));
+  if (count != asked && !(reportedSampleCounts_ & asked)) {
+    reportedSampleCounts_ |= asked;
+    spdlog::warn("{} has no {} samples per pixel: {} are used", info_.name, wanted, count);
+  }
+  return static_cast<VkSampleCountFlagBits>(count);
+}
+
+void Device::waitIdle() const {
+  check(vkDeviceWaitIdle(device_.get()), "wait for the GPU");
+}
+
+void Device::setObjectName(VkObjectType type, uint64_t object, std::string_view name) const {
+  if (functions_->setName) {
+    const std::string text(name);
+    const VkDebugUtilsObjectNameInfoEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                             .objectType = type,
+                                             .objectHandle = object,
+                                             .pObjectName = text.c_str()};
+    check(functions_->setName(device_.get(), &info), "name a Vulkan object");
+  }
+}
+
+void Device::beginLabel(VkCommandBuffer commands, std::string_view name) const {
+  if (functions_->beginLabel) {
+    const std::string text(name);
+    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = text.c_str()};
+    functions_->beginLabel(commands, &label);
+  }
+}
+
+void Device::endLabel(VkCommandBuffer commands) const {
+  if (functions_->endLabel) {
+    functions_->endLabel(commands);
+  }
+}
+
+void Device::beginRendering(VkCommandBuffer commands, const VkRenderingInfo& info) const {
+  functions_->beginRendering(commands, &info);
+}
+
+void Device::endRendering(VkCommandBuffer commands) const {
+  functions_->endRendering(commands);
+}
+
+void Device::setFrontFace(VkCommandBuffer commands, VkFrontFace frontFace) const {
+  functions_->setFrontFace(commands, frontFace);
+}
+
+int Device::addImageObserver(std::function<void(uint64_t)> observer) {
+  const int key = imageObservers_.empty() ? 0 : imageObservers_.back().first + 1;
+  imageObservers_.emplace_back(key, std::move(observer));
+  return key;
+}
+
+void Device::removeImageObserver(int key) {
+  std::erase_if(imageObservers_, [key](const auto& entry) { return entry.first == key; });
+}
+
+void Device::imageDestroyed(uint64_t id) {
+  for (const auto& [key, observer] : imageObservers_) {
+    observer(id);
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,105 @@
+#include "core/gpu_timer.hpp"
+
+#include <array>
+
+namespace speculum {
+
+namespace {
+
+QueryPoolHandle createPool(Device& device, VkQueryType type, uint32_t count, VkQueryPipelineStatisticFlags statistics,
+                           const std::string& name) {
+  const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                   .queryType = type,
+                                   .queryCount = count,
+                                   .pipelineStatistics = statistics};
+  VkQueryPool pool = VK_NULL_HANDLE;
+  check(vkCreateQueryPool(device.get(), &info, nullptr, &pool), "create query pool " + name);
+  device.setName(pool, name);
+  return {device.get(), pool};
+}
+
+}  // namespace
+
+GpuTimer::GpuTimer(Device& device, const std::string& name) : device_(device) {
+  if (device.caps().timestampValidBits > 0) {
+    stamps_ = createPool(device, VK_QUERY_TYPE_TIMESTAMP, 2 * maxPasses, 0, name + " timestamps");
+  }
+  if (device.caps().pipelineStatistics) {
+    statistics_ = createPool(device, VK_QUERY_TYPE_PIPELINE_STATISTICS, maxPasses,
+                             VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
+                                 VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT,
+                             name + " statistics");
+  }
+}
+
+void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame) {
+  frame_ = frame;
+  passes_.clear();
+  if (stamps_) {
+    vkCmdResetQueryPool(commands, stamps_.get(), 0, 2 * maxPasses);
+  }
+  if (statistics_) {
+    vkCmdResetQueryPool(commands, statistics_.get(), 0, maxPasses);
+  }
+}
+
+int GpuTimer::begin(VkCommandBuffer commands, const std::string& pass, bool statistics) {
+  if (passes_.size() == maxPasses) {
+    return -1;
+  }
+  const auto slot = static_cast<uint32_t>(passes_.size());
+  passes_.push_back({.name = pass, .hasStatistics = statistics && statistics_});
+  if (stamps_) {
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, stamps_.get(), 2 * slot);
+  }
+  if (passes_.back().hasStatistics) {
+    vkCmdBeginQuery(commands, statistics_.get(), slot, 0);
+  }
+  return static_cast<int>(slot);
+}
+
+void GpuTimer::end(VkCommandBuffer commands, int slot) {
+  if (slot < 0) {
+    return;
+  }
+  const auto query = static_cast<uint32_t>(slot);
+  if (passes_[query].hasStatistics) {
+    vkCmdEndQuery(commands, statistics_.get(), query);
+  }
+  if (stamps_) {
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, stamps_.get(), 2 * query + 1);
+  }
+}
+
+FrameTimings GpuTimer::read() const {
+  FrameTimings timings{.frame = frame_, .passes = passes_};
+  const auto count = static_cast<uint32_t>(passes_.size());
+  if (stamps_ && count > 0) {
+    std::vector<uint64_t> ticks(2 * count);
+    check(vkGetQueryPoolResults(device_.get(), stamps_.get(), 0, 2 * count, ticks.size() * sizeof(uint64_t),
+                                ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT),
+          "read timestamps");
+    const uint32_t bits = device_.caps().timestampValidBits;
+    const uint64_t mask = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
+    const auto milliseconds = [&](uint64_t from, uint64_t to) {
+      return static_cast<double>((to - from) & mask) * device_.caps().timestampPeriod * 1e-6;
+    };
+    for (uint32_t i = 0; i < count; ++i) {
+      timings.passes[i].gpuMs = milliseconds(ticks[2 * i], ticks[2 * i + 1]);
+    }
+    timings.gpuMs = milliseconds(ticks.front(), ticks.back());
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    if (passes_[i].hasStatistics) {
+      std::array<uint64_t, 2> values{};  // in the order of their bits
+      check(vkGetQueryPoolResults(device_.get(), statistics_.get(), i, 1, sizeof values, values.data(), sizeof values,
+                                  VK_QUERY_RESULT_64_BIT),
+            "read pipeline statistics");
+      timings.passes[i].triangles = values[0];
+      timings.passes[i].fragments = values[1];
+    }
+  }
+  return timings;
+}
+
+}  // namespace speculum

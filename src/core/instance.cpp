@@ -1,0 +1,114 @@
+#include "core/instance.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "core/device.hpp"
+#include "core/platform.hpp"
+#include "core/window.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
+
+bool layerPresent() {
+  uint32_t count = 0;
+  check(vkEnumerateInstanceLayerProperties(&count, nullptr), "list Vulkan layers");
+  std::vector<VkLayerProperties> layers(count);
+  check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "list Vulkan layers");
+  return std::any_of(layers.begin(), layers.end(),
+                     [](const auto& layer) { return std::strcmp(layer.layerName, validationLayer) == 0; });
+}
+
+bool extensionPresent(const char* layer, const char* name) {
+  uint32_t count = 0;
+  check(vkEnumerateInstanceExtensionProperties(layer, &count, nullptr), "list instance extensions");
+  std::vector<VkExtensionProperties> extensions(count);
+  check(vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data()), "list instance extensions");
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
+}
+
+uint32_t usedVersion() {
+  uint32_t version = VK_API_VERSION_1_0;
+  check(vkEnumerateInstanceVersion(&version), "query the Vulkan loader");
+  if (version < VK_API_VERSION_1_1) {
+    throw std::runtime_error("the Vulkan loader is older than 1.1 (update libvulkan1)");
+  }
+  return std::min(version, VK_API_VERSION_1_3);
+}
+
+// Checks across submissions have no structure of their own in the layers of 2023; only this variable turns them on. It
+// is read when the instance is made, so a value that the user has set is kept.
+void enableQueueSubmitValidation() {
+  constexpr const char* variable = "VK_LAYER_ENABLES";
+  if (environment(variable).empty()) {
+    setEnvironment(variable, "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT");
+  }
+}
+
+}  // namespace
+
+void Instance::destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
+                                const VkAllocationCallbacks* allocator) {
+  const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
+  destroy(instance, messenger, allocator);
+}
+
+Instance::Instance(const DeviceOptions& options) {
+  std::vector<const char*> layers;
+  std::vector<const char*> extensions;
+  if (options.validation) {
+    if (!layerPresent()) {
+      throw std::runtime_error(
+          "--validation: VK_LAYER_KHRONOS_validation is missing (install vulkan-validationlayers, or see "
+          "VK_LAYER_PATH)");
+    }
+    layers.push_back(validationLayer);
+    enableQueueSubmitValidation();
+  }
+  debugUtils_ = extensionPresent(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) || options.validation;
+  if (debugUtils_) {
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  }
+  if (options.window) {
+    const std::vector<const char*> needed = options.window->requiredInstanceExtensions();
+    extensions.insert(extensions.end(), needed.begin(), needed.end());
+  }
+
+  const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                      .pApplicationName = "speculum",
+                                      .applicationVersion = 1,
+                                      .pEngineName = "speculum",
+                                      .apiVersion = usedVersion()};
+  VkDebugUtilsMessengerCreateInfoEXT messengerInfo = messages_.createInfo();
+  const VkValidationFeatureEnableEXT enables[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                         .pNext = &messengerInfo,
+                                         .enabledValidationFeatureCount = 1,
+                                         .pEnabledValidationFeatures = enables};
+  const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                  .pNext = options.validation ? &features : nullptr,
+                                  .pApplicationInfo = &application,
+                                  .enabledLayerCount = static_cast<uint32_t>(layers.size()),
+                                  .ppEnabledLayerNames = layers.data(),
+                                  .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data()};
+  VkInstance instance = VK_NULL_HANDLE;
+  check(vkCreateInstance(&info, nullptr, &instance), "create the Vulkan instance");
+  instance_.reset(instance);
+
+  if (options.validation) {
+    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    check(create(instance, &messengerInfo, nullptr, &messenger), "create the debug messenger");
+    messenger_ = {instance, messenger};
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+
+#include "core/debug_messages.hpp"
+#include "core/handle.hpp"
+
+namespace speculum {
+
+struct DeviceOptions;
+
+// The Vulkan instance, with validation and the extensions of a window if asked for.
+class Instance {
+ public:
+  explicit Instance(const DeviceOptions& options);
+
+  VkInstance get() const { return instance_.get(); }
+  bool hasDebugUtils() const { return debugUtils_; }
+  bool validation() const { return static_cast<bool>(messenger_); }
+  DebugMessages& messages() { return messages_; }
+  const DebugMessages& messages() const { return messages_; }
+
+ private:
+  struct Destroy {
+    using pointer = VkInstance;
+    void operator()(VkInstance instance) const { vkDestroyInstance(instance, nullptr); }
+  };
+  static void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
+                               const VkAllocationCallbacks* allocator);
+
+  DebugMessages messages_;
+  bool debugUtils_ = false;
+  std::unique_ptr<VkInstance, Destroy> instance_;
+  Handle<VkDebugUtilsMessengerEXT, destroyMessenger> messenger_;
+};
+
+}  // namespace speculum

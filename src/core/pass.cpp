@@ -1,0 +1,160 @@
+#include "core/pass.hpp"
+
+#include <cstring>
+
+#include "core/gpu_timer.hpp"
+#include "core/render_pass_cache.hpp"
+
+namespace speculum {
+
+namespace {
+
+VkClearValue colorClear(const PassDesc& desc) {
+  VkClearValue value{};
+  std::memcpy(value.color.float32, desc.clearColor.data(), sizeof value.color.float32);
+  return value;
+}
+
+VkClearValue depthClear(const PassDesc& desc) {
+  return {.depthStencil = {desc.clearDepth, 0}};
+}
+
+VkAttachmentLoadOp loadOp(bool load) {
+  return load ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+}
+
+VkAttachmentStoreOp storeOp(bool store) {
+  return store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+}
+
+bool storesColor(const PassDesc& desc) {
+  return !desc.targets.resolve || desc.storeSamples;
+}
+
+}  // namespace
+
+PassDesc fullPass(std::string name, const PassTargets& targets) {
+  const VkExtent2D extent = targets.output().extent();
+  return {.name = std::move(name),
+          .targets = targets,
+          .renderArea = {{0, 0}, extent},
+          .viewport = {0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height)},
+          .scissor = {{0, 0}, extent}};
+}
+
+PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands,
+                     PassDesc desc, Kind kind)
+    : device_(device),
+      renderPasses_(renderPasses),
+      timer_(timer),
+      commands_(commands),
+      desc_(std::move(desc)),
+      dynamic_(kind == Kind::scene && device.renderPath() == RenderPath::dynamic) {
+  device_.beginLabel(commands_, desc_.name);
+  timerSlot_ = timer_.begin(commands_, desc_.name, desc_.collectStatistics);
+  recordBarriersBefore(kind);
+  if (dynamic_) {
+    beginDynamic();
+  } else {
+    beginRenderPass();
+  }
+  const VkViewport viewport{
+      desc_.viewport.x, desc_.viewport.y, desc_.viewport.width, desc_.viewport.height, 0.0f, 1.0f};
+  vkCmdSetViewport(commands_, 0, 1, &viewport);
+  vkCmdSetScissor(commands_, 0, 1, &desc_.scissor);
+  device_.setFrontFace(commands_, desc_.frontFace);
+}
+
+PassScope::~PassScope() {
+  if (dynamic_) {
+    device_.endRendering(commands_);
+  } else {
+    vkCmdEndRenderPass(commands_);
+  }
+  if (desc_.sampledAfterwards && desc_.targets.role != TargetRole::swapchain) {
+    device_.barriers().colorToSample(commands_, desc_.targets.role, desc_.targets.output());
+  }
+  timer_.end(commands_, timerSlot_);
+  device_.endLabel(commands_);
+}
+
+void PassScope::recordBarriersBefore(Kind kind) {
+  const Barriers& barriers = device_.barriers();
+  const PassTargets& targets = desc_.targets;
+  if (kind == Kind::overlay) {
+    barriers.swapchainBeforeOverlay(commands_, *targets.color);
+    return;
+  }
+  if (targets.samples() != VK_SAMPLE_COUNT_1_BIT) {
+    barriers.samplesBeforeWrite(commands_, targets.role, *targets.color);
+  }
+  if (targets.output().samples() == VK_SAMPLE_COUNT_1_BIT) {
+    barriers.colorBeforeWrite(commands_, targets.role, targets.output());
+  }
+  if (targets.depth) {
+    barriers.depthBeforeWrite(commands_, targets.role, *targets.depth);
+  }
+}
+
+void PassScope::beginDynamic() {
+  const PassTargets& targets = desc_.targets;
+  VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                  .imageView = targets.color->view(),
+                                  .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                  .loadOp = loadOp(desc_.loadColor),
+                                  .storeOp = storeOp(storesColor(desc_)),
+                                  .clearValue = colorClear(desc_)};
+  if (targets.resolve) {
+    color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+    color.resolveImageView = targets.resolve->view();
+    color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  }
+  VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+  if (targets.depth) {
+    depth.imageView = targets.depth->view();
+    depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    depth.loadOp = loadOp(desc_.loadDepth);
+    depth.storeOp = storeOp(desc_.storeDepth);
+    depth.clearValue = depthClear(desc_);
+  }
+  const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                             .renderArea = desc_.renderArea,
+                             .layerCount = 1,
+                             .colorAttachmentCount = 1,
+                             .pColorAttachments = &color,
+                             .pDepthAttachment = targets.depth ? &depth : nullptr};
+  device_.beginRendering(commands_, info);
+}
+
+void PassScope::beginRenderPass() {
+  const PassTargets& targets = desc_.targets;
+  const VkRenderPass renderPass =
+      renderPasses_.renderPass({.color = targets.color->format(),
+                                .depth = targets.depth ? targets.depth->format() : VK_FORMAT_UNDEFINED,
+                                .samples = targets.samples(),
+                                .resolve = targets.resolve != nullptr,
+                                .loadColor = desc_.loadColor,
+                                .loadDepth = targets.depth && desc_.loadDepth,
+                                .storeColor = storesColor(desc_),
+                                .storeDepth = targets.depth && desc_.storeDepth});
+  std::vector<Image*> images = {targets.color};
+  std::vector<VkClearValue> clears = {colorClear(desc_)};
+  if (targets.resolve) {
+    images.push_back(targets.resolve);
+    clears.emplace_back();
+  }
+  if (targets.depth) {
+    images.push_back(targets.depth);
+    clears.push_back(depthClear(desc_));
+  }
+  const VkRenderPassBeginInfo info{
+      .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+      .renderPass = renderPass,
+      .framebuffer = renderPasses_.framebuffer(renderPass, images, targets.output().extent()),
+      .renderArea = desc_.renderArea,
+      .clearValueCount = static_cast<uint32_t>(clears.size()),
+      .pClearValues = clears.data()};
+  vkCmdBeginRenderPass(commands_, &info, VK_SUBPASS_CONTENTS_INLINE);
+}
+
+}  // namespace speculum

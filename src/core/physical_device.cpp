@@ -1,0 +1,227 @@
+#include "core/physical_device.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <stdexcept>
+
+#include "core/image.hpp"
+
+namespace speculum {
+
+namespace {
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::vector<std::string> extensionsOf(VkPhysicalDevice device) {
+  uint32_t count = 0;
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "list device extensions");
+  std::vector<VkExtensionProperties> properties(count);
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, properties.data()), "list device extensions");
+  std::vector<std::string> names;
+  for (const VkExtensionProperties& property : properties) {
+    names.emplace_back(property.extensionName);
+  }
+  return names;
+}
+
+VkSampleCountFlags sampleCounts(VkPhysicalDevice device, VkFormat format, VkImageUsageFlags usage) {
+  VkImageFormatProperties properties{};
+  const VkResult result = vkGetPhysicalDeviceImageFormatProperties(device, format, VK_IMAGE_TYPE_2D,
+                                                                   VK_IMAGE_TILING_OPTIMAL, usage, 0, &properties);
+  return result == VK_SUCCESS ? properties.sampleCounts : 0;
+}
+
+void readFeatures(PhysicalDevice& device) {
+  VkPhysicalDeviceDynamicRenderingFeatures dynamic{.sType =
+                                                       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES};
+  VkPhysicalDeviceExtendedDynamicStateFeaturesEXT state{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_FEATURES_EXT};
+  void* next = nullptr;
+  if (device.core13 || device.hasExtension(VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME)) {
+    dynamic.pNext = std::exchange(next, &dynamic);
+  }
+  if (!device.core13 && device.hasExtension(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME)) {
+    state.pNext = std::exchange(next, &state);
+  }
+  VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = next};
+  vkGetPhysicalDeviceFeatures2(device.handle, &features);
+  device.features = features.features;
+  device.extendedDynamicState = device.core13 || state.extendedDynamicState;
+  device.caps.dynamicRendering = dynamic.dynamicRendering;
+}
+
+std::string driverText(const PhysicalDevice& device) {
+  VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+  if (device.properties.apiVersion < VK_API_VERSION_1_2 &&
+      !device.hasExtension(VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME)) {
+    return "version " + std::to_string(device.properties.driverVersion);
+  }
+  VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+  vkGetPhysicalDeviceProperties2(device.handle, &properties);
+  return std::string(driver.driverName) + " " + driver.driverInfo;
+}
+
+uint64_t largestLocalHeap(VkPhysicalDevice device) {
+  VkPhysicalDeviceMemoryProperties memory{};
+  vkGetPhysicalDeviceMemoryProperties(device, &memory);
+  uint64_t bytes = 0;
+  for (uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+    if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
+      bytes = std::max(bytes, memory.memoryHeaps[i].size);
+    }
+  }
+  return bytes;
+}
+
+std::string missing(const PhysicalDevice& device) {
+  if (device.properties.apiVersion < VK_API_VERSION_1_1) {
+    return "Vulkan 1.1";
+  }
+  if (!device.features.shaderClipDistance) {
+    return "shaderClipDistance";
+  }
+  if (!device.extendedDynamicState) {
+    return "Vulkan 1.3 or VK_EXT_extended_dynamic_state";
+  }
+  if (!(device.caps.sampleCounts & VK_SAMPLE_COUNT_1_BIT)) {
+    return "RGBA16F colour and D32F depth attachments";
+  }
+  return "";
+}
+
+PhysicalDevice inspect(VkPhysicalDevice handle, int index) {
+  PhysicalDevice device{.handle = handle};
+  vkGetPhysicalDeviceProperties(handle, &device.properties);
+  device.extensions = extensionsOf(handle);
+  device.core13 = device.properties.apiVersion >= VK_API_VERSION_1_3;
+  readFeatures(device);
+  DeviceCaps& caps = device.caps;
+  caps.sampleCounts = sampleCounts(handle, colorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) &
+                      sampleCounts(handle, depthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) &
+                      device.properties.limits.framebufferColorSampleCounts &
+                      device.properties.limits.framebufferDepthSampleCounts;
+  caps.timestampPeriod = device.properties.limits.timestampPeriod;
+  caps.pipelineStatistics = device.features.pipelineStatisticsQuery;
+  caps.sampleRateShading = device.features.sampleRateShading;
+  caps.depthClamp = device.features.depthClamp;
+  caps.fillModeNonSolid = device.features.fillModeNonSolid;
+  caps.memoryBudget = device.hasExtension(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+  device.info = {.index = index,
+                 .name = device.properties.deviceName,
+                 .driver = driverText(device),
+                 .apiVersion = device.properties.apiVersion,
+                 .type = device.properties.deviceType,
+                 .memoryBytes = largestLocalHeap(handle),
+                 .dynamicRendering = caps.dynamicRendering};
+  device.info.unusable = missing(device);
+  return device;
+}
+
+std::string listOf(const std::vector<PhysicalDevice>& devices) {
+  std::string text;
+  for (const PhysicalDevice& device : devices) {
+    text += (text.empty() ? "" : "; ") + std::to_string(device.info.index) + " " + device.info.name;
+  }
+  return text;
+}
+
+int rank(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    default:
+      return 3;
+  }
+}
+
+const PhysicalDevice* find(const std::vector<PhysicalDevice>& devices, const std::string& wanted) {
+  size_t index = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+  if (error == std::errc() && end == wanted.data() + wanted.size()) {
+    return index < devices.size() ? &devices[index] : nullptr;
+  }
+  for (const PhysicalDevice& device : devices) {
+    if (lower(device.info.name).find(lower(wanted)) != std::string::npos) {
+      return &device;
+    }
+  }
+  return nullptr;
+}
+
+const PhysicalDevice* best(const std::vector<PhysicalDevice>& devices) {
+  const PhysicalDevice* chosen = nullptr;
+  for (const PhysicalDevice& device : devices) {
+    if (device.info.unusable.empty() && (!chosen || rank(device.info.type) < rank(chosen->info.type))) {
+      chosen = &device;
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
+bool PhysicalDevice::hasExtension(std::string_view name) const {
+  return std::find(extensions.begin(), extensions.end(), name) != extensions.end();
+}
+
+std::vector<PhysicalDevice> physicalDevices(VkInstance instance) {
+  uint32_t count = 0;
+  check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "list GPUs");
+  std::vector<VkPhysicalDevice> handles(count);
+  check(vkEnumeratePhysicalDevices(instance, &count, handles.data()), "list GPUs");
+  std::vector<PhysicalDevice> devices;
+  for (VkPhysicalDevice handle : handles) {
+    devices.push_back(inspect(handle, static_cast<int>(devices.size())));
+  }
+  return devices;
+}
+
+const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const std::string& wanted) {
+  if (devices.empty()) {
+    throw std::runtime_error("no GPU with a Vulkan driver was found (install one, e.g. mesa-vulkan-drivers)");
+  }
+  if (wanted.empty()) {
+    if (const PhysicalDevice* chosen = best(devices)) {
+      return *chosen;
+    }
+    throw std::runtime_error("no GPU is usable: " + devices.front().info.name + " lacks " +
+                             devices.front().info.unusable + " (update its driver, or install mesa-vulkan-drivers)");
+  }
+  const PhysicalDevice* chosen = find(devices, wanted);
+  if (!chosen) {
+    throw std::runtime_error("--gpu: no GPU '" + wanted + "' (there are: " + listOf(devices) + ")");
+  }
+  if (!chosen->info.unusable.empty()) {
+    throw std::runtime_error("--gpu: " + chosen->info.name + " lacks " + chosen->info.unusable +
+                             " (choose another: " + listOf(devices) + ")");
+  }
+  return *chosen;
+}
+
+uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
+  for (uint32_t i = 0; i < count; ++i) {
+    VkBool32 presents = VK_TRUE;
+    if (surface != VK_NULL_HANDLE) {
+      check(vkGetPhysicalDeviceSurfaceSupportKHR(device.handle, i, surface, &presents), "query presentation");
+    }
+    if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) && presents) {
+      return i;
+    }
+  }
+  throw std::runtime_error(device.info.name + " has no queue that draws" +
+                           (surface ? " and presents to this window (choose another with --gpu, or use render)" : ""));
+}
+
+}  // namespace speculum

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/device.hpp"
+
+namespace speculum {
+
+// What one GPU offers, read before anything of it is used.
+struct PhysicalDevice {
+  VkPhysicalDevice handle = VK_NULL_HANDLE;
+  VkPhysicalDeviceProperties properties{};
+  VkPhysicalDeviceFeatures features{};
+  std::vector<std::string> extensions;
+  DeviceInfo info;
+  DeviceCaps caps;
+  bool extendedDynamicState = false;
+  bool core13 = false;
+
+  bool hasExtension(std::string_view name) const;
+};
+
+std::vector<PhysicalDevice> physicalDevices(VkInstance instance);
+
+// By index or part of the name; empty: the first of the best type that is usable. Throws std::runtime_error that lists
+// the GPUs when nothing fits or the one named lacks a feature.
+const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const std::string& wanted);
+
+// A family that draws, and presents to `surface` unless that is null. Throws std::runtime_error if there is none.
+uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface);
+
+}  // namespace speculum

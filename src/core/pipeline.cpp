@@ -1,0 +1,197 @@
+#include "core/pipeline.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+
+namespace speculum {
+
+namespace {
+
+constexpr VkShaderStageFlags pushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+// One shader stage with constants 0, 1, ... taken from a list; keeps what the create info points to.
+class Stage {
+ public:
+  Stage(VkShaderStageFlagBits stage, VkShaderModule module, const std::vector<uint32_t>& constants) {
+    for (uint32_t i = 0; i < constants.size(); ++i) {
+      entries_.push_back({i, static_cast<uint32_t>(i * sizeof(uint32_t)), sizeof(uint32_t)});
+    }
+    specialization_ = {static_cast<uint32_t>(entries_.size()), entries_.data(), constants.size() * sizeof(uint32_t),
+                       constants.data()};
+    info_ = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+             .stage = stage,
+             .module = module,
+             .pName = "main",
+             .pSpecializationInfo = constants.empty() ? nullptr : &specialization_};
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  const VkPipelineShaderStageCreateInfo& info() const { return info_; }
+
+ private:
+  std::vector<VkSpecializationMapEntry> entries_;
+  VkSpecializationInfo specialization_{};
+  VkPipelineShaderStageCreateInfo info_{};
+};
+
+VkPipelineRasterizationStateCreateInfo rasterization(const GraphicsPipelineDesc& desc, const DeviceCaps& caps) {
+  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+          .depthClampEnable = desc.depthClamp && caps.depthClamp,
+          .polygonMode = desc.lines && caps.fillModeNonSolid ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL,
+          .cullMode = desc.cullMode,
+          .lineWidth = 1.0f};
+}
+
+VkPipelineMultisampleStateCreateInfo multisampling(const GraphicsPipelineDesc& desc, const DeviceCaps& caps) {
+  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+          .rasterizationSamples = desc.samples,
+          .sampleShadingEnable = desc.sampleShading && caps.sampleRateShading,
+          .minSampleShading = 1.0f};
+}
+
+VkPipelineDepthStencilStateCreateInfo depthState(const GraphicsPipelineDesc& desc) {
+  const bool present = desc.depth != VK_FORMAT_UNDEFINED;
+  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+          .depthTestEnable = present && desc.depthTest,
+          .depthWriteEnable = present && desc.depthWrite,
+          .depthCompareOp = desc.depthCompare};
+}
+
+VkPipelineColorBlendAttachmentState blending(bool enable) {
+  return {.blendEnable = enable,
+          .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+          .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+          .colorBlendOp = VK_BLEND_OP_ADD,
+          .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+          .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+          .alphaBlendOp = VK_BLEND_OP_ADD,
+          .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                            VK_COLOR_COMPONENT_A_BIT};
+}
+
+PipelineLayoutHandle createLayout(Device& device, const GraphicsPipelineDesc& desc) {
+  const VkPushConstantRange range{pushStages, 0, desc.pushConstantBytes};
+  const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                        .setLayoutCount = static_cast<uint32_t>(desc.setLayouts.size()),
+                                        .pSetLayouts = desc.setLayouts.data(),
+                                        .pushConstantRangeCount = desc.pushConstantBytes > 0 ? 1u : 0u,
+                                        .pPushConstantRanges = &range};
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout), "create the layout of pipeline " + desc.name);
+  device.setName(layout, desc.name);
+  return {device.get(), layout};
+}
+
+bool uses(const GraphicsPipelineDesc& desc, const std::vector<std::string>& shaders) {
+  const auto listed = [&](const std::string& name) {
+    return std::find(shaders.begin(), shaders.end(), name) != shaders.end();
+  };
+  return listed(desc.vert) || listed(desc.frag);
+}
+
+}  // namespace
+
+PipelineFactory::PipelineFactory(Device& device, ShaderLibrary& shaders, RenderPassCache& renderPasses,
+                                 PipelineCache& cache, RetireQueue& retired)
+    : device_(device), shaders_(shaders), renderPasses_(renderPasses), cache_(cache), retired_(retired) {}
+
+bool PipelineFactory::reload() {
+  const ShaderChange change = shaders_.poll();
+  bool rebuilt = false;
+  for (Pipeline* pipeline : pipelines_) {
+    if (uses(pipeline->desc(), change.changed)) {
+      retired_.retire(std::exchange(pipeline->pipeline_, build(pipeline->desc_, pipeline->layout_.get())));
+      spdlog::info("pipeline {} was rebuilt", pipeline->desc_.name);
+      rebuilt = true;
+    }
+  }
+  return rebuilt;
+}
+
+PipelineHandle PipelineFactory::build(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
+  const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.vertConstants);
+  const Stage frag(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(desc.frag), desc.fragConstants);
+  const std::array stages = {vert.info(), frag.info()};
+  const VkPipelineVertexInputStateCreateInfo vertexInput{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+      .vertexBindingDescriptionCount = static_cast<uint32_t>(desc.vertexBindings.size()),
+      .pVertexBindingDescriptions = desc.vertexBindings.data(),
+      .vertexAttributeDescriptionCount = static_cast<uint32_t>(desc.vertexAttributes.size()),
+      .pVertexAttributeDescriptions = desc.vertexAttributes.data()};
+  const VkPipelineInputAssemblyStateCreateInfo assembly{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO, .topology = desc.topology};
+  const VkPipelineViewportStateCreateInfo viewport{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
+  const auto raster = rasterization(desc, device_.caps());
+  const auto samples = multisampling(desc, device_.caps());
+  const auto depth = depthState(desc);
+  const auto attachment = blending(desc.blend);
+  const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+                                                  .attachmentCount = 1,
+                                                  .pAttachments = &attachment};
+  constexpr std::array dynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                        VK_DYNAMIC_STATE_FRONT_FACE};
+  const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+                                                 .dynamicStateCount = dynamicStates.size(),
+                                                 .pDynamicStates = dynamicStates.data()};
+  const bool dynamicRendering = device_.renderPath() == RenderPath::dynamic;
+  const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+                                                .colorAttachmentCount = 1,
+                                                .pColorAttachmentFormats = &desc.color,
+                                                .depthAttachmentFormat = desc.depth};
+  const RenderPassKey compatible{.color = desc.color,
+                                 .depth = desc.depth,
+                                 .samples = desc.samples,
+                                 .resolve = desc.samples != VK_SAMPLE_COUNT_1_BIT};
+  const VkGraphicsPipelineCreateInfo info{
+      .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+      .pNext = dynamicRendering ? &rendering : nullptr,
+      .stageCount = stages.size(),
+      .pStages = stages.data(),
+      .pVertexInputState = &vertexInput,
+      .pInputAssemblyState = &assembly,
+      .pViewportState = &viewport,
+      .pRasterizationState = &raster,
+      .pMultisampleState = &samples,
+      .pDepthStencilState = &depth,
+      .pColorBlendState = &blend,
+      .pDynamicState = &dynamic,
+      .layout = layout,
+      .renderPass = dynamicRendering ? VkRenderPass{VK_NULL_HANDLE} : renderPasses_.renderPass(compatible)};
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  check(vkCreateGraphicsPipelines(device_.get(), cache_.get(), 1, &info, nullptr, &pipeline),
+        "create pipeline " + desc.name);
+  device_.setName(pipeline, desc.name);
+  return {device_.get(), pipeline};
+}
+
+Pipeline::Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc)
+    : factory_(factory),
+      desc_(std::move(desc)),
+      layout_(createLayout(factory.device_, desc_)),
+      pipeline_(factory.build(desc_, layout_.get())) {
+  factory_.pipelines_.push_back(this);
+}
+
+Pipeline::~Pipeline() {
+  std::erase(factory_.pipelines_, this);
+  factory_.retired_.retire(std::move(pipeline_));
+  factory_.retired_.retire(std::move(layout_));
+}
+
+void Pipeline::bind(VkCommandBuffer commands) const {
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+}
+
+void Pipeline::bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const {
+  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), index, 1, &set, 0, nullptr);
+}
+
+void Pipeline::pushBytes(VkCommandBuffer commands, const void* data, uint32_t bytes) const {
+  vkCmdPushConstants(commands, layout_.get(), pushStages, 0, bytes, data);
+}
+
+}  // namespace speculum

@@ -1,0 +1,101 @@
+#include "core/render_pass_cache.hpp"
+
+#include <algorithm>
+
+namespace speculum {
+
+namespace {
+
+VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits samples, bool load, bool store,
+                                   VkImageLayout layout) {
+  // Barriers move images between layouts; a render pass leaves them as they are.
+  return {.format = format,
+          .samples = samples,
+          .loadOp = load ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,
+          .storeOp = store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE,
+          .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+          .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+          .initialLayout = layout,
+          .finalLayout = layout};
+}
+
+constexpr VkImageLayout colorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+constexpr VkImageLayout depthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+
+RenderPassHandle create(Device& device, const RenderPassKey& key) {
+  std::vector<VkAttachmentDescription> attachments = {
+      attachment(key.color, key.samples, key.loadColor, key.storeColor, colorLayout)};
+  const VkAttachmentReference color{0, colorLayout};
+  const VkAttachmentReference resolve{1, colorLayout};
+  const VkAttachmentReference depth{key.resolve ? 2u : 1u, depthLayout};
+  if (key.resolve) {
+    attachments.push_back(attachment(key.color, VK_SAMPLE_COUNT_1_BIT, false, true, colorLayout));
+    attachments.back().loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  }
+  if (key.depth != VK_FORMAT_UNDEFINED) {
+    attachments.push_back(attachment(key.depth, key.samples, key.loadDepth, key.storeDepth, depthLayout));
+  }
+  const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                     .colorAttachmentCount = 1,
+                                     .pColorAttachments = &color,
+                                     .pResolveAttachments = key.resolve ? &resolve : nullptr,
+                                     .pDepthStencilAttachment = key.depth != VK_FORMAT_UNDEFINED ? &depth : nullptr};
+  const VkRenderPassCreateInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                                    .attachmentCount = static_cast<uint32_t>(attachments.size()),
+                                    .pAttachments = attachments.data(),
+                                    .subpassCount = 1,
+                                    .pSubpasses = &subpass};
+  VkRenderPass renderPass = VK_NULL_HANDLE;
+  check(vkCreateRenderPass(device.get(), &info, nullptr, &renderPass), "create a render pass");
+  device.setName(renderPass, "render pass, samples " + std::to_string(key.samples));
+  return {device.get(), renderPass};
+}
+
+}  // namespace
+
+RenderPassCache::RenderPassCache(Device& device)
+    : device_(device), observer_(device.addImageObserver([this](uint64_t id) {
+        std::erase_if(framebuffers_, [id](const auto& entry) {
+          const std::vector<uint64_t>& images = entry.first.images;
+          return std::find(images.begin(), images.end(), id) != images.end();
+        });
+      })) {}
+
+RenderPassCache::~RenderPassCache() {
+  device_.removeImageObserver(observer_);
+}
+
+VkRenderPass RenderPassCache::renderPass(const RenderPassKey& key) {
+  RenderPassHandle& handle = renderPasses_[key];
+  if (!handle) {
+    handle = create(device_, key);
+  }
+  return handle.get();
+}
+
+VkFramebuffer RenderPassCache::framebuffer(VkRenderPass renderPass, const std::vector<Image*>& images,
+                                           VkExtent2D extent) {
+  FramebufferKey key{renderPass, {}};
+  std::vector<VkImageView> views;
+  for (const Image* image : images) {
+    key.images.push_back(image->id());
+    views.push_back(image->view());
+  }
+  FramebufferHandle& handle = framebuffers_[key];
+  if (!handle) {
+    const VkFramebufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                                       .renderPass = renderPass,
+                                       .attachmentCount = static_cast<uint32_t>(views.size()),
+                                       .pAttachments = views.data(),
+                                       .width = extent.width,
+                                       .height = extent.height,
+                                       .layers = 1};
+    VkFramebuffer framebuffer = VK_NULL_HANDLE;
+    check(vkCreateFramebuffer(device_.get(), &info, nullptr, &framebuffer), "create a framebuffer");
+    handle = {device_.get(), framebuffer};
+    device_.setName(framebuffer, images.front()->desc().name);
+  }
+  return handle.get();
+}
+
+}  // namespace speculum

@@ -1,0 +1,258 @@
+#include "core/renderer.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/platform.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr VkFormat headlessFormat = VK_FORMAT_R8G8B8A8_UNORM;
+
+std::filesystem::path cacheDir(const RendererOptions& options) {
+  return options.pipelineCacheDir ? *options.pipelineCacheDir : userCacheDir();
+}
+
+}  // namespace
+
+Renderer::Slot::Slot(Device& device, uint32_t index)
+    : descriptors(device), timer(device, "frame in flight " + std::to_string(index)) {
+  const std::string name = "frame in flight " + std::to_string(index);
+  const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                         .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                         .queueFamilyIndex = device.queueFamily()};
+  VkCommandPool commandPool = VK_NULL_HANDLE;
+  check(vkCreateCommandPool(device.get(), &poolInfo, nullptr, &commandPool), "create a command pool");
+  pool = {device.get(), commandPool};
+  device.setName(commandPool, name);
+  const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                         .commandPool = commandPool,
+                                         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                         .commandBufferCount = 1};
+  check(vkAllocateCommandBuffers(device.get(), &info, &commands), "allocate a command buffer");
+  device.setName(commands, name);
+  const VkSemaphoreCreateInfo semaphoreInfo{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+  VkSemaphore semaphore = VK_NULL_HANDLE;
+  check(vkCreateSemaphore(device.get(), &semaphoreInfo, nullptr, &semaphore), "create a semaphore");
+  acquired = {device.get(), semaphore};
+  device.setName(semaphore, name + " image acquired");
+  const VkFenceCreateInfo fenceInfo{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  VkFence fence = VK_NULL_HANDLE;
+  check(vkCreateFence(device.get(), &fenceInfo, nullptr, &fence), "create a fence");
+  finished = {device.get(), fence};
+  device.setName(fence, name + " finished");
+}
+
+Renderer::Renderer(Device& device, const RendererOptions& options)
+    : device_(device),
+      window_(options.window),
+      renderPasses_(device),
+      shaders_(device, options.spirvDir.empty() ? dataDirectory("shaders") : options.spirvDir, options.shaderDir),
+      pipelineCache_(device, cacheDir(options)),
+      uploader_(device),
+      slots_{Slot(device, 0), Slot(device, 1)},
+      pipelines_(device, shaders_, renderPasses_, pipelineCache_, retired_) {
+  if (window_) {
+    swapChain_.emplace(device, *window_, options.presentMode);
+  } else {
+    createHeadlessImage(options.extent);
+  }
+}
+
+Renderer::~Renderer() {
+  vkDeviceWaitIdle(device_.get());
+}
+
+void Renderer::createHeadlessImage(VkExtent2D extent) {
+  headlessImage_ = Image(device_, {.extent = extent,
+                                   .format = headlessFormat,
+                                   .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                   .name = "display image"});
+}
+
+void Renderer::resizeHeadless(VkExtent2D extent) {
+  if (!headless()) {
+    throw std::logic_error("resizeHeadless is for a renderer without a window");
+  }
+  retired_.retire(std::move(headlessImage_));
+  createHeadlessImage(extent);
+}
+
+void Renderer::finish(Slot& slot) {
+  if (slot.number == 0) {
+    return;
+  }
+  const VkFence fence = slot.finished.get();
+  check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for a frame");
+  check(vkResetFences(device_.get(), 1, &fence), "reset a frame's fence");
+  timings_ = slot.timer.read();
+  retired_.collect(slot.number);
+  slot.number = 0;
+}
+
+void Renderer::waitIdle() {
+  const bool firstIsOlder = slots_[0].number < slots_[1].number;
+  finish(slots_[firstIsOlder ? 0 : 1]);
+  finish(slots_[firstIsOlder ? 1 : 0]);
+  device_.waitIdle();
+  // What is retired while a frame is recorded may be in its commands.
+  retired_.collect(recording_ ? frameNumber_ - 1 : frameNumber_);
+}
+
+bool Renderer::prepareSwapChain() {
+  if (window_->paused()) {
+    return false;
+  }
+  if (window_->takeResized() || swapChainStale_ || !swapChain_->usable()) {
+    swapChainStale_ = false;
+    return swapChain_->recreate();
+  }
+  return true;
+}
+
+std::optional<uint32_t> Renderer::acquireImage(Slot& slot) {
+  if (headless()) {
+    return 0;
+  }
+  if (!prepareSwapChain()) {
+    return std::nullopt;
+  }
+  if (const std::optional<uint32_t> image = swapChain_->acquire(slot.acquired.get())) {
+    return image;
+  }
+  return swapChain_->recreate() ? swapChain_->acquire(slot.acquired.get()) : std::nullopt;
+}
+
+std::optional<Frame> Renderer::beginFrame() {
+  const auto index = static_cast<uint32_t>((frameNumber_ + 1) % framesInFlight);
+  Slot& slot = slots_[index];
+  finish(slot);
+  const std::optional<uint32_t> image = acquireImage(slot);
+  if (!image) {
+    return std::nullopt;
+  }
+  ++frameNumber_;
+  recording_ = true;
+  retired_.setFrame(frameNumber_);
+  slot.descriptors.reset();
+  check(vkResetCommandPool(device_.get(), slot.pool.get(), 0), "reset a frame's commands");
+  const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                       .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+  check(vkBeginCommandBuffer(slot.commands, &begin), "begin a frame's commands");
+  slot.timer.reset(slot.commands, frameNumber_);
+  return Frame{.commands = slot.commands,
+               .index = index,
+               .imageIndex = *image,
+               .number = frameNumber_,
+               .extent = displayExtent(),
+               .descriptors = &slot.descriptors,
+               .retired = &retired_};
+}
+
+PassScope Renderer::beginPass(Frame& frame, const PassDesc& desc) {
+  return PassScope(device_, renderPasses_, slots_[frame.index].timer, frame.commands, desc, PassScope::Kind::scene);
+}
+
+PassScope Renderer::beginOverlay(Frame& frame) {
+  PassDesc desc = fullPass("overlay", displayTargets(frame));
+  desc.loadColor = true;
+  return PassScope(device_, renderPasses_, slots_[frame.index].timer, frame.commands, std::move(desc),
+                   PassScope::Kind::overlay);
+}
+
+void Renderer::endFrame(Frame& frame) {
+  Slot& slot = slots_[frame.index];
+  if (frame.capture) {
+    recordCapture(slot, frame);
+  }
+  if (!headless()) {
+    device_.barriers().swapchainToPresent(frame.commands, displayImage(frame.imageIndex));
+  }
+  check(vkEndCommandBuffer(frame.commands), "end a frame's commands");
+  submit(slot, frame);
+  slot.number = frame.number;
+  recording_ = false;
+  if (!headless() && !swapChain_->present(frame.imageIndex)) {
+    swapChainStale_ = true;
+  }
+}
+
+void Renderer::submit(Slot& slot, const Frame& frame) {
+  const VkSemaphore acquired = slot.acquired.get();
+  const VkSemaphore finished = headless() ? VK_NULL_HANDLE : swapChain_->renderFinished(frame.imageIndex);
+  const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+  const uint32_t semaphores = headless() ? 0 : 1;
+  const VkSubmitInfo info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                          .waitSemaphoreCount = semaphores,
+                          .pWaitSemaphores = &acquired,
+                          .pWaitDstStageMask = &stage,
+                          .commandBufferCount = 1,
+                          .pCommandBuffers = &frame.commands,
+                          .signalSemaphoreCount = semaphores,
+                          .pSignalSemaphores = &finished};
+  check(vkQueueSubmit(device_.queue(), 1, &info, slot.finished.get()), "submit a frame");
+}
+
+Image& Renderer::displayImage(uint32_t imageIndex) {
+  return headless() ? headlessImage_ : swapChain_->image(imageIndex);
+}
+
+PassTargets Renderer::displayTargets(Frame& frame) {
+  return {.color = &displayImage(frame.imageIndex), .role = TargetRole::swapchain};
+}
+
+VkFormat Renderer::displayFormat() const {
+  return headless() ? headlessFormat : swapChain_->format();
+}
+
+VkExtent2D Renderer::displayExtent() const {
+  return headless() ? headlessImage_.extent() : swapChain_->extent();
+}
+
+uint32_t Renderer::displayImageCount() const {
+  return std::max(framesInFlight, headless() ? 1 : swapChain_->imageCount());
+}
+
+VkRenderPass Renderer::overlayRenderPass() {
+  return renderPasses_.renderPass({.color = displayFormat(), .loadColor = true});
+}
+
+void Renderer::recordCapture(Slot& slot, const Frame& frame) {
+  if (!headless() && !swapChain_->copyable()) {
+    throw std::runtime_error("this window's images cannot be read back (use the render command)");
+  }
+  Image& image = displayImage(frame.imageIndex);
+  const VkExtent2D extent = image.extent();
+  const VkDeviceSize bytes = VkDeviceSize{4} * extent.width * extent.height;
+  if (slot.capture.bytes() != bytes) {
+    slot.capture = Buffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::host, "capture");
+  }
+  slot.captureExtent = extent;
+  captureSlot_ = frame.index;
+  device_.barriers().readbackToCopy(frame.commands, image);
+  const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                 .imageExtent = {extent.width, extent.height, 1}};
+  vkCmdCopyImageToBuffer(frame.commands, image.get(), image.layout(), slot.capture.get(), 1, &region);
+  device_.barriers().readbackFromCopy(frame.commands, image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  device_.barriers().readbackToHost(frame.commands);
+}
+
+Pixels Renderer::readback() {
+  if (!captureSlot_) {
+    throw std::logic_error("readback needs a frame with `capture` set");
+  }
+  waitIdle();
+  const Slot& slot = slots_[*captureSlot_];
+  const auto* data = reinterpret_cast<const uint8_t*>(slot.capture.mapped());
+  Pixels pixels{slot.captureExtent, {data, data + slot.capture.bytes()}};
+  if (displayFormat() == VK_FORMAT_B8G8R8A8_UNORM) {
+    for (size_t i = 0; i < pixels.rgba.size(); i += 4) {
+      std::swap(pixels.rgba[i], pixels.rgba[i + 2]);
+    }
+  }
+  return pixels;
+}
+
+}  // namespace speculum

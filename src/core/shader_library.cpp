@@ -1,0 +1,152 @@
+#include "core/shader_library.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint32_t spirvMagic = 0x07230203;
+
+bool isSpirv(const std::vector<uint8_t>& code) {
+  uint32_t magic = 0;
+  if (code.size() < 20 || code.size() % 4 != 0) {
+    return false;
+  }
+  std::memcpy(&magic, code.data(), sizeof magic);
+  return magic == spirvMagic;
+}
+
+// Of a make rule "output: source include include", lines joined by backslashes.
+std::vector<fs::path> sourcesIn(const fs::path& depfile) {
+  const auto content = readFile(depfile);
+  std::vector<fs::path> sources;
+  if (!content) {
+    return sources;
+  }
+  std::string text(content->begin(), content->end());
+  const size_t colon = text.find(": ");
+  std::replace(text.begin(), text.end(), '\\', ' ');
+  std::istringstream words(colon == std::string::npos ? "" : text.substr(colon + 2));
+  for (std::string word; words >> word;) {
+    sources.emplace_back(word);
+  }
+  return sources;
+}
+
+double newest(const std::vector<fs::path>& files) {
+  double time = 0.0;
+  for (const fs::path& file : files) {
+    time = std::max(time, modificationTime(file).value_or(0.0));
+  }
+  return time;
+}
+
+}  // namespace
+
+ShaderLibrary::ShaderLibrary(Device& device, fs::path spirvDir, fs::path glslDir)
+    : device_(device), spirvDir_(std::move(spirvDir)), glslDir_(std::move(glslDir)) {
+  if (watching()) {
+    if (!fs::is_directory(glslDir_)) {
+      throw std::runtime_error("--shader-dir: " + glslDir_.string() +
+                               " is not a directory (give the one with the GLSL files)");
+    }
+    output_.emplace();
+  }
+}
+
+VkShaderModule ShaderLibrary::module(const std::string& name) {
+  Entry& entry = entries_[name];
+  if (entry.module) {
+    return entry.module.get();
+  }
+  if (watching() && fs::exists(glslDir_ / name)) {
+    entry.sources = {glslDir_ / name};
+    compile(name, entry);
+    collectErrors();
+  }
+  if (!entry.module) {
+    const fs::path file = spirvDir_ / (name + ".spv");
+    std::optional<std::vector<uint8_t>> code = readFile(file);
+    if (!code) {
+      throw std::runtime_error("shader " + file.string() + " cannot be read (build the target 'shaders')");
+    }
+    if (!isSpirv(*code)) {
+      throw std::runtime_error("shader " + file.string() + " is not SPIR-V (build the target 'shaders' anew)");
+    }
+    setCode(name, entry, std::move(*code));
+  }
+  return entry.module.get();
+}
+
+ShaderChange ShaderLibrary::poll() {
+  ShaderChange change;
+  if (watching()) {
+    for (auto& [name, entry] : entries_) {
+      const bool touched = !entry.sources.empty() && newest(entry.sources) > entry.newest;
+      if (touched && compile(name, entry)) {
+        change.changed.push_back(name);
+      }
+    }
+    collectErrors();
+  }
+  change.errors = errors_;
+  return change;
+}
+
+// The flags are those of the build, so that an unchanged file gives unchanged SPIR-V.
+bool ShaderLibrary::compile(const std::string& name, Entry& entry) {
+  entry.newest = newest(entry.sources);
+  const fs::path output = output_->path() / (name + ".spv");
+  const fs::path depfile = output.string() + ".d";
+  const ProcessResult result =
+      runProcess({"glslangValidator", "--quiet", "-V", "--target-env", "vulkan1.1", "-I" + glslDir_.string(),
+                  "--depfile", depfile.string(), "-o", output.string(), (glslDir_ / name).string()});
+  std::optional<std::vector<uint8_t>> code = readFile(output);
+  if (result.exitCode != 0 || !code || !isSpirv(*code)) {
+    entry.error = result.exitCode == 127 ? "glslangValidator was not found (install glslang-tools)" : result.output;
+    spdlog::warn("shader {} did not compile; the last good one stays:\n{}", name, entry.error);
+    return false;
+  }
+  entry.error.clear();
+  // A file that was written to during the compilation stays newer than what was seen, and is compiled again.
+  if (std::vector<fs::path> sources = sourcesIn(depfile); !sources.empty() && sources != entry.sources) {
+    entry.sources = std::move(sources);
+    entry.newest = newest(entry.sources);
+  }
+  if (*code == entry.code) {
+    return false;
+  }
+  setCode(name, entry, std::move(*code));
+  return true;
+}
+
+void ShaderLibrary::collectErrors() {
+  errors_.clear();
+  for (const auto& [name, entry] : entries_) {
+    if (!entry.error.empty()) {
+      errors_ += name + ": " + entry.error + (entry.error.ends_with('\n') ? "" : "\n");
+    }
+  }
+}
+
+void ShaderLibrary::setCode(const std::string& name, Entry& entry, std::vector<uint8_t> code) {
+  std::vector<uint32_t> words(code.size() / sizeof(uint32_t));
+  std::memcpy(words.data(), code.data(), code.size());
+  const VkShaderModuleCreateInfo info{
+      .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = code.size(), .pCode = words.data()};
+  VkShaderModule module = VK_NULL_HANDLE;
+  check(vkCreateShaderModule(device_.get(), &info, nullptr, &module), "create shader module " + name);
+  entry.module = {device_.get(), module};
+  entry.code = std::move(code);
+  device_.setName(module, name);
+}
+
+}  // namespace speculum

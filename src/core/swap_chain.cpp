@@ -1,0 +1,166 @@
+#include "core/swap_chain.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace speculum {
+
+namespace {
+
+VkSurfaceCapabilitiesKHR capabilities(const Device& device) {
+  VkSurfaceCapabilitiesKHR caps{};
+  check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical(), device.surface(), &caps), "query the surface");
+  return caps;
+}
+
+VkExtent2D chooseExtent(const VkSurfaceCapabilitiesKHR& caps, const Window& window) {
+  VkExtent2D extent = caps.currentExtent;
+  if (extent.width == UINT32_MAX) {
+    extent = window.framebufferExtent();
+    if (extent.width == 0 || extent.height == 0) {
+      return {0, 0};
+    }
+    extent.width = std::clamp(extent.width, caps.minImageExtent.width, caps.maxImageExtent.width);
+    extent.height = std::clamp(extent.height, caps.minImageExtent.height, caps.maxImageExtent.height);
+  }
+  return extent;
+}
+
+uint32_t chooseImageCount(const VkSurfaceCapabilitiesKHR& caps) {
+  const uint32_t wanted = caps.minImageCount + 1;
+  return caps.maxImageCount == 0 ? wanted : std::min(wanted, caps.maxImageCount);
+}
+
+VkCompositeAlphaFlagBitsKHR chooseAlpha(const VkSurfaceCapabilitiesKHR& caps) {
+  return caps.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+                                                                          : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+}
+
+}  // namespace
+
+SwapChain::SwapChain(Device& device, Window& window, PresentMode mode) : device_(device), window_(window) {
+  chooseFormat();
+  choosePresentMode(mode);
+  recreate();
+}
+
+void SwapChain::chooseFormat() {
+  uint32_t count = 0;
+  check(vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physical(), device_.surface(), &count, nullptr), "list formats");
+  std::vector<VkSurfaceFormatKHR> formats(count);
+  check(vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physical(), device_.surface(), &count, formats.data()),
+        "list formats");
+  for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}) {
+    for (const VkSurfaceFormatKHR& format : formats) {
+      if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
+        format_ = format;
+        return;
+      }
+    }
+  }
+  throw std::runtime_error("the window's surface has no 8 bit UNORM format (use the render command)");
+}
+
+void SwapChain::choosePresentMode(PresentMode wanted) {
+  uint32_t count = 0;
+  check(vkGetPhysicalDeviceSurfacePresentModesKHR(device_.physical(), device_.surface(), &count, nullptr),
+        "list present modes");
+  std::vector<VkPresentModeKHR> modes(count);
+  check(vkGetPhysicalDeviceSurfacePresentModesKHR(device_.physical(), device_.surface(), &count, modes.data()),
+        "list present modes");
+  const VkPresentModeKHR mode = wanted == PresentMode::mailbox     ? VK_PRESENT_MODE_MAILBOX_KHR
+                                : wanted == PresentMode::immediate ? VK_PRESENT_MODE_IMMEDIATE_KHR
+                                                                   : VK_PRESENT_MODE_FIFO_KHR;
+  const bool present = std::find(modes.begin(), modes.end(), mode) != modes.end();
+  mode_ = present ? wanted : PresentMode::fifo;
+  vulkanMode_ = present ? mode : VK_PRESENT_MODE_FIFO_KHR;
+  if (!present) {
+    spdlog::warn("the wanted present mode is not available here; FIFO is used");
+  }
+}
+
+bool SwapChain::recreate() {
+  device_.waitIdle();
+  images_.clear();
+  renderFinished_.clear();
+  const VkSurfaceCapabilitiesKHR caps = capabilities(device_);
+  extent_ = chooseExtent(caps, window_);
+  if (extent_.width == 0 || extent_.height == 0) {
+    swapchain_.reset();
+    return false;
+  }
+  copyable_ = caps.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  const VkImageUsageFlags copies = copyable_ ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;
+  const SwapchainHandle old = std::move(swapchain_);
+  const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
+                                      .surface = device_.surface(),
+                                      .minImageCount = chooseImageCount(caps),
+                                      .imageFormat = format_.format,
+                                      .imageColorSpace = format_.colorSpace,
+                                      .imageExtent = extent_,
+                                      .imageArrayLayers = 1,
+                                      .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | copies,
+                                      .imageSharingMode = VK_SHARING_MODE_EXCLUSIVE,
+                                      .preTransform = caps.currentTransform,
+                                      .compositeAlpha = chooseAlpha(caps),
+                                      .presentMode = vulkanMode_,
+                                      .clipped = VK_TRUE,
+                                      .oldSwapchain = old.get()};
+  VkSwapchainKHR swapchain = VK_NULL_HANDLE;
+  check(vkCreateSwapchainKHR(device_.get(), &info, nullptr, &swapchain), "create the swapchain");
+  swapchain_ = {device_.get(), swapchain};
+  device_.setName(swapchain, "swapchain");
+  createImages();
+  return true;
+}
+
+void SwapChain::createImages() {
+  uint32_t count = 0;
+  check(vkGetSwapchainImagesKHR(device_.get(), swapchain_.get(), &count, nullptr), "list swapchain images");
+  std::vector<VkImage> images(count);
+  check(vkGetSwapchainImagesKHR(device_.get(), swapchain_.get(), &count, images.data()), "list swapchain images");
+  for (uint32_t i = 0; i < count; ++i) {
+    const std::string name = "swapchain image " + std::to_string(i);
+    images_.emplace_back(device_, images[i], ImageDesc{.extent = extent_, .format = format_.format, .name = name});
+    const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    check(vkCreateSemaphore(device_.get(), &info, nullptr, &semaphore), "create a semaphore");
+    renderFinished_.emplace_back(device_.get(), semaphore);
+    device_.setName(semaphore, "render finished " + std::to_string(i));
+  }
+}
+
+std::optional<uint32_t> SwapChain::acquire(VkSemaphore acquired) {
+  uint32_t index = 0;
+  const VkResult result =
+      vkAcquireNextImageKHR(device_.get(), swapchain_.get(), UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
+  if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+    return std::nullopt;
+  }
+  // A suboptimal image is still drawn: the semaphore will be signalled. Presenting it reports the same once more.
+  if (result != VK_SUCCESS && result != VK_SUBOPTIMAL_KHR) {
+    throwVulkanError(result, "acquire a swapchain image");
+  }
+  return index;
+}
+
+bool SwapChain::present(uint32_t image) {
+  const VkSemaphore finished = renderFinished(image);
+  const VkSwapchainKHR swapchain = swapchain_.get();
+  const VkPresentInfoKHR info{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
+                              .waitSemaphoreCount = 1,
+                              .pWaitSemaphores = &finished,
+                              .swapchainCount = 1,
+                              .pSwapchains = &swapchain,
+                              .pImageIndices = &image};
+  const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
+  if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) {
+    return false;
+  }
+  check(result, "present");
+  return true;
+}
+
+}  // namespace speculum

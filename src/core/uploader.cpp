@@ -1,0 +1,163 @@
+#include "core/uploader.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <stdexcept>
+
+namespace speculum {
+
+namespace {
+
+VkDeviceSize texelBytes(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R8G8B8A8_UNORM:
+    case VK_FORMAT_R8G8B8A8_SRGB:
+    case VK_FORMAT_B8G8R8A8_UNORM:
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_R32_SFLOAT:
+      return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+      return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+      return 16;
+    default:
+      throw std::logic_error("the size of format " + std::to_string(format) + " is not known");
+  }
+}
+
+VkBufferImageCopy wholeLevel0(const Image& image) {
+  return {.imageSubresource = {image.aspect(), 0, 0, 1},
+          .imageExtent = {image.extent().width, image.extent().height, 1}};
+}
+
+}  // namespace
+
+Uploader::Uploader(Device& device) : device_(device) {
+  const VkCommandPoolCreateInfo poolInfo{
+      .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+      .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT | VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+      .queueFamilyIndex = device.queueFamily()};
+  VkCommandPool pool = VK_NULL_HANDLE;
+  check(vkCreateCommandPool(device.get(), &poolInfo, nullptr, &pool), "create the upload command pool");
+  pool_ = {device.get(), pool};
+  device.setName(pool, "uploads");
+  const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                         .commandPool = pool,
+                                         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                         .commandBufferCount = 1};
+  check(vkAllocateCommandBuffers(device.get(), &info, &commands_), "allocate the upload command buffer");
+  device.setName(commands_, "uploads");
+  const VkFenceCreateInfo fenceInfo{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  VkFence fence = VK_NULL_HANDLE;
+  check(vkCreateFence(device.get(), &fenceInfo, nullptr, &fence), "create the upload fence");
+  fence_ = {device.get(), fence};
+  device.setName(fence, "uploads");
+}
+
+void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
+  const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                       .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+  check(vkBeginCommandBuffer(commands_, &begin), "begin an upload");
+  record(commands_);
+  check(vkEndCommandBuffer(commands_), "end an upload");
+  const VkSubmitInfo submit{
+      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands_};
+  check(vkQueueSubmit(device_.queue(), 1, &submit, fence_.get()), "submit an upload");
+  const VkFence fence = fence_.get();
+  check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for an upload");
+  check(vkResetFences(device_.get(), 1, &fence), "reset the upload fence");
+}
+
+Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name) {
+  Buffer target(device_, data.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::device, name);
+  if (data.empty()) {
+    return target;
+  }
+  const Buffer staging(device_, data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::host, "staging of " + name);
+  staging.write(data);
+  run([&](VkCommandBuffer commands) {
+    const VkBufferCopy region{.size = data.size()};
+    vkCmdCopyBuffer(commands, staging.get(), target.get(), 1, &region);
+    device_.barriers().uploadToRead(commands, target);
+  });
+  return target;
+}
+
+Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
+                      const std::string& name) {
+  const VkDeviceSize expected = VkDeviceSize{extent.width} * extent.height * texelBytes(format);
+  if (texels.size() != expected) {
+    throw std::logic_error("image " + name + " needs " + std::to_string(expected) + " bytes of texels, not " +
+                           std::to_string(texels.size()));
+  }
+  const VkImageUsageFlags sources = mipmaps ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;
+  Image target(device_, {.extent = extent,
+                         .format = format,
+                         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | sources,
+                         .mipLevels = mipmaps ? mipLevelCount(extent) : 1,
+                         .name = name});
+  const Buffer staging(device_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::host,
+                       "staging of " + name);
+  staging.write(texels);
+  run([&](VkCommandBuffer commands) {
+    device_.barriers().uploadBeforeCopy(commands, target);
+    const VkBufferImageCopy region = wholeLevel0(target);
+    vkCmdCopyBufferToImage(commands, staging.get(), target.get(), target.layout(), 1, &region);
+    if (mipmaps) {
+      generateMipmaps(commands, target);
+    }
+    device_.barriers().uploadToRead(commands, target);
+  });
+  return target;
+}
+
+void Uploader::generateMipmaps(VkCommandBuffer commands, Image& image) {
+  auto width = static_cast<int32_t>(image.extent().width);
+  auto height = static_cast<int32_t>(image.extent().height);
+  for (uint32_t level = 0; level < image.desc().mipLevels; ++level) {
+    device_.barriers().mipmapToBlit(commands, image, level);
+    if (level + 1 == image.desc().mipLevels) {
+      break;
+    }
+    const int32_t halfWidth = std::max(width / 2, 1);
+    const int32_t halfHeight = std::max(height / 2, 1);
+    const VkImageBlit region{.srcSubresource = {image.aspect(), level, 0, 1},
+                             .srcOffsets = {{0, 0, 0}, {width, height, 1}},
+                             .dstSubresource = {image.aspect(), level + 1, 0, 1},
+                             .dstOffsets = {{0, 0, 0}, {halfWidth, halfHeight, 1}}};
+    vkCmdBlitImage(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.get(),
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
+    width = halfWidth;
+    height = halfHeight;
+  }
+}
+
+std::vector<std::byte> Uploader::read(Image& image) {
+  const VkDeviceSize bytes = VkDeviceSize{image.extent().width} * image.extent().height * texelBytes(image.format());
+  const Buffer staging(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::host,
+                       "read-back of " + image.desc().name);
+  run([&](VkCommandBuffer commands) {
+    const VkImageLayout layout = image.layout();
+    device_.barriers().readbackToCopy(commands, image);
+    const VkBufferImageCopy region = wholeLevel0(image);
+    vkCmdCopyImageToBuffer(commands, image.get(), image.layout(), staging.get(), 1, &region);
+    device_.barriers().readbackFromCopy(commands, image, layout);
+    device_.barriers().readbackToHost(commands);
+  });
+  return {staging.mapped(), staging.mapped() + bytes};
+}
+
+std::vector<float> Uploader::readFloats(Image& image) {
+  if (image.format() != VK_FORMAT_R16G16B16A16_SFLOAT) {
+    throw std::logic_error("readFloats takes RGBA16F images, which " + image.desc().name + " is not");
+  }
+  const std::vector<std::byte> raw = read(image);
+  std::vector<uint16_t> halves(raw.size() / sizeof(uint16_t));
+  std::memcpy(halves.data(), raw.data(), raw.size());
+  std::vector<float> values(halves.size());
+  std::transform(halves.begin(), halves.end(), values.begin(), [](uint16_t half) { return glm::unpackHalf1x16(half); });
+  return values;
+}
+
+}  // namespace speculum

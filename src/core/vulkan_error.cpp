@@ -1,0 +1,71 @@
+#include <stdexcept>
+#include <string>
+
+#include "core/device.hpp"
+
+namespace speculum {
+
+std::string resultName(VkResult result) {
+  switch (result) {
+    case VK_SUCCESS:
+      return "VK_SUCCESS";
+    case VK_NOT_READY:
+      return "VK_NOT_READY";
+    case VK_TIMEOUT:
+      return "VK_TIMEOUT";
+    case VK_SUBOPTIMAL_KHR:
+      return "VK_SUBOPTIMAL_KHR";
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_INITIALIZATION_FAILED:
+      return "VK_ERROR_INITIALIZATION_FAILED";
+    case VK_ERROR_DEVICE_LOST:
+      return "VK_ERROR_DEVICE_LOST";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+      return "VK_ERROR_LAYER_NOT_PRESENT";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+      return "VK_ERROR_EXTENSION_NOT_PRESENT";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+      return "VK_ERROR_FEATURE_NOT_PRESENT";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return "VK_ERROR_INCOMPATIBLE_DRIVER";
+    case VK_ERROR_SURFACE_LOST_KHR:
+      return "VK_ERROR_SURFACE_LOST_KHR";
+    case VK_ERROR_OUT_OF_DATE_KHR:
+      return "VK_ERROR_OUT_OF_DATE_KHR";
+    default:
+      return "VkResult " + std::to_string(static_cast<int>(result));
+  }
+}
+
+namespace {
+
+std::string remedy(VkResult result) {
+  switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return " (lower --size, view.samples or reflection.samples)";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return " (no Vulkan driver was found: install one, e.g. mesa-vulkan-drivers, and see VK_ICD_FILENAMES)";
+    case VK_ERROR_DEVICE_LOST:
+      return " (the GPU stopped: see the kernel's log, and try --validation)";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+void throwVulkanError(VkResult result, std::string_view what) {
+  throw std::runtime_error(std::string(what) + ": " + resultName(result) + remedy(result));
+}
+
+void check(VkResult result, std::string_view what) {
+  if (result != VK_SUCCESS) {
+    throwVulkanError(result, what);
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,206 @@
+#include "core/window.hpp"
+
+#include <GLFW/glfw3.h>
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace speculum {
+
+namespace {
+
+constexpr std::array<std::pair<Key, int>, 17> keyCodes{{
+    {Key::escape, GLFW_KEY_ESCAPE},
+    {Key::enter, GLFW_KEY_ENTER},
+    {Key::tab, GLFW_KEY_TAB},
+    {Key::space, GLFW_KEY_SPACE},
+    {Key::leftShift, GLFW_KEY_LEFT_SHIFT},
+    {Key::leftControl, GLFW_KEY_LEFT_CONTROL},
+    {Key::w, GLFW_KEY_W},
+    {Key::a, GLFW_KEY_A},
+    {Key::s, GLFW_KEY_S},
+    {Key::d, GLFW_KEY_D},
+    {Key::q, GLFW_KEY_Q},
+    {Key::e, GLFW_KEY_E},
+    {Key::r, GLFW_KEY_R},
+    {Key::f1, GLFW_KEY_F1},
+    {Key::f2, GLFW_KEY_F2},
+    {Key::f11, GLFW_KEY_F11},
+    {Key::f12, GLFW_KEY_F12},
+}};
+
+Key keyOf(int code) {
+  for (const auto& [key, known] : keyCodes) {
+    if (known == code) {
+      return key;
+    }
+  }
+  return Key::unknown;
+}
+
+[[noreturn]] void fail(const std::string& what, const std::string& remedy) {
+  const char* description = nullptr;
+  glfwGetError(&description);
+  throw std::runtime_error(what + (description ? std::string(": ") + description : "") + " (" + remedy + ")");
+}
+
+}  // namespace
+
+Window::Library::Library() {
+  if (!glfwInit()) {
+    fail("no window system", "is DISPLAY set? without a display use the render command");
+  }
+}
+
+Window::Library::~Library() {
+  glfwTerminate();
+}
+
+void Window::Destroy::operator()(GLFWwindow* window) const {
+  glfwDestroyWindow(window);
+}
+
+Window::Window(const WindowOptions& options) {
+  if (!glfwVulkanSupported()) {
+    fail("the window system offers no Vulkan surface", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+  }
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+  window_.reset(glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr));
+  if (!window_) {
+    fail("the window could not be opened", "without a display use the render command");
+  }
+  installCallbacks();
+}
+
+Window::~Window() = default;
+
+Window* Window::of(GLFWwindow* window) {
+  return static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+void Window::installCallbacks() {
+  glfwSetWindowUserPointer(window_.get(), this);
+  glfwSetFramebufferSizeCallback(window_.get(), [](GLFWwindow* w, int, int) { of(w)->resized_ = true; });
+  glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int) {
+    if (const auto& key = of(w)->callbacks_.key) {
+      key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT});
+    }
+  });
+  glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {
+    const auto& mouseButton = of(w)->callbacks_.mouseButton;
+    if (mouseButton && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
+      mouseButton({static_cast<MouseButton>(button), action == GLFW_PRESS});
+    }
+  });
+  glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* w, double x, double y) {
+    if (const auto& cursor = of(w)->callbacks_.cursor) {
+      cursor(x, y);
+    }
+  });
+  glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
+    if (const auto& scroll = of(w)->callbacks_.scroll) {
+      scroll(dx, dy);
+    }
+  });
+}
+
+void Window::pollEvents() {
+  glfwPollEvents();
+}
+
+void Window::waitEvents(double timeoutSeconds) {
+  glfwWaitEventsTimeout(timeoutSeconds);
+}
+
+bool Window::shouldClose() const {
+  return glfwWindowShouldClose(window_.get());
+}
+
+void Window::requestClose() {
+  glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+}
+
+VkExtent2D Window::framebufferExtent() const {
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(window_.get(), &width, &height);
+  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
+VkExtent2D Window::size() const {
+  int width = 0;
+  int height = 0;
+  glfwGetWindowSize(window_.get(), &width, &height);
+  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
+void Window::resize(int width, int height) {
+  glfwSetWindowSize(window_.get(), width, height);
+}
+
+void Window::iconify() {
+  glfwIconifyWindow(window_.get());
+}
+
+void Window::restore() {
+  glfwRestoreWindow(window_.get());
+}
+
+bool Window::iconified() const {
+  return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED);
+}
+
+bool Window::paused() const {
+  const VkExtent2D extent = framebufferExtent();
+  return iconified() || extent.width == 0 || extent.height == 0;
+}
+
+bool Window::takeResized() {
+  return std::exchange(resized_, false);
+}
+
+float Window::contentScale() const {
+  float x = 1.0f;
+  float y = 1.0f;
+  glfwGetWindowContentScale(window_.get(), &x, &y);
+  return x;
+}
+
+void Window::setTitle(const std::string& title) {
+  glfwSetWindowTitle(window_.get(), title.c_str());
+}
+
+bool Window::keyDown(Key key) const {
+  for (const auto& [known, code] : keyCodes) {
+    if (known == key) {
+      return glfwGetKey(window_.get(), code) == GLFW_PRESS;
+    }
+  }
+  return false;
+}
+
+void Window::setCallbacks(WindowCallbacks callbacks) {
+  callbacks_ = std::move(callbacks);
+}
+
+std::vector<const char*> Window::requiredInstanceExtensions() const {
+  uint32_t count = 0;
+  const char** names = glfwGetRequiredInstanceExtensions(&count);
+  if (!names) {
+    fail("the window system offers no Vulkan surface", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+  }
+  return {names, names + count};
+}
+
+VkSurfaceKHR Window::createSurface(VkInstance instance) const {
+  VkSurfaceKHR surface = VK_NULL_HANDLE;
+  if (glfwCreateWindowSurface(instance, window_.get(), nullptr, &surface) != VK_SUCCESS) {
+    fail("the window's Vulkan surface could not be made", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+  }
+  return surface;
+}
+
+}  // namespace speculum
