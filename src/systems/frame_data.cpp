@@ -1,0 +1,242 @@
+#include "systems/frame_data.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace speculum {
+
+namespace {
+
+glm::dmat4 relativeToView(const View& view) {
+  return glm::dmat4(view.worldToView);
+}
+
+// The view's clip plane as (n, h) for points relative to the eye; without one, every point passes.
+glm::dvec4 relativeClipPlane(const View& view) {
+  if (!view.clip) {
+    return {0.0, 0.0, 0.0, 1.0};
+  }
+  return {view.clip->normal, view.clip->distance(view.eye)};
+}
+
+// Ray directions are affine in the pixel's position; see Projection for the clip space that is inverted here.
+void setRays(ViewData& data, const View& view, const Projection& projection) {
+  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
+  const double sx = projection.aspect / projection.focal;
+  const double sy = 1.0 / projection.focal;
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  const glm::dvec2 corner = glm::dvec2(view.rect.x, view.rect.y) * step - 1.0;  // of pixel (0, 0), in [-1, 1]
+  data.rayX = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(step.x * sx, 0.0, 0.0)), 0.0f);
+  data.rayY = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(0.0, -step.y * sy, 0.0)), 0.0f);
+  data.rayOrigin = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(corner.x * sx, -corner.y * sy, -1.0)), 0.0f);
+}
+
+void setBackground(ViewData& data, const Environment& environment) {
+  data.ambient = glm::vec4(glm::vec3(environment.ambient), 0.0f);
+  data.background = glm::vec4(glm::vec3(environment.background), environment.sky ? 1.0f : 0.0f);
+  const Sky sky = environment.sky.value_or(Sky{});
+  data.zenith = glm::vec4(glm::vec3(sky.zenith), 0.0f);
+  data.horizon = glm::vec4(glm::vec3(sky.horizon), 0.0f);
+  data.ground = glm::vec4(glm::vec3(sky.ground), 0.0f);
+}
+
+glm::vec4 row(const glm::dmat3& m, int r, double w) {
+  return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], w));
+}
+
+glm::vec4 replacement(const std::optional<glm::dvec3>& value) {
+  return value ? glm::vec4(glm::vec3(*value), 1.0f) : glm::vec4(0.0f);
+}
+
+InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
+                          const glm::dmat4& clipFromRelative) {
+  const glm::dmat3& linear = instance.worldFromMesh.linear;
+  const glm::dvec3 offset = instance.worldFromMesh.translation - view.eye;
+  glm::dmat4 relativeFromMesh(linear);
+  relativeFromMesh[3] = glm::dvec4(offset, 1.0);
+  // Scaled to unit size first: the shader normalises, and a float would overflow at the extremes.
+  glm::dmat3 normals = normalMatrix(linear);
+  const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});
+  normals = size > 0.0 ? normals * (1.0 / size) : normals;
+  const double handedness = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
+  const glm::dvec4 plane = relativeClipPlane(view);
+  const glm::dvec3 normal(plane);
+
+  InstanceData data{};
+  data.clipFromMesh = glm::mat4(clipFromRelative * relativeFromMesh);
+  for (int r = 0; r < 3; ++r) {
+    data.relativeFromMesh[r] = row(linear, r, offset[r]);
+    data.normalFromMesh[r] = row(normals, r, handedness);
+  }
+  data.clipPlane = glm::vec4(glm::dvec4(glm::transpose(linear) * normal, glm::dot(normal, offset) + plane.w));
+  data.diffuse = replacement(object.color);
+  data.specular = replacement(object.specular);
+  data.shininess = glm::vec4(static_cast<float>(object.shininess.value_or(0.0)));
+  return data;
+}
+
+Lookup lookupFor(const glm::dvec2& ratio) {
+  if (ratio == glm::dvec2(1.0)) {
+    return Lookup::fetch;
+  }
+  return ratio.x < 1.0 ? Lookup::bilinear : Lookup::box;
+}
+
+MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const View& view, const PlannedPass* image) {
+  MirrorData data{};
+  data.plane = glm::vec4(glm::dvec4(draw.plane.normal, draw.plane.distance(view.eye)));
+  data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), mirror.fresnel == Fresnel::schlick ? 1.0f : 0.0f);
+  const MirrorShows shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
+  data.baseColor = glm::vec4(glm::vec3(draw.back ? mirror.backColor : mirror.baseColor), static_cast<float>(shows));
+  if (image) {
+    const glm::dvec2 ratio = image->view.pictureSize / view.pictureSize;
+    const PixelRect& rect = image->view.rect;
+    const glm::dvec2 offset = glm::dvec2(view.rect.x, view.rect.y) * ratio - glm::dvec2(rect.x, rect.y);
+    data.lookup = glm::vec4(glm::dvec4(ratio, offset));
+    data.image = glm::ivec4(rect.width, rect.height, static_cast<int>(lookupFor(ratio)), 0);
+  }
+  return data;
+}
+
+}  // namespace
+
+glm::dmat4 viewProjection(const FramePlan& plan, const View& view, ClipMethod clip) {
+  if (clip == ClipMethod::oblique && view.clip) {
+    const glm::dvec4 relative = relativeClipPlane(view);
+    const glm::dvec4 plane(view.worldToView * glm::dvec3(relative), relative.w);
+    if (const std::optional<glm::dmat4> oblique = obliqueProjection(plan.projection, plane)) {
+      return *oblique;
+    }
+  }
+  return plan.projection.matrix();
+}
+
+FrameData::FrameData(Device& device) : device_(device) {
+  std::array<DescriptorBinding, 6> bindings{};
+  for (uint32_t i = 0; i < bindings.size(); ++i) {
+    bindings[i] = {.binding = i, .type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+  }
+  layout_ = createDescriptorSetLayout(device, bindings, "frame");
+}
+
+void FrameData::build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
+                      const Settings& settings, const FramePlan& plan) {
+  views_.clear();
+  lights_.clear();
+  instances_.clear();
+  mirrors_.clear();
+  mirrorVertices_.clear();
+  passes_.clear();
+  const Environment environment = effectiveEnvironment(scene, settings);
+  for (const PlannedPass& pass : plan.passes) {
+    addPass(pass, plan, scene, state, settings, environment);
+  }
+  addPass(plan.main, plan, scene, state, settings, environment);
+
+  upload(frame, views, std::as_bytes(std::span(views_)));
+  upload(frame, lights, std::as_bytes(std::span(lights_)));
+  upload(frame, instances, std::as_bytes(std::span(instances_)));
+  upload(frame, mirrors, std::as_bytes(std::span(mirrors_)));
+  upload(frame, mirrorVertices, std::as_bytes(std::span(mirrorVertices_)));
+  set_ = frame.descriptors->allocate(layout_.get());
+  const auto& buffers = buffers_[frame.index];
+  constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  DescriptorWriter()
+      .buffer(0, storage, buffers[views].descriptor())
+      .buffer(1, storage, buffers[lights].descriptor())
+      .buffer(2, storage, buffers[instances].descriptor())
+      .buffer(3, storage, resources.materials().descriptor())
+      .buffer(4, storage, buffers[mirrors].descriptor())
+      .buffer(5, storage, buffers[mirrorVertices].descriptor())
+      .update(device_, set_);
+}
+
+void FrameData::addPass(const PlannedPass& pass, const FramePlan& plan, const Scene& scene, const SceneState& state,
+                        const Settings& settings, const Environment& environment) {
+  const glm::dmat4 projection = viewProjection(plan, pass.view, settings.reflection.clip);
+  PassData& data = passes_.emplace_back();
+  data.view = static_cast<uint32_t>(views_.size());
+  ViewData view{};
+  view.clipFromRelative = glm::mat4(projection * relativeToView(pass.view));
+  const bool clips = settings.reflection.clip != ClipMethod::none;
+  view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  setRays(view, pass.view, plan.projection);
+  setBackground(view, environment);
+  addLights(pass, scene, state, view);
+  views_.push_back(view);
+  data.glyphCount = static_cast<uint32_t>(pass.lights.size());
+  addInstances(pass, projection, scene, state, data);
+  addMirrors(pass, projection, plan, scene, data);
+}
+
+// Lights whose glyphs are visible come first, so that one instanced draw covers them.
+void FrameData::addLights(const PlannedPass& pass, const Scene& scene, const SceneState& state, ViewData& view) {
+  view.firstLight = static_cast<uint32_t>(lights_.size());
+  view.lightCount = static_cast<uint32_t>(scene.lights.size());
+  std::vector<int> order(scene.lights.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(),
+                        [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); });
+  for (const int i : order) {
+    const PointLight& light = scene.lights[i];
+    const glm::dvec3 relative = state.lights[i].position - pass.view.eye;
+    lights_.push_back({.position = glm::vec4(glm::dvec4(relative, light.radius)),
+                       .irradiance = glm::vec4(glm::vec3(light.color * light.intensity), 0.0f),
+                       .glow = glm::vec4(glm::vec3(light.color * light.glow), 0.0f)});
+  }
+}
+
+void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene,
+                             const SceneState& state, PassData& data) {
+  const glm::dmat4 clipFromRelative = projection * relativeToView(pass.view);
+  for (const int i : pass.instances) {
+    const InstanceState& instance = state.instances[i];
+    if (data.batches.empty() || data.batches.back().mesh != instance.mesh) {
+      data.batches.push_back({instance.mesh, static_cast<uint32_t>(instances_.size()), 0});
+    }
+    ++data.batches.back().count;
+    instances_.push_back(instanceData(instance, scene.objects[instance.object], pass.view, clipFromRelative));
+  }
+}
+
+void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan,
+                           const Scene& scene, PassData& data) {
+  for (const MirrorDraw& draw : pass.mirrors) {
+    MirrorRange range{static_cast<uint32_t>(mirrors_.size()), static_cast<uint32_t>(mirrorVertices_.size()), 0,
+                      draw.pass};
+    const PlannedPass* image = draw.pass >= 0 ? &plan.passes[draw.pass] : nullptr;
+    mirrors_.push_back(mirrorData(draw, scene.mirrors[draw.mirror], pass.view, image));
+    std::vector<glm::vec4> clip;
+    for (const glm::dvec3& p : draw.polygon) {
+      clip.emplace_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
+    }
+    for (size_t i = 1; i + 1 < clip.size(); ++i) {
+      mirrorVertices_.insert(mirrorVertices_.end(), {clip[0], clip[i], clip[i + 1]});
+    }
+    range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;
+    data.mirrors.push_back(range);
+  }
+}
+
+void FrameData::upload(Frame& frame, Kind kind, std::span<const std::byte> data) {
+  static constexpr std::array<const char*, kindCount> names = {"views", "lights", "instances", "mirrors",
+                                                               "mirror vertices"};
+  Buffer& buffer = buffers_[frame.index][kind];
+  if (!buffer || buffer.bytes() < data.size()) {
+    buffer = Buffer(device_, data.size() + data.size() / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
+                    names[kind]);
+  }
+  buffer.write(data);
+}
+
+uint64_t FrameData::bytes() const {
+  uint64_t sum = 0;
+  for (const auto& slot : buffers_) {
+    for (const Buffer& buffer : slot) {
+      sum += buffer.bytes();
+    }
+  }
+  return sum;
+}
+
+}  // namespace speculum

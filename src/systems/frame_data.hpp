@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/renderer.hpp"
+#include "frame/frame_plan.hpp"
+#include "systems/gpu_types.hpp"
+#include "systems/scene_resources.hpp"
+
+namespace speculum {
+
+// Where a mirror's image was rendered to, for those who look it up.
+struct MirrorImage {
+  VkDescriptorImageInfo descriptor{};
+  PixelRect rect;               // pixels of the whole picture at the image's resolution; texel (0, 0) is its corner
+  glm::dvec2 pictureSize{0.0};  // of the whole picture at the image's resolution
+};
+
+// Instances of one mesh that stand together in the instance buffer.
+struct Batch {
+  int mesh = 0;
+  uint32_t firstInstance = 0;
+  uint32_t count = 0;
+};
+
+struct MirrorRange {
+  uint32_t mirror = 0;  // index into the mirror buffer
+  uint32_t firstVertex = 0;
+  uint32_t vertexCount = 0;
+  int pass = -1;  // of its image; -1: none
+};
+
+// What the systems draw in one pass: indices into the buffers of FrameData.
+struct PassData {
+  uint32_t view = 0;
+  std::vector<Batch> batches;
+  uint32_t glyphCount = 0;
+  std::vector<MirrorRange> mirrors;
+};
+
+// The buffers of one frame. Everything is composed in double relative to the eye of its view and becomes float once.
+// One set of buffers for each frame in flight, grown when a frame needs more.
+class FrameData {
+ public:
+  explicit FrameData(Device& device);
+
+  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  // Fills the buffers of this frame in flight. Afterwards passes()[i] belongs to plan.passes[i], the last to the main
+  // view, and set() is valid until the frame has finished.
+  void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
+             const Settings& settings, const FramePlan& plan);
+
+  const std::vector<PassData>& passes() const { return passes_; }
+  VkDescriptorSet set() const { return set_; }
+  uint64_t bytes() const;
+
+ private:
+  enum Kind { views, lights, instances, mirrors, mirrorVertices, kindCount };
+
+  void addPass(const PlannedPass& pass, const FramePlan& plan, const Scene& scene, const SceneState& state,
+               const Settings& settings, const Environment& environment);
+  void addLights(const PlannedPass& pass, const Scene& scene, const SceneState& state, ViewData& view);
+  void addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene, const SceneState& state,
+                    PassData& data);
+  void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
+                  PassData& data);
+  void upload(Frame& frame, Kind kind, std::span<const std::byte> data);
+
+  Device& device_;
+  DescriptorSetLayoutHandle layout_;
+  std::array<std::array<Buffer, kindCount>, framesInFlight> buffers_;
+  std::vector<ViewData> views_;
+  std::vector<LightData> lights_;
+  std::vector<InstanceData> instances_;
+  std::vector<MirrorData> mirrors_;
+  std::vector<glm::vec4> mirrorVertices_;
+  std::vector<PassData> passes_;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+// The projection of a view under reflection.clip: the common one, or its oblique variant for a mirror's view.
+glm::dmat4 viewProjection(const FramePlan& plan, const View& view, ClipMethod clip);
+
+}  // namespace speculum

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "core/renderer.hpp"
+#include "frame/frame_plan.hpp"
+#include "systems/frame_data.hpp"
+#include "systems/scene_resources.hpp"
+
+namespace speculum {
+
+// What the systems need to record one frame. The same for a window's frame and a headless one.
+struct FrameInfo {
+  Frame& frame;
+  const Scene& scene;
+  const SceneState& state;
+  const Settings& settings;
+  const FramePlan& plan;
+  const SceneResources& resources;
+  const FrameData& data;
+  std::span<const MirrorImage> images;  // of plan.passes, by index; valid while their parent is recorded
+};
+
+// What decides which pipeline draws in a pass.
+struct PassFormat {
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  bool mirrorView = false;
+
+  auto operator<=>(const PassFormat&) const = default;
+};
+
+}  // namespace speculum

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace speculum {
+
+// The structures of shaders/interface.glsl (std430), where their members are described.
+
+struct ViewData {
+  glm::mat4 clipFromRelative;
+  glm::vec4 rayX;
+  glm::vec4 rayY;
+  glm::vec4 rayOrigin;
+  glm::vec4 clipPlane;
+  glm::vec4 ambient;
+  glm::vec4 background;
+  glm::vec4 zenith;
+  glm::vec4 horizon;
+  glm::vec4 ground;
+  uint32_t firstLight;
+  uint32_t lightCount;
+  uint32_t pad[2];
+};
+static_assert(offsetof(ViewData, rayX) == 64 && offsetof(ViewData, clipPlane) == 112 &&
+              offsetof(ViewData, background) == 144 && offsetof(ViewData, firstLight) == 208 &&
+              sizeof(ViewData) == 224);
+
+struct LightData {
+  glm::vec4 position;
+  glm::vec4 irradiance;
+  glm::vec4 glow;
+};
+static_assert(offsetof(LightData, glow) == 32 && sizeof(LightData) == 48);
+
+struct InstanceData {
+  glm::mat4 clipFromMesh;
+  glm::vec4 relativeFromMesh[3];
+  glm::vec4 normalFromMesh[3];
+  glm::vec4 clipPlane;
+  glm::vec4 diffuse;
+  glm::vec4 specular;
+  glm::vec4 shininess;
+};
+static_assert(offsetof(InstanceData, relativeFromMesh) == 64 && offsetof(InstanceData, normalFromMesh) == 112 &&
+              offsetof(InstanceData, clipPlane) == 160 && offsetof(InstanceData, shininess) == 208 &&
+              sizeof(InstanceData) == 224);
+
+struct MaterialData {
+  glm::vec4 diffuse;
+  glm::vec4 specular;
+  glm::vec4 emission;
+};
+static_assert(offsetof(MaterialData, emission) == 32 && sizeof(MaterialData) == 48);
+
+struct MirrorData {
+  glm::vec4 plane;
+  glm::vec4 reflectance;
+  glm::vec4 baseColor;
+  glm::vec4 lookup;
+  glm::ivec4 image;
+};
+static_assert(offsetof(MirrorData, lookup) == 48 && offsetof(MirrorData, image) == 64 && sizeof(MirrorData) == 80);
+
+enum class MirrorShows { image, background, back };
+enum class Lookup { fetch, bilinear, box };
+
+struct DrawConstants {
+  uint32_t viewIndex;
+  uint32_t drawIndex;
+};
+
+// Vertex buffer layout; locations 0, 1, 2 of scene.vert.
+struct GpuVertex {
+  glm::vec3 position;
+  glm::vec3 normal;
+  glm::vec2 uv;
+};
+static_assert(offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, uv) == 24 && sizeof(GpuVertex) == 32);
+
+}  // namespace speculum

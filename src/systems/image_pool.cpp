@@ -1,0 +1,70 @@
+#include "systems/image_pool.hpp"
+
+#include <algorithm>
+
+namespace speculum {
+
+namespace {
+
+constexpr uint32_t granularity = 64;  // texels: a mirror that moves a little finds its image again
+constexpr int framesKept = 30;
+constexpr uint64_t wasteAllowed = 4;  // times the area asked for
+
+uint32_t roundedUp(uint32_t size) {
+  return (size + granularity - 1) / granularity * granularity;
+}
+
+uint64_t area(VkExtent2D extent) {
+  return uint64_t{extent.width} * extent.height;
+}
+
+}  // namespace
+
+ImagePool::ImagePool(Device& device, SharedAttachments& shared) : device_(device), shared_(shared) {}
+
+OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
+  Entry* best = nullptr;
+  const VkExtent2D rounded{roundedUp(extent.width), roundedUp(extent.height)};
+  for (Entry& entry : entries_) {
+    const VkExtent2D has = entry.target->extent();
+    if (!entry.taken && has.width >= extent.width && has.height >= extent.height &&
+        area(has) <= wasteAllowed * area(rounded) && (!best || area(has) < area(best->target->extent()))) {
+      best = &entry;
+    }
+  }
+  if (!best) {
+    best = &entries_.emplace_back();
+    const OffScreenDesc desc{.name = "mirror image " + std::to_string(made_++), .extent = rounded, .shared = &shared_};
+    best->target = std::make_unique<OffScreen>(device_, desc, retired);
+  }
+  best->taken = true;
+  best->idleFrames = 0;
+  return *best->target;
+}
+
+void ImagePool::release(const OffScreen& target) {
+  const auto entry =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.target.get() == &target; });
+  if (entry != entries_.end()) {
+    entry->taken = false;
+  }
+}
+
+void ImagePool::endFrame(RetireQueue& retired) {
+  for (Entry& entry : entries_) {
+    if (!entry.taken && ++entry.idleFrames > framesKept) {
+      entry.target->retire(retired);
+    }
+  }
+  std::erase_if(entries_, [](const Entry& entry) { return !entry.taken && entry.idleFrames > framesKept; });
+}
+
+uint64_t ImagePool::bytes() const {
+  uint64_t sum = 0;
+  for (const Entry& entry : entries_) {
+    sum += entry.target->bytes();
+  }
+  return sum;
+}
+
+}  // namespace speculum

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/off_screen.hpp"
+
+namespace speculum {
+
+// Targets for mirror images. An image is taken for a pass and given back as soon as the pass that samples it is
+// recorded, so that a frame holds no more than the images alive at one time. Targets are kept for later frames and
+// dropped when a number of frames went by without need of them.
+class ImagePool {
+ public:
+  ImagePool(Device& device, SharedAttachments& shared);
+
+  // A target that covers `extent`, free until release().
+  OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
+  void release(const OffScreen& target);
+  void endFrame(RetireQueue& retired);
+
+  uint64_t bytes() const;
+  size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    std::unique_ptr<OffScreen> target;
+    bool taken = false;
+    int idleFrames = 0;
+  };
+
+  Device& device_;
+  SharedAttachments& shared_;
+  std::vector<Entry> entries_;
+  int made_ = 0;
+};
+
+}  // namespace speculum

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "systems/frame_info.hpp"
+
+namespace speculum {
+
+// Draws the scene's objects and, where nothing was drawn, its sky.
+class RenderSystem {
+ public:
+  RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout);
+
+  // Records pass `pass` of info.data; returns the number of draws.
+  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  size_t pipelineCount() const { return objects_.size() + skies_.size(); }
+
+ private:
+  struct Variant {
+    VkSampleCountFlagBits samples;
+    bool clipDistance;
+    bool clampDepth;
+    bool trilinear;
+    bool wireframe;
+    auto operator<=>(const Variant&) const = default;
+  };
+  const Pipeline& objects(const Variant& variant);
+  const Pipeline& sky(VkSampleCountFlagBits samples);
+  uint32_t recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data, const Pipeline& pipeline);
+
+  PipelineFactory& factory_;
+  VkDescriptorSetLayout frameLayout_;
+  VkDescriptorSetLayout textureLayout_;
+  std::map<Variant, std::unique_ptr<Pipeline>> objects_;
+  std::map<VkSampleCountFlagBits, std::unique_ptr<Pipeline>> skies_;
+};
+
+}  // namespace speculum

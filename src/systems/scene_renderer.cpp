@@ -1,0 +1,189 @@
+#include "systems/scene_renderer.hpp"
+
+#include <algorithm>
+
+namespace speculum {
+
+namespace {
+
+VkRect2D areaOf(const PixelRect& rect) {
+  return {{0, 0}, {static_cast<uint32_t>(rect.width), static_cast<uint32_t>(rect.height)}};
+}
+
+std::array<float, 4> clearColor(const Scene& scene, const Settings& settings) {
+  const glm::vec3 color(glm::min(effectiveEnvironment(scene, settings).background, glm::dvec3(65504.0)));
+  return {color.r, color.g, color.b, 1.0f};
+}
+
+VkFrontFace frontFace(const View& view) {
+  return view.mirrored() ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+}
+
+}  // namespace
+
+std::string mirrorName(const Scene& scene, int mirror) {
+  const std::string& name = scene.mirrors[mirror].name;
+  return name.empty() ? std::to_string(mirror) : name;
+}
+
+SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
+    : renderer_(renderer),
+      device_(renderer.device()),
+      scene_(scene),
+      resources_(device_, renderer.uploader(), scene),
+      data_(device_),
+      renderSystem_(renderer.pipelines(), data_.layout(), resources_.textureLayout()),
+      pointLightSystem_(renderer.pipelines(), data_.layout()),
+      mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()) {
+  const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                  .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
+  displayLayout_ = createDescriptorSetLayout(device_, {&binding, 1}, "display");
+}
+
+SceneRenderer::~SceneRenderer() {
+  renderer_.waitIdle();
+}
+
+size_t SceneRenderer::pipelineCount() const {
+  return renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() + mirrorSystem_.pipelineCount() +
+         displayPipelines_.size();
+}
+
+void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan) {
+  prepareTargets(settings, plan, *frame.retired);
+  data_.build(frame, resources_, scene_, state, settings, plan);
+  targets_.assign(plan.passes.size(), nullptr);
+  images_.assign(plan.passes.size(), {});
+  recorded_.clear();
+  const FrameInfo info{frame, scene_, state, settings, plan, resources_, data_, images_};
+  for (size_t i = 0; i < plan.passes.size(); ++i) {
+    recordMirrorPass(frame, info, i);
+  }
+  recordMainPass(frame, info);
+  recordDisplayPass(frame, settings);
+  if (pool_) {
+    pool_->endFrame(*frame.retired);
+  }
+}
+
+void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
+  const VkSampleCountFlagBits samples = device_.sampleCount(settings.reflection.samples);
+  if (shared_ && (shared_->samples() != samples || plan.passes.empty())) {
+    renderer_.waitIdle();
+    pool_.reset();
+    shared_.reset();
+  }
+  if (!plan.passes.empty()) {
+    if (!shared_) {
+      shared_ = std::make_unique<SharedAttachments>(device_, samples, "mirror images");
+      pool_ = std::make_unique<ImagePool>(device_, *shared_);
+    }
+    VkExtent2D largest{1, 1};
+    for (const PlannedPass& pass : plan.passes) {
+      largest.width = std::max(largest.width, static_cast<uint32_t>(pass.view.rect.width));
+      largest.height = std::max(largest.height, static_cast<uint32_t>(pass.view.rect.height));
+    }
+    shared_->require(largest, retired);
+  }
+  const VkExtent2D extent{static_cast<uint32_t>(plan.width), static_cast<uint32_t>(plan.height)};
+  const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
+  if (!main_ || main_->samples() != mainSamples) {
+    if (main_) {
+      main_->retire(retired);
+    }
+    const OffScreenDesc desc{.name = "main view", .extent = extent, .samples = mainSamples, .role = TargetRole::main};
+    main_ = std::make_unique<OffScreen>(device_, desc, retired);
+  }
+  main_->resize(extent, retired);
+}
+
+uint32_t SceneRenderer::recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass,
+                                      const PassFormat& format) {
+  uint32_t draws = mirrorSystem_.record(scope, info, pass, format);
+  draws += pointLightSystem_.record(scope, info, pass, format);
+  draws += renderSystem_.record(scope, info, pass, format);
+  return draws;
+}
+
+void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index) {
+  const PlannedPass& pass = info.plan.passes[index];
+  const View& view = pass.view;
+  const VkRect2D area = areaOf(view.rect);
+  OffScreen& target = pool_->acquire(area.extent, *frame.retired);
+  RecordedPass recorded{.depth = pass.depth, .areaPx = pass.areaPx};
+  for (const int mirror : view.path) {
+    recorded.path.push_back(mirrorName(scene_, mirror));
+    recorded.name += (recorded.name.empty() ? "mirror " : " > ") + recorded.path.back();
+  }
+  recorded.mirror = recorded.path.back();
+  const PassDesc desc{.name = recorded.name,
+                      .targets = target.targets(),
+                      .renderArea = area,
+                      .viewport = {static_cast<float>(-view.rect.x), static_cast<float>(-view.rect.y),
+                                   static_cast<float>(view.pictureSize.x), static_cast<float>(view.pictureSize.y)},
+                      .scissor = area,
+                      .frontFace = frontFace(view),
+                      .clearColor = clearColor(scene_, info.settings),
+                      .collectStatistics = true};
+  {
+    const PassScope scope = renderer_.beginPass(frame, desc);
+    recorded.draws = recordSystems(scope, info, index, {.samples = target.samples(), .mirrorView = true});
+  }
+  recorded_.push_back(std::move(recorded));
+  targets_[index] = &target;
+  images_[index] = {target.descriptor(), view.rect, view.pictureSize};
+  for (const MirrorDraw& draw : pass.mirrors) {
+    if (draw.pass >= 0) {
+      pool_->release(*targets_[draw.pass]);
+    }
+  }
+}
+
+void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
+  PassDesc desc = fullPass("main view", main_->targets());
+  desc.clearColor = clearColor(scene_, info.settings);
+  desc.frontFace = frontFace(info.plan.main.view);
+  desc.collectStatistics = true;
+  RecordedPass recorded{.name = desc.name, .areaPx = info.plan.main.areaPx};
+  {
+    const PassScope scope = renderer_.beginPass(frame, desc);
+    recorded.draws = recordSystems(scope, info, info.plan.passes.size(), {.samples = main_->samples()});
+  }
+  recorded_.push_back(std::move(recorded));
+  for (const MirrorDraw& draw : info.plan.main.mirrors) {
+    if (draw.pass >= 0) {
+      pool_->release(*targets_[draw.pass]);
+    }
+  }
+}
+
+const Pipeline& SceneRenderer::displayPipeline(ToneMap toneMap) {
+  std::unique_ptr<Pipeline>& pipeline = displayPipelines_[{toneMap, renderer_.displayFormat()}];
+  if (!pipeline) {
+    GraphicsPipelineDesc desc{.name = "display", .vert = "full_screen.vert", .frag = "display.frag"};
+    desc.fragConstants = {toneMap == ToneMap::aces};
+    desc.setLayouts = {displayLayout_.get()};
+    desc.pushConstantBytes = sizeof(float);
+    desc.color = renderer_.displayFormat();
+    desc.depth = VK_FORMAT_UNDEFINED;
+    desc.depthTest = false;
+    desc.depthWrite = false;
+    pipeline = std::make_unique<Pipeline>(renderer_.pipelines(), std::move(desc));
+  }
+  return *pipeline;
+}
+
+void SceneRenderer::recordDisplayPass(Frame& frame, const Settings& settings) {
+  const Pipeline& pipeline = displayPipeline(settings.view.toneMap);
+  const VkDescriptorSet set = frame.descriptors->allocate(displayLayout_.get());
+  DescriptorWriter().image(0, main_->descriptor()).update(device_, set);
+  PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
+  const PassScope scope = renderer_.beginPass(frame, desc);
+  pipeline.bind(scope.commands());
+  pipeline.bindSet(scope.commands(), 0, set);
+  pipeline.push(scope.commands(), static_cast<float>(settings.view.exposure));
+  vkCmdDraw(scope.commands(), 3, 1, 0, 0);
+  recorded_.push_back({.name = desc.name, .draws = 1});
+}
+
+}  // namespace speculum
