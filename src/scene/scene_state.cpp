@@ -1,0 +1,115 @@
+#include "scene/scene_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "optics/polygon.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Angles are reduced before they are added up, so that a long run loses no precision to a large sum.
+glm::dvec3 spun(const glm::dvec3& rotation, const glm::dvec3& spin, double time) {
+  glm::dvec3 angles;
+  for (int i = 0; i < 3; ++i) {
+    angles[i] = rotation[i] + std::remainder(spin[i] * time, 360.0);
+  }
+  return angles;
+}
+
+void addInstances(const Scene& scene, int objectIndex, double time, std::vector<InstanceState>& instances) {
+  const Object& object = scene.objects[objectIndex];
+  const Mesh& mesh = scene.meshes[object.mesh];
+  const glm::dmat3 rotation = rotationFromDegrees(spun(object.rotation, object.spin, time));
+  const glm::dmat3 linear =
+      glm::dmat3(rotation[0] * object.scale.x, rotation[1] * object.scale.y, rotation[2] * object.scale.z);
+  const double largestScale = std::max({std::abs(object.scale.x), std::abs(object.scale.y), std::abs(object.scale.z)});
+  for (int copy = 0; copy < object.copies.count; ++copy) {
+    InstanceState instance{.object = objectIndex, .copy = copy, .mesh = object.mesh};
+    const glm::dvec3 position = object.position + static_cast<double>(copy) * object.copies.step;
+    instance.worldFromMesh = {linear, position + linear * mesh.center};
+    instance.center = instance.worldFromMesh.translation;
+    instance.radius = mesh.radius * largestScale * (1.0 + 1e-12);
+    instances.push_back(instance);
+  }
+}
+
+LightState lightState(const PointLight& light, double time) {
+  if (!light.orbit) {
+    return {light.position};
+  }
+  const Orbit& orbit = *light.orbit;
+  return {orbit.center + rotationAboutAxis(orbit.axis, orbit.speed * time) * (light.position - orbit.center)};
+}
+
+MirrorState mirrorState(const Mirror& mirror, double time) {
+  MirrorState state;
+  if (!mirror.polygon.empty()) {
+    state.polygon = mirror.polygon;
+    state.origin = mirror.polygon[0];
+    state.normal = glm::normalize(newellVector(mirror.polygon));
+    state.axisX = glm::normalize(mirror.polygon[1] - mirror.polygon[0]);
+    state.axisY = glm::cross(state.normal, state.axisX);
+    return state;
+  }
+  const glm::dmat3 rotation = rotationFromDegrees(spun(mirror.rotation, mirror.spin, time));
+  state.origin = mirror.position;
+  state.axisX = rotation[0];
+  state.axisY = rotation[1];
+  state.normal = rotation[2];
+  const glm::dvec3 x = 0.5 * mirror.size.x * state.axisX;
+  const glm::dvec3 y = 0.5 * mirror.size.y * state.axisY;
+  state.polygon = {state.origin - x - y, state.origin + x - y, state.origin + x + y, state.origin - x + y};
+  return state;
+}
+
+CameraPose cameraPose(const CameraSpec& camera, double time) {
+  const glm::dmat3 turn = rotationAboutAxis(camera.up, camera.orbitSpeed * time);
+  return lookAt(camera.target + turn * (camera.position - camera.target), camera.target, camera.up, camera.verticalFov,
+                camera.near);
+}
+
+}  // namespace
+
+glm::dvec3 Environment::radiance(const glm::dvec3& d) const {
+  if (!sky) {
+    return background;
+  }
+  return d.y >= 0.0 ? glm::mix(sky->horizon, sky->zenith, std::sqrt(d.y))
+                    : glm::mix(sky->horizon, sky->ground, std::min(1.0, -8.0 * d.y));
+}
+
+CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,
+                  double near) {
+  const glm::dvec3 forward = target - eye;
+  const glm::dvec3 side = glm::cross(forward, up);
+  const double sideLength = glm::length(side);
+  if (!(sideLength > 1e-9 * glm::length(forward) * glm::length(up))) {
+    throw std::invalid_argument("the camera's target is its position, or lies along its up vector");
+  }
+  const glm::dvec3 back = -glm::normalize(forward);
+  const glm::dvec3 right = side / sideLength;
+  CameraPose pose{.eye = eye, .verticalFov = glm::radians(verticalFovDegrees), .near = near};
+  pose.worldToView = glm::transpose(glm::dmat3(right, glm::cross(back, right), back));
+  return pose;
+}
+
+SceneState evaluate(const Scene& scene, double timeSeconds) {
+  SceneState state{.time = timeSeconds, .camera = cameraPose(scene.camera, timeSeconds)};
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    addInstances(scene, static_cast<int>(i), timeSeconds, state.instances);
+  }
+  std::stable_sort(state.instances.begin(), state.instances.end(),
+                   [](const InstanceState& a, const InstanceState& b) { return a.mesh < b.mesh; });
+  for (const PointLight& light : scene.lights) {
+    state.lights.push_back(lightState(light, timeSeconds));
+  }
+  for (const Mirror& mirror : scene.mirrors) {
+    state.mirrors.push_back(mirrorState(mirror, timeSeconds));
+  }
+  return state;
+}
+
+}  // namespace speculum
