@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, barrierKindCount> names = {"offscreenBefo
                                                                   "swapchainToPresent",
                                                                   "readbackToCopy",
                                                                   "readbackFromCopy",
-                                                                  "uploadBeforeCopy",
+
                                                                   "uploadToRead",
                                                                   "mipmapToBlit"};
 
@@ -96,7 +96,10 @@ void Barriers::record(VkCommandBuffer commands, BarrierKind kind, Image& image, 
   vkCmdPipelineBarrier(commands, before.stages, after.stages, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-void Barriers::colorBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const {
+void Barriers::colorBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const {
+  if (!keep) {
+    image.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
+  }
   // Earlier readers: fragment shaders that sample it and copies of a read-back. The acquire semaphore of a swapchain
   // image is waited for at the colour stage, which chains it to this barrier.
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenBeforeWrite, BarrierKind::mainBeforeWrite);
@@ -105,13 +108,19 @@ void Barriers::colorBeforeWrite(VkCommandBuffer commands, TargetRole role, Image
          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
 
-void Barriers::samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const {
+void Barriers::samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const {
+  if (!keep) {
+    image.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
+  }
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenSamplesBeforeWrite, BarrierKind::mainSamplesBeforeWrite);
   record(commands, kind, image, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT}, {colorStage, colorAccess},
          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
 
-void Barriers::depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const {
+void Barriers::depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const {
+  if (!keep) {
+    image.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
+  }
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenDepthBeforeWrite, BarrierKind::mainDepthBeforeWrite);
   record(commands, kind, image, {depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT}, {depthStages, depthAccess},
          VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
@@ -125,7 +134,7 @@ void Barriers::colorToSample(VkCommandBuffer commands, TargetRole role, Image& i
 
 void Barriers::swapchainBeforeOverlay(VkCommandBuffer commands, Image& image) const {
   record(commands, BarrierKind::swapchainBeforeOverlay, image, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
-         {colorStage, colorAccess}, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+         {colorStage, colorAccess}, overlayLayout);
 }
 
 void Barriers::swapchainToPresent(VkCommandBuffer commands, Image& image) const {
@@ -150,9 +159,18 @@ void Barriers::readbackToHost(VkCommandBuffer commands) const {
   vkCmdPipelineBarrier(commands, transferStage, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-void Barriers::uploadBeforeCopy(VkCommandBuffer commands, Image& image) const {
-  record(commands, BarrierKind::uploadBeforeCopy, image, {sampleStage | transferStage, VK_ACCESS_TRANSFER_WRITE_BIT},
-         {transferStage, VK_ACCESS_TRANSFER_WRITE_BIT}, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+void Barriers::uploadToCopy(VkCommandBuffer commands, Image& fresh) const {
+  const VkImageMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+                                     .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                                     .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                     .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                                     .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                     .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                     .image = fresh.get(),
+                                     .subresourceRange = {fresh.aspect(), 0, fresh.desc().mipLevels, 0, 1}};
+  fresh.setLayout(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, transferStage, 0, 0, nullptr, 0, nullptr, 1,
+                       &barrier);
 }
 
 void Barriers::uploadToRead(VkCommandBuffer commands, Image& image) const {

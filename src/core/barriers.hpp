@@ -27,10 +27,13 @@ enum class BarrierKind {
   swapchainToPresent,
   readbackToCopy,    // attachment or sampled image -> transfer source
   readbackFromCopy,  // transfer source -> what it was before
-  uploadBeforeCopy,  // image in any state -> transfer destination
   uploadToRead,      // transfer write -> shader, index and vertex reads
   mipmapToBlit,      // a level written -> source of the next level's blit
 };
+// The layer of 2023 takes colour writes and loads of different render passes for ordered by rasterisation and notices a
+// missing dependency between them only at a change of layout.
+inline constexpr VkImageLayout overlayLayout = VK_IMAGE_LAYOUT_GENERAL;
+
 inline constexpr int barrierKindCount = static_cast<int>(BarrierKind::mipmapToBlit) + 1;
 
 std::string_view barrierName(BarrierKind kind);  // the enumerator's name
@@ -46,16 +49,18 @@ class Barriers {
   void omit(std::optional<BarrierKind> kind) { omitted_ = kind; }
   std::optional<BarrierKind> omitted() const { return omitted_; }
 
-  void colorBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const;
-  void samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const;
-  void depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  // With `keep` the content survives; otherwise all of it becomes undefined, also outside a pass's render area.
+  void colorBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
+  void samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
+  void depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
   void colorToSample(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  // Into GENERAL, the layout of the overlay's pass: see overlayLayout.
   void swapchainBeforeOverlay(VkCommandBuffer commands, Image& image) const;
   void swapchainToPresent(VkCommandBuffer commands, Image& image) const;
   void readbackToCopy(VkCommandBuffer commands, Image& image) const;
   void readbackFromCopy(VkCommandBuffer commands, Image& image, VkImageLayout layout) const;
   void readbackToHost(VkCommandBuffer commands) const;
-  void uploadBeforeCopy(VkCommandBuffer commands, Image& image) const;
+  void uploadToCopy(VkCommandBuffer commands, Image& fresh) const;  // nothing to wait for: no kind
   void uploadToRead(VkCommandBuffer commands, Image& image) const;
   void uploadToRead(VkCommandBuffer commands, const Buffer& buffer) const;
   // `level` becomes a transfer source. Goes through the levels in order; the last makes the whole image one.

@@ -150,6 +150,18 @@ class Device {
   std::vector<std::pair<int, std::function<void(uint64_t)>>> imageObservers_;
 };
 
+// The last member of a class that owns what frames in flight may use: on destruction the GPU finishes first.
+class IdleGuard {
+ public:
+  explicit IdleGuard(const Device& device) : device_(device) {}
+  ~IdleGuard() { vkDeviceWaitIdle(device_.get()); }
+  IdleGuard(const IdleGuard&) = delete;
+  IdleGuard& operator=(const IdleGuard&) = delete;
+
+ private:
+  const Device& device_;
+};
+
 // One allocation of device memory, counted in Device::allocatedBytes().
 class Memory {
  public:

@@ -86,13 +86,14 @@ void PassScope::recordBarriersBefore(Kind kind) {
     return;
   }
   if (targets.samples() != VK_SAMPLE_COUNT_1_BIT) {
-    barriers.samplesBeforeWrite(commands_, targets.role, *targets.color);
+    barriers.samplesBeforeWrite(commands_, targets.role, *targets.color, desc_.loadColor);
   }
   if (targets.output().samples() == VK_SAMPLE_COUNT_1_BIT) {
-    barriers.colorBeforeWrite(commands_, targets.role, targets.output());
+    const bool keep = targets.role != TargetRole::swapchain || desc_.loadColor;
+    barriers.colorBeforeWrite(commands_, targets.role, targets.output(), keep);
   }
   if (targets.depth) {
-    barriers.depthBeforeWrite(commands_, targets.role, *targets.depth);
+    barriers.depthBeforeWrite(commands_, targets.role, *targets.depth, desc_.loadDepth);
   }
 }
 
@@ -136,7 +137,8 @@ void PassScope::beginRenderPass() {
                                 .loadColor = desc_.loadColor,
                                 .loadDepth = targets.depth && desc_.loadDepth,
                                 .storeColor = storesColor(desc_),
-                                .storeDepth = targets.depth && desc_.storeDepth});
+                                .storeDepth = targets.depth && desc_.storeDepth,
+                                .colorLayout = targets.color->layout()});
   std::vector<Image*> images = {targets.color};
   std::vector<VkClearValue> clears = {colorClear(desc_)};
   if (targets.resolve) {

@@ -34,7 +34,9 @@ struct PassViewport {
 struct PassDesc {
   std::string name;
   PassTargets targets;
-  VkRect2D renderArea{};  // pixels of the target; only these are cleared and written
+  // Pixels of the target; only these are cleared and written. Outside them a resolved or single-sample offscreen colour
+  // is kept; depth, multisampled colour and swapchain images are kept only when loaded.
+  VkRect2D renderArea{};
   PassViewport viewport;
   VkRect2D scissor{};  // pixels of the target, within the render area
   VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;

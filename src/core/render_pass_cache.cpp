@@ -19,17 +19,17 @@ VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits sample
           .finalLayout = layout};
 }
 
-constexpr VkImageLayout colorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+constexpr VkImageLayout resolveLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
 constexpr VkImageLayout depthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 
 RenderPassHandle create(Device& device, const RenderPassKey& key) {
   std::vector<VkAttachmentDescription> attachments = {
-      attachment(key.color, key.samples, key.loadColor, key.storeColor, colorLayout)};
-  const VkAttachmentReference color{0, colorLayout};
-  const VkAttachmentReference resolve{1, colorLayout};
+      attachment(key.color, key.samples, key.loadColor, key.storeColor, key.colorLayout)};
+  const VkAttachmentReference color{0, key.colorLayout};
+  const VkAttachmentReference resolve{1, resolveLayout};
   const VkAttachmentReference depth{key.resolve ? 2u : 1u, depthLayout};
   if (key.resolve) {
-    attachments.push_back(attachment(key.color, VK_SAMPLE_COUNT_1_BIT, false, true, colorLayout));
+    attachments.push_back(attachment(key.color, VK_SAMPLE_COUNT_1_BIT, false, true, resolveLayout));
     attachments.back().loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   }
   if (key.depth != VK_FORMAT_UNDEFINED) {

@@ -17,6 +17,7 @@ struct RenderPassKey {
   bool loadDepth = false;
   bool storeColor = true;
   bool storeDepth = false;
+  VkImageLayout colorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
 
   auto operator<=>(const RenderPassKey&) const = default;
 };

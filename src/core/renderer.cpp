@@ -53,16 +53,13 @@ Renderer::Renderer(Device& device, const RendererOptions& options)
       pipelineCache_(device, cacheDir(options)),
       uploader_(device),
       slots_{Slot(device, 0), Slot(device, 1)},
-      pipelines_(device, shaders_, renderPasses_, pipelineCache_, retired_) {
+      pipelines_(device, shaders_, renderPasses_, pipelineCache_, retired_),
+      idle_(device) {
   if (window_) {
     swapChain_.emplace(device, *window_, options.presentMode);
   } else {
     createHeadlessImage(options.extent);
   }
-}
-
-Renderer::~Renderer() {
-  vkDeviceWaitIdle(device_.get());
 }
 
 void Renderer::createHeadlessImage(VkExtent2D extent) {
@@ -216,7 +213,7 @@ uint32_t Renderer::displayImageCount() const {
 }
 
 VkRenderPass Renderer::overlayRenderPass() {
-  return renderPasses_.renderPass({.color = displayFormat(), .loadColor = true});
+  return renderPasses_.renderPass({.color = displayFormat(), .loadColor = true, .colorLayout = overlayLayout});
 }
 
 void Renderer::recordCapture(Slot& slot, const Frame& frame) {

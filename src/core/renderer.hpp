@@ -50,7 +50,7 @@ struct Frame {
 class Renderer {
  public:
   Renderer(Device& device, const RendererOptions& options);
-  ~Renderer();  // waits for the device
+  ~Renderer() = default;
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
@@ -123,6 +123,7 @@ class Renderer {
   bool swapChainStale_ = false;
   bool recording_ = false;
   std::optional<uint32_t> captureSlot_;  // that holds the latest capture
+  IdleGuard idle_;
 };
 
 }  // namespace speculum

@@ -101,7 +101,7 @@ Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFo
                        "staging of " + name);
   staging.write(texels);
   run([&](VkCommandBuffer commands) {
-    device_.barriers().uploadBeforeCopy(commands, target);
+    device_.barriers().uploadToCopy(commands, target);
     const VkBufferImageCopy region = wholeLevel0(target);
     vkCmdCopyBufferToImage(commands, staging.get(), target.get(), target.layout(), 1, &region);
     if (mipmaps) {

@@ -1,0 +1,58 @@
+#include "core_fixture.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace speculum::test {
+namespace {
+
+constexpr VkExtent2D extent{64, 48};
+
+// Frames with every kind of target, copies and uploads, with one kind of barrier left out.
+std::vector<std::string> messagesWithout(std::optional<BarrierKind> kind, int samples) {
+  Device device(validated(RenderPath::renderPass));
+  Renderer renderer(device, headless(extent));
+  SmallScene scene(renderer, extent, samples);
+  device.barriers().omit(kind);
+  for (int i = 0; i < 4; ++i) {
+    scene.frame(i == 3);
+  }
+  renderer.waitIdle();
+  renderer.uploader().readFloats(scene.main().color());
+  const std::vector<uint16_t> texels(4 * 16 * 16, 0x3800);
+  const Image image =
+      renderer.uploader().image(std::as_bytes(std::span(texels)), {16, 16}, colorFormat, true, "upload");
+  renderer.waitIdle();
+  return device.lastValidationMessages();
+}
+
+class Barrier : public testing::TestWithParam<BarrierKind> {
+ protected:
+  // The messages are wanted here and would drown the test's own words.
+  void SetUp() override { spdlog::set_level(spdlog::level::off); }
+  void TearDown() override { spdlog::set_level(spdlog::level::info); }
+};
+
+TEST_P(Barrier, IsMissedWhenLeftOut) {
+  const std::vector<std::string> messages = messagesWithout(GetParam(), 4);
+  ASSERT_FALSE(messages.empty()) << "no message without " << barrierName(GetParam());
+  EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Barrier, testing::ValuesIn(allBarrierKinds().begin(), allBarrierKinds().end()),
+                         [](const auto& info) { return std::string(barrierName(info.param)); });
+
+TEST(Barriers, AllInPlaceGiveNoMessage) {
+  EXPECT_TRUE(messagesWithout(std::nullopt, 4).empty());
+  EXPECT_TRUE(messagesWithout(std::nullopt, 1).empty());
+}
+
+TEST(Barriers, NamesAndKindsAgree) {
+  EXPECT_EQ(allBarrierKinds().size(), size_t{barrierKindCount});
+  for (const BarrierKind kind : allBarrierKinds()) {
+    EXPECT_EQ(barrierFromName(barrierName(kind)), kind);
+  }
+  EXPECT_EQ(barrierFromName("offscreen"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace speculum::test

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+
+#include "core/renderer.hpp"
+
+namespace speculum::test {
+
+DeviceOptions validated(RenderPath path = RenderPath::automatic);
+RendererOptions headless(VkExtent2D extent);
+// The messages of the validation layer, one a line; empty is good.
+std::string messagesOf(const Device& device);
+
+// push_constant block of triangle.vert.
+struct TrianglePush {
+  float offset[2] = {0.0f, 0.0f};  // clip space
+  float depth = 0.5f;              // reversed Z
+  float brightness = 1.0f;
+};
+
+// A small frame with every kind of target: two triangles into an OffScreen, that and a third triangle into a main
+// target, the main target onto the display image, an empty overlay.
+class SmallScene {
+ public:
+  SmallScene(Renderer& renderer, VkExtent2D extent, int samples);
+
+  void draw(Frame& frame);
+  // Draws and submits one frame; false when the renderer gave none.
+  bool frame(bool capture = false);
+  void resize(VkExtent2D extent);
+
+  OffScreen& mirror() { return mirror_; }
+  OffScreen& main() { return main_; }
+
+ private:
+  void drawTriangles(Frame& frame, OffScreen& target, const std::string& name, std::span<const TrianglePush> triangles);
+  void copy(Frame& frame, VkCommandBuffer commands, const Pipeline& pipeline, OffScreen& source);
+
+  Renderer& renderer_;
+  SharedAttachments shared_;
+  OffScreen mirror_;
+  OffScreen main_;
+  DescriptorSetLayoutHandle layout_;
+  Pipeline triangle_;
+  Pipeline copyToMain_;
+  Pipeline display_;
+  IdleGuard idle_;
+};
+
+}  // namespace speculum::test
