@@ -6,7 +6,10 @@ layout(constant_id = 0) const bool aces = false;
 
 layout(set = 0, binding = 0) uniform sampler2D radiance;
 
-layout(push_constant) uniform DisplayConstants { float exposure; };
+layout(push_constant) uniform DisplayConstants {
+  vec4 lookup;  // texel = pixel * xy + zw
+  float exposure;
+};
 
 layout(location = 0) out vec4 color;
 
@@ -21,6 +24,6 @@ vec3 srgbEncode(vec3 x) {
 }
 
 void main() {
-  vec3 x = exposure * texelFetch(radiance, ivec2(gl_FragCoord.xy), 0).rgb;
+  vec3 x = exposure * texelFetch(radiance, ivec2(gl_FragCoord.xy * lookup.xy + lookup.zw), 0).rgb;
   color = vec4(srgbEncode(toneCurve(x)), 1.0);
 }

@@ -71,6 +71,12 @@ struct DrawConstants {
   uint32_t drawIndex;
 };
 
+// Of display.frag.
+struct DisplayConstants {
+  glm::vec4 lookup;  // texel = pixel * xy + zw
+  float exposure;
+};
+
 // Vertex buffer layout; locations 0, 1, 2 of scene.vert.
 struct GpuVertex {
   glm::vec3 position;

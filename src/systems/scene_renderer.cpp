@@ -49,7 +49,9 @@ size_t SceneRenderer::pipelineCount() const {
          displayPipelines_.size();
 }
 
-void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan) {
+void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
+                           const std::optional<DebugView>& debug) {
+  keptPass_ = debug ? std::optional(debug->pass) : std::nullopt;
   prepareTargets(settings, plan, *frame.retired);
   data_.build(frame, resources_, scene_, state, settings, plan);
   targets_.assign(plan.passes.size(), nullptr);
@@ -61,6 +63,10 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   }
   recordMainPass(frame, info);
   recordDisplayPass(frame, settings);
+  if (debug) {
+    recordDebugView(frame, settings, plan, *debug);
+    pool_->release(*targets_[debug->pass]);
+  }
   if (pool_) {
     pool_->endFrame(*frame.retired);
   }
@@ -105,6 +111,14 @@ uint32_t SceneRenderer::recordSystems(const PassScope& scope, const FrameInfo& i
   return draws;
 }
 
+void SceneRenderer::releaseImages(const PlannedPass& pass) {
+  for (const MirrorDraw& draw : pass.mirrors) {
+    if (draw.pass >= 0 && draw.pass != keptPass_) {
+      pool_->release(*targets_[draw.pass]);
+    }
+  }
+}
+
 void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index) {
   const PlannedPass& pass = info.plan.passes[index];
   const View& view = pass.view;
@@ -132,11 +146,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
   recorded_.push_back(std::move(recorded));
   targets_[index] = &target;
   images_[index] = {target.descriptor(), view.rect, view.pictureSize};
-  for (const MirrorDraw& draw : pass.mirrors) {
-    if (draw.pass >= 0) {
-      pool_->release(*targets_[draw.pass]);
-    }
-  }
+  releaseImages(pass);
 }
 
 void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
@@ -150,11 +160,7 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
     recorded.draws = recordSystems(scope, info, info.plan.passes.size(), {.samples = main_->samples()});
   }
   recorded_.push_back(std::move(recorded));
-  for (const MirrorDraw& draw : info.plan.main.mirrors) {
-    if (draw.pass >= 0) {
-      pool_->release(*targets_[draw.pass]);
-    }
-  }
+  releaseImages(info.plan.main);
 }
 
 const Pipeline& SceneRenderer::displayPipeline(ToneMap toneMap) {
@@ -163,7 +169,7 @@ const Pipeline& SceneRenderer::displayPipeline(ToneMap toneMap) {
     GraphicsPipelineDesc desc{.name = "display", .vert = "full_screen.vert", .frag = "display.frag"};
     desc.fragConstants = {toneMap == ToneMap::aces};
     desc.setLayouts = {displayLayout_.get()};
-    desc.pushConstantBytes = sizeof(float);
+    desc.pushConstantBytes = sizeof(DisplayConstants);
     desc.color = renderer_.displayFormat();
     desc.depth = VK_FORMAT_UNDEFINED;
     desc.depthTest = false;
@@ -173,17 +179,42 @@ const Pipeline& SceneRenderer::displayPipeline(ToneMap toneMap) {
   return *pipeline;
 }
 
-void SceneRenderer::recordDisplayPass(Frame& frame, const Settings& settings) {
+void SceneRenderer::recordDisplay(Frame& frame, const PassDesc& desc, const VkDescriptorImageInfo& radiance,
+                                  const glm::vec4& lookup, const Settings& settings) {
   const Pipeline& pipeline = displayPipeline(settings.view.toneMap);
   const VkDescriptorSet set = frame.descriptors->allocate(displayLayout_.get());
-  DescriptorWriter().image(0, main_->descriptor()).update(device_, set);
-  PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
+  DescriptorWriter().image(0, radiance).update(device_, set);
   const PassScope scope = renderer_.beginPass(frame, desc);
   pipeline.bind(scope.commands());
   pipeline.bindSet(scope.commands(), 0, set);
-  pipeline.push(scope.commands(), static_cast<float>(settings.view.exposure));
+  pipeline.push(scope.commands(), DisplayConstants{lookup, static_cast<float>(settings.view.exposure)});
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
   recorded_.push_back({.name = desc.name, .draws = 1});
+}
+
+void SceneRenderer::recordDisplayPass(Frame& frame, const Settings& settings) {
+  recordDisplay(frame, fullPass("display", renderer_.displayTargets(frame)), main_->descriptor(),
+                glm::vec4(1.0f, 1.0f, 0.0f, 0.0f), settings);
+}
+
+void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan,
+                                    const DebugView& debug) {
+  const PixelRect& image = plan.passes[debug.pass].view.rect;
+  PixelRect area = intersect(debug.area, {0, 0, plan.width, plan.height});
+  const double fit =
+      std::min(static_cast<double>(area.width) / image.width, static_cast<double>(area.height) / image.height);
+  area.width = static_cast<int>(image.width * fit);
+  area.height = static_cast<int>(image.height * fit);
+  if (area.empty()) {
+    return;
+  }
+  PassDesc desc = fullPass("debug view", renderer_.displayTargets(frame));
+  desc.renderArea = {{area.x, area.y}, areaOf(area).extent};
+  desc.scissor = desc.renderArea;
+  desc.loadColor = true;
+  const glm::dvec2 scale = glm::dvec2(image.width, image.height) / glm::dvec2(area.width, area.height);
+  const glm::dvec2 offset = -glm::dvec2(area.x, area.y) * scale;
+  recordDisplay(frame, desc, images_[debug.pass].descriptor, glm::vec4(glm::dvec4(scale, offset)), settings);
 }
 
 }  // namespace speculum

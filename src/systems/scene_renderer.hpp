@@ -25,6 +25,12 @@ struct RecordedPass {
 // The name of a mirror as people see it: its `name`, or its index.
 std::string mirrorName(const Scene& scene, int mirror);
 
+// A mirror image shown over the picture, fitted into an area of the display image.
+struct DebugView {
+  int pass = 0;    // index into FramePlan::passes
+  PixelRect area;  // pixels
+};
+
 // Draws one scene: mirror passes, main view, display pass. Owns the systems, the targets and the scene's resources.
 class SceneRenderer {
  public:
@@ -34,19 +40,22 @@ class SceneRenderer {
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
   // Records everything up to and with the display pass.
-  void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
+  void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
+              const std::optional<DebugView>& debug = std::nullopt);
 
   const std::vector<RecordedPass>& passes() const { return recorded_; }
   size_t pipelineCount() const;
-  // The main view's linear radiance of the last recorded frame; and a mirror image for the debug view, which shows
-  // what its target held when the frame ended.
-  OffScreen& mainTarget() { return *main_; }
+  OffScreen& mainTarget() { return *main_; }  // linear radiance of the main view, of the last recorded frame
 
  private:
   void prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index);
   void recordMainPass(Frame& frame, const FrameInfo& info);
   void recordDisplayPass(Frame& frame, const Settings& settings);
+  void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
+  void recordDisplay(Frame& frame, const PassDesc& desc, const VkDescriptorImageInfo& radiance, const glm::vec4& lookup,
+                     const Settings& settings);
+  void releaseImages(const PlannedPass& pass);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   const Pipeline& displayPipeline(ToneMap toneMap);
 
@@ -66,6 +75,7 @@ class SceneRenderer {
   std::vector<OffScreen*> targets_;  // of the plan's passes while they are alive
   std::vector<MirrorImage> images_;  // likewise
   std::vector<RecordedPass> recorded_;
+  std::optional<int> keptPass_;  // its image is not given back before the frame ends
 };
 
 }  // namespace speculum

@@ -1,0 +1,75 @@
+#include "app/camera_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optics/affine.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double degreesPerPixel = 0.25;
+constexpr double zoomPerNotch = 0.88;
+constexpr double steepest = 0.995;  // cosine of view direction and up
+
+}  // namespace
+
+void CameraController::reset(const CameraSpec& spec) {
+  spec_ = spec;
+  touched_ = false;
+}
+
+void CameraController::take(const CameraPose& pose) {
+  if (!touched_) {
+    eye_ = pose.eye;
+    target_ = spec_.target;
+    touched_ = true;
+  }
+}
+
+void CameraController::drag(double dx, double dy) {
+  take(last_);
+  const glm::dvec3 up = glm::normalize(spec_.up);
+  const bool orbit = mode_ == CameraMode::orbit;
+  const glm::dvec3 arm = orbit ? eye_ - target_ : target_ - eye_;
+  const glm::dvec3 right = glm::dvec3(glm::transpose(last_.worldToView)[0]);
+  const glm::dmat3 yaw = rotationAboutAxis(up, -dx * degreesPerPixel);
+  glm::dvec3 turned = yaw * arm;
+  const glm::dvec3 pitched = rotationAboutAxis(yaw * right, -dy * degreesPerPixel) * turned;
+  if (std::abs(glm::dot(glm::normalize(pitched), up)) < steepest) {
+    turned = pitched;
+  }
+  (orbit ? eye_ : target_) = orbit ? target_ + turned : eye_ + turned;
+}
+
+void CameraController::zoom(double notches) {
+  take(last_);
+  const glm::dvec3 arm = eye_ - target_;
+  const glm::dvec3 shorter = arm * std::pow(zoomPerNotch, notches);
+  if (mode_ == CameraMode::orbit) {
+    eye_ = target_ + shorter;
+  } else {
+    const glm::dvec3 step = shorter - arm;
+    eye_ += step;
+    target_ += step;
+  }
+}
+
+void CameraController::move(const glm::dvec3& direction, double seconds) {
+  if (direction == glm::dvec3(0.0)) {
+    return;
+  }
+  take(last_);
+  const double speed = std::max(0.5, 0.6 * glm::length(eye_ - target_));  // metres per second
+  const glm::dvec3 step = glm::transpose(last_.worldToView) * direction * (speed * seconds);
+  eye_ += step;
+  target_ += step;
+}
+
+CameraPose CameraController::pose(const CameraPose& animated) {
+  last_ = touched_ ? lookAt(eye_, target_, spec_.up, spec_.verticalFov, spec_.near) : animated;
+  return last_;
+}
+
+}  // namespace speculum

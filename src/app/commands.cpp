@@ -1,0 +1,84 @@
+#include "app/commands.hpp"
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <map>
+
+#include "app/demo.hpp"
+#include "core/platform.hpp"
+#include "scene/scene_loader.hpp"
+
+namespace speculum {
+
+namespace {
+
+std::string vulkanVersion(uint32_t version) {
+  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+         std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+// Pictures and figures go to stdout; everything that is said about them goes to stderr.
+void setUpLog(const std::string& level) {
+  const auto logger = std::make_shared<spdlog::logger>("speculum", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern("%l: %v");
+  logger->set_level(spdlog::level::from_str(level == "warn" ? "warning" : level));
+  spdlog::set_default_logger(logger);
+}
+
+}  // namespace
+
+int runInfo() {
+  for (const DeviceInfo& info : Device::list()) {
+    std::printf("%d: %s\n   driver %s, Vulkan %s, %.0f MiB, %s\n", info.index, info.name.c_str(), info.driver.c_str(),
+                vulkanVersion(info.apiVersion).c_str(), static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),
+                info.unusable.empty() ? (info.dynamicRendering ? "dynamic rendering" : "render passes only")
+                                      : ("not usable: " + info.unusable).c_str());
+  }
+  return 0;
+}
+
+int runScenes() {
+  std::map<std::string, std::string> titles;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(dataDirectory("scenes"))) {
+    if (entry.path().extension() == ".toml") {
+      titles[entry.path().string()] = loadScene(entry.path()).title;
+    }
+  }
+  for (const auto& [file, title] : titles) {
+    std::printf("%-16s %s\n                 %s\n", std::filesystem::path(file).stem().c_str(), title.c_str(),
+                file.c_str());
+  }
+  return 0;
+}
+
+int runCommand(const Options& options) {
+  static const std::map<std::string, int (*)(const Options&)> commands = {
+      {"demo", runDemo},
+      {"render", runRender},
+      {"bench", runBench},
+      {"reference", runReference},
+      {"compare", runCompare},
+      {"info", [](const Options&) { return runInfo(); }},
+      {"scenes", [](const Options&) { return runScenes(); }},
+  };
+  return commands.at(options.command)(options);
+}
+
+int speculumMain(int argc, const char* const* argv) {
+  try {
+    const std::optional<Options> options = parseOptions(argc, argv);
+    if (!options) {
+      return 0;
+    }
+    setUpLog(options->logLevel);
+    return runCommand(*options);
+  } catch (const std::exception& error) {
+    // Usage, input and a machine without a usable GPU alike: nothing was done, and the line says what would help.
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,271 @@
+#include "app/demo.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "app/camera_controller.hpp"
+#include "app/session.hpp"
+#include "core/platform.hpp"
+#include "ui/simple_ui.hpp"
+
+namespace speculum {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double longestStep = 0.1;        // seconds: a pause of the program is none of the animation's business
+constexpr double pausedWaitSeconds = 0.1;  // between looks at a window that shows nothing
+constexpr double smoothing = 0.05;         // of the frame time shown
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) {
+    text += (text.empty() ? "" : " > ") + name;
+  }
+  return text;
+}
+
+class Demo {
+ public:
+  explicit Demo(const Options& options);
+  int run();
+
+ private:
+  void installInput();
+  void findScenes();
+  void chooseScene(int index);
+  void moveCamera(double seconds);
+  void drawFrame(double seconds);
+  void fillModel(const FramePlan& plan);
+  void applyModel();
+  void handleKey(const KeyEvent& event);
+
+  Options options_;
+  std::unique_ptr<LoadedScene> loaded_;
+  Window window_;
+  Device device_;
+  Renderer renderer_;
+  std::unique_ptr<SceneRenderer> sceneRenderer_;
+  std::unique_ptr<SimpleUI> ui_;
+  CameraController camera_;
+  UiModel model_;
+  std::vector<std::filesystem::path> sceneFiles_;
+  int shownScene_ = 0;
+  std::string sceneError_;
+  bool dragging_ = false;
+  double cursorX_ = 0.0;
+  double cursorY_ = 0.0;
+  double time_ = 0.0;
+};
+
+Demo::Demo(const Options& options)
+    : options_(options),
+      loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
+      window_({.title = "Speculum", .width = options.size.width, .height = options.size.height}),
+      device_(deviceOptions(options, &window_)),
+      renderer_(device_, rendererOptions(options, &window_)),
+      sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, loaded_->scene)) {
+  applyDebugSettings(loaded_->settings, device_);
+  installInput();
+  ui_ = std::make_unique<SimpleUI>(renderer_, window_);
+  findScenes();
+  model_.settings = loaded_->settings;
+  model_.device = device_.info().name;
+  model_.driver = device_.info().driver;
+  model_.renderPath = "render path: " + std::string(renderPathName(device_.renderPath()));
+  camera_.reset(loaded_->scene.camera);
+}
+
+// Before the panel is made, whose callbacks then run first and pass everything on.
+void Demo::installInput() {
+  WindowCallbacks callbacks;
+  callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
+  callbacks.mouseButton = [this](const MouseButtonEvent& event) {
+    dragging_ = event.pressed && !(ui_ && ui_->wantsMouse());
+  };
+  callbacks.cursor = [this](double x, double y) {
+    if (dragging_) {
+      camera_.drag(x - cursorX_, y - cursorY_);
+    }
+    cursorX_ = x;
+    cursorY_ = y;
+  };
+  callbacks.scroll = [this](double, double dy) {
+    if (!(ui_ && ui_->wantsMouse())) {
+      camera_.zoom(dy);
+    }
+  };
+  window_.setCallbacks(std::move(callbacks));
+}
+
+void Demo::handleKey(const KeyEvent& event) {
+  if (!event.pressed || event.repeat) {
+    return;
+  }
+  if (event.key == Key::escape) {
+    window_.requestClose();
+  } else if (event.key == Key::f1) {
+    ui_->setVisible(!ui_->visible());
+  }
+}
+
+// Shipped scenes first; a file from elsewhere is added in front of them.
+void Demo::findScenes() {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(dataDirectory("scenes"))) {
+    if (entry.path().extension() == ".toml") {
+      sceneFiles_.push_back(entry.path());
+    }
+  }
+  std::sort(sceneFiles_.begin(), sceneFiles_.end());
+  const std::filesystem::path current = std::filesystem::weakly_canonical(loaded_->scene.file);
+  auto found = std::find_if(sceneFiles_.begin(), sceneFiles_.end(), [&](const std::filesystem::path& file) {
+    return std::filesystem::weakly_canonical(file, error) == current;
+  });
+  if (found == sceneFiles_.end()) {
+    found = sceneFiles_.insert(sceneFiles_.begin(), loaded_->scene.file);
+  }
+  shownScene_ = static_cast<int>(found - sceneFiles_.begin());
+  model_.scene = shownScene_;
+  for (const std::filesystem::path& file : sceneFiles_) {
+    model_.scenes.push_back(file.stem().string());
+  }
+}
+
+void Demo::chooseScene(int index) {
+  shownScene_ = index;
+  try {
+    auto next = std::make_unique<LoadedScene>(loadSceneWithSettings(sceneFiles_[index], options_));
+    sceneRenderer_.reset();
+    loaded_ = std::move(next);
+    sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
+    model_.settings = loaded_->settings;
+    model_.debugPass = -1;
+    camera_.reset(loaded_->scene.camera);
+    time_ = 0.0;
+    sceneError_.clear();
+  } catch (const InputError& error) {
+    sceneError_ = error.what();
+  }
+}
+
+void Demo::moveCamera(double seconds) {
+  camera_.setMode(model_.cameraMode);
+  if (ui_->wantsKeyboard()) {
+    return;
+  }
+  const auto axis = [&](Key positive, Key negative) {
+    return static_cast<double>(window_.keyDown(positive)) - static_cast<double>(window_.keyDown(negative));
+  };
+  camera_.move({axis(Key::d, Key::a), axis(Key::e, Key::q), axis(Key::s, Key::w)}, seconds);
+}
+
+void Demo::applyModel() {
+  if (model_.resetSettings) {
+    model_.settings = loaded_->settings;
+  }
+  if (model_.resetCamera) {
+    camera_.reset(loaded_->scene.camera);
+  }
+  if (model_.scene != shownScene_) {
+    chooseScene(model_.scene);
+  }
+}
+
+void Demo::drawFrame(double seconds) {
+  moveCamera(seconds);
+  ui_->build(model_);
+  applyModel();
+  time_ += model_.paused ? 0.0 : seconds;
+  renderer_.reloadShaders();
+  const Clock::time_point start = Clock::now();
+  std::optional<Frame> frame = renderer_.beginFrame();
+  if (!frame) {
+    return;
+  }
+  SceneState state = evaluate(loaded_->scene, time_);
+  state.camera = camera_.pose(state.camera);
+  const FramePlan plan = planFrame(loaded_->scene, state, model_.settings, static_cast<int>(frame->extent.width),
+                                   static_cast<int>(frame->extent.height));
+  std::optional<DebugView> debug;
+  if (model_.debugPass >= static_cast<int>(plan.passes.size())) {
+    model_.debugPass = -1;
+  } else if (model_.debugPass >= 0 && model_.debugArea) {
+    debug = DebugView{model_.debugPass, *model_.debugArea};
+  }
+  sceneRenderer_->record(*frame, state, model_.settings, plan, debug);
+  {
+    const PassScope scope = renderer_.beginOverlay(*frame);
+    ui_->record(scope);
+  }
+  model_.cpuMs += smoothing * (std::chrono::duration<double, std::milli>(Clock::now() - start).count() - model_.cpuMs);
+  renderer_.endFrame(*frame);
+  fillModel(plan);
+}
+
+void Demo::fillModel(const FramePlan& plan) {
+  const FrameTimings& timings = renderer_.timings();
+  const std::vector<RecordedPass>& recorded = sceneRenderer_->passes();
+  model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
+  model_.gpuMs = timings.gpuMs;
+  model_.deviceBytes = device_.allocatedBytes();
+  model_.validationMessages = device_.validation() ? device_.validationMessages() : -1;
+  model_.message = sceneError_.empty() ? renderer_.pipelines().errors() : sceneError_;
+  model_.time = time_;
+  model_.passes.clear();
+  for (const RecordedPass& pass : recorded) {
+    UiPass shown{pass.name, pass.depth, 0.0, pass.areaPx, pass.draws};
+    // The times are of an earlier frame, whose plan may have differed.
+    const auto timing = std::find_if(timings.passes.begin(), timings.passes.end(),
+                                     [&](const PassTiming& t) { return t.name == pass.name; });
+    shown.gpuMs = timing != timings.passes.end() ? timing->gpuMs : 0.0;
+    model_.passes.push_back(std::move(shown));
+  }
+  model_.skipped.clear();
+  for (const SkippedMirror& skip : plan.skipped) {
+    std::vector<std::string> path;
+    for (const int mirror : skip.path) {
+      path.push_back(mirrorName(loaded_->scene, mirror));
+    }
+    model_.skipped.push_back({joined(path), std::string(skipReasonName(skip.reason)), skip.detail});
+  }
+}
+
+int Demo::run() {
+  Clock::time_point last = Clock::now();
+  int drawn = 0;
+  while (!window_.shouldClose() && !interruptRequested() && (options_.frames == 0 || drawn < options_.frames)) {
+    window_.pollEvents();
+    if (window_.paused()) {
+      window_.waitEvents(pausedWaitSeconds);
+      last = Clock::now();
+      continue;
+    }
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - last).count();
+    last = now;
+    model_.frameMs += (model_.frameMs == 0.0 ? 1.0 : smoothing) * (1000.0 * seconds - model_.frameMs);
+    const uint64_t before = renderer_.frameNumber();
+    drawFrame(std::min(seconds, longestStep));
+    drawn += renderer_.frameNumber() != before ? 1 : 0;
+  }
+  renderer_.waitIdle();
+  spdlog::info("{} frames", drawn);
+  if (device_.validationMessages() > 0) {
+    std::fprintf(stderr, "%d validation messages\n", device_.validationMessages());
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int runDemo(const Options& options) {
+  installInterruptHandler();
+  return Demo(options).run();
+}
+
+}  // namespace speculum

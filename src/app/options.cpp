@@ -1,0 +1,177 @@
+#include "app/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <iostream>
+#include <map>
+
+#include "app/version.hpp"
+#include "frame/settings.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr int largestSide = 16384;  // pixels
+
+PictureSize parseSize(const std::string& text) {
+  PictureSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+  const auto height = cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
+  if (!cross || height.ec != std::errc() || height.ptr != end || size.width < 1 || size.height < 1 ||
+      size.width > largestSide || size.height > largestSide) {
+    throw UsageError("--size: '" + text + "' is not a size (WIDTHxHEIGHT in pixels, 1x1 to 16384x16384)");
+  }
+  return size;
+}
+
+// Collected as text by the parser and checked afterwards, where messages can say what would be right.
+struct Raw {
+  std::string size;
+  std::vector<std::string> settings;
+  std::string renderPath = "auto";
+  std::string presentMode = "fifo";
+};
+
+void addCommon(CLI::App& app, Options& options, Raw& raw) {
+  app.add_option("--set", raw.settings, "key=value; any setting, repeatable")->take_all()->allow_extra_args(false);
+  app.add_option("--gpu", options.gpu, "index or part of the name, see `speculum info`");
+  app.add_option("--render-path", raw.renderPath, "auto | dynamic | renderpass");
+  app.add_flag("--validation", options.validation, "validation layer with synchronisation validation");
+  app.add_option("--log-level", options.logLevel, "trace | debug | info | warn | error | off")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
+  app.add_option("--shader-dir", options.shaderDir, "GLSL to compile, and again whenever it changes")
+      ->check(CLI::ExistingDirectory);
+}
+
+void addScene(CLI::App& app, Options& options, Raw& raw) {
+  app.add_option("--scene", options.scene, "scene file, or the name of a scene of `speculum scenes`");
+  app.add_option("--size", raw.size, "WIDTHxHEIGHT in pixels, 1280x720 unless given");
+}
+
+void addDemo(CLI::App& app, Options& options, Raw& raw) {
+  addScene(app, options, raw);
+  app.add_option("--frames", options.frames, "end after so many frames")->check(CLI::PositiveNumber);
+  app.add_option("--present-mode", raw.presentMode, "fifo | mailbox | immediate")
+      ->check(CLI::IsMember({"fifo", "mailbox", "immediate"}));
+}
+
+void addTime(CLI::App& app, Options& options) {
+  app.add_option("--time", options.time, "seconds of animation")->check(CLI::Number);
+}
+
+void addRender(CLI::App& app, Options& options, Raw& raw) {
+  addScene(app, options, raw);
+  addTime(app, options);
+  app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
+  app.add_option("--stats", options.stats, "JSON: passes, skipped mirrors, effects, totals");
+  app.add_option("--frames", options.frames, "a sequence of so many pictures")->check(CLI::Range(1, 1000000));
+  app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::PositiveNumber);
+}
+
+void addReference(CLI::App& app, Options& options, Raw& raw) {
+  addScene(app, options, raw);
+  addTime(app, options);
+  app.add_option("--out", options.out, "F.png or F.exr")->required();
+  app.add_option("--samples", options.samples, "rays a pixel, a square number")->check(CLI::Range(1, 65536));
+}
+
+void addBench(CLI::App& app, Options& options, Raw& raw) {
+  addScene(app, options, raw);
+  addTime(app, options);
+  app.add_option("--frames", options.frames, "measured frames")->check(CLI::Range(1, 1000000));
+  app.add_option("--warmup", options.warmup, "frames before")->check(CLI::Range(0, 1000000));
+  app.add_option("--json", options.json, "write the figures to F");
+}
+
+void addCompare(CLI::App& app, Options& options) {
+  app.add_option("reference", options.reference, "PNG or EXR")->required();
+  app.add_option("test", options.test, "PNG or EXR of the same size")->required();
+  app.add_option("--mask", options.mask, "PNG; figures again for the pixels that are not black");
+  app.add_option("--heatmap", options.heatmap, "PNG of the FLIP error");
+  app.add_option("--json", options.json, "write the figures to F");
+  app.add_option("--max-flip", options.maxFlip, "exit 1 above this mean FLIP")->check(CLI::NonNegativeNumber);
+  app.add_option("--max-diff", options.maxDiff, "exit 1 if a channel differs by more 1/255")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void applyRaw(const Raw& raw, Options& options) {
+  if (!raw.size.empty()) {
+    options.size = parseSize(raw.size);
+  }
+  Settings scratch;
+  for (const std::string& text : raw.settings) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw UsageError("--set: '" + text + "' has no value (key=value)");
+    }
+    options.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    if (const auto problem = setSetting(scratch, options.settings.back().first, options.settings.back().second)) {
+      throw UsageError("--set: " + *problem);
+    }
+  }
+  const std::optional<RenderPath> path = renderPathFromName(raw.renderPath);
+  if (!path) {
+    throw UsageError("--render-path: '" + raw.renderPath + "' is not a choice (auto | dynamic | renderpass)");
+  }
+  options.renderPath = *path;
+  const std::map<std::string, PresentMode> modes = {
+      {"fifo", PresentMode::fifo}, {"mailbox", PresentMode::mailbox}, {"immediate", PresentMode::immediate}};
+  options.presentMode = modes.at(raw.presentMode);
+}
+
+std::string oneLine(std::string text) {
+  for (char& c : text) {
+    c = c == '\n' ? ' ' : c;
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, const char* const* argv) {
+  Options options;
+  Raw raw;
+  CLI::App app("Speculum: planar mirrors in Vulkan that can be trusted", "speculum");
+  app.set_version_flag("--version", std::string("speculum ") + versionString);
+  app.require_subcommand(0, 1);
+  addDemo(app, options, raw);
+  addCommon(app, options, raw);
+  const auto command = [&](const std::string& name, const std::string& help) {
+    CLI::App* sub = app.add_subcommand(name, help);
+    addCommon(*sub, options, raw);
+    return sub;
+  };
+  addDemo(*command("demo", "open the window (the default)"), options, raw);
+  addRender(*command("render", "draw a picture or a sequence without a window"), options, raw);
+  addReference(*command("reference", "trace the picture in double precision"), options, raw);
+  addCompare(*command("compare", "error figures of a picture against a reference"), options);
+  addBench(*command("bench", "measure frames"), options, raw);
+  command("info", "GPUs, drivers, features");
+  command("scenes", "scenes that come with the program");
+  std::string keys = "Settings (--set key=value):\n";
+  for (const SettingInfo& info : settingInfos()) {
+    keys += "  " + std::string(info.key) + std::string(30 - std::min<size_t>(29, info.key.size()), ' ') +
+            std::string(info.help) + " (" + std::string(info.range) + ")\n";
+  }
+  app.footer(keys);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      app.exit(error);
+      return std::nullopt;
+    }
+    throw UsageError(oneLine(error.what()) + " (see speculum --help)");
+  }
+  if (!app.get_subcommands().empty()) {
+    options.command = app.get_subcommands().front()->get_name();
+  }
+  applyRaw(raw, options);
+  return options;
+}
+
+}  // namespace speculum

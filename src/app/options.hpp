@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/renderer.hpp"
+
+namespace speculum {
+
+struct PictureSize {
+  int width = 1280;
+  int height = 720;
+};
+
+// The command line, parsed and checked; what the scene's [settings] say is added when the scene is loaded.
+struct Options {
+  std::string command = "demo";
+  std::string scene;  // empty: the default scene
+  PictureSize size;
+  std::vector<std::pair<std::string, std::string>> settings;  // --set key=value, in order
+  std::filesystem::path out;
+  std::filesystem::path stats;
+  std::filesystem::path json;
+  double time = 0.0;  // seconds
+  int frames = 0;     // 0: the command's default
+  double fps = 30.0;
+  int warmup = 10;
+  int samples = 64;
+  std::string gpu;
+  RenderPath renderPath = RenderPath::automatic;
+  bool validation = false;
+  std::string logLevel = "info";
+  std::filesystem::path shaderDir;
+  PresentMode presentMode = PresentMode::fifo;
+  std::filesystem::path reference;  // compare
+  std::filesystem::path test;
+  std::filesystem::path mask;
+  std::filesystem::path heatmap;
+  std::optional<double> maxFlip;
+  std::optional<int> maxDiff;
+};
+
+// Bad usage; what() is one line.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Nothing when help or the version was printed. Throws UsageError.
+std::optional<Options> parseOptions(int argc, const char* const* argv);
+
+}  // namespace speculum

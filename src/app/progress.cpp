@@ -1,0 +1,91 @@
+#include "app/progress.hpp"
+
+#include <cstdio>
+#include <regex>
+
+#include "app/options.hpp"
+#include "core/platform.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double quietSeconds = 1.0;
+constexpr double plainInterval = 5.0;
+constexpr double barInterval = 0.1;
+
+double seconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, double total)
+    : what_(std::move(what)), total_(total), terminal_(isTerminal(2)), start_(Clock::now()), last_(start_) {}
+
+Progress::~Progress() {
+  if (shown_ && terminal_) {
+    std::fprintf(stderr, "\n");
+  }
+}
+
+void Progress::set(double done) {
+  done_ = done;
+  const Clock::time_point now = Clock::now();
+  const double elapsed = seconds(now - start_);
+  const bool due = seconds(now - last_) >= (terminal_ ? barInterval : plainInterval) || (shown_ && done >= total_);
+  if (elapsed < quietSeconds || !due || done <= 0.0) {
+    return;
+  }
+  last_ = now;
+  shown_ = true;
+  print(elapsed / done * (total_ - done));
+}
+
+void Progress::print(double secondsLeft) {
+  const double part = total_ > 0.0 ? done_ / total_ : 1.0;
+  if (!terminal_) {
+    std::fprintf(stderr, "%s: %.0f %%, %.0f s left\n", what_.c_str(), 100.0 * part, secondsLeft);
+    return;
+  }
+  constexpr int width = 40;
+  const int filled = static_cast<int>(part * width);
+  std::fprintf(stderr, "\r%s [%s%s] %3.0f %%, %.0f s left  ", what_.c_str(), std::string(filled, '#').c_str(),
+               std::string(width - filled, '.').c_str(), 100.0 * part, secondsLeft);
+  std::fflush(stderr);
+}
+
+PictureFiles::PictureFiles(const std::filesystem::path& pattern, int count) {
+  const std::string extension = pattern.extension().string();
+  if (extension != ".png" && extension != ".exr") {
+    throw UsageError("--out: '" + pattern.string() + "' has no known ending (.png or .exr)");
+  }
+  static const std::regex number("%(0([1-9]))?d");
+  const std::string text = pattern.string();
+  std::smatch match;
+  numbered_ = count > 0 && std::regex_search(text, match, number);
+  if (!numbered_) {
+    if (count > 1) {
+      throw UsageError("--out: '" + text + "' names one file for " + std::to_string(count) +
+                       " pictures (a pattern such as dir/%04d.png)");
+    }
+    before_ = text;
+    return;
+  }
+  before_ = match.prefix();
+  after_ = match.suffix();
+  digits_ = match[2].matched ? std::stoi(match[2]) : 1;
+}
+
+std::filesystem::path PictureFiles::at(int index) const {
+  if (!numbered_) {
+    return before_;
+  }
+  std::string number = std::to_string(index);
+  if (static_cast<int>(number.size()) < digits_) {
+    number.insert(0, digits_ - number.size(), '0');
+  }
+  return before_ + number + after_;
+}
+
+}  // namespace speculum

@@ -1,0 +1,103 @@
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/session.hpp"
+#include "app/stats.hpp"
+#include "core/platform.hpp"
+
+namespace speculum {
+
+namespace {
+
+Image8 toImage(Pixels pixels) {
+  Image8 image;
+  image.width = static_cast<int>(pixels.extent.width);
+  image.height = static_cast<int>(pixels.extent.height);
+  image.rgba = std::move(pixels.rgba);
+  for (size_t i = 3; i < image.rgba.size(); i += 4) {
+    image.rgba[i] = 255;
+  }
+  return image;
+}
+
+void savePicture(Session& session, const std::filesystem::path& file) {
+  if (file.extension() == ".exr") {
+    session.renderer().waitIdle();
+    writeExr(file, session.radiance());
+  } else {
+    writePng(file, toImage(session.renderer().readback()));
+  }
+}
+
+int failOnMessages(const Device& device) {
+  const int count = device.validationMessages();
+  if (count > 0) {
+    std::fprintf(stderr, "%d validation messages\n", count);
+  }
+  return count > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int runRender(const Options& options) {
+  const int count = std::max(1, options.frames);
+  const PictureFiles files(options.out, options.frames > 0 ? count : 0);
+  Session session(options);
+  Progress progress("render", count);
+  for (int i = 0; i < count; ++i) {
+    session.draw(options.time + i / options.fps, true);
+    savePicture(session, files.at(i));
+    progress.advance();
+    if (interruptRequested()) {
+      return 1;
+    }
+  }
+  session.renderer().waitIdle();
+  if (!options.stats.empty()) {
+    writeJson(options.stats, frameStats(session, session.renderer().timings()));
+  }
+  return failOnMessages(session.device());
+}
+
+int runBench(const Options& options) {
+  const int measured = options.frames > 0 ? options.frames : 60;
+  Session session(options);
+  Progress progress("bench", options.warmup + measured);
+  std::vector<nlohmann::ordered_json> frames;
+  for (int i = 0; i < options.warmup + measured; ++i) {
+    session.draw(options.time, false);
+    // One frame at a time: the times of a frame are then all its own.
+    session.renderer().waitIdle();
+    if (i >= options.warmup) {
+      frames.push_back(frameStats(session, session.renderer().timings()));
+    }
+    progress.advance();
+    if (interruptRequested()) {
+      return 1;
+    }
+  }
+  const nlohmann::ordered_json merged = mergeStats(frames);
+  if (!options.json.empty()) {
+    writeJson(options.json, merged);
+  }
+  std::printf("%-40s %10s %10s %8s %10s %10s\n", "pass", "median ms", "p95 ms", "draws", "triangles", "fragments");
+  const auto figure = [](const nlohmann::ordered_json& value) {
+    return value.is_null() ? std::string("-") : value.dump();
+  };
+  for (const auto& pass : merged["passes"]) {
+    std::printf("%-40s %10.3f %10.3f %8s %10s %10s\n", pass["name"].get<std::string>().c_str(),
+                pass["gpu_ms"]["median"].get<double>(), pass["gpu_ms"]["p95"].get<double>(),
+                figure(pass["draws"]).c_str(), figure(pass["triangles"]).c_str(), figure(pass["fragments"]).c_str());
+  }
+  for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms"}) {
+    const auto& total = merged["totals"][key];
+    std::printf("%-40s %10.3f %10.3f\n", key, total["median"].get<double>(), total["p95"].get<double>());
+  }
+  return failOnMessages(session.device());
+}
+
+}  // namespace speculum

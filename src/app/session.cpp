@@ -1,0 +1,115 @@
+#include "app/session.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+
+#include "core/platform.hpp"
+#include "scene/scene_effects.hpp"
+
+namespace speculum {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+std::filesystem::path findScene(const std::string& wanted) {
+  namespace fs = std::filesystem;
+  const fs::path path = wanted.empty() ? "gallery.toml" : fs::path(wanted);
+  if (!wanted.empty() && fs::exists(path)) {
+    return path;
+  }
+  if (path.is_relative()) {
+    const fs::path scenes = dataDirectory("scenes");
+    for (const fs::path& candidate : {scenes / path, scenes.parent_path() / path, scenes / (path.string() + ".toml")}) {
+      if (fs::is_regular_file(candidate)) {
+        return candidate;
+      }
+    }
+  }
+  throw UsageError("--scene: there is no file '" + wanted + "' (a scene file, or a name from speculum scenes)");
+}
+
+LoadedScene loadSceneWithSettings(const Options& options) {
+  return loadSceneWithSettings(findScene(options.scene), options);
+}
+
+LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options) {
+  LoadedScene loaded{loadScene(file), {}};
+  loaded.settings = settingsOf(loaded.scene);
+  for (const auto& [key, value] : options.settings) {
+    if (const auto problem = setSetting(loaded.settings, key, value)) {
+      throw UsageError("--set: " + *problem);
+    }
+  }
+  for (const std::string& line : ignoredEffects(loaded.scene)) {
+    spdlog::warn("{}", line);
+  }
+  return loaded;
+}
+
+DeviceOptions deviceOptions(const Options& options, Window* window) {
+  return {.gpu = options.gpu, .validation = options.validation, .window = window, .renderPath = options.renderPath};
+}
+
+RendererOptions rendererOptions(const Options& options, Window* window) {
+  return {.window = window,
+          .extent = {static_cast<uint32_t>(options.size.width), static_cast<uint32_t>(options.size.height)},
+          .presentMode = options.presentMode,
+          .shaderDir = options.shaderDir};
+}
+
+void applyDebugSettings(const Settings& settings, Device& device) {
+  const std::string& name = settings.debug.omitBarrier;
+  const std::optional<BarrierKind> kind = barrierFromName(name);
+  if (!name.empty() && !kind) {
+    std::string names;
+    for (const BarrierKind known : allBarrierKinds()) {
+      names += (names.empty() ? "" : ", ") + std::string(barrierName(known));
+    }
+    throw UsageError("--set: debug.omit_barrier: there is no barrier '" + name + "' (" + names + ")");
+  }
+  device.barriers().omit(kind);
+}
+
+Session::Session(const Options& options)
+    : size_(options.size),
+      loaded_(loadSceneWithSettings(options)),
+      device_(deviceOptions(options, nullptr)),
+      renderer_(device_, rendererOptions(options, nullptr)),
+      sceneRenderer_(renderer_, loaded_.scene) {
+  applyDebugSettings(loaded_.settings, device_);
+}
+
+const DrawnFrame& Session::draw(double time, bool capture) {
+  const Clock::time_point start = Clock::now();
+  renderer_.reloadShaders();
+  Frame frame = renderer_.beginFrame().value();
+  const Clock::time_point recording = Clock::now();
+  frame_.state = evaluate(loaded_.scene, time);
+  frame_.plan = planFrame(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height);
+  frame_.number = frame.number;
+  frame.capture = capture;
+  sceneRenderer_.record(frame, frame_.state, loaded_.settings, frame_.plan);
+  frame_.cpuMs = millisecondsSince(recording);
+  renderer_.endFrame(frame);
+  frame_.frameMs = millisecondsSince(start);
+  return frame_;
+}
+
+LinearImage Session::radiance() {
+  const std::vector<float> texels = renderer_.uploader().readFloats(sceneRenderer_.mainTarget().color());
+  LinearImage image(size_.width, size_.height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
+  }
+  return image;
+}
+
+}  // namespace speculum

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+
+#include "app/options.hpp"
+#include "frame/effects.hpp"
+#include "frame/frame_plan.hpp"
+#include "scene/scene_loader.hpp"
+#include "systems/scene_renderer.hpp"
+
+namespace speculum {
+
+// The scene file that --scene means: a path, or one that stands under the program's own data, or a shipped scene's
+// name. Throws UsageError.
+std::filesystem::path findScene(const std::string& wanted);
+
+// The scene with the settings that hold for it: defaults, [settings], --set. Warns of keys that are not drawn.
+struct LoadedScene {
+  Scene scene;
+  Settings settings;
+};
+LoadedScene loadSceneWithSettings(const Options& options);
+LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options);
+
+DeviceOptions deviceOptions(const Options& options, Window* window);
+RendererOptions rendererOptions(const Options& options, Window* window);
+
+// debug.omit_barrier. Throws UsageError with the names for one that does not exist.
+void applyDebugSettings(const Settings& settings, Device& device);
+
+// One frame as it was planned and recorded.
+struct DrawnFrame {
+  SceneState state;
+  FramePlan plan;
+  uint64_t number = 0;   // of the renderer; its GPU times arrive under this number
+  double cpuMs = 0.0;    // planning and recording
+  double frameMs = 0.0;  // from begin to submission, waits included
+};
+
+// A scene drawn without a window.
+class Session {
+ public:
+  explicit Session(const Options& options);
+
+  // Draws the scene at `time`. With `capture`, renderer().readback() has the picture.
+  const DrawnFrame& draw(double time, bool capture);
+  LinearImage radiance();  // of the last frame, before the display pass
+
+  const Scene& scene() const { return loaded_.scene; }
+  const Settings& settings() const { return loaded_.settings; }
+  Device& device() { return device_; }
+  Renderer& renderer() { return renderer_; }
+  SceneRenderer& sceneRenderer() { return sceneRenderer_; }
+  const DrawnFrame& lastFrame() const { return frame_; }
+
+ private:
+  PictureSize size_;
+  LoadedScene loaded_;
+  Device device_;
+  Renderer renderer_;
+  SceneRenderer sceneRenderer_;
+  DrawnFrame frame_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,146 @@
+#include "app/stats.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/platform.hpp"
+
+namespace speculum {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json passesJson(Session& session, const FrameTimings& timings) {
+  ordered_json passes = ordered_json::array();
+  const std::vector<RecordedPass>& recorded = session.sceneRenderer().passes();
+  for (size_t i = 0; i < recorded.size(); ++i) {
+    const RecordedPass& pass = recorded[i];
+    const PassTiming timing = i < timings.passes.size() ? timings.passes[i] : PassTiming{};
+    const bool mirror = pass.depth >= 0;
+    passes.push_back({{"name", pass.name},
+                      {"mirror", mirror ? ordered_json(pass.mirror) : ordered_json(nullptr)},
+                      {"path", pass.path},
+                      {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
+                      {"gpu_ms", timing.gpuMs},
+                      {"draws", pass.draws},
+                      {"triangles", timing.hasStatistics ? ordered_json(timing.triangles) : ordered_json(nullptr)},
+                      {"fragments", timing.hasStatistics ? ordered_json(timing.fragments) : ordered_json(nullptr)},
+                      {"area_px", pass.areaPx}});
+  }
+  return passes;
+}
+
+ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
+  ordered_json skipped = ordered_json::array();
+  for (const SkippedMirror& skip : plan.skipped) {
+    std::vector<std::string> path;
+    for (const int mirror : skip.path) {
+      path.push_back(mirrorName(scene, mirror));
+    }
+    skipped.push_back({{"mirror", mirrorName(scene, skip.mirror)},
+                       {"path", path},
+                       {"depth", skip.depth},
+                       {"reason", skipReasonName(skip.reason)},
+                       {"detail", skip.detail}});
+  }
+  return skipped;
+}
+
+ordered_json effectsJson(Session& session) {
+  ordered_json effects = ordered_json::array();
+  const DrawnFrame& frame = session.lastFrame();
+  for (const Effect& effect : effectsOf(session.scene(), frame.state, session.settings(), frame.plan)) {
+    // What an effect adds to passes that run anyway has no time of its own yet.
+    effects.push_back({{"name", effect.name},
+                       {"called_for", effect.calledFor},
+                       {"why", effect.why},
+                       {"gpu_ms", nullptr},
+                       {"draws", nullptr},
+                       {"bytes", nullptr}});
+  }
+  return effects;
+}
+
+bool isMilliseconds(const std::string& key) {
+  return key.size() > 3 && key.compare(key.size() - 3, 3, "_ms") == 0;
+}
+
+ordered_json summary(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto rank = [&](double part) {
+    return values[static_cast<size_t>(std::ceil(part * static_cast<double>(values.size() - 1)))];
+  };
+  const size_t half = values.size() / 2;
+  const double median = values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  return {{"median", median}, {"min", values.front()}, {"p95", rank(0.95)}, {"max", values.back()}};
+}
+
+ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
+  ordered_json merged = ordered_json::object();
+  for (const auto& [key, value] : objects.back()->items()) {
+    if (isMilliseconds(key) && value.is_number()) {
+      std::vector<double> values;
+      for (const ordered_json* object : objects) {
+        values.push_back(object->at(key).get<double>());
+      }
+      merged[key] = summary(std::move(values));
+    } else {
+      merged[key] = value;
+    }
+  }
+  return merged;
+}
+
+}  // namespace
+
+ordered_json frameStats(Session& session, const FrameTimings& timings) {
+  Device& device = session.device();
+  const DrawnFrame& frame = session.lastFrame();
+  ordered_json json;
+  json["scene"] = session.scene().file.string();
+  json["size"] = {frame.plan.width, frame.plan.height};
+  json["device"] = device.info().name;
+  json["driver"] = device.info().driver;
+  json["render_path"] = renderPathName(device.renderPath());
+  json["settings"] = settingsJson(session.settings());
+  json["passes"] = passesJson(session, timings);
+  json["skipped"] = skippedJson(session.scene(), frame.plan);
+  json["effects"] = effectsJson(session);
+  json["totals"] = {{"cpu_ms", frame.cpuMs},
+                    {"gpu_ms", timings.gpuMs},
+                    {"frame_ms", frame.frameMs},
+                    {"device_bytes", device.allocatedBytes()},
+                    {"peak_rss_bytes", peakResidentBytes()},
+                    {"pipelines", session.sceneRenderer().pipelineCount()},
+                    {"validation_messages", device.validationMessages()}};
+  return json;
+}
+
+ordered_json mergeStats(const std::vector<ordered_json>& frames) {
+  ordered_json merged = frames.back();
+  merged["frames"] = frames.size();
+  std::vector<const ordered_json*> totals;
+  for (const ordered_json& frame : frames) {
+    totals.push_back(&frame.at("totals"));
+  }
+  merged["totals"] = mergeObjects(totals);
+  for (size_t i = 0; i < merged["passes"].size(); ++i) {
+    std::vector<const ordered_json*> pass;
+    for (const ordered_json& frame : frames) {
+      pass.push_back(&frame.at("passes").at(i));
+    }
+    merged["passes"][i] = mergeObjects(pass);
+  }
+  return merged;
+}
+
+void writeJson(const std::filesystem::path& file, const ordered_json& json) {
+  const std::string text = json.dump(2) + "\n";
+  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
+  if (!replaceFile(file, bytes)) {
+    throw std::runtime_error(file.string() + ": cannot be written (a file in a writable directory)");
+  }
+}
+
+}  // namespace speculum

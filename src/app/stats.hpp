@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "app/session.hpp"
+
+namespace speculum {
+
+// The figures of one frame as `render --stats` writes them; `timings` belong to that frame.
+nlohmann::ordered_json frameStats(Session& session, const FrameTimings& timings);
+
+// Over the measured frames each *_ms becomes an object of median, min, p95 and max. `frames` are stats of equal plans.
+nlohmann::ordered_json mergeStats(const std::vector<nlohmann::ordered_json>& frames);
+
+// Throws std::runtime_error when the file cannot be written.
+void writeJson(const std::filesystem::path& file, const nlohmann::ordered_json& json);
+
+}  // namespace speculum

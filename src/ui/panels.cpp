@@ -1,0 +1,196 @@
+#include "ui/panels.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "image/image.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+void tooltip(std::string_view key) {
+  if (!ImGui::IsItemHovered()) {
+    return;
+  }
+  for (const SettingInfo& info : settingInfos()) {
+    if (info.key == key) {
+      ImGui::SetTooltip("%s\n%s (%s)", std::string(key).c_str(), std::string(info.help).c_str(),
+                        std::string(info.range).c_str());
+    }
+  }
+}
+
+// 1, 2, 4 or 8 samples.
+void samplesCombo(const char* label, int& samples, std::string_view key) {
+  static constexpr std::array<const char*, 4> names = {"1", "2", "4", "8"};
+  int index = samples >= 8 ? 3 : samples >= 4 ? 2 : samples >= 2 ? 1 : 0;
+  if (ImGui::Combo(label, &index, names.data(), static_cast<int>(names.size()))) {
+    samples = 1 << index;
+  }
+  tooltip(key);
+}
+
+void slider(const char* label, double& value, double low, double high, const char* format, std::string_view key) {
+  float edited = static_cast<float>(value);
+  if (ImGui::SliderFloat(label, &edited, static_cast<float>(low), static_cast<float>(high), format,
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+    value = edited;
+  }
+  tooltip(key);
+}
+
+template <typename Enum>
+void choiceCombo(const char* label, Enum& value, std::span<const char* const> names, std::string_view key) {
+  int index = static_cast<int>(value);
+  if (ImGui::Combo(label, &index, names.data(), static_cast<int>(names.size()))) {
+    value = static_cast<Enum>(index);
+  }
+  tooltip(key);
+}
+
+// The colour is linear in the settings and sRGB in the widget, as people know it from other programs.
+void clearColor(UiModel& model) {
+  const glm::dvec3 linear = model.settings.view.clearColor.value_or(glm::dvec3(model.sceneBackground));
+  std::array<float, 3> encoded{};
+  for (int i = 0; i < 3; ++i) {
+    encoded[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
+  }
+  if (ImGui::ColorEdit3("clear color", encoded.data())) {
+    model.settings.view.clearColor = glm::dvec3(srgbDecode(encoded[0]), srgbDecode(encoded[1]), srgbDecode(encoded[2]));
+  }
+  tooltip("view.clear_color");
+}
+
+void reflectionSettings(ReflectionSettings& r) {
+  static constexpr std::array<const char*, 3> clips = {"clip distance", "oblique", "none"};
+  slider("scale", r.scale, 0.125, 4.0, "%.3f", "reflection.scale");
+  samplesCombo("samples##reflection", r.samples, "reflection.samples");
+  ImGui::SliderInt("max depth", &r.maxDepth, 0, 32, "%d", ImGuiSliderFlags_AlwaysClamp);
+  tooltip("reflection.max_depth");
+  slider("min pixels", r.minPixels, 0.0, 10000.0, "%.1f", "reflection.min_pixels");
+  slider("min throughput", r.minThroughput, 0.0, 1.0, "%.5f", "reflection.min_throughput");
+  ImGui::SliderInt("max passes", &r.maxPasses, 1, 256, "%d", ImGuiSliderFlags_AlwaysClamp);
+  tooltip("reflection.max_passes");
+  choiceCombo("clip", r.clip, clips, "reflection.clip");
+}
+
+void viewSettings(UiModel& model) {
+  static constexpr std::array<const char*, 2> curves = {"clamp", "ACES"};
+  static constexpr std::array<const char*, 2> filters = {"bilinear", "trilinear"};
+  ViewSettings& v = model.settings.view;
+  clearColor(model);
+  samplesCombo("samples##view", v.samples, "view.samples");
+  slider("exposure", v.exposure, 0.01, 100.0, "%.2f", "view.exposure");
+  choiceCombo("tone curve", v.toneMap, curves, "view.tone_map");
+  choiceCombo("texture filter", v.textureFilter, filters, "view.texture_filter");
+  ImGui::Checkbox("wireframe", &v.wireframe);
+  tooltip("view.wireframe");
+}
+
+}  // namespace
+
+void message(const UiModel& model) {
+  if (!model.message.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+    ImGui::TextWrapped("%s", model.message.c_str());
+    ImGui::PopStyleColor();
+  }
+}
+
+void scene(UiModel& model) {
+  const char* current = model.scene >= 0 ? model.scenes[model.scene].c_str() : "";
+  if (ImGui::BeginCombo("scene", current)) {
+    for (int i = 0; i < static_cast<int>(model.scenes.size()); ++i) {
+      if (ImGui::Selectable(model.scenes[i].c_str(), i == model.scene)) {
+        model.scene = i;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  int mode = static_cast<int>(model.cameraMode);
+  ImGui::RadioButton("orbit", &mode, static_cast<int>(CameraMode::orbit));
+  ImGui::SameLine();
+  ImGui::RadioButton("fly", &mode, static_cast<int>(CameraMode::fly));
+  model.cameraMode = static_cast<CameraMode>(mode);
+  ImGui::SameLine();
+  model.resetCamera = ImGui::Button("reset camera");
+  ImGui::SameLine();
+  ImGui::Checkbox("pause", &model.paused);
+  ImGui::TextDisabled("drag: look   WASD QE: move   wheel: zoom   F1: panel   Esc: quit");
+}
+
+void settings(UiModel& model) {
+  if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
+    viewSettings(model);
+  }
+  if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
+    reflectionSettings(model.settings.reflection);
+  }
+  model.resetSettings = ImGui::Button("settings of the scene");
+}
+
+void passes(UiModel& model) {
+  if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
+    return;
+  }
+  ImGui::Text("CPU %.2f ms   GPU %.2f ms   %.1f MiB on the device", model.cpuMs, model.gpuMs,
+              static_cast<double>(model.deviceBytes) / (1024.0 * 1024.0));
+  constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+  if (!ImGui::BeginTable("passes", 4, flags)) {
+    return;
+  }
+  ImGui::TableSetupColumn("pass (click: show image)");
+  ImGui::TableSetupColumn("GPU ms");
+  ImGui::TableSetupColumn("draws");
+  ImGui::TableSetupColumn("pixels");
+  ImGui::TableHeadersRow();
+  for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
+    const UiPass& pass = model.passes[i];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushID(i);
+    const bool mirror = pass.depth >= 0;
+    if (ImGui::Selectable(pass.name.c_str(), model.debugPass == i, mirror ? 0 : ImGuiSelectableFlags_Disabled)) {
+      model.debugPass = model.debugPass == i ? -1 : i;
+    }
+    ImGui::PopID();
+    ImGui::TableNextColumn();
+    ImGui::Text("%.3f", pass.gpuMs);
+    ImGui::TableNextColumn();
+    ImGui::Text("%u", pass.draws);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.0f", pass.areaPx);
+  }
+  ImGui::EndTable();
+}
+
+void skipped(const UiModel& model) {
+  const std::string title = "Skipped mirrors (" + std::to_string(model.skipped.size()) + ")###skipped";
+  if (!ImGui::CollapsingHeader(title.c_str()) || model.skipped.empty()) {
+    return;
+  }
+  if (ImGui::BeginTable("skipped", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+    for (const UiSkipped& skip : model.skipped) {
+      ImGui::TableNextRow();
+      for (const std::string& text : {skip.path, skip.reason, skip.detail}) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(text.c_str());
+      }
+    }
+    ImGui::EndTable();
+  }
+}
+
+void device(const UiModel& model) {
+  if (!ImGui::CollapsingHeader("Device")) {
+    return;
+  }
+  ImGui::TextWrapped("%s\n%s\n%s", model.device.c_str(), model.driver.c_str(), model.renderPath.c_str());
+  if (model.validationMessages >= 0) {
+    ImGui::Text("validation messages: %d", model.validationMessages);
+  }
+}
+
+}  // namespace speculum::panels

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "ui/ui_model.hpp"
+
+namespace speculum::panels {
+
+// The sections of the panel, each within the current ImGui window.
+void message(const UiModel& model);
+void scene(UiModel& model);
+void settings(UiModel& model);
+void passes(UiModel& model);
+void skipped(const UiModel& model);
+void device(const UiModel& model);
+
+}  // namespace speculum::panels

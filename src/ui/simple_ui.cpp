@@ -1,0 +1,182 @@
+#include "ui/simple_ui.hpp"
+
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_vulkan.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/platform.hpp"
+#include "ui/panels.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr float fontPixels = 15.0f;
+
+DescriptorPoolHandle createPool(Device& device) {
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 64};
+  const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                        .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
+                                        .maxSets = size.descriptorCount,
+                                        .poolSizeCount = 1,
+                                        .pPoolSizes = &size};
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  check(vkCreateDescriptorPool(device.get(), &info, nullptr, &pool), "vkCreateDescriptorPool for the panel");
+  device.setName(pool, "panel");
+  return DescriptorPoolHandle(device.get(), pool);
+}
+
+void applyStyle(float scale) {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 6.0f;
+  style.FrameRounding = 3.0f;
+  style.GrabRounding = 3.0f;
+  style.Colors[ImGuiCol_WindowBg].w = 0.88f;
+  style.ScaleAllSizes(scale);
+}
+
+}  // namespace
+
+SimpleUI::Context::Context() {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
+  // The layout is the person's, not the working directory's.
+  std::error_code error;
+  std::filesystem::create_directories(userConfigDir(), error);
+  iniFile = (userConfigDir() / "layout.ini").string();
+  io.IniFilename = error ? nullptr : iniFile.c_str();
+}
+
+SimpleUI::Context::~Context() {
+  ImGui::DestroyContext();
+}
+
+// The two halves of the backend, shut down in reverse.
+struct SimpleUI::Backend {
+  explicit Backend(Window& window) { ImGui_ImplGlfw_InitForVulkan(window.native(), true); }
+  ~Backend() {
+    if (vulkan) {
+      ImGui_ImplVulkan_Shutdown();
+    }
+    ImGui_ImplGlfw_Shutdown();
+  }
+  bool vulkan = false;
+};
+
+SimpleUI::SimpleUI(Renderer& renderer, Window& window)
+    : renderer_(renderer), pool_(createPool(renderer.device())), backend_(std::make_unique<Backend>(window)) {
+  const float scale = window.contentScale();
+  applyStyle(scale);
+  ImFontConfig font;
+  font.SizePixels = fontPixels * scale;
+  ImGui::GetIO().Fonts->AddFontDefault(&font);
+  initVulkan();
+}
+
+SimpleUI::~SimpleUI() {
+  renderer_.waitIdle();
+}
+
+void SimpleUI::initVulkan() {
+  Device& device = renderer_.device();
+  ImGui_ImplVulkan_InitInfo info{};
+  info.Instance = device.instance();
+  info.PhysicalDevice = device.physical();
+  info.Device = device.get();
+  info.QueueFamily = device.queueFamily();
+  info.Queue = device.queue();
+  info.DescriptorPool = pool_.get();
+  info.MinImageCount = 2;
+  info.ImageCount = renderer_.displayImageCount();
+  info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+  info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
+#if IMGUI_VERSION_NUM >= 19000
+  info.RenderPass = renderer_.overlayRenderPass();
+  ImGui_ImplVulkan_Init(&info);
+  backend_->vulkan = true;
+#else
+  ImGui_ImplVulkan_Init(&info, renderer_.overlayRenderPass());
+  backend_->vulkan = true;
+  renderer_.uploader().run([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
+  ImGui_ImplVulkan_DestroyFontUploadObjects();
+#endif
+}
+
+void SimpleUI::build(UiModel& model) {
+  ImGui_ImplVulkan_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  if (visible_) {
+    buildPanel(model);
+    buildDebugView(model);
+    if (showDemoWindow_) {
+      ImGui::ShowDemoWindow(&showDemoWindow_);
+    }
+  }
+  ImGui::Render();
+}
+
+void SimpleUI::buildPanel(UiModel& model) {
+  const float scale = ImGui::GetFontSize() / fontPixels;
+  ImGui::SetNextWindowPos(ImVec2(12.0f * scale, 12.0f * scale), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize(ImVec2(400.0f * scale, 620.0f * scale), ImGuiCond_FirstUseEver);
+  if (ImGui::Begin("Speculum")) {
+    ImGui::Text("%.2f ms/frame (%.1f FPS)", model.frameMs, model.frameMs > 0.0 ? 1000.0 / model.frameMs : 0.0);
+    panels::message(model);
+    panels::scene(model);
+    ImGui::Checkbox("Settings", &showSettings_);
+    ImGui::SameLine();
+    ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
+    if (showSettings_) {
+      panels::settings(model);
+    }
+    panels::passes(model);
+    panels::skipped(model);
+    panels::device(model);
+  }
+  ImGui::End();
+}
+
+// The window is a frame without a background: the renderer draws the image below it, because this version of ImGui's
+// Vulkan backend draws no textures but its font.
+void SimpleUI::buildDebugView(UiModel& model) {
+  model.debugArea.reset();
+  if (model.debugPass < 0) {
+    return;
+  }
+  bool open = true;
+  const float scale = ImGui::GetFontSize() / fontPixels;
+  ImGui::SetNextWindowPos(ImVec2(430.0f * scale, 12.0f * scale), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize(ImVec2(420.0f * scale, 290.0f * scale), ImGuiCond_FirstUseEver);
+  if (ImGui::Begin("Offscreen image", &open, ImGuiWindowFlags_NoBackground)) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+    model.debugArea = PixelRect{static_cast<int>(corner.x * pixels.x), static_cast<int>(corner.y * pixels.y),
+                                static_cast<int>(room.x * pixels.x), static_cast<int>(room.y * pixels.y)};
+  }
+  ImGui::End();
+  if (!open) {
+    model.debugPass = -1;
+  }
+}
+
+void SimpleUI::record(const PassScope& scope) {
+  ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), scope.commands());
+}
+
+bool SimpleUI::wantsMouse() const {
+  return ImGui::GetIO().WantCaptureMouse;
+}
+
+bool SimpleUI::wantsKeyboard() const {
+  return ImGui::GetIO().WantTextInput;
+}
+
+}  // namespace speculum

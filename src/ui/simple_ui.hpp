@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+
+#include "core/renderer.hpp"
+#include "ui/ui_model.hpp"
+
+namespace speculum {
+
+// The panel over the picture, in Dear ImGui. One instance a process; the only place that knows ImGui.
+class SimpleUI {
+ public:
+  // Installs its input callbacks behind those that the window has.
+  SimpleUI(Renderer& renderer, Window& window);
+  ~SimpleUI();
+  SimpleUI(const SimpleUI&) = delete;
+  SimpleUI& operator=(const SimpleUI&) = delete;
+
+  // Lays out this frame's panel and applies input to the model. Call it once a frame, also when nothing is drawn.
+  void build(UiModel& model);
+  void record(const PassScope& scope);
+
+  bool wantsMouse() const;     // the pointer is over the panel or holds one of its widgets
+  bool wantsKeyboard() const;  // a text field is being edited
+  bool visible() const { return visible_; }
+  void setVisible(bool visible) { visible_ = visible; }
+
+ private:
+  void initVulkan();
+  void buildPanel(UiModel& model);
+  void buildDebugView(UiModel& model);
+
+  struct Context {
+    Context();
+    ~Context();
+    std::string iniFile;
+  };
+  struct Backend;
+
+  Renderer& renderer_;
+  Context context_;
+  DescriptorPoolHandle pool_;
+  std::unique_ptr<Backend> backend_;
+  bool visible_ = true;
+  bool showSettings_ = true;
+  bool showDemoWindow_ = false;
+};
+
+}  // namespace speculum
