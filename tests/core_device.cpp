@@ -1,0 +1,125 @@
+#include <array>
+#include <cctype>
+#include <cstdlib>
+
+#include "core/platform.hpp"
+#include "core_fixture.hpp"
+
+namespace speculum::test {
+namespace {
+
+std::string errorOf(const DeviceOptions& options) {
+  try {
+    const Device device(options);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Device, NeedsNoWindowSystem) {
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  const Device device(validated());
+  EXPECT_EQ(device.surface(), VkSurfaceKHR{VK_NULL_HANDLE});
+  EXPECT_FALSE(device.info().name.empty());
+  EXPECT_FALSE(device.info().driver.empty());
+  EXPECT_TRUE(device.info().unusable.empty());
+  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+}
+
+TEST(Device, IsChosenByIndexAndByPartOfItsNameInAnyCase) {
+  const std::vector<DeviceInfo> gpus = Device::list();
+  ASSERT_FALSE(gpus.empty());
+  for (const DeviceInfo& gpu : gpus) {
+    if (!gpu.unusable.empty()) {
+      continue;
+    }
+    EXPECT_EQ(Device({.gpu = std::to_string(gpu.index)}).info().index, gpu.index);
+    std::string part = gpu.name.substr(0, 8);
+    for (char& c : part) {
+      c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+    EXPECT_NE(Device({.gpu = part}).info().name.find(gpu.name.substr(0, 8)), std::string::npos);
+  }
+}
+
+TEST(Device, UnknownGpuIsAnErrorThatListsThose) {
+  for (const char* wanted : {"99", "no such card", "-1"}) {
+    const std::string error = errorOf({.gpu = wanted});
+    EXPECT_NE(error.find(std::string("'") + wanted + "'"), std::string::npos) << error;
+    EXPECT_NE(error.find(Device::list().front().name), std::string::npos) << error;
+  }
+}
+
+TEST(Device, SampleCountIsTheNextLowerOne) {
+  Device device({});
+  for (int wanted = 1; wanted <= 64; wanted *= 2) {
+    int expected = 1;
+    for (int count = 1; count <= wanted; count *= 2) {
+      if (device.caps().sampleCounts & count) {
+        expected = count;
+      }
+    }
+    EXPECT_EQ(device.sampleCount(wanted), expected) << wanted;
+  }
+  EXPECT_EQ(device.sampleCount(3), device.sampleCount(2));
+  EXPECT_EQ(device.sampleCount(0), 1);
+}
+
+TEST(Device, CountsItsMemory) {
+  Device device(validated());
+  const uint64_t before = device.allocatedBytes();
+  {
+    const Buffer buffer(device, 100000, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host, "test");
+    EXPECT_GE(device.allocatedBytes(), before + 100000);
+  }
+  EXPECT_EQ(device.allocatedBytes(), before);
+  EXPECT_GT(device.memoryBudget().budgetBytes, 0u);
+}
+
+TEST(Device, BufferRefusesAWritePastItsEnd) {
+  Device device({});
+  const Buffer buffer(device, 16, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::host, "test");
+  const std::array<std::byte, 16> data{};
+  buffer.write(data);
+  EXPECT_THROW(buffer.write(data, 1), std::out_of_range);
+}
+
+TEST(Device, RenderPathNames) {
+  for (const RenderPath path : {RenderPath::automatic, RenderPath::dynamic, RenderPath::renderPass}) {
+    EXPECT_EQ(renderPathFromName(renderPathName(path)), path);
+  }
+  EXPECT_EQ(renderPathFromName("fast"), std::nullopt);
+}
+
+TEST(Device, MissingDriverSaysHowToMendIt) {
+  const std::string old = environment("VK_ICD_FILENAMES");
+  setEnvironment("VK_ICD_FILENAMES", "/nonexistent.json");
+  const std::string error = errorOf({});
+  old.empty() ? static_cast<void>(unsetenv("VK_ICD_FILENAMES")) : setEnvironment("VK_ICD_FILENAMES", old);
+  EXPECT_NE(error.find("install"), std::string::npos) << error;
+}
+
+TEST(Uploads, FloatsSurviveTheWayToTheGpuAndBack) {
+  Device device(validated());
+  Uploader uploader(device);
+  const std::vector<uint16_t> halves = {0x0000, 0x3c00, 0xbc00, 0x7bff, 0x3800, 0x4000, 0x3400, 0x0001};
+  Image image(device,
+              {.extent = {2, 1},
+               .usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+               .name = "test"});
+  const Buffer staging = uploader.buffer(std::span(halves), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "test");
+  uploader.run([&](VkCommandBuffer commands) {
+    device.barriers().uploadToCopy(commands, image);
+    const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {2, 1, 1}};
+    vkCmdCopyBufferToImage(commands, staging.get(), image.get(), image.layout(), 1, &region);
+    device.barriers().uploadToRead(commands, image);
+  });
+  const std::vector<float> expected = {0.0f, 1.0f, -1.0f, 65504.0f, 0.5f, 2.0f, 0.25f, 5.9604645e-8f};
+  EXPECT_EQ(uploader.readFloats(image), expected);
+  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+}
+
+}  // namespace
+}  // namespace speculum::test

@@ -1,0 +1,217 @@
+#include <array>
+#include <bit>
+#include <fstream>
+#include <functional>
+
+#include "core/platform.hpp"
+#include "core_fixture.hpp"
+
+namespace speculum::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr VkExtent2D extent{32, 32};
+
+const fs::path glslDir = fs::path(SPECULUM_SOURCE_DIR) / "tests" / "shaders";
+
+// One frame with a pipeline cache in `directory`.
+bool runWithCache(Device& device, const fs::path& directory) {
+  RendererOptions options = headless(extent);
+  options.pipelineCacheDir = directory;
+  Renderer renderer(device, options);
+  SmallScene scene(renderer, extent, 1);
+  EXPECT_TRUE(scene.frame());
+  return renderer.pipelineCache().loaded();
+}
+
+fs::path onlyFile(const fs::path& directory) {
+  return fs::directory_iterator(directory)->path();
+}
+
+TEST(PipelineCache, IsWrittenAndFoundAgain) {
+  const TemporaryDirectory directory;
+  Device device(validated());
+  EXPECT_FALSE(runWithCache(device, directory.path()));
+  EXPECT_TRUE(runWithCache(device, directory.path()));
+  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+}
+
+TEST(PipelineCache, DamagedAndForeignFilesAreIgnoredAndReplaced) {
+  const TemporaryDirectory directory;
+  Device device(validated());
+  runWithCache(device, directory.path());
+  const fs::path file = onlyFile(directory.path());
+  const std::vector<uint8_t> good = *readFile(file);
+  ASSERT_GE(good.size(), 56u);
+
+  const auto damagedBy = [&](const std::function<void(std::vector<uint8_t>&)>& damage) {
+    std::vector<uint8_t> content = good;
+    damage(content);
+    EXPECT_TRUE(replaceFile(file, content));
+    return !runWithCache(device, directory.path());
+  };
+  EXPECT_TRUE(damagedBy([](auto& content) { content.clear(); }));
+  EXPECT_TRUE(damagedBy([](auto& content) { content.resize(content.size() / 2); }));
+  EXPECT_TRUE(damagedBy([](auto& content) { content.push_back(0); }));
+  EXPECT_TRUE(damagedBy([](auto& content) { content[0] ^= 1; }));
+  EXPECT_TRUE(damagedBy([](auto& content) { content.back() ^= 1; }));
+  EXPECT_TRUE(damagedBy([](auto& content) { content.assign(100000, 0xff); }));
+  EXPECT_TRUE(runWithCache(device, directory.path())) << "a damaged file was not replaced";
+  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+}
+
+TEST(PipelineCache, UnwritableDirectoryIsNoError) {
+  Device device(validated());
+  EXPECT_FALSE(runWithCache(device, "/proc/speculum"));
+}
+
+// A scene whose shaders are copied to a directory that the renderer watches.
+class HotReload : public testing::Test {
+ protected:
+  HotReload() {
+    for (const auto& entry : fs::directory_iterator(glslDir)) {
+      fs::copy_file(entry.path(), directory_.path() / entry.path().filename());
+    }
+    RendererOptions options = headless(extent);
+    options.shaderDir = directory_.path();
+    renderer_.emplace(device_, options);
+    scene_.emplace(*renderer_, extent, 1);
+  }
+
+  // Replaces `from` in a shader and makes sure that its time is newer.
+  void edit(const std::string& name, const std::string& from, const std::string& to) {
+    const fs::path file = directory_.path() / name;
+    const std::vector<uint8_t> content = *readFile(file);
+    std::string text(content.begin(), content.end());
+    const size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    const auto before = fs::last_write_time(file);
+    std::ofstream(file) << text;
+    fs::last_write_time(file, before + std::chrono::seconds(++edits_));
+  }
+
+  std::array<int, 3> cornerColor() {
+    EXPECT_TRUE(scene_->frame(true));
+    const Pixels pixels = renderer_->readback();
+    const uint8_t* corner = &pixels.rgba[4 * (extent.width - 1)];
+    return {corner[0], corner[1], corner[2]};
+  }
+
+  TemporaryDirectory directory_;
+  Device device_{validated()};
+  std::optional<Renderer> renderer_;
+  std::optional<SmallScene> scene_;
+  int edits_ = 0;
+};
+
+constexpr std::array<int, 3> unedited = {64, 32, 191};
+
+TEST_F(HotReload, EditedShaderChangesThePictureAndLeaksNothing) {
+  EXPECT_EQ(cornerColor(), unedited);
+  EXPECT_EQ(cornerColor(), unedited);
+  const auto objects = liveObjects();  // after both frames in flight have made what they keep
+  edit("copy.frag", "texelFetch(source, ivec2(gl_FragCoord.xy), 0)",
+       "texelFetch(source, ivec2(gl_FragCoord.xy), 0).bgra");
+  EXPECT_TRUE(renderer_->reloadShaders());
+  EXPECT_TRUE(renderer_->pipelines().errors().empty());
+  // Swapped twice, once into the main target and once onto the display image.
+  EXPECT_EQ(cornerColor(), unedited);
+  edit("copy.frag", ".bgra", " * vec4(2.0, 1.0, 1.0, 1.0)");
+  EXPECT_TRUE(renderer_->reloadShaders());
+  EXPECT_EQ(cornerColor(), (std::array<int, 3>{255, 32, 191}));
+  EXPECT_EQ(liveObjects(), objects);
+  EXPECT_EQ(device_.validationMessages(), 0) << messagesOf(device_);
+}
+
+TEST_F(HotReload, UnchangedSpirvRebuildsNothing) {
+  EXPECT_FALSE(renderer_->reloadShaders());
+  edit("copy.frag", "void main()", "// a comment\nvoid main()");
+  EXPECT_FALSE(renderer_->reloadShaders());
+}
+
+TEST_F(HotReload, CompileErrorIsReportedAndTheOldPipelineStays) {
+  edit("copy.frag", "result = ", "result = nonsense + ");
+  EXPECT_FALSE(renderer_->reloadShaders());
+  EXPECT_NE(renderer_->pipelines().errors().find("nonsense"), std::string::npos) << renderer_->pipelines().errors();
+  EXPECT_EQ(cornerColor(), unedited);
+  edit("copy.frag", "nonsense + ", "0.5 * ");
+  EXPECT_TRUE(renderer_->reloadShaders());
+  EXPECT_TRUE(renderer_->pipelines().errors().empty());
+  EXPECT_EQ(cornerColor()[0], 16);
+}
+
+TEST(ShaderLibrary, ErrorsNameTheFileOrDirectory) {
+  Device device({});
+  ShaderLibrary library(device, fs::path(SPECULUM_BINARY_DIR) / "tests" / "shaders");
+  try {
+    library.module("missing.frag");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("missing.frag.spv"), std::string::npos);
+  }
+  EXPECT_THROW(ShaderLibrary(device, "", "/no/such/directory"), std::runtime_error);
+  const TemporaryDirectory directory;
+  replaceFile(directory.path() / "bad.frag.spv", std::vector<uint8_t>(64, 7));
+  ShaderLibrary damaged(device, directory.path());
+  EXPECT_THROW(damaged.module("bad.frag"), std::runtime_error);
+}
+
+TEST(Mipmaps, LevelsHoldTheMeanAndConstantsSpecialise) {
+  // Left half 1, right half 0: every level below the first few averages to one half at the top.
+  Device device(validated());
+  Renderer renderer(device, headless({1, 1}));
+  constexpr uint32_t size = 16;
+  std::vector<uint16_t> texels(size_t{4} * size * size);
+  for (size_t i = 0; i < texels.size(); ++i) {
+    texels[i] = i / 4 % size < size / 2 ? 0x3c00 : 0;
+  }
+  const Image image =
+      renderer.uploader().image(std::as_bytes(std::span(texels)), {size, size}, colorFormat, true, "texture");
+  EXPECT_EQ(image.desc().mipLevels, 5u);
+  const SamplerHandle sampler = createSampler(device, {.filter = VK_FILTER_NEAREST}, "texture");
+  const DescriptorBinding binding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+  const DescriptorSetLayoutHandle layout = createDescriptorSetLayout(device, std::span(&binding, 1), "texture");
+  OffScreen target(device, {.name = "target", .depth = false}, renderer.retired());
+  const Pipeline pipeline(renderer.pipelines(), {.name = "textured",
+                                                 .vert = "full_screen.vert",
+                                                 .frag = "textured.frag",
+                                                 .fragConstants = {std::bit_cast<uint32_t>(4.0f)},
+                                                 .setLayouts = {layout.get()},
+                                                 .depth = VK_FORMAT_UNDEFINED});
+  std::optional<Frame> frame = renderer.beginFrame();
+  const VkDescriptorSet set = frame->descriptors->allocate(layout.get());
+  DescriptorWriter().image(0, image.descriptor(sampler.get())).update(device, set);
+  {
+    const PassScope scope = renderer.beginPass(*frame, fullPass("textured", target.targets()));
+    pipeline.bind(scope.commands());
+    pipeline.bindSet(scope.commands(), 0, set);
+    vkCmdDraw(scope.commands(), 3, 1, 0, 0);
+  }
+  renderer.endFrame(*frame);
+  renderer.waitIdle();
+  EXPECT_EQ(renderer.uploader().readFloats(target.color()), (std::vector<float>{0.5f, 0.5f, 0.5f, 0.5f}));
+  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+}
+
+TEST(Descriptors, AllocatorServesManySetsAndReusesItsPools) {
+  Device device(validated());
+  const DescriptorBinding binding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 100};
+  const DescriptorSetLayoutHandle layout = createDescriptorSetLayout(device, std::span(&binding, 1), "many");
+  DescriptorAllocator allocator(device);
+  const auto allocateAll = [&] {
+    for (int i = 0; i < 200; ++i) {
+      EXPECT_NE(allocator.allocate(layout.get()), VkDescriptorSet{VK_NULL_HANDLE});
+    }
+  };
+  allocateAll();
+  const auto objects = liveObjects();
+  allocator.reset();
+  allocateAll();
+  EXPECT_EQ(liveObjects(), objects);
+  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+}
+
+}  // namespace
+}  // namespace speculum::test

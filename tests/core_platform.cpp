@@ -1,0 +1,104 @@
+#include "core/platform.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "core/retire_queue.hpp"
+
+namespace speculum::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<uint8_t> bytes(const std::string& text) {
+  return {text.begin(), text.end()};
+}
+
+TEST(Platform, ReplacedFileHoldsTheNewContentAndNothingElseIsLeft) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path() / "deep" / "file";
+  ASSERT_TRUE(replaceFile(file, bytes("old")));
+  ASSERT_TRUE(replaceFile(file, bytes("new content")));
+  EXPECT_EQ(readFile(file), bytes("new content"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), fs::directory_iterator()), 1);
+}
+
+TEST(Platform, FailedReplacementKeepsTheOldContent) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(replaceFile(directory.path() / "file", bytes("old")));
+  EXPECT_FALSE(replaceFile(directory.path() / "file" / "below", bytes("new")));
+  EXPECT_EQ(readFile(directory.path() / "file"), bytes("old"));
+  fs::create_directory(directory.path() / "folder");
+  EXPECT_FALSE(replaceFile(directory.path() / "folder", bytes("new")));
+}
+
+TEST(Platform, ProcessGivesOutputAndExitCode) {
+  const ProcessResult result = runProcess({"sh", "-c", "echo out; echo err >&2; exit 3"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_EQ(result.output, "out\nerr\n");
+  EXPECT_EQ(runProcess({"a-program-that-does-not-exist"}).exitCode, 127);
+}
+
+TEST(Platform, CacheDirectoryFollowsXdg) {
+  setEnvironment("XDG_CACHE_HOME", "/somewhere");
+  EXPECT_EQ(userCacheDir(), "/somewhere/speculum");
+  setEnvironment("XDG_CACHE_HOME", "relative/is/ignored");
+  setEnvironment("HOME", "/home/me");
+  EXPECT_EQ(userCacheDir(), "/home/me/.cache/speculum");
+}
+
+TEST(Platform, DataDirectoryErrorNamesThePlaces) {
+  try {
+    dataDirectory("no-such-data");
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("share/speculum/no-such-data"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(fs::exists(dataDirectory("shaders")));
+}
+
+TEST(Platform, ModificationTimeGrows) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path() / "file";
+  EXPECT_EQ(modificationTime(file), std::nullopt);
+  replaceFile(file, bytes("a"));
+  const auto first = modificationTime(file);
+  fs::last_write_time(file, fs::last_write_time(file) + std::chrono::milliseconds(250));
+  EXPECT_NEAR(*modificationTime(file) - *first, 0.25, 1e-3);
+}
+
+TEST(Platform, PeakMemoryIsPlausible) {
+  EXPECT_GT(peakResidentBytes(), uint64_t{1} << 20);
+  EXPECT_LT(peakResidentBytes(), uint64_t{1} << 40);
+}
+
+TEST(RetireQueue, DestroysWhatFinishedAndKeepsTheRest) {
+  struct Probe {
+    explicit Probe(int* c) : count(c) {}
+    Probe(Probe&& other) noexcept : count(std::exchange(other.count, nullptr)) {}
+    ~Probe() {
+      if (count) {
+        ++*count;
+      }
+    }
+    int* count;
+  };
+  int destroyed = 0;
+  RetireQueue queue;
+  queue.setFrame(1);
+  queue.retire(Probe(&destroyed));
+  queue.setFrame(2);
+  queue.retire(Probe(&destroyed));
+  queue.collect(0);
+  EXPECT_EQ(destroyed, 0);
+  queue.collect(1);
+  EXPECT_EQ(destroyed, 1);
+  EXPECT_EQ(queue.size(), 1u);
+  queue.collect(2);
+  EXPECT_EQ(destroyed, 2);
+}
+
+}  // namespace
+}  // namespace speculum::test

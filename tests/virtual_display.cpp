@@ -1,0 +1,89 @@
+#include "virtual_display.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include "core/platform.hpp"
+
+extern char** environ;
+
+namespace speculum::test {
+
+namespace {
+
+pid_t start(std::vector<std::string> arguments) {
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) {
+    argv.push_back(argument.data());
+  }
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
+  pid_t child = 0;
+  const int failure = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0) {
+    throw std::runtime_error(arguments.front() + " cannot be started (is it installed?)");
+  }
+  return child;
+}
+
+void stop(pid_t child) {
+  if (child > 0) {
+    kill(child, SIGTERM);
+    waitpid(child, nullptr, 0);
+  }
+}
+
+// One line from a pipe, or nothing within ten seconds.
+std::string readLine(int descriptor) {
+  std::string line;
+  pollfd ready{descriptor, POLLIN, 0};
+  for (char c = 0; poll(&ready, 1, 10000) == 1 && read(descriptor, &c, 1) == 1 && c != '\n';) {
+    line += c;
+  }
+  return line;
+}
+
+}  // namespace
+
+VirtualDisplay::VirtualDisplay(int width, int height) {
+  int ends[2];
+  if (pipe(ends) != 0) {
+    throw std::runtime_error("no pipe");
+  }
+  const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
+  server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", screen, "-nolisten", "tcp"});
+  close(ends[1]);
+  const std::string number = readLine(ends[0]);
+  close(ends[0]);
+  if (number.empty()) {
+    stop(server_);
+    throw std::runtime_error("Xvfb did not start");
+  }
+  setenv("DISPLAY", (":" + number).c_str(), 1);
+  // A window that is mapped while the manager starts may wait for ever to be shown.
+  const TemporaryDirectory directory;
+  const std::filesystem::path ready = directory.path() / "ready";
+  manager_ = start({"openbox", "--startup", "touch " + ready.string()});
+  for (int i = 0; i < 1000 && !std::filesystem::exists(ready); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+VirtualDisplay::~VirtualDisplay() {
+  stop(manager_);
+  stop(server_);
+}
+
+}  // namespace speculum::test
