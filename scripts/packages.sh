@@ -1,0 +1,34 @@
+# Sourced by the other scripts: what a fresh Debian 12 needs, and the function that installs what is missing.
+
+build_packages=(
+  build-essential cmake ninja-build ccache git pkg-config
+  libvulkan-dev libglfw3-dev libglm-dev libimgui-dev libstb-dev libfreetype-dev
+  glslang-tools spirv-tools
+  libtinyobjloader-dev libtinyexr-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
+  libtbb-dev
+)
+run_packages=(mesa-vulkan-drivers)
+test_packages=(
+  vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
+  xvfb xdotool openbox x11-utils clang-format-14 python3-minimal
+)
+
+# install_missing PACKAGE...: silent when everything is there.
+install_missing() {
+  local missing=() package
+  for package in "$@"; do
+    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  if ! command -v apt-get >/dev/null; then
+    echo "These packages are missing and there is no apt-get to install them: ${missing[*]}" >&2
+    return 1
+  fi
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
