@@ -1,0 +1,45 @@
+#include <algorithm>
+#include <cmath>
+
+#include "image/image.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Krzysztof Narkowicz, "ACES Filmic Tone Mapping Curve" (2016).
+double acesFit(double x) {
+  return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
+}
+
+uint8_t displayCode(double linear, double exposure, ToneMap toneMap) {
+  // The bound is the largest half float; beyond it the fit's numerator and denominator both overflow.
+  const double x = exposure * linear;
+  const double exposed = x > 0.0 ? std::min(x, 65504.0) : 0.0;
+  const double mapped = toneMap == ToneMap::aces ? acesFit(exposed) : exposed;
+  return static_cast<uint8_t>(std::floor(255.0 * srgbEncode(std::min(mapped, 1.0)) + 0.5));
+}
+
+}  // namespace
+
+double srgbEncode(double linear) {
+  const double x = std::clamp(linear, 0.0, 1.0);
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+}
+
+double srgbDecode(double encoded) {
+  const double x = std::clamp(encoded, 0.0, 1.0);
+  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+Image8 toDisplay(const LinearImage& image, double exposure, ToneMap toneMap) {
+  Image8 display(image.width, image.height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      display.rgba[i * 4 + c] = displayCode(image.pixels[i][c], exposure, toneMap);
+    }
+  }
+  return display;
+}
+
+}  // namespace speculum

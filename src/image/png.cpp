@@ -1,0 +1,69 @@
+#include <stb_image.h>
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+#include "image/file_io.hpp"
+#include "image/image.hpp"
+
+namespace speculum {
+
+namespace {
+
+// stb would also take files without any signature for a TGA; only what the documentation promises is read.
+bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
+  constexpr std::array<uint8_t, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  constexpr std::array<uint8_t, 3> jpeg{0xff, 0xd8, 0xff};
+  const auto startsWith = [&](const auto& magic) {
+    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+  };
+  return startsWith(png) || startsWith(jpeg);
+}
+
+void writeChunk(void* stream, void* data, int size) {
+  static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(data), size);
+}
+
+}  // namespace
+
+Image8 readImage8(const std::filesystem::path& file) {
+  const std::vector<uint8_t> bytes = readFileBytes(file);
+  if (!isPngOrJpeg(bytes)) {
+    throw std::runtime_error(file.string() + ": is not a picture that can be read (a PNG or JPEG file is needed)");
+  }
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
+      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
+      &stbi_image_free);
+  if (!pixels) {
+    throw std::runtime_error(file.string() + ": the picture is damaged: " + stbi_failure_reason() +
+                             " (a complete PNG or JPEG file is needed)");
+  }
+  Image8 image(width, height);
+  std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());
+  return image;
+}
+
+void writePng(const std::filesystem::path& file, const Image8& image) {
+  if (image.width < 1 || image.height < 1) {
+    throw std::runtime_error(file.string() + ": the picture has no pixels (width and height of 1 or more are needed)");
+  }
+  [[maybe_unused]] static const int level = stbi_write_png_compression_level = 9;
+  replaceFile(file, [&](const std::filesystem::path& target) {
+    std::ofstream stream(target, std::ios::binary);
+    const bool encoded = stream && stbi_write_png_to_func(&writeChunk, &stream, image.width, image.height, 4,
+                                                          image.rgba.data(), image.width * 4);
+    stream.close();
+    if (!encoded || !stream) {
+      throw std::runtime_error(file.string() + ": cannot be written (check the folder's permissions and free space)");
+    }
+  });
+}
+
+}  // namespace speculum
