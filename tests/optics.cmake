@@ -1,0 +1,2 @@
+speculum_test(optics_tests SOURCES optics_polygon.cpp optics_reflection.cpp optics_projection.cpp
+              LIBRARIES optics ext::rapidcheck)
