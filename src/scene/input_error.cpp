@@ -1,0 +1,17 @@
+#include "scene/input_error.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace speculum {
+
+void throwInputError(const std::filesystem::path& file, int line, std::string_view key, std::string_view wrong,
+                     std::string_view right) {
+  std::string message = file.string() + ":" + std::to_string(line) + ": ";
+  message.append(key).append(": ").append(wrong).append(" (").append(right).append(")");
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+  throw InputError(message);
+}
+
+}  // namespace speculum

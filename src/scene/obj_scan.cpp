@@ -1,0 +1,223 @@
+#include "scene/obj_scan.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "scene/input_error.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> tokens;
+  for (size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
+    const size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
+    tokens.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kBlanks, end);
+  }
+  return tokens;
+}
+
+// Nothing when malformed; infinite or NaN values, spelled or overflown, are returned as they are.
+std::optional<double> parseNumber(std::string_view token) {
+  if (token.starts_with('+')) {
+    token.remove_prefix(1);
+    if (token.starts_with('-')) {
+      return std::nullopt;
+    }
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+  if (end != token.data() + token.size() || error == std::errc::invalid_argument) {
+    return std::nullopt;
+  }
+  // from_chars does not tell overflow from underflow.
+  return error == std::errc() ? value : std::strtod(std::string(token).c_str(), nullptr);
+}
+
+class LineScanner {
+ public:
+  LineScanner(const std::filesystem::path& file, std::string_view text) : file_(file), rest_(text) {
+    if (rest_.starts_with("\xef\xbb\xbf")) {
+      rest_.remove_prefix(3);
+    }
+  }
+
+  // The next line that holds anything but blanks and a comment, as its tokens.
+  bool next() {
+    while (!rest_.empty()) {
+      const size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+      line_ = rest_.substr(0, end);
+      const bool crLf = rest_.substr(end).starts_with("\r\n");
+      rest_.remove_prefix(std::min(end + (crLf ? 2 : 1), rest_.size()));
+      ++number_;
+      if (line_.find('\0') != std::string_view::npos) {
+        fail("file", "is not a text file", "a Wavefront OBJ or MTL file is needed");
+      }
+      tokens_ = split(line_.substr(0, std::min(line_.find('#'), line_.size())));
+      if (!tokens_.empty()) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::string_view keyword() const { return tokens_[0]; }
+  // All after the keyword, blanks inside included.
+  std::string_view argument() const { return trimmed(line_.substr(line_.find(tokens_[0]) + tokens_[0].size())); }
+  std::string_view line() const { return line_; }
+  const std::vector<std::string_view>& tokens() const { return tokens_; }
+  int number() const { return number_; }
+
+  [[noreturn]] void fail(std::string_view key, const std::string& wrong, const std::string& right) const {
+    throwInputError(file_, number_, key, wrong, right);
+  }
+
+  // The numbers after the keyword.
+  std::vector<double> numbers(size_t least, size_t most) const {
+    std::vector<double> values;
+    for (size_t i = 1; i < tokens_.size(); ++i) {
+      const std::optional<double> value = parseNumber(tokens_[i]);
+      if (!value) {
+        fail(keyword(), fmt::format("'{}' is not a number", tokens_[i]), "write for example 0.5 or -1e-3");
+      }
+      values.push_back(*value);
+    }
+    if (values.size() < least || values.size() > most) {
+      const std::string right = least == most ? fmt::to_string(least) : fmt::format("{} .. {}", least, most);
+      fail(keyword(), fmt::format("has {} numbers", values.size()), right + " are needed");
+    }
+    return values;
+  }
+
+ private:
+  const std::filesystem::path& file_;
+  std::string_view rest_;
+  std::string_view line_;
+  std::vector<std::string_view> tokens_;
+  int number_ = 0;
+};
+
+bool allFinite(const std::vector<double>& values, size_t count) {
+  for (size_t i = 0; i < std::min(count, values.size()); ++i) {
+    if (!std::isfinite(values[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void checkIndex(const LineScanner& line, std::string_view text, const char* kind, size_t count) {
+  long long index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) {
+    line.fail("f", fmt::format("'{}' is not an index", text), "write v, v/vt, v//vn or v/vt/vn");
+  }
+  const long long largest = static_cast<long long>(count);
+  if (error != std::errc() || index == 0 || index > largest || index < -largest) {
+    const std::string range =
+        count == 0 ? fmt::format("there is no {} line above", kind) : fmt::format("1 .. {0}, or -{0} .. -1", count);
+    line.fail("f", fmt::format("{} index {} is out of range", kind, text), range);
+  }
+}
+
+void checkFace(const LineScanner& line, const ObjScan& scan) {
+  const std::vector<std::string_view>& tokens = line.tokens();
+  if (tokens.size() < 4) {
+    line.fail("f", fmt::format("has {} vertices", tokens.size() - 1), "a face needs 3 or more");
+  }
+  for (size_t i = 1; i < tokens.size(); ++i) {
+    const std::string_view corner = tokens[i];
+    const size_t first = corner.find('/');
+    checkIndex(line, corner.substr(0, first), "v", scan.finitePosition.size());
+    if (first == std::string_view::npos) {
+      continue;
+    }
+    const size_t second = corner.find('/', first + 1);
+    const std::string_view texcoord =
+        corner.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
+    if (second == std::string_view::npos || !texcoord.empty()) {
+      checkIndex(line, texcoord, "vt", scan.finiteTexcoord.size());
+    }
+    if (second != std::string_view::npos) {
+      checkIndex(line, corner.substr(second + 1), "vn", scan.finiteNormal.size());
+    }
+  }
+}
+
+// Returns whether the line is one whose tokens are checked.
+bool scanGeometry(const LineScanner& line, ObjScan& scan) {
+  if (line.keyword() == "v") {
+    scan.finitePosition.push_back(allFinite(line.numbers(3, 8), 3));
+  } else if (line.keyword() == "vt") {
+    scan.finiteTexcoord.push_back(allFinite(line.numbers(1, 3), 2));
+  } else if (line.keyword() == "vn") {
+    scan.finiteNormal.push_back(allFinite(line.numbers(3, 3), 3));
+  } else if (line.keyword() == "f") {
+    checkFace(line, scan);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const size_t begin = text.find_first_not_of(kBlanks);
+  return begin == std::string_view::npos ? std::string_view()
+                                         : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+ObjScan scanObj(const std::filesystem::path& file, std::string_view text) {
+  ObjScan scan;
+  LineScanner line(file, text);
+  scan.text.reserve(text.size());
+  while (line.next()) {
+    if (scanGeometry(line, scan)) {
+      for (const std::string_view token : line.tokens()) {
+        scan.text.append(token).push_back(' ');
+      }
+    } else {
+      scan.text.append(line.line());
+    }
+    scan.text.push_back('\n');
+  }
+  return scan;
+}
+
+std::map<std::string, MtlLines> scanMtl(const std::filesystem::path& file, std::string_view text) {
+  std::map<std::string, MtlLines> materials;
+  MtlLines* current = nullptr;
+  LineScanner line(file, text);
+  while (line.next()) {
+    const std::string_view key = line.keyword();
+    const bool color = key == "Kd" || key == "Ks" || key == "Ke";
+    const bool scalar = key == "Ns" || key == "d" || key == "Tr";
+    if (key == "newmtl") {
+      current = &materials[std::string(line.argument())];
+      current->newmtl = line.number();
+    } else if (key == "map_Kd" && current != nullptr) {
+      current->mapKd = line.number();
+    } else if (color || scalar) {
+      for (const double value : color ? line.numbers(3, 3) : line.numbers(1, 1)) {
+        if (!std::isfinite(value)) {
+          line.fail(key, "is not finite", "finite numbers are needed");
+        }
+        if (color && value < 0.0) {
+          line.fail(key, "is negative", "colours are 0 or more");
+        }
+      }
+    }
+  }
+  return materials;
+}
+
+}  // namespace speculum

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace speculum {
+
+// What the tokens of an OBJ file say that its parser would pass over: it reads `nan` as 0 and accepts any index.
+struct ObjScan {
+  std::vector<bool> finitePosition;  // of the k-th v line; a w or a vertex colour does not count
+  std::vector<bool> finiteTexcoord;  // of the k-th vt line
+  std::vector<bool> finiteNormal;    // of the k-th vn line
+  // The file again, line by line, with v, vt, vn and f lines reduced to their tokens: the parser takes a comment behind
+  // them for more of the same.
+  std::string text;
+};
+
+// Throws InputError for a malformed number, an index out of range, a face with fewer than 3 vertices, or bytes that are
+// not text. `file` only serves messages.
+ObjScan scanObj(const std::filesystem::path& file, std::string_view text);
+
+// What messages about a material need: where in its file it stands.
+struct MtlLines {
+  int newmtl = 0;
+  int mapKd = 0;  // 0: none
+};
+
+// Checks the numbers of Kd, Ks, Ke, Ns, d and Tr; throws InputError. Returns the lines by material name, first one
+// first.
+std::map<std::string, MtlLines> scanMtl(const std::filesystem::path& file, std::string_view text);
+
+// Without leading and trailing blanks.
+std::string_view trimmed(std::string_view text);
+
+}  // namespace speculum
