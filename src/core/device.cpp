@@ -10,6 +10,22 @@
 
 namespace speculum {
 
+namespace {
+
+VkPhysicalDeviceFeatures usedFeatures(const VkPhysicalDeviceFeatures& available) {
+  return {
+      .sampleRateShading = available.sampleRateShading,
+      .depthClamp = available.depthClamp,
+      .fillModeNonSolid = available.fillModeNonSolid,
+      .samplerAnisotropy = available.samplerAnisotropy,
+      .pipelineStatisticsQuery = available.pipelineStatisticsQuery,
+      .shaderSampledImageArrayDynamicIndexing = available.shaderSampledImageArrayDynamicIndexing,
+      .shaderClipDistance = VK_TRUE,
+  };
+}
+
+}  // namespace
+
 struct Device::Functions {
   PFN_vkCmdBeginRendering beginRendering = nullptr;
   PFN_vkCmdEndRendering endRendering = nullptr;
@@ -62,6 +78,7 @@ Device::Device(const DeviceOptions& options) : instance_(options) {
   vkGetPhysicalDeviceMemoryProperties(physical_, &memoryProperties_);
   choosePath(options.renderPath);
   queueFamily_ = chooseQueueFamily(chosen, surface_.get());
+  caps_.timestampValidBits = queueFamilies(physical_)[queueFamily_].timestampValidBits;
   createDevice(chosen);
   loadFunctions();
   setName(queue_, "graphics queue");
@@ -79,7 +96,7 @@ void Device::choosePath(RenderPath wanted) {
   renderPath_ = dynamic ? RenderPath::dynamic : RenderPath::renderPass;
 }
 
-void Device::createDevice(const PhysicalDevice& chosen) {
+std::vector<const char*> Device::deviceExtensions(const PhysicalDevice& chosen) const {
   std::vector<const char*> extensions;
   if (surface_) {
     extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
@@ -87,6 +104,24 @@ void Device::createDevice(const PhysicalDevice& chosen) {
   if (caps_.memoryBudget) {
     extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   }
+  if (!chosen.core13) {
+    extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME);
+  }
+  if (!chosen.core13 && renderPath_ == RenderPath::dynamic) {
+    // The first needs the others, unless the device has Vulkan 1.2.
+    for (const char* name : {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME,
+                             VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME, VK_KHR_MULTIVIEW_EXTENSION_NAME,
+                             VK_KHR_MAINTENANCE_2_EXTENSION_NAME}) {
+      if (chosen.hasExtension(name)) {
+        extensions.push_back(name);
+      }
+    }
+  }
+  return extensions;
+}
+
+void Device::createDevice(const PhysicalDevice& chosen) {
+  const std::vector<const char*> extensions = deviceExtensions(chosen);
   VkPhysicalDeviceDynamicRenderingFeatures dynamic{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, .dynamicRendering = VK_TRUE};
   VkPhysicalDeviceExtendedDynamicStateFeaturesEXT state{
@@ -94,26 +129,11 @@ void Device::createDevice(const PhysicalDevice& chosen) {
   void* next = nullptr;
   if (renderPath_ == RenderPath::dynamic) {
     dynamic.pNext = std::exchange(next, &dynamic);
-    if (!chosen.core13) {
-      for (const char* name : {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME,
-                               VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME}) {
-        extensions.push_back(name);
-      }
-    }
   }
   if (!chosen.core13) {
-    extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME);
     state.pNext = std::exchange(next, &state);
   }
-  const VkPhysicalDeviceFeatures features{
-      .sampleRateShading = chosen.features.sampleRateShading,
-      .depthClamp = chosen.features.depthClamp,
-      .fillModeNonSolid = chosen.features.fillModeNonSolid,
-      .samplerAnisotropy = chosen.features.samplerAnisotropy,
-      .pipelineStatisticsQuery = chosen.features.pipelineStatisticsQuery,
-      .shaderSampledImageArrayDynamicIndexing = chosen.features.shaderSampledImageArrayDynamicIndexing,
-      .shaderClipDistance = VK_TRUE,
-  };
+  const VkPhysicalDeviceFeatures features = usedFeatures(chosen.features);
   const float priority = 1.0f;
   const VkDeviceQueueCreateInfo queueInfo{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                           .queueFamilyIndex = queueFamily_,
@@ -130,12 +150,6 @@ void Device::createDevice(const PhysicalDevice& chosen) {
   check(vkCreateDevice(physical_, &info, nullptr, &device), "create the logical device of " + info_.name);
   device_.reset(device);
   vkGetDeviceQueue(device, queueFamily_, 0, &queue_);
-
-  uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-  caps_.timestampValidBits = families[queueFamily_].timestampValidBits;
 }
 
 void Device::loadFunctions() {

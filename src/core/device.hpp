@@ -128,6 +128,7 @@ class Device {
   };
 
   void choosePath(RenderPath wanted);
+  std::vector<const char*> deviceExtensions(const PhysicalDevice& chosen) const;
   void createDevice(const PhysicalDevice& chosen);
   void loadFunctions();
   void setObjectName(VkObjectType type, uint64_t object, std::string_view name) const;

@@ -50,6 +50,19 @@ void enableQueueSubmitValidation() {
   }
 }
 
+std::vector<const char*> chooseLayers(const DeviceOptions& options) {
+  if (!options.validation) {
+    return {};
+  }
+  if (!layerPresent()) {
+    throw std::runtime_error(
+        "--validation: VK_LAYER_KHRONOS_validation is missing (install vulkan-validationlayers, or see "
+        "VK_LAYER_PATH)");
+  }
+  enableQueueSubmitValidation();
+  return {validationLayer};
+}
+
 }  // namespace
 
 void Instance::destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
@@ -60,18 +73,14 @@ void Instance::destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT me
 }
 
 Instance::Instance(const DeviceOptions& options) {
-  std::vector<const char*> layers;
-  std::vector<const char*> extensions;
-  if (options.validation) {
-    if (!layerPresent()) {
-      throw std::runtime_error(
-          "--validation: VK_LAYER_KHRONOS_validation is missing (install vulkan-validationlayers, or see "
-          "VK_LAYER_PATH)");
-    }
-    layers.push_back(validationLayer);
-    enableQueueSubmitValidation();
-  }
+  const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                      .pApplicationName = "speculum",
+                                      .applicationVersion = 1,
+                                      .pEngineName = "speculum",
+                                      .apiVersion = usedVersion()};
+  const std::vector<const char*> layers = chooseLayers(options);
   debugUtils_ = extensionPresent(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) || options.validation;
+  std::vector<const char*> extensions;
   if (debugUtils_) {
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   }
@@ -79,13 +88,7 @@ Instance::Instance(const DeviceOptions& options) {
     const std::vector<const char*> needed = options.window->requiredInstanceExtensions();
     extensions.insert(extensions.end(), needed.begin(), needed.end());
   }
-
-  const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-                                      .pApplicationName = "speculum",
-                                      .applicationVersion = 1,
-                                      .pEngineName = "speculum",
-                                      .apiVersion = usedVersion()};
-  VkDebugUtilsMessengerCreateInfoEXT messengerInfo = messages_.createInfo();
+  const VkDebugUtilsMessengerCreateInfoEXT messengerInfo = messages_.createInfo();
   const VkValidationFeatureEnableEXT enables[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                          .pNext = &messengerInfo,
@@ -101,14 +104,18 @@ Instance::Instance(const DeviceOptions& options) {
   VkInstance instance = VK_NULL_HANDLE;
   check(vkCreateInstance(&info, nullptr, &instance), "create the Vulkan instance");
   instance_.reset(instance);
-
   if (options.validation) {
-    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
-    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-    check(create(instance, &messengerInfo, nullptr, &messenger), "create the debug messenger");
-    messenger_ = {instance, messenger};
+    createMessenger();
   }
+}
+
+void Instance::createMessenger() {
+  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance_.get(), "vkCreateDebugUtilsMessengerEXT"));
+  const VkDebugUtilsMessengerCreateInfoEXT info = messages_.createInfo();
+  VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+  check(create(instance_.get(), &info, nullptr, &messenger), "create the debug messenger");
+  messenger_ = {instance_.get(), messenger};
 }
 
 }  // namespace speculum

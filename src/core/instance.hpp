@@ -27,6 +27,7 @@ class Instance {
   };
   static void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
                                const VkAllocationCallbacks* allocator);
+  void createMessenger();
 
   DebugMessages messages_;
   bool debugUtils_ = false;

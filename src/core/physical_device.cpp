@@ -206,12 +206,17 @@ const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const s
   return *chosen;
 }
 
-uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface) {
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
   uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
-  for (uint32_t i = 0; i < count; ++i) {
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  return families;
+}
+
+uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface) {
+  const std::vector<VkQueueFamilyProperties> families = queueFamilies(device.handle);
+  for (uint32_t i = 0; i < families.size(); ++i) {
     VkBool32 presents = VK_TRUE;
     if (surface != VK_NULL_HANDLE) {
       check(vkGetPhysicalDeviceSurfaceSupportKHR(device.handle, i, surface, &presents), "query presentation");

@@ -27,6 +27,8 @@ std::vector<PhysicalDevice> physicalDevices(VkInstance instance);
 // the GPUs when nothing fits or the one named lacks a feature.
 const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const std::string& wanted);
 
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device);
+
 // A family that draws, and presents to `surface` unless that is null. Throws std::runtime_error if there is none.
 uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface);
 

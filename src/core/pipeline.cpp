@@ -37,6 +37,19 @@ class Stage {
   VkPipelineShaderStageCreateInfo info_{};
 };
 
+constexpr std::array dynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_FRONT_FACE};
+constexpr VkPipelineDynamicStateCreateInfo dynamicState{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+                                                        .dynamicStateCount = dynamicStates.size(),
+                                                        .pDynamicStates = dynamicStates.data()};
+
+VkPipelineVertexInputStateCreateInfo vertexInputState(const GraphicsPipelineDesc& desc) {
+  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+          .vertexBindingDescriptionCount = static_cast<uint32_t>(desc.vertexBindings.size()),
+          .pVertexBindingDescriptions = desc.vertexBindings.data(),
+          .vertexAttributeDescriptionCount = static_cast<uint32_t>(desc.vertexAttributes.size()),
+          .pVertexAttributeDescriptions = desc.vertexAttributes.data()};
+}
+
 VkPipelineRasterizationStateCreateInfo rasterization(const GraphicsPipelineDesc& desc, const DeviceCaps& caps) {
   return {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
           .depthClampEnable = desc.depthClamp && caps.depthClamp,
@@ -115,12 +128,7 @@ PipelineHandle PipelineFactory::build(const GraphicsPipelineDesc& desc, VkPipeli
   const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.vertConstants);
   const Stage frag(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(desc.frag), desc.fragConstants);
   const std::array stages = {vert.info(), frag.info()};
-  const VkPipelineVertexInputStateCreateInfo vertexInput{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-      .vertexBindingDescriptionCount = static_cast<uint32_t>(desc.vertexBindings.size()),
-      .pVertexBindingDescriptions = desc.vertexBindings.data(),
-      .vertexAttributeDescriptionCount = static_cast<uint32_t>(desc.vertexAttributes.size()),
-      .pVertexAttributeDescriptions = desc.vertexAttributes.data()};
+  const auto vertexInput = vertexInputState(desc);
   const VkPipelineInputAssemblyStateCreateInfo assembly{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO, .topology = desc.topology};
   const VkPipelineViewportStateCreateInfo viewport{
@@ -132,35 +140,34 @@ PipelineHandle PipelineFactory::build(const GraphicsPipelineDesc& desc, VkPipeli
   const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                                   .attachmentCount = 1,
                                                   .pAttachments = &attachment};
-  constexpr std::array dynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                        VK_DYNAMIC_STATE_FRONT_FACE};
-  const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                 .dynamicStateCount = dynamicStates.size(),
-                                                 .pDynamicStates = dynamicStates.data()};
-  const bool dynamicRendering = device_.renderPath() == RenderPath::dynamic;
+  VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                    .stageCount = stages.size(),
+                                    .pStages = stages.data(),
+                                    .pVertexInputState = &vertexInput,
+                                    .pInputAssemblyState = &assembly,
+                                    .pViewportState = &viewport,
+                                    .pRasterizationState = &raster,
+                                    .pMultisampleState = &samples,
+                                    .pDepthStencilState = &depth,
+                                    .pColorBlendState = &blend,
+                                    .pDynamicState = &dynamicState,
+                                    .layout = layout};
+  return create(desc, info);
+}
+
+PipelineHandle PipelineFactory::create(const GraphicsPipelineDesc& desc, VkGraphicsPipelineCreateInfo info) {
   const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                 .colorAttachmentCount = 1,
                                                 .pColorAttachmentFormats = &desc.color,
                                                 .depthAttachmentFormat = desc.depth};
-  const RenderPassKey compatible{.color = desc.color,
-                                 .depth = desc.depth,
-                                 .samples = desc.samples,
-                                 .resolve = desc.samples != VK_SAMPLE_COUNT_1_BIT};
-  const VkGraphicsPipelineCreateInfo info{
-      .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-      .pNext = dynamicRendering ? &rendering : nullptr,
-      .stageCount = stages.size(),
-      .pStages = stages.data(),
-      .pVertexInputState = &vertexInput,
-      .pInputAssemblyState = &assembly,
-      .pViewportState = &viewport,
-      .pRasterizationState = &raster,
-      .pMultisampleState = &samples,
-      .pDepthStencilState = &depth,
-      .pColorBlendState = &blend,
-      .pDynamicState = &dynamic,
-      .layout = layout,
-      .renderPass = dynamicRendering ? VkRenderPass{VK_NULL_HANDLE} : renderPasses_.renderPass(compatible)};
+  if (device_.renderPath() == RenderPath::dynamic) {
+    info.pNext = &rendering;
+  } else {
+    info.renderPass = renderPasses_.renderPass({.color = desc.color,
+                                                .depth = desc.depth,
+                                                .samples = desc.samples,
+                                                .resolve = desc.samples != VK_SAMPLE_COUNT_1_BIT});
+  }
   VkPipeline pipeline = VK_NULL_HANDLE;
   check(vkCreateGraphicsPipelines(device_.get(), cache_.get(), 1, &info, nullptr, &pipeline),
         "create pipeline " + desc.name);

@@ -73,6 +73,7 @@ class PipelineFactory {
  private:
   friend class Pipeline;
   PipelineHandle build(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
+  PipelineHandle create(const GraphicsPipelineDesc& desc, VkGraphicsPipelineCreateInfo info);
 
   Device& device_;
   ShaderLibrary& shaders_;
