@@ -50,6 +50,13 @@ glm::dvec3 reflectanceBound(const Mirror& mirror, const Plane& plane, const glm:
   return mirror.reflectance + (1.0 - mirror.reflectance) * std::pow(1.0 - cosine, 5.0);
 }
 
+// Distance of the eye from the mirror's plane; exactly 0 where rounding leaves no side to be on.
+double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
+  const glm::dvec3 offset = eye - mirror.origin;
+  const double height = glm::dot(mirror.normal, offset);
+  return std::abs(height) > 1e-15 * glm::length(offset) ? height : 0.0;
+}
+
 std::string number(double value) {
   std::ostringstream out;
   out.precision(3);
@@ -138,7 +145,7 @@ void Planner::consider(int node, int mirror) {
   if (behindEye(view, geometry.polygon)) {
     return skip(view, mirror, SkipReason::behind);
   }
-  const double height = glm::dot(geometry.normal, view.eye - geometry.origin);
+  const double height = heightAbove(geometry, view.eye);
   MirrorDraw draw{.mirror = mirror, .plane = {geometry.origin, geometry.normal}};
   draw.back = height <= 0.0 && !(material.twoSided && height < 0.0);
   draw.polygon = clippedPart(view, geometry.polygon);

@@ -30,20 +30,18 @@ glm::dmat3 normalMatrix(const glm::dmat3& linear) {
 
 glm::dmat3 rotationAboutAxis(const glm::dvec3& axis, double degrees) {
   const glm::dvec3 u = glm::normalize(axis);
-  const double angle = radiansReduced(degrees);
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
+  const auto [s, c] = sineCosine(degrees);
   const glm::dmat3 cross(0.0, u.z, -u.y, -u.z, 0.0, u.x, u.y, -u.x, 0.0);
   return c * glm::dmat3(1.0) + s * cross + (1.0 - c) * glm::outerProduct(u, u);
 }
 
 glm::dmat3 rotationFromDegrees(const glm::dvec3& pitchYawRoll) {
-  const glm::dvec3 a(radiansReduced(pitchYawRoll.x), radiansReduced(pitchYawRoll.y), radiansReduced(pitchYawRoll.z));
-  const glm::dvec3 c(std::cos(a.x), std::cos(a.y), std::cos(a.z));
-  const glm::dvec3 s(std::sin(a.x), std::sin(a.y), std::sin(a.z));
-  const glm::dmat3 x(1, 0, 0, 0, c.x, s.x, 0, -s.x, c.x);
-  const glm::dmat3 y(c.y, 0, -s.y, 0, 1, 0, s.y, 0, c.y);
-  const glm::dmat3 z(c.z, s.z, 0, -s.z, c.z, 0, 0, 0, 1);
+  const auto [sx, cx] = sineCosine(pitchYawRoll.x);
+  const auto [sy, cy] = sineCosine(pitchYawRoll.y);
+  const auto [sz, cz] = sineCosine(pitchYawRoll.z);
+  const glm::dmat3 x(1, 0, 0, 0, cx, sx, 0, -sx, cx);
+  const glm::dmat3 y(cy, 0, -sy, 0, 1, 0, sy, 0, cy);
+  const glm::dmat3 z(cz, sz, 0, -sz, cz, 0, 0, 0, 1);
   return y * x * z;
 }
 

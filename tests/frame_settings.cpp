@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "frame/settings.hpp"
+#include "scene/scene_loader.hpp"
+
+namespace speculum {
+namespace {
+
+TEST(Settings, EveryKeyHasItsDefault) {
+  const nlohmann::json json = settingsJson(Settings());
+  EXPECT_EQ(json["reflection.scale"], 1.0);
+  EXPECT_EQ(json["reflection.samples"], 4);
+  EXPECT_EQ(json["reflection.max_depth"], 4);
+  EXPECT_EQ(json["reflection.min_pixels"], 1.0);
+  EXPECT_EQ(json["reflection.min_throughput"], 0.0005);
+  EXPECT_EQ(json["reflection.max_passes"], 64);
+  EXPECT_EQ(json["reflection.update_interval"], 1);
+  EXPECT_EQ(json["reflection.clip"], "clip_distance");
+  EXPECT_EQ(json["view.samples"], 4);
+  EXPECT_EQ(json["view.exposure"], 1.0);
+  EXPECT_EQ(json["view.tone_map"], "clamp");
+  EXPECT_TRUE(json["view.clear_color"].is_null());
+  EXPECT_EQ(json["view.texture_filter"], "bilinear");
+  EXPECT_EQ(json["view.wireframe"], false);
+}
+
+TEST(Settings, EveryKeyTakesItsOwnValueBack) {
+  Settings settings;
+  ASSERT_FALSE(setSetting(settings, "view.clear_color", "0.1, 0.2,0.3"));
+  for (const SettingInfo& info : settingInfos()) {
+    Settings copy;
+    const std::string value = settingValue(settings, info.key);
+    if (!value.empty()) {
+      EXPECT_FALSE(setSetting(copy, info.key, value)) << info.key;
+      EXPECT_EQ(settingValue(copy, info.key), value) << info.key;
+    }
+  }
+}
+
+struct BadValue {
+  const char* key;
+  const char* value;
+  const char* message;
+};
+
+class BadSettings : public testing::TestWithParam<BadValue> {};
+
+TEST_P(BadSettings, SayWhatIsWrongAndWhatWouldBeRight) {
+  Settings settings;
+  const auto problem = setSetting(settings, GetParam().key, GetParam().value);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(*problem, GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadSettings,
+    testing::Values(
+        BadValue{"reflection.scale", "5", "reflection.scale: '5' is not a number in range (0.125 .. 4)"},
+        BadValue{"reflection.scale", "nan", "reflection.scale: 'nan' is not a number in range (0.125 .. 4)"},
+        BadValue{"reflection.scale", "", "reflection.scale: '' is not a number in range (0.125 .. 4)"},
+        BadValue{"reflection.samples", "3",
+                 "reflection.samples: '3' is not one of the whole numbers allowed (1 2 4 8)"},
+        BadValue{"reflection.max_depth", "1.5",
+                 "reflection.max_depth: '1.5' is not one of the whole numbers allowed (0 .. 32)"},
+        BadValue{"reflection.clip", "maybe",
+                 "reflection.clip: 'maybe' is not a choice (clip_distance | oblique | none)"},
+        BadValue{"view.wireframe", "1", "view.wireframe: '1' is not a choice (true | false)"},
+        BadValue{"view.clear_color", "1,2",
+                 "view.clear_color: '1,2' is not a colour (three linear values >= 0, such as 0.1,0.2,0.3)"},
+        BadValue{"view.clear_color", "1,2,3,4",
+                 "view.clear_color: '1,2,3,4' is not a colour (three linear values >= 0, such as 0.1,0.2,0.3)"},
+        BadValue{"view.exposur", "1", "view.exposur: unknown setting (did you mean view.exposure?)"},
+        BadValue{"zzz", "1", "zzz: unknown setting (see speculum --help for the keys)"}));
+
+TEST(Settings, OfASceneNameFileAndLine) {
+  Scene scene;
+  scene.file = "room.toml";
+  scene.settings = {{"reflection.max_depth", int64_t{2}, 4}, {"view.exposure", 0.5, 5}};
+  const Settings settings = settingsOf(scene);
+  EXPECT_EQ(settings.reflection.maxDepth, 2);
+  EXPECT_EQ(settings.view.exposure, 0.5);
+
+  scene.settings = {{"reflection.scale", std::string("1"), 7}};
+  try {
+    settingsOf(scene);
+    FAIL() << "a string where a number belongs";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "room.toml:7: reflection.scale: a string is the wrong type (0.125 .. 4)");
+  }
+}
+
+TEST(Settings, ClearColorReplacesTheSky) {
+  Scene scene;
+  scene.environment.background = glm::dvec3(0.5);
+  scene.environment.sky = Sky{glm::dvec3(1), glm::dvec3(1), glm::dvec3(1)};
+  Settings settings;
+  EXPECT_TRUE(effectiveEnvironment(scene, settings).sky);
+  settings.view.clearColor = glm::dvec3(0.25);
+  EXPECT_FALSE(effectiveEnvironment(scene, settings).sky);
+  EXPECT_EQ(effectiveEnvironment(scene, settings).radiance({0, 1, 0}), glm::dvec3(0.25));
+}
+
+}  // namespace
+}  // namespace speculum
