@@ -7,8 +7,28 @@ namespace speculum {
 
 namespace {
 
-double radiansReduced(double degrees) {
-  return glm::radians(std::remainder(degrees, 360.0));
+struct SineCosine {
+  double sine;
+  double cosine;
+};
+
+// Exact at multiples of 90 degrees, where most walls stand, and after any number of turns.
+SineCosine sineCosine(double degrees) {
+  const double reduced = std::remainder(degrees, 360.0);
+  const double quarter = std::round(reduced / 90.0);
+  const double rest = glm::radians(reduced - 90.0 * quarter);
+  const double s = std::sin(rest);
+  const double c = std::cos(rest);
+  switch (static_cast<int>(quarter) & 3) {
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
+  }
 }
 
 }  // namespace
