@@ -1,0 +1,70 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "models.hpp"
+#include "paints.hpp"
+
+namespace {
+
+using namespace speculum::generator;
+
+void writeAll(const std::filesystem::path& directory) {
+  std::filesystem::create_directories(directory);
+  writeTextures(directory);
+  torusKnot(104, 12, paints::kGold).write(directory, "torus_knot");
+  torusKnot(132, 16, paints::kGold).write(directory, "torus_knot_fine");
+  sphere(36, 18, paints::kPorcelain).write(directory, "sphere");
+  gem(paints::kRuby).write(directory, "gem");
+  ammonite(168, 14, paints::kShell).write(directory, "ammonite");
+  vase(paints::kGlaze).write(directory, "vase");
+  moebius(80, 16, paints::kBronze).write(directory, "moebius");
+  teapot(6, paints::kPorcelain).write(directory, "teapot");
+  pawn(paints::kIvory).write(directory, "pawn");
+  rook(paints::kIvory).write(directory, "rook");
+  bishop(paints::kIvory).write(directory, "bishop");
+  queen(paints::kIvory).write(directory, "queen");
+  king(paints::kIvory).write(directory, "king");
+  column().write(directory, "column");
+  pedestal().write(directory, "pedestal");
+  plinth().write(directory, "plinth");
+  bench().write(directory, "bench");
+  arcadeBay().write(directory, "arcade_bay");
+  arch().write(directory, "arch");
+  room().write(directory, "room");
+  coffers().write(directory, "coffers");
+  chequer().write(directory, "chequer");
+  tile().write(directory, "tile");
+  lamp().write(directory, "lamp");
+  box().write(directory, "box");
+  frame(Opening::rectangle, 1.0, 1.0, 0.12, paints::kGold).write(directory, "frame");
+  frame(Opening::rectangle, 3.0, 2.0, 0.20, paints::kGold).write(directory, "frame_wide");
+  frame(Opening::rectangle, 1.0, 2.0, 0.14, paints::kGold).write(directory, "frame_tall");
+  frame(Opening::arch, 2.4, 3.4, 0.20, paints::kGold).write(directory, "frame_arch");
+  frame(Opening::ellipse, 1.5, 1.5, 0.16, paints::kGold).write(directory, "frame_round");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Writes the models and textures of the demo, or one large mesh for benchmarks"};
+  std::string out;
+  int64_t large = 0;
+  app.add_option("--out", out, "folder for the models, or the OBJ file of --large")->required();
+  app.add_option("--large", large, "triangles of the large mesh")->check(CLI::Range(int64_t{1000}, int64_t{20000000}));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    if (large > 0) {
+      std::cout << writeLargeKnot(out, large) << " triangles\n";
+    } else {
+      writeAll(out);
+    }
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}
