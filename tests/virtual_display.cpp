@@ -1,5 +1,6 @@
 #include "virtual_display.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -20,7 +21,10 @@ namespace speculum::test {
 
 namespace {
 
-pid_t start(std::vector<std::string> arguments) {
+// The child ends with this process, however that ends.
+pid_t start(std::vector<std::string> program) {
+  std::vector<std::string> arguments = {"setpriv", "--pdeathsig", "TERM"};
+  arguments.insert(arguments.end(), program.begin(), program.end());
   std::vector<char*> argv;
   for (std::string& argument : arguments) {
     argv.push_back(argument.data());
@@ -28,12 +32,14 @@ pid_t start(std::vector<std::string> arguments) {
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
+  for (const int output : {STDOUT_FILENO, STDERR_FILENO}) {
+    posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
+  }
   pid_t child = 0;
   const int failure = posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) {
-    throw std::runtime_error(arguments.front() + " cannot be started (is it installed?)");
+    throw std::runtime_error(program.front() + " cannot be started (is it installed?)");
   }
   return child;
 }

@@ -208,5 +208,7 @@ TemporaryDirectory::~TemporaryDirectory() {
 
 #ifdef __SANITIZE_ADDRESS__
 // Drivers stay loaded to the end, so that the leak checker's suppressions can name them.
-extern "C" int dlclose(void*) { return 0; }
+extern "C" int dlclose(void*) {
+  return 0;
+}
 #endif
