@@ -58,8 +58,6 @@ int runCommand(const Options& options) {
       {"demo", runDemo},
       {"render", runRender},
       {"bench", runBench},
-      {"reference", runReference},
-      {"compare", runCompare},
       {"info", [](const Options&) { return runInfo(); }},
       {"scenes", [](const Options&) { return runScenes(); }},
   };

@@ -13,23 +13,11 @@ namespace speculum {
 
 namespace {
 
-Image8 toImage(Pixels pixels) {
-  Image8 image;
-  image.width = static_cast<int>(pixels.extent.width);
-  image.height = static_cast<int>(pixels.extent.height);
-  image.rgba = std::move(pixels.rgba);
-  for (size_t i = 3; i < image.rgba.size(); i += 4) {
-    image.rgba[i] = 255;
-  }
-  return image;
-}
-
 void savePicture(Session& session, const std::filesystem::path& file) {
   if (file.extension() == ".exr") {
-    session.renderer().waitIdle();
     writeExr(file, session.radiance());
   } else {
-    writePng(file, toImage(session.renderer().readback()));
+    writePng(file, session.picture());
   }
 }
 

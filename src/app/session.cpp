@@ -103,7 +103,20 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   return frame_;
 }
 
+Image8 Session::picture() {
+  Pixels pixels = renderer_.readback();
+  Image8 image;
+  image.width = static_cast<int>(pixels.extent.width);
+  image.height = static_cast<int>(pixels.extent.height);
+  image.rgba = std::move(pixels.rgba);
+  for (size_t i = 3; i < image.rgba.size(); i += 4) {
+    image.rgba[i] = 255;
+  }
+  return image;
+}
+
 LinearImage Session::radiance() {
+  renderer_.waitIdle();
   const std::vector<float> texels = renderer_.uploader().readFloats(sceneRenderer_.mainTarget().color());
   LinearImage image(size_.width, size_.height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {

@@ -42,8 +42,9 @@ class Session {
  public:
   explicit Session(const Options& options);
 
-  // Draws the scene at `time`. With `capture`, renderer().readback() has the picture.
+  // Draws the scene at `time`. picture() needs `capture`.
   const DrawnFrame& draw(double time, bool capture);
+  Image8 picture();        // of the last frame drawn with `capture`
   LinearImage radiance();  // of the last frame, before the display pass
 
   const Scene& scene() const { return loaded_.scene; }

@@ -1,0 +1,262 @@
+#include "scene/table_reader.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/input_error.hpp"
+#include "scene/nearest_key.hpp"
+
+namespace speculum {
+
+namespace {
+
+int lineOf(const toml::source_region& region, int fallback) {
+  return region.begin.line > 0 ? static_cast<int>(region.begin.line) : fallback;
+}
+
+std::string elementKey(std::string_view key, size_t index) {
+  return fmt::format("{}[{}]", key, index);
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return std::isfinite(value) && (aboveLow ? value > low : value >= low) && value <= high;
+}
+
+std::string Range::text() const {
+  const bool bounded = high < std::numeric_limits<double>::max();
+  if (bounded) {
+    return fmt::format("a number {} .. {} is needed", low, high);
+  }
+  if (low == -std::numeric_limits<double>::max()) {
+    return "a finite number is needed";
+  }
+  return aboveLow ? fmt::format("a finite number above {} is needed", low)
+                  : fmt::format("a finite number of {} or more is needed", low);
+}
+
+std::string_view typeName(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return node.is_array_of_tables() ? "an array of tables" : "an array";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number with a fraction";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
+  }
+}
+
+TableReader::TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line,
+                         std::span<const std::string_view> known)
+    : file_(file), label_(std::move(label)), table_(table), line_(std::max(1, line)) {
+  const toml::key* first = nullptr;
+  for (const auto& [key, value] : table_) {
+    const bool isKnown = std::find(known.begin(), known.end(), key.str()) != known.end();
+    if (!isKnown && (first == nullptr || key.source().begin.line < first->source().begin.line)) {
+      first = &key;
+    }
+  }
+  if (first != nullptr) {
+    fail(first->str(), "is not a known key", nearestKeyAdvice(first->str(), known));
+  }
+}
+
+int TableReader::line(std::string_view key) const {
+  for (const auto& [name, value] : table_) {
+    if (name.str() == key) {
+      return lineOf(name.source(), lineOf(value.source(), line_));
+    }
+  }
+  return line_;
+}
+
+std::string TableReader::fullKey(std::string_view key) const {
+  return label_.empty() ? std::string(key) : label_ + "." + std::string(key);
+}
+
+void TableReader::fail(std::string_view key, std::string_view wrong, std::string_view right) const {
+  throwInputError(file_, line(key), fullKey(key), wrong, right);
+}
+
+void TableReader::failAt(const toml::node& node, std::string_view key, std::string_view wrong,
+                         std::string_view right) const {
+  throwInputError(file_, lineOf(node.source(), line_), fullKey(key), wrong, right);
+}
+
+const toml::node& TableReader::required(std::string_view key, std::string_view right) const {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) {
+    fail(key, "is missing", right);
+  }
+  return *node;
+}
+
+double TableReader::numberOf(const toml::node& node, std::string_view key, const Range& range) const {
+  if (!node.is_number()) {
+    failAt(node, key, fmt::format("is {}", typeName(node)), range.text());
+  }
+  const double value = node.value<double>().value();
+  if (!range.contains(value)) {
+    failAt(node, key, fmt::format("is {}", value), range.text());
+  }
+  return value;
+}
+
+std::vector<double> TableReader::numbersOf(const toml::node& node, std::string_view key, size_t count,
+                                           const Range& range) const {
+  const std::string right = fmt::format("an array of {} numbers is needed", count);
+  const toml::array* array = node.as_array();
+  if (array == nullptr) {
+    failAt(node, key, fmt::format("is {}", typeName(node)), right);
+  }
+  if (array->size() != count) {
+    failAt(node, key, fmt::format("has {} elements", array->size()), right);
+  }
+  std::vector<double> values;
+  for (size_t i = 0; i < count; ++i) {
+    values.push_back(numberOf((*array)[i], elementKey(key, i), range));
+  }
+  return values;
+}
+
+glm::dvec3 TableReader::vec3Of(const toml::node& node, std::string_view key, const Range& range) const {
+  const std::vector<double> values = numbersOf(node, key, 3, range);
+  return {values[0], values[1], values[2]};
+}
+
+double TableReader::number(std::string_view key, double fallback, const Range& range) const {
+  const toml::node* node = table_.get(key);
+  return node == nullptr ? fallback : numberOf(*node, key, range);
+}
+
+int64_t TableReader::integer(std::string_view key, int64_t fallback, int64_t low, int64_t high) const {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) {
+    return fallback;
+  }
+  const std::string right = fmt::format("an integer {} .. {} is needed", low, high);
+  if (!node->is_integer()) {
+    failAt(*node, key, fmt::format("is {}", typeName(*node)), right);
+  }
+  const int64_t value = node->as_integer()->get();
+  if (value < low || value > high) {
+    failAt(*node, key, fmt::format("is {}", value), right);
+  }
+  return value;
+}
+
+bool TableReader::boolean(std::string_view key, bool fallback) const {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) {
+    return fallback;
+  }
+  if (!node->is_boolean()) {
+    failAt(*node, key, fmt::format("is {}", typeName(*node)), "true or false is needed");
+  }
+  return node->as_boolean()->get();
+}
+
+std::string TableReader::text(std::string_view key, const std::string& fallback) const {
+  return has(key) ? text(key) : fallback;
+}
+
+std::string TableReader::text(std::string_view key) const {
+  const toml::node& node = required(key, "a string is needed");
+  if (!node.is_string()) {
+    failAt(node, key, fmt::format("is {}", typeName(node)), "a string is needed");
+  }
+  return node.as_string()->get();
+}
+
+glm::dvec3 TableReader::vec3(std::string_view key, const glm::dvec3& fallback, const Range& range) const {
+  const toml::node* node = table_.get(key);
+  return node == nullptr ? fallback : vec3Of(*node, key, range);
+}
+
+glm::dvec3 TableReader::vec3(std::string_view key, const Range& range) const {
+  return vec3Of(required(key, "an array of 3 numbers is needed"), key, range);
+}
+
+glm::dvec2 TableReader::vec2(std::string_view key, const Range& range) const {
+  const std::vector<double> values = numbersOf(required(key, "an array of 2 numbers is needed"), key, 2, range);
+  return {values[0], values[1]};
+}
+
+glm::dvec3 TableReader::numberOrVec3(std::string_view key, const glm::dvec3& fallback) const {
+  const toml::node* node = table_.get(key);
+  if (node != nullptr && !node->is_number() && !node->is_array()) {
+    failAt(*node, key, fmt::format("is {}", typeName(*node)), "a number or an array of 3 numbers is needed");
+  }
+  return node != nullptr && node->is_number() ? glm::dvec3(numberOf(*node, key, kAny)) : vec3(key, fallback);
+}
+
+std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
+  const toml::node& node = required(key, "an array of points is needed");
+  if (!node.is_array()) {
+    failAt(node, key, fmt::format("is {}", typeName(node)), "an array of points [x, y, z] is needed");
+  }
+  std::vector<glm::dvec3> points;
+  for (size_t i = 0; i < node.as_array()->size(); ++i) {
+    points.push_back(vec3Of((*node.as_array())[i], elementKey(key, i), kAny));
+  }
+  return points;
+}
+
+size_t TableReader::choice(std::string_view key, size_t fallback, std::span<const std::string_view> choices) const {
+  if (!has(key)) {
+    return fallback;
+  }
+  const std::string value = text(key);
+  const auto found = std::find(choices.begin(), choices.end(), value);
+  if (found == choices.end()) {
+    fail(key, fmt::format("is '{}'", value), nearestKeyAdvice(value, choices));
+  }
+  return static_cast<size_t>(found - choices.begin());
+}
+
+std::optional<TableReader> TableReader::subtable(std::string_view key, std::span<const std::string_view> known) const {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) {
+    return std::nullopt;
+  }
+  if (!node->is_table()) {
+    failAt(*node, key, fmt::format("is {}", typeName(*node)), "a table is needed");
+  }
+  return TableReader(file_, fullKey(key), *node->as_table(), line(key), known);
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view key, std::span<const std::string_view> known) const {
+  std::vector<TableReader> readers;
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) {
+    return readers;
+  }
+  const std::string right = fmt::format("write [[{}]] above each", key);
+  const toml::array* array = node->as_array();
+  if (array == nullptr) {
+    failAt(*node, key, fmt::format("is {}", typeName(*node)), right);
+  }
+  for (size_t i = 0; i < array->size(); ++i) {
+    const toml::node& element = (*array)[i];
+    if (!element.is_table()) {
+      failAt(element, elementKey(key, i), fmt::format("is {}", typeName(element)), right);
+    }
+    const std::string name = (*element.as_table())["name"].value_or(std::string());
+    std::string label = name.empty() ? elementKey(fullKey(key), i) : fmt::format("{}[{}]", fullKey(key), name);
+    readers.emplace_back(file_, std::move(label), *element.as_table(), lineOf(element.source(), line_), known);
+  }
+  return readers;
+}
+
+}  // namespace speculum

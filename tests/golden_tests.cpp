@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+// Golden pictures hold on any CPU and Mesa: 3/255 a channel on 99.9 % of the pixels, no 3x3 block wholly over.
+constexpr int tolerance = 3;
+constexpr double animatedTime = 2.5;  // seconds
+
+struct GoldenCase {
+  std::string scene;
+  double time = 0.0;
+  int maxDepth = -1;  // -1: the scene's own
+
+  std::string name() const {
+    return scene + (time > 0.0 ? "_moved" : "") + (maxDepth >= 0 ? "_depth" + std::to_string(maxDepth) : "");
+  }
+  std::filesystem::path file() const { return sourceFile("tests/golden/" + name() + ".png"); }
+};
+
+std::vector<GoldenCase> goldenCases() {
+  std::vector<GoldenCase> cases;
+  for (const char* scene :
+       {"gallery", "single_plane", "facing_mirrors", "many_mirrors", "mirror_maze", "no_mirror", "outdoors"}) {
+    cases.push_back({scene});
+    cases.push_back({scene, animatedTime});
+  }
+  for (const char* scene : {"gallery", "facing_mirrors", "many_mirrors"}) {
+    for (int depth = 0; depth <= 4; ++depth) {
+      cases.push_back({scene, 0.0, depth});
+    }
+  }
+  return cases;
+}
+
+Image8 drawCase(const GoldenCase& golden, RenderPath path) {
+  Options options = headless(sourceFile("scenes/" + golden.scene + ".toml"));
+  options.renderPath = path;
+  if (golden.maxDepth >= 0) {
+    options.settings.emplace_back("reflection.max_depth", std::to_string(golden.maxDepth));
+  }
+  return draw(options, golden.time);
+}
+
+class Golden : public testing::TestWithParam<GoldenCase> {};
+
+TEST_P(Golden, IsDrawnAlikeOnBothPaths) {
+  ASSERT_TRUE(std::filesystem::exists(GetParam().file())) << "scripts/test --update-golden draws it";
+  const Image8 expected = readImage8(GetParam().file());
+  const Image8 dynamic = drawCase(GetParam(), RenderPath::dynamic);
+  expectAlike(dynamic, expected, tolerance, GetParam().name());
+  const Image8 classic = drawCase(GetParam(), RenderPath::renderPass);
+  EXPECT_EQ(classic.rgba, dynamic.rgba) << "the render paths differ";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(goldenCases()),
+                         [](const auto& info) { return info.param.name(); });
+
+void updateAll() {
+  for (const GoldenCase& golden : goldenCases()) {
+    writePng(golden.file(), drawCase(golden, RenderPath::automatic));
+    std::printf("%s\n", golden.file().c_str());
+  }
+}
+
+}  // namespace
+}  // namespace speculum
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], "--update") == 0) {
+    speculum::updateAll();
+    return 0;
+  }
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/session.hpp"
+#include "image/image.hpp"
+
+namespace speculum::testing_support {
+
+// How two pictures differ: a pixel is over when a channel differs by more than the tolerance.
+struct Difference {
+  double shareOver = 0.0;  // of the pixels that count
+  bool blockOver = false;  // a 3x3 block of counting pixels lies wholly over
+  int largest = 0;         // in 1/255
+  size_t counted = 0;
+};
+
+// `counts`: a mask of the pixels' size, empty for all.
+Difference difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
+
+// At most 0.1 % of the pixels over and no 3x3 block wholly over. On failure writes NAME-actual.png, NAME-expected.png
+// and NAME-difference.png below the build tree and says where.
+void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
+                 const std::vector<bool>& counts = {});
+
+// Options for a headless picture with validation on.
+Options headless(const std::filesystem::path& scene, PictureSize size = {640, 360});
+
+// Draws one picture; a validation message is a failure.
+Image8 draw(const Options& options, double time = 0.0);
+
+// Writes a scene file into the test's temporary directory; model paths in it are relative to the project's models/.
+std::filesystem::path writeScene(const std::string& name, const std::string& toml);
+
+std::filesystem::path sourceFile(const std::string& relative);
+
+}  // namespace speculum::testing_support
