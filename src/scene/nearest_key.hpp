@@ -1,0 +1,13 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace speculum {
+
+// What an error about an unknown key advises: "did you mean 'x'?" for the known key with the least edit distance
+// (Levenshtein 1966) when that is at most a third of the key's length and at least 1, else the list of known keys.
+std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known);
+
+}  // namespace speculum

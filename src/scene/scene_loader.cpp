@@ -1,0 +1,82 @@
+#include "scene/scene_loader.hpp"
+
+#include <toml++/toml.h>
+
+#include <array>
+
+#include "image/file_io.hpp"
+#include "scene/input_error.hpp"
+#include "scene/scene_sections.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string readSceneText(const fs::path& file) {
+  try {
+    const std::vector<uint8_t> bytes = readFileBytes(file);
+    return std::string(bytes.begin(), bytes.end());
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    const size_t start = file.string().size() + 2;
+    throwInputError(file, 1, "file", message.substr(start, message.rfind(" (") - start), "a scene file is needed");
+  }
+}
+
+toml::table parseToml(const fs::path& file) {
+  try {
+    return toml::parse(readSceneText(file));
+  } catch (const toml::parse_error& error) {
+    const int line = static_cast<int>(error.source().begin.line);
+    throwInputError(file, std::max(1, line), "toml", error.description(), "a TOML 1.0 file is needed");
+  }
+}
+
+// The place of the model among the scene's meshes; each file is loaded once, whatever it is called.
+int meshIndex(const TableReader& object, Scene& scene) {
+  const std::string model = object.text("model");
+  const fs::path file = (scene.file.parent_path() / model).lexically_normal();
+  std::error_code error;
+  if (model.empty() || !fs::is_regular_file(file, error)) {
+    object.fail("model", "there is no file '" + file.string() + "'",
+                "name a Wavefront OBJ file, relative to the scene file");
+  }
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (fs::equivalent(scene.meshes[i].source, file, error)) {
+      return static_cast<int>(i);
+    }
+  }
+  scene.meshes.push_back(loadObj(file, scene.textures));
+  return static_cast<int>(scene.meshes.size()) - 1;
+}
+
+}  // namespace
+
+Scene loadScene(const fs::path& file) {
+  static constexpr std::array<std::string_view, 7> kKeys{"title",  "environment", "camera", "settings",
+                                                         "object", "light",       "mirror"};
+  const toml::table root = parseToml(file);
+  const TableReader reader(file, "", root, 1, kKeys);
+  Scene scene{.file = file};
+  scene.title = reader.text("title", "");
+  scene.environment = readEnvironment(reader);
+  scene.camera = readCamera(reader);
+  scene.settings = readSettings(reader);
+  for (const TableReader& table : reader.tables("light", lightKeys())) {
+    scene.lights.push_back(readLight(table));
+  }
+  for (const TableReader& table : reader.tables("mirror", mirrorKeys())) {
+    scene.mirrors.push_back(readMirror(table));
+  }
+  // Last, so that a slip in the file is told before models are read.
+  for (const TableReader& table : reader.tables("object", objectKeys())) {
+    Object object = readObject(table);
+    object.mesh = meshIndex(table, scene);
+    scene.objects.push_back(std::move(object));
+  }
+  return scene;
+}
+
+}  // namespace speculum
