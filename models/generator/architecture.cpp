@@ -84,6 +84,20 @@ Model plinth() {
   return model;
 }
 
+Model baluster() {
+  Model model;
+  model.paint(paints::kTrim);
+  generator::box(model, {-0.09, 0.0, -0.09}, {0.09, 0.07, 0.09}, 0.004, 1.0, false);
+  Profile p({0.075, 0.069});
+  p.line({0.075, 0.09})
+      .curve({0.03, 0.11}, {0.10, 0.20}, {0.085, 0.27}, 5)
+      .curve({0.07, 0.38}, {0.03, 0.5}, {0.04, 0.6}, 5);
+  p.arc({0.04, 0.63}, 0.8, 3).line({0.045, 0.64}).line({0.075, 0.685});
+  lathe(model, p, 16);
+  generator::box(model, {-0.09, 0.68, -0.09}, {0.09, 0.75, 0.09}, 0.004);
+  return model;
+}
+
 Model bench() {
   Model model;
   model.paint(paints::kWood);
@@ -167,7 +181,7 @@ Model coffers() {
       };
       for (const Step& step : steps) {
         for (int k = 0; k < 4; ++k) {
-          model.paint(paints::kTrim);
+          model.paint(paints::kWalnut);
           model.quad({ring(outer, y, k), ring(outer, y, k + 1), ring(step.half, y, k + 1), ring(step.half, y, k)},
                      {0.0, -1.0, 0.0}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
           const glm::dvec3 middle = 0.5 * (ring(1.0, 0.0, k) + ring(1.0, 0.0, k + 1)) - centre;
@@ -184,8 +198,8 @@ Model coffers() {
       Model rosette;
       rosette.paint(paints::kGold);
       Profile p({0.0, 0.0});
-      p.line({0.13, 0.0}).arc({0.09, 0.03}, 0.5, 3).line({0.075, 0.022}).arc({0.0, 0.06}, 0.3, 4);
-      lathe(rosette, p, 16);
+      p.line({0.13, 0.0}).arc({0.09, 0.03}, 0.5, 2).line({0.075, 0.022}).arc({0.0, 0.06}, 0.3, 2);
+      lathe(rosette, p, 12);
       model.append(rosette, place(centre + glm::dvec3(0.0, y - 0.002, 0.0), {180.0, 0.0, 0.0}));
     }
   }

@@ -12,7 +12,9 @@ void writeAll(const std::filesystem::path& directory) {
   std::filesystem::create_directories(directory);
   writeTextures(directory);
   torusKnot(104, 12, paints::kGold).write(directory, "torus_knot");
-  torusKnot(132, 16, paints::kGold).write(directory, "torus_knot_fine");
+  Model upright;
+  upright.append(torusKnot(132, 16, paints::kGold), place({0.0, 0.506, -0.251}, {90.0, 0.0, 0.0}));
+  upright.write(directory, "torus_knot_upright");
   sphere(36, 18, paints::kPorcelain).write(directory, "sphere");
   gem(paints::kRuby).write(directory, "gem");
   ammonite(168, 14, paints::kShell).write(directory, "ammonite");
@@ -27,6 +29,7 @@ void writeAll(const std::filesystem::path& directory) {
   column().write(directory, "column");
   pedestal().write(directory, "pedestal");
   plinth().write(directory, "plinth");
+  baluster().write(directory, "baluster");
   bench().write(directory, "bench");
   arcadeBay().write(directory, "arcade_bay");
   arch().write(directory, "arch");

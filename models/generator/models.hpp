@@ -32,15 +32,16 @@ Model plinth();     // round, 0.35 m high, 1.1 m across
 Model bench();      // 1.6 m long, 0.45 m high
 Model arcadeBay();  // 3 m wide, 4.6 m high wall in z = 0 facing +Z with an arched opening of 2 m, 0.5 m deep
 Model arch();       // free-standing gate of two columns' width, 2.6 m high
-Model room();       // 10 x 4.6 x 14 m: end walls and one long wall with panels and mouldings; open on -X, and above
+Model room();       // 10 x 4.6 x 15 m: end walls and one long wall with panels and mouldings; open on -X, and above
 Model coffers();    // 2 x 2 m of coffered ceiling in y = 0 seen from below
 Model chequer();    // 4 x 4 m: the light squares (0.5 m) of a chequered floor, 1.5 mm high with cut edges
+Model baluster();   // turned, 0.75 m high
 Model tile();       // 1 x 1 m slab, 0.02 m high, with cut edges
 Model lamp();       // hanging lamp; its hook is at y = 0 and it hangs 1.2 m down
 Model box();        // the unit cube on y = 0 with cut edges
 
 // Moulded frame around an opening of width x height with its lip 0.035 m above z = 0; a mirror at z = 0.02 that is
-// 0.02 m larger than the opening on every side fits under it.
+// 0.02 m larger than the opening on every side fits under it. The outer edge reaches back to z = -0.05.
 enum class Opening { rectangle, arch, ellipse };
 Model frame(Opening opening, double width, double height, double border, const Paint& paint);
 

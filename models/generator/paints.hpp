@@ -19,7 +19,7 @@ inline const Paint kWood{"wood", {0.80, 0.80, 0.80}, {0.04, 0.04, 0.04}, 60.0, {
 inline const Paint kRuby{"ruby", {0.30, 0.012, 0.025}, {0.12, 0.10, 0.10}, 260.0};
 inline const Paint kGlaze{"glaze", {0.03, 0.12, 0.22}, {0.07, 0.07, 0.07}, 200.0};
 inline const Paint kShell{"shell", {0.74, 0.56, 0.44}, {0.08, 0.07, 0.06}, 80.0};
-inline const Paint kIron{"iron", {0.03, 0.03, 0.032}, {0.10, 0.10, 0.10}, 40.0};
+inline const Paint kWalnut{"walnut", {0.105, 0.055, 0.030}, {0.03, 0.03, 0.03}, 40.0};
 inline const Paint kLampGlass{"lamp_glass", {0.8, 0.75, 0.65}, {0.0, 0.0, 0.0}, 1.0, {2.6, 2.0, 1.25}};
 
 }  // namespace speculum::generator::paints

@@ -26,7 +26,7 @@ Model panelledWall(double width, int panels) {
   return wall;
 }
 
-// Skirting, chair rail and cornice along the open path of the walls, heights upwards, the room to the right.
+// Skirting and chair rail along the open path of the walls, the cornice all round; the room is to the right.
 void runMouldings(Model& model, const std::vector<glm::dvec2>& path) {
   const Affine lying = place({0.0, 0.0, 0.0}, {-90.0, 0.0, 0.0});
   model.paint(paints::kTrim);
@@ -39,18 +39,18 @@ void runMouldings(Model& model, const std::vector<glm::dvec2>& path) {
   Profile cornice({0.0, 4.12});
   cornice.line({0.03, 4.13}).line({0.03, 4.2}).curve({0.03, 4.28}, {0.14, 4.26}, {0.14, 4.36}, 5).line({0.18, 4.37});
   cornice.line({0.18, 4.42}).arc({0.30, 4.54}, -0.4, 5).line({0.34, 4.55}).line({0.34, kHeight});
-  sweep(model, cornice, path, false, false, lying);
+  sweep(model, cornice, path, true, false, lying);
   model.paint(paints::kGold);
   Profile bead({0.03, 4.155});
   bead.arc({0.03, 4.185}, 0.9, 4);
-  sweep(model, bead, path, false, false, lying);
+  sweep(model, bead, path, true, false, lying);
 }
 
 }  // namespace
 
 Model room() {
   Model model;
-  const double x = 5.0, z = 7.0;
+  const double x = 5.0, z = 7.5;
   model.append(panelledWall(2.0 * x, 4), place({0.0, 0.0, -z}));
   model.append(panelledWall(2.0 * x, 4), place({0.0, 0.0, z}, {0.0, 180.0, 0.0}));
   model.append(panelledWall(2.0 * z, 5), place({x, 0.0, 0.0}, {0.0, -90.0, 0.0}));
@@ -63,7 +63,7 @@ Model frame(Opening opening, double width, double height, double border, const P
   Model model;
   model.paint(paint);
   const double b = border;
-  Profile p({b, 0.0});
+  Profile p({b, -0.05});
   p.line({b, 0.03}).arc({0.86 * b, 0.055}, 0.5, 3).line({0.80 * b, 0.05});
   p.curve({0.66 * b, 0.05}, {0.60 * b, 0.085}, {0.46 * b, 0.09}, 5).line({0.42 * b, 0.08});
   p.arc({0.26 * b, 0.075}, 0.45, 4).line({0.22 * b, 0.06}).curve({0.14 * b, 0.06}, {0.12 * b, 0.045}, {0.0, 0.04}, 4);
