@@ -1,5 +1,5 @@
 # Shaders of these tests, built as those of the program are.
-set(test_shader_dir ${PROJECT_BINARY_DIR}/tests/shaders)
+set(test_shader_dir ${PROJECT_BINARY_DIR}/tests/core_shaders)
 file(MAKE_DIRECTORY ${test_shader_dir})
 file(GLOB test_shader_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/shaders/*.vert
      ${CMAKE_CURRENT_LIST_DIR}/shaders/*.frag)

@@ -38,7 +38,7 @@ DeviceOptions validated(RenderPath path) {
 
 RendererOptions headless(VkExtent2D extent) {
   return {.extent = extent,
-          .spirvDir = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "shaders",
+          .spirvDir = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "core_shaders",
           .pipelineCacheDir = std::filesystem::path()};
 }
 
