@@ -1,0 +1,1 @@
+speculum_test(image_tests SOURCES image_color.cpp image_files.cpp LIBRARIES image ext::tinyexr)

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+#include <tinyexr.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "image/file_io.hpp"
+#include "image/image.hpp"
+#include "temporary_folder.hpp"
+
+namespace speculum {
+namespace {
+
+namespace fs = std::filesystem;
+
+Image8 gradient(int width, int height) {
+  Image8 image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      uint8_t* pixel = image.at(x, y);
+      pixel[0] = static_cast<uint8_t>(x * 7);
+      pixel[1] = static_cast<uint8_t>(y * 11);
+      pixel[2] = static_cast<uint8_t>(x * y);
+      pixel[3] = static_cast<uint8_t>(255 - x);
+    }
+  }
+  return image;
+}
+
+LinearImage ramp(int width, int height) {
+  LinearImage image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      image.at(x, y) = glm::vec3(0.1f * static_cast<float>(x), 1e-30f * static_cast<float>(y), 1e20f / (1.0f + x + y));
+    }
+  }
+  return image;
+}
+
+// The message of the exception that `action` throws.
+template <typename Action>
+std::string messageOf(Action action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+void expectFault(const std::string& message, const fs::path& file, const std::string& part) {
+  EXPECT_EQ(message.rfind(file.string() + ": ", 0), 0u) << message;
+  EXPECT_NE(message.find(part), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  EXPECT_EQ(message.back(), ')') << message;
+}
+
+TEST(Png, KeepsEveryByte) {
+  const TemporaryFolder folder;
+  for (const auto& [width, height] : {std::pair{1, 1}, std::pair{37, 19}, std::pair{300, 1}}) {
+    const Image8 written = gradient(width, height);
+    writePng(folder / "a.png", written);
+    const Image8 read = readImage8(folder / "a.png");
+    EXPECT_EQ(read.width, width);
+    EXPECT_EQ(read.height, height);
+    EXPECT_EQ(read.rgba, written.rgba);
+  }
+}
+
+TEST(Png, SameImageGivesSameBytes) {
+  const TemporaryFolder folder;
+  writePng(folder / "a.png", gradient(40, 40));
+  writePng(folder / "b.png", gradient(40, 40));
+  EXPECT_EQ(readFileBytes(folder / "a.png"), readFileBytes(folder / "b.png"));
+}
+
+TEST(Png, ReplacesAnOldFileAndLeavesNothingElse) {
+  const TemporaryFolder folder;
+  folder.write("out/a.png", "old");
+  writePng(folder / "out/a.png", gradient(4, 4));
+  EXPECT_EQ(readImage8(folder / "out/a.png").width, 4);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), fs::directory_iterator()), 1);
+}
+
+TEST(Png, WritesToADeviceWithoutReplacingIt) {
+  writePng("/dev/null", gradient(4, 4));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(ImageFiles, MissingFolderIsToldByName) {
+  const TemporaryFolder folder;
+  const fs::path png = folder / "none/a.png";
+  expectFault(messageOf([&] { writePng(png, gradient(2, 2)); }), png, "there is no folder");
+  const fs::path exr = folder / "none/a.exr";
+  expectFault(messageOf([&] { writeExr(exr, ramp(2, 2)); }), exr, "there is no folder");
+}
+
+TEST(ImageFiles, FolderInThePlaceOfTheFileIsTold) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "a.png");
+  expectFault(messageOf([&] { writePng(folder / "a.png", gradient(2, 2)); }), folder / "a.png", "is a folder");
+  expectFault(messageOf([&] { readImage8(folder / "a.png"); }), folder / "a.png", "is a folder");
+  expectFault(messageOf([&] { readExr(folder / "a.png"); }), folder / "a.png", "is a folder");
+}
+
+TEST(ImageFiles, FailedWriteLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a.png", "old");
+  EXPECT_THROW(replaceFile(file,
+                           [](const fs::path& target) {
+                             std::ofstream(target) << "half";
+                             throw std::runtime_error("disk full");
+                           }),
+               std::runtime_error);
+  EXPECT_EQ(readFileBytes(file).size(), 3u);
+  EXPECT_FALSE(fs::exists(file.string() + ".part"));
+}
+
+TEST(ImageFiles, EmptyImageIsRefused) {
+  const TemporaryFolder folder;
+  expectFault(messageOf([&] { writePng(folder / "a.png", Image8()); }), folder / "a.png", "no pixels");
+  expectFault(messageOf([&] { writeExr(folder / "a.exr", LinearImage()); }), folder / "a.exr", "no pixels");
+}
+
+TEST(ImageFiles, DamagedFilesAreTold) {
+  const TemporaryFolder folder;
+  expectFault(messageOf([&] { readImage8(folder / "none.png"); }), folder / "none.png", "cannot be read");
+  expectFault(messageOf([&] { readExr(folder / "none.exr"); }), folder / "none.exr", "cannot be read");
+  const fs::path text = folder.write("text.png", "hello");
+  expectFault(messageOf([&] { readImage8(text); }), text, "is not a picture");
+  const fs::path jpeg = folder.write("cut.jpg", "\xff\xd8\xff\xe0 and no more");
+  expectFault(messageOf([&] { readImage8(jpeg); }), jpeg, "is damaged");
+  for (const std::string_view content : {std::string_view(""), std::string_view("\x76\x2f\x31\x01 and no more")}) {
+    const fs::path exr = folder.write("cut.exr", content);
+    expectFault(messageOf([&] { readExr(exr); }), exr, "is not an EXR");
+  }
+}
+
+TEST(ImageFiles, CutPngIsTold) {
+  const TemporaryFolder folder;
+  writePng(folder / "a.png", gradient(64, 64));
+  fs::resize_file(folder / "a.png", fs::file_size(folder / "a.png") / 2);
+  expectFault(messageOf([&] { readImage8(folder / "a.png"); }), folder / "a.png", "is damaged");
+}
+
+TEST(Exr, KeepsEveryFloat) {
+  const TemporaryFolder folder;
+  for (const auto& [width, height] : {std::pair{1, 1}, std::pair{15, 3}, std::pair{67, 33}}) {
+    LinearImage written = ramp(width, height);
+    written.at(0, 0) =
+        glm::vec3(-1.5f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::denorm_min());
+    writeExr(folder / "a.exr", written);
+    const LinearImage read = readExr(folder / "a.exr");
+    ASSERT_EQ(read.width, width);
+    ASSERT_EQ(read.height, height);
+    EXPECT_EQ(read.pixels, written.pixels);
+  }
+}
+
+TEST(Exr, KeepsNaN) {
+  const TemporaryFolder folder;
+  LinearImage image(2, 1);
+  image.at(1, 0).y = std::numeric_limits<float>::quiet_NaN();
+  writeExr(folder / "a.exr", image);
+  EXPECT_TRUE(std::isnan(readExr(folder / "a.exr").at(1, 0).y));
+}
+
+TEST(Exr, ReadsAlphaGreyAndHalf) {
+  const TemporaryFolder folder;
+  const std::vector<float> values{0.5f, 1.0f, 2.0f, 0.25f, 4.0f, 8.0f, 16.0f, 1.0f};
+  for (const int half : {0, 1}) {
+    const fs::path file = folder / "a.exr";
+    ASSERT_EQ(SaveEXR(values.data(), 2, 1, 4, half, file.c_str(), nullptr), TINYEXR_SUCCESS);
+    EXPECT_EQ(readExr(file).at(0, 0), glm::vec3(0.5f, 1.0f, 2.0f));
+    EXPECT_EQ(readExr(file).at(1, 0), glm::vec3(4.0f, 8.0f, 16.0f));
+    ASSERT_EQ(SaveEXR(values.data(), 2, 1, 1, half, file.c_str(), nullptr), TINYEXR_SUCCESS);
+    EXPECT_EQ(readExr(file).at(1, 0), glm::vec3(1.0f));
+  }
+}
+
+}  // namespace
+}  // namespace speculum
