@@ -110,6 +110,16 @@ Model bench() {
   return model;
 }
 
+Model post() {
+  Model model;
+  model.paint(paints::kGold);
+  Profile p({0.10, 0.0});
+  p.line({0.10, 0.05}).arc({0.075, 0.09}, 0.6, 3).line({0.06, 0.1}).line({0.06, 2.38}).line({0.075, 2.4});
+  p.arc({0.095, 2.45}, -0.4, 3).line({0.095, 2.52});
+  lathe(model, p, 20);
+  return model;
+}
+
 Model arcadeBay() {
   const double half = 1.5, open = 1.0, spring = 2.5, top = 4.6, deep = 0.5;
   Model model;
@@ -247,6 +257,13 @@ Model lamp() {
 Model box() {
   Model model;
   model.paint(paints::kWood);
+  generator::box(model, {-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}, 0.015, 1.0, true);
+  return model;
+}
+
+Model block() {
+  Model model;
+  model.paint(paints::kWhiteMarble);
   generator::box(model, {-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}, 0.015, 1.0, true);
   return model;
 }

@@ -29,6 +29,7 @@ void writeAll(const std::filesystem::path& directory) {
   column().write(directory, "column");
   pedestal().write(directory, "pedestal");
   plinth().write(directory, "plinth");
+  post().write(directory, "post");
   baluster().write(directory, "baluster");
   bench().write(directory, "bench");
   arcadeBay().write(directory, "arcade_bay");
@@ -38,6 +39,7 @@ void writeAll(const std::filesystem::path& directory) {
   chequer().write(directory, "chequer");
   tile().write(directory, "tile");
   lamp().write(directory, "lamp");
+  block().write(directory, "block");
   box().write(directory, "box");
   frame(Opening::rectangle, 1.0, 1.0, 0.12, paints::kGold).write(directory, "frame");
   frame(Opening::rectangle, 3.0, 2.0, 0.20, paints::kGold).write(directory, "frame_wide");

@@ -28,6 +28,7 @@ Model king(const Paint& paint);    // 1.00 m
 
 Model column();     // fluted, 3.4 m high, base 0.72 m wide
 Model pedestal();   // 1 m high, 0.6 m wide
+Model post();       // round, 2.52 m high, 0.12 m thick
 Model plinth();     // round, 0.35 m high, 1.1 m across
 Model bench();      // 1.6 m long, 0.45 m high
 Model arcadeBay();  // 3 m wide, 4.6 m high wall in z = 0 facing +Z with an arched opening of 2 m, 0.5 m deep
@@ -39,6 +40,7 @@ Model baluster();   // turned, 0.75 m high
 Model tile();       // 1 x 1 m slab, 0.02 m high, with cut edges
 Model lamp();       // hanging lamp; its hook is at y = 0 and it hangs 1.2 m down
 Model box();        // the unit cube on y = 0 with cut edges
+Model block();      // the same in marble
 
 // Moulded frame around an opening of width x height with its lip 0.035 m above z = 0; a mirror at z = 0.02 that is
 // 0.02 m larger than the opening on every side fits under it. The outer edge reaches back to z = -0.05.
