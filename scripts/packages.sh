@@ -10,7 +10,7 @@ build_packages=(
 run_packages=(mesa-vulkan-drivers)
 test_packages=(
   vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
-  xvfb xdotool openbox x11-utils clang-format-14 python3-minimal
+  xvfb xdotool wmctrl openbox util-linux clang-format-14 python3-minimal
 )
 
 # install_missing PACKAGE...: silent when everything is there.

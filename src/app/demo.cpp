@@ -2,19 +2,14 @@
 
 #include <spdlog/spdlog.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
 
-#include "app/camera_controller.hpp"
-#include "app/session.hpp"
 #include "core/platform.hpp"
-#include "ui/simple_ui.hpp"
 
 namespace speculum {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double longestStep = 0.1;        // seconds: a pause of the program is none of the animation's business
 constexpr double pausedWaitSeconds = 0.1;  // between looks at a window that shows nothing
@@ -28,38 +23,7 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-class Demo {
- public:
-  explicit Demo(const Options& options);
-  int run();
-
- private:
-  void installInput();
-  void findScenes();
-  void chooseScene(int index);
-  void moveCamera(double seconds);
-  void drawFrame(double seconds);
-  void fillModel(const FramePlan& plan);
-  void applyModel();
-  void handleKey(const KeyEvent& event);
-
-  Options options_;
-  std::unique_ptr<LoadedScene> loaded_;
-  Window window_;
-  Device device_;
-  Renderer renderer_;
-  std::unique_ptr<SceneRenderer> sceneRenderer_;
-  std::unique_ptr<SimpleUI> ui_;
-  CameraController camera_;
-  UiModel model_;
-  std::vector<std::filesystem::path> sceneFiles_;
-  int shownScene_ = 0;
-  std::string sceneError_;
-  bool dragging_ = false;
-  double cursorX_ = 0.0;
-  double cursorY_ = 0.0;
-  double time_ = 0.0;
-};
+}  // namespace
 
 Demo::Demo(const Options& options)
     : options_(options),
@@ -77,6 +41,7 @@ Demo::Demo(const Options& options)
   model_.driver = device_.info().driver;
   model_.renderPath = "render path: " + std::string(renderPathName(device_.renderPath()));
   camera_.reset(loaded_->scene.camera);
+  last_ = Clock::now();
 }
 
 // Before the panel is made, whose callbacks then run first and pass everything on.
@@ -202,7 +167,9 @@ void Demo::drawFrame(double seconds) {
     ui_->record(scope);
   }
   model_.cpuMs += smoothing * (std::chrono::duration<double, std::milli>(Clock::now() - start).count() - model_.cpuMs);
+  frame->capture = capture_;
   renderer_.endFrame(*frame);
+  ++framesDrawn_;
   fillModel(plan);
 }
 
@@ -234,38 +201,32 @@ void Demo::fillModel(const FramePlan& plan) {
   }
 }
 
-int Demo::run() {
-  Clock::time_point last = Clock::now();
-  int drawn = 0;
-  while (!window_.shouldClose() && !interruptRequested() && (options_.frames == 0 || drawn < options_.frames)) {
-    window_.pollEvents();
-    if (window_.paused()) {
-      window_.waitEvents(pausedWaitSeconds);
-      last = Clock::now();
-      continue;
-    }
-    const Clock::time_point now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - last).count();
-    last = now;
-    model_.frameMs += (model_.frameMs == 0.0 ? 1.0 : smoothing) * (1000.0 * seconds - model_.frameMs);
-    const uint64_t before = renderer_.frameNumber();
-    drawFrame(std::min(seconds, longestStep));
-    drawn += renderer_.frameNumber() != before ? 1 : 0;
+bool Demo::step() {
+  window_.pollEvents();
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+  if (window_.paused()) {
+    window_.waitEvents(pausedWaitSeconds);
+    return !window_.shouldClose();
   }
-  renderer_.waitIdle();
-  spdlog::info("{} frames", drawn);
-  if (device_.validationMessages() > 0) {
-    std::fprintf(stderr, "%d validation messages\n", device_.validationMessages());
-    return 1;
-  }
-  return 0;
+  model_.frameMs += (model_.frameMs == 0.0 ? 1.0 : smoothing) * (1000.0 * seconds - model_.frameMs);
+  drawFrame(std::min(seconds, longestStep));
+  return !window_.shouldClose();
 }
-
-}  // namespace
 
 int runDemo(const Options& options) {
   installInterruptHandler();
-  return Demo(options).run();
+  Demo demo(options);
+  while (demo.step() && !interruptRequested() && (options.frames == 0 || demo.framesDrawn() < options.frames)) {
+  }
+  demo.renderer().waitIdle();
+  spdlog::info("{} frames", demo.framesDrawn());
+  const int messages = demo.device().validationMessages();
+  if (messages > 0) {
+    std::fprintf(stderr, "%d validation messages\n", messages);
+  }
+  return messages > 0 ? 1 : 0;
 }
 
 }  // namespace speculum

@@ -1,10 +1,64 @@
 #pragma once
 
+#include <chrono>
+
+#include "app/camera_controller.hpp"
 #include "app/options.hpp"
+#include "app/session.hpp"
+#include "ui/simple_ui.hpp"
 
 namespace speculum {
 
-// The window, until it is closed or --frames are drawn. Exit code 1 if the validation layer had anything to say.
+// The window: a scene, a camera that is moved by hand, the panel.
+class Demo {
+ public:
+  explicit Demo(const Options& options);
+
+  // Handles events and draws one frame, none while the window is paused. False once the window is to be closed.
+  bool step();
+
+  Window& window() { return window_; }
+  Device& device() { return device_; }
+  Renderer& renderer() { return renderer_; }
+  const UiModel& model() const { return model_; }
+  int framesDrawn() const { return framesDrawn_; }
+  // Makes frames from now on readable by Renderer::readback, panel included.
+  void setCapture(bool capture) { capture_ = capture; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void installInput();
+  void findScenes();
+  void chooseScene(int index);
+  void moveCamera(double seconds);
+  void drawFrame(double seconds);
+  void fillModel(const FramePlan& plan);
+  void applyModel();
+  void handleKey(const KeyEvent& event);
+
+  Options options_;
+  std::unique_ptr<LoadedScene> loaded_;
+  Window window_;
+  Device device_;
+  Renderer renderer_;
+  std::unique_ptr<SceneRenderer> sceneRenderer_;
+  std::unique_ptr<SimpleUI> ui_;
+  CameraController camera_;
+  UiModel model_;
+  std::vector<std::filesystem::path> sceneFiles_;
+  int shownScene_ = 0;
+  std::string sceneError_;
+  bool dragging_ = false;
+  double cursorX_ = 0.0;
+  double cursorY_ = 0.0;
+  double time_ = 0.0;  // seconds of animation
+  Clock::time_point last_;
+  bool capture_ = false;
+  int framesDrawn_ = 0;
+};
+
+// The window until it is closed or --frames are drawn. Exit code 1 if the validation layer had anything to say.
 int runDemo(const Options& options);
 
 }  // namespace speculum

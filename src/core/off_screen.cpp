@@ -75,6 +75,7 @@ void OffScreen::resize(VkExtent2D extent, RetireQueue& retired) {
 }
 
 void OffScreen::retire(RetireQueue& retired) {
+  retired.retire(std::exchange(sampler_, SamplerHandle()));
   for (Image* image : {&color_, &samples_, &depth_}) {
     if (*image) {
       retired.retire(std::exchange(*image, Image()));

@@ -51,7 +51,7 @@ class OffScreen {
 
   // Does nothing if the extent is the present one. Content is lost.
   void resize(VkExtent2D extent, RetireQueue& retired);
-  // Moves all images to the queue; for a target that dies while frames that use it are in flight.
+  // Moves all images and the sampler to the queue; for a target that dies while frames that use it are in flight.
   void retire(RetireQueue& retired);
 
   const OffScreenDesc& desc() const { return desc_; }

@@ -59,6 +59,13 @@ void ImagePool::endFrame(RetireQueue& retired) {
   std::erase_if(entries_, [](const Entry& entry) { return !entry.taken && entry.idleFrames > framesKept; });
 }
 
+void ImagePool::clear(RetireQueue& retired) {
+  for (Entry& entry : entries_) {
+    entry.target->retire(retired);
+  }
+  entries_.clear();
+}
+
 uint64_t ImagePool::bytes() const {
   uint64_t sum = 0;
   for (const Entry& entry : entries_) {

@@ -18,6 +18,7 @@ class ImagePool {
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
   void release(const OffScreen& target);
   void endFrame(RetireQueue& retired);
+  void clear(RetireQueue& retired);  // drops every target; none may be taken
 
   uint64_t bytes() const;
   size_t size() const { return entries_.size(); }

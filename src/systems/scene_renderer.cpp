@@ -75,8 +75,9 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
 void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
   const VkSampleCountFlagBits samples = device_.sampleCount(settings.reflection.samples);
   if (shared_ && (shared_->samples() != samples || plan.passes.empty())) {
-    renderer_.waitIdle();
+    pool_->clear(retired);
     pool_.reset();
+    shared_->trim({0, 0}, retired);
     shared_.reset();
   }
   if (!plan.passes.empty()) {

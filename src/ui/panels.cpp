@@ -10,7 +10,12 @@ namespace speculum::panels {
 
 namespace {
 
-void tooltip(std::string_view key) {
+// After each widget of a setting: notes its place and explains it.
+void describe(UiModel& model, std::string_view key) {
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 size = ImGui::GetItemRectSize();
+  model.widgets.emplace_back(key, PixelRect{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(size.x),
+                                            static_cast<int>(size.y)});
   if (!ImGui::IsItemHovered()) {
     return;
   }
@@ -23,31 +28,33 @@ void tooltip(std::string_view key) {
 }
 
 // 1, 2, 4 or 8 samples.
-void samplesCombo(const char* label, int& samples, std::string_view key) {
+void samplesCombo(UiModel& model, const char* label, int& samples, std::string_view key) {
   static constexpr std::array<const char*, 4> names = {"1", "2", "4", "8"};
   int index = samples >= 8 ? 3 : samples >= 4 ? 2 : samples >= 2 ? 1 : 0;
   if (ImGui::Combo(label, &index, names.data(), static_cast<int>(names.size()))) {
     samples = 1 << index;
   }
-  tooltip(key);
+  describe(model, key);
 }
 
-void slider(const char* label, double& value, double low, double high, const char* format, std::string_view key) {
+void slider(UiModel& model, const char* label, double& value, double low, double high, const char* format,
+            std::string_view key) {
   float edited = static_cast<float>(value);
   if (ImGui::SliderFloat(label, &edited, static_cast<float>(low), static_cast<float>(high), format,
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
     value = edited;
   }
-  tooltip(key);
+  describe(model, key);
 }
 
 template <typename Enum>
-void choiceCombo(const char* label, Enum& value, std::span<const char* const> names, std::string_view key) {
+void choiceCombo(UiModel& model, const char* label, Enum& value, std::span<const char* const> names,
+                 std::string_view key) {
   int index = static_cast<int>(value);
   if (ImGui::Combo(label, &index, names.data(), static_cast<int>(names.size()))) {
     value = static_cast<Enum>(index);
   }
-  tooltip(key);
+  describe(model, key);
 }
 
 // The colour is linear in the settings and sRGB in the widget, as people know it from other programs.
@@ -60,20 +67,21 @@ void clearColor(UiModel& model) {
   if (ImGui::ColorEdit3("clear color", encoded.data())) {
     model.settings.view.clearColor = glm::dvec3(srgbDecode(encoded[0]), srgbDecode(encoded[1]), srgbDecode(encoded[2]));
   }
-  tooltip("view.clear_color");
+  describe(model, "view.clear_color");
 }
 
-void reflectionSettings(ReflectionSettings& r) {
+void reflectionSettings(UiModel& model) {
+  ReflectionSettings& r = model.settings.reflection;
   static constexpr std::array<const char*, 3> clips = {"clip distance", "oblique", "none"};
-  slider("scale", r.scale, 0.125, 4.0, "%.3f", "reflection.scale");
-  samplesCombo("samples##reflection", r.samples, "reflection.samples");
+  slider(model, "scale", r.scale, 0.125, 4.0, "%.3f", "reflection.scale");
+  samplesCombo(model, "samples##reflection", r.samples, "reflection.samples");
   ImGui::SliderInt("max depth", &r.maxDepth, 0, 32, "%d", ImGuiSliderFlags_AlwaysClamp);
-  tooltip("reflection.max_depth");
-  slider("min pixels", r.minPixels, 0.0, 10000.0, "%.1f", "reflection.min_pixels");
-  slider("min throughput", r.minThroughput, 0.0, 1.0, "%.5f", "reflection.min_throughput");
+  describe(model, "reflection.max_depth");
+  slider(model, "min pixels", r.minPixels, 0.0, 10000.0, "%.1f", "reflection.min_pixels");
+  slider(model, "min throughput", r.minThroughput, 0.0, 1.0, "%.5f", "reflection.min_throughput");
   ImGui::SliderInt("max passes", &r.maxPasses, 1, 256, "%d", ImGuiSliderFlags_AlwaysClamp);
-  tooltip("reflection.max_passes");
-  choiceCombo("clip", r.clip, clips, "reflection.clip");
+  describe(model, "reflection.max_passes");
+  choiceCombo(model, "clip", r.clip, clips, "reflection.clip");
 }
 
 void viewSettings(UiModel& model) {
@@ -81,12 +89,12 @@ void viewSettings(UiModel& model) {
   static constexpr std::array<const char*, 2> filters = {"bilinear", "trilinear"};
   ViewSettings& v = model.settings.view;
   clearColor(model);
-  samplesCombo("samples##view", v.samples, "view.samples");
-  slider("exposure", v.exposure, 0.01, 100.0, "%.2f", "view.exposure");
-  choiceCombo("tone curve", v.toneMap, curves, "view.tone_map");
-  choiceCombo("texture filter", v.textureFilter, filters, "view.texture_filter");
+  samplesCombo(model, "samples##view", v.samples, "view.samples");
+  slider(model, "exposure", v.exposure, 0.01, 100.0, "%.2f", "view.exposure");
+  choiceCombo(model, "tone curve", v.toneMap, curves, "view.tone_map");
+  choiceCombo(model, "texture filter", v.textureFilter, filters, "view.texture_filter");
   ImGui::Checkbox("wireframe", &v.wireframe);
-  tooltip("view.wireframe");
+  describe(model, "view.wireframe");
 }
 
 }  // namespace
@@ -118,7 +126,9 @@ void scene(UiModel& model) {
   model.resetCamera = ImGui::Button("reset camera");
   ImGui::SameLine();
   ImGui::Checkbox("pause", &model.paused);
-  ImGui::TextDisabled("drag: look   WASD QE: move   wheel: zoom   F1: panel   Esc: quit");
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("drag: look   WASD QE: move   wheel: zoom   F1: hide this panel   Esc: quit");
+  ImGui::PopStyleColor();
 }
 
 void settings(UiModel& model) {
@@ -126,7 +136,7 @@ void settings(UiModel& model) {
     viewSettings(model);
   }
   if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
-    reflectionSettings(model.settings.reflection);
+    reflectionSettings(model);
   }
   model.resetSettings = ImGui::Button("settings of the scene");
 }

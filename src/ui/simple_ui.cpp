@@ -112,6 +112,7 @@ void SimpleUI::build(UiModel& model) {
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
+  model.widgets.clear();
   if (visible_) {
     buildPanel(model);
     buildDebugView(model);
@@ -125,7 +126,7 @@ void SimpleUI::build(UiModel& model) {
 void SimpleUI::buildPanel(UiModel& model) {
   const float scale = ImGui::GetFontSize() / fontPixels;
   ImGui::SetNextWindowPos(ImVec2(12.0f * scale, 12.0f * scale), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(ImVec2(400.0f * scale, 620.0f * scale), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize(ImVec2(420.0f * scale, 660.0f * scale), ImGuiCond_FirstUseEver);
   if (ImGui::Begin("Speculum")) {
     ImGui::Text("%.2f ms/frame (%.1f FPS)", model.frameMs, model.frameMs > 0.0 ? 1000.0 / model.frameMs : 0.0);
     panels::message(model);

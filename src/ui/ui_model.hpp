@@ -47,6 +47,7 @@ struct UiModel {
   int validationMessages = -1;  // -1: the layer is off
   std::vector<UiPass> passes;   // in the order of recording
   std::vector<UiSkipped> skipped;
+  std::vector<std::pair<std::string, PixelRect>> widgets;  // where each setting's widget stands, by key
   int debugPass = -1;                  // index into passes of the image to show; -1: none. Changed by the person.
   std::optional<PixelRect> debugArea;  // pixels of the display image where it is to be drawn; set by the panel
   std::string message;                 // an error to show until the next one, e.g. of a shader or a scene

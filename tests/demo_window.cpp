@@ -1,0 +1,255 @@
+// The window as a person uses it: real X events under a window manager, pictures compared.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+
+#include "app/demo.hpp"
+#include "core/handle.hpp"
+#include "core/platform.hpp"
+#include "picture_support.hpp"
+#include "virtual_display.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+using Clock = std::chrono::steady_clock;
+
+constexpr int width = 900;
+constexpr int height = 700;
+
+const std::string scene = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[settings]
+"view.samples" = 1
+"reflection.samples" = 1
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.9, 1, 0]
+[[light]]
+position = [0, 3, 3]
+intensity = 10
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [5, 3]
+)";
+
+class DemoWindow : public testing::Test {
+ protected:
+  DemoWindow() : configHome_(environment("XDG_CONFIG_HOME")) {
+    // A layout that somebody saved must not move the widgets.
+    setEnvironment("XDG_CONFIG_HOME", config_.path().string());
+    Options options;
+    options.scene = writeScene("demo_window", scene).string();
+    options.size = {width, height};
+    options.validation = true;
+    options.presentMode = PresentMode::immediate;
+    demo_ = std::make_unique<Demo>(options);
+    demo_->setCapture(true);
+    run(10);
+  }
+  ~DemoWindow() override {
+    demo_.reset();
+    setEnvironment("XDG_CONFIG_HOME", configHome_);
+  }
+
+  void run(int frames) {
+    const int last = demo_->framesDrawn() + frames;
+    const auto end = Clock::now() + std::chrono::seconds(20);
+    while (demo_->framesDrawn() < last && Clock::now() < end) {
+      ASSERT_TRUE(demo_->step());
+    }
+  }
+
+  Pixels picture() { return demo_->renderer().readback(); }
+
+  // A pixel of the background, right of the panel and above the mirror.
+  std::array<int, 3> background() {
+    const Pixels pixels = picture();
+    const uint8_t* p = &pixels.rgba[4 * (static_cast<size_t>(20) * pixels.extent.width + pixels.extent.width - 20)];
+    return {p[0], p[1], p[2]};
+  }
+
+  void xdotool(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "xdotool");
+    const ProcessResult result = runProcess(arguments);
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+  }
+
+  std::string windowId() {
+    const ProcessResult found = runProcess({"xdotool", "search", "--name", "^Speculum$"});
+    return found.output.substr(0, found.output.find('\n'));
+  }
+
+  void moveTo(int x, int y) {
+    xdotool({"mousemove", "--window", windowId(), std::to_string(x), std::to_string(y)});
+    run(3);
+  }
+
+  PixelRect widget(const std::string& key) {
+    for (const auto& [name, rect] : demo_->model().widgets) {
+      if (name == key) {
+        return rect;
+      }
+    }
+    ADD_FAILURE() << "the panel has no widget for " << key;
+    return {};
+  }
+
+  // Presses at a part of the widget's width, moves by `dx` pixels, releases.
+  void drag(const std::string& key, double part, int dx) {
+    const PixelRect rect = widget(key);
+    const int x = rect.x + static_cast<int>(rect.width * part);
+    const int y = rect.y + rect.height / 2;
+    moveTo(x, y);
+    xdotool({"mousedown", "1"});
+    run(3);
+    for (int i = 1; i <= 4; ++i) {
+      moveTo(x + dx * i / 4, y);
+    }
+    xdotool({"mouseup", "1"});
+    run(3);
+  }
+
+  void expectQuiet() { EXPECT_EQ(demo_->device().validationMessages(), 0); }
+
+  test::VirtualDisplay display_{1280, 900};
+  TemporaryDirectory config_;
+  std::string configHome_;
+  std::unique_ptr<Demo> demo_;
+};
+
+TEST_F(DemoWindow, DrawsTwoHundredFrames) {
+  run(200);
+  EXPECT_GE(demo_->framesDrawn(), 200);
+  expectQuiet();
+}
+
+TEST_F(DemoWindow, ClearColorEditedInThePanelReachesPictureAndReflections) {
+  const auto before = background();
+  const Pixels reflectedBefore = picture();
+  drag("view.clear_color", 0.1, 120);
+  const auto after = background();
+  EXPECT_GT(after[0], before[0] + 20) << "the red field was dragged to the right";
+  EXPECT_EQ(after[1], before[1]);
+  const auto& color = demo_->model().settings.view.clearColor;
+  ASSERT_TRUE(color);
+  EXPECT_NEAR(after[0], 255.0 * srgbEncode(color->x), 1.0);
+  // The middle of the wall mirror reflects the background as well.
+  const Pixels reflectedAfter = picture();
+  const size_t middle = 4 * (static_cast<size_t>(height / 2 - 60) * width + width - 160);
+  EXPECT_GT(reflectedAfter.rgba[middle], reflectedBefore.rgba[middle] + 10);
+  expectQuiet();
+}
+
+TEST_F(DemoWindow, SettingsEditedInThePanelChangeThePicture) {
+  ASSERT_GT(demo_->model().passes.size(), 2u);
+  const int grip = static_cast<int>(widget("reflection.max_depth").width * 0.3);
+  drag("reflection.max_depth", 0.3, 3 - grip);
+  EXPECT_EQ(demo_->model().settings.reflection.maxDepth, 0);
+  run(3);
+  EXPECT_EQ(demo_->model().passes.size(), 2u) << "main view and display pass only";
+  ASSERT_FALSE(demo_->model().skipped.empty());
+  EXPECT_EQ(demo_->model().skipped[0].reason, "max_depth");
+
+  const auto before = background();
+  drag("view.exposure", 0.5, 60);
+  EXPECT_GT(background()[2], before[2]);
+  expectQuiet();
+}
+
+TEST_F(DemoWindow, KeysHideThePanelAndQuit) {
+  const Pixels with = picture();
+  xdotool({"key", "--window", windowId(), "F1"});
+  run(5);
+  const Pixels without = picture();
+  EXPECT_NE(with.rgba, without.rgba);
+  const size_t inPanel = 4 * (static_cast<size_t>(300) * width + 30);
+  EXPECT_NE(with.rgba[inPanel], without.rgba[inPanel]);
+  xdotool({"key", "--window", windowId(), "F1"});
+  run(5);
+  xdotool({"key", "--window", windowId(), "Escape"});
+  const auto end = Clock::now() + std::chrono::seconds(10);
+  while (demo_->step() && Clock::now() < end) {
+  }
+  EXPECT_TRUE(demo_->window().shouldClose());
+  expectQuiet();
+}
+
+TEST_F(DemoWindow, DraggingThePictureTurnsTheCamera) {
+  const Pixels before = picture();
+  moveTo(width - 100, 80);
+  xdotool({"mousedown", "1"});
+  run(2);
+  moveTo(width - 220, 110);
+  xdotool({"mouseup", "1"});
+  run(3);
+  EXPECT_NE(before.rgba, picture().rgba);
+  expectQuiet();
+}
+
+TEST_F(DemoWindow, TwoHundredRandomResizesLeakNothing) {
+  std::mt19937 random(42);
+  std::uniform_int_distribution<int> side(1, 700);
+  const auto resizeTo = [&](int w, int h) {
+    demo_->window().resize(w, h);
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(demo_->step());
+    }
+  };
+  demo_->setCapture(false);
+  resizeTo(400, 300);
+  run(40);
+  demo_->renderer().waitIdle();
+  const auto objects = liveObjects();
+  for (int i = 0; i < 200; ++i) {
+    resizeTo(i % 20 == 0 ? 1 : side(random), i % 20 == 0 ? 1 : side(random));
+  }
+  resizeTo(400, 300);
+  run(40);
+  demo_->renderer().waitIdle();
+  EXPECT_EQ(liveObjects(), objects);
+  expectQuiet();
+}
+
+TEST_F(DemoWindow, IconifiedDrawsNoFrameAndComesBack) {
+  demo_->window().iconify();
+  auto end = Clock::now() + std::chrono::seconds(5);
+  while (!demo_->window().paused() && Clock::now() < end) {
+    demo_->step();
+  }
+  ASSERT_TRUE(demo_->window().paused());
+  const int drawn = demo_->framesDrawn();
+  for (int i = 0; i < 10; ++i) {
+    demo_->step();
+  }
+  EXPECT_EQ(demo_->framesDrawn(), drawn);
+  demo_->window().restore();
+  end = Clock::now() + std::chrono::seconds(5);
+  while (demo_->window().paused() && Clock::now() < end) {
+    demo_->step();
+  }
+  run(5);
+  EXPECT_GT(demo_->framesDrawn(), drawn);
+  expectQuiet();
+}
+
+TEST_F(DemoWindow, CloseButtonCloses) {
+  const ProcessResult closed = runProcess({"wmctrl", "-c", "Speculum"});
+  ASSERT_EQ(closed.exitCode, 0) << closed.output;
+  const auto end = Clock::now() + std::chrono::seconds(10);
+  while (demo_->step() && Clock::now() < end) {
+  }
+  EXPECT_TRUE(demo_->window().shouldClose());
+  expectQuiet();
+}
+
+}  // namespace
+}  // namespace speculum
