@@ -158,6 +158,16 @@ TEST(Exr, KeepsEveryFloat) {
   }
 }
 
+TEST(Exr, FullDiskIsToldWhateverTheSize) {
+  const fs::path full = "/dev/full";
+  if (!fs::exists(full)) {
+    GTEST_SKIP() << "needs /dev/full";
+  }
+  for (const int size : {1, 64, 300}) {
+    EXPECT_THROW(writeExr(full, ramp(size, size)), std::runtime_error) << size;
+  }
+}
+
 TEST(Exr, KeepsNaN) {
   const TemporaryFolder folder;
   LinearImage image(2, 1);

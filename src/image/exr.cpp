@@ -1,5 +1,6 @@
 #include <tinyexr.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -19,6 +20,47 @@ std::string takeMessage(const char* message) {
   std::string text(message);
   FreeEXRErrorMessage(message);
   return text.substr(0, text.find('\n'));
+}
+
+// In memory, because SaveEXR() takes a file for written whose last bytes the disk refused.
+std::vector<uint8_t> encodeExr(const std::filesystem::path& file, const LinearImage& image) {
+  // Readers expect the channels in alphabetical order.
+  std::array<EXRChannelInfo, 3> channels{};
+  std::array<std::vector<float>, 3> planes;
+  std::array<unsigned char*, 3> planePointers{};
+  for (int c = 0; c < 3; ++c) {
+    channels[c].name[0] = "BGR"[c];
+    planes[c].reserve(image.pixels.size());
+    for (const glm::vec3& pixel : image.pixels) {
+      planes[c].push_back(pixel[2 - c]);
+    }
+    planePointers[c] = reinterpret_cast<unsigned char*>(planes[c].data());
+  }
+  std::array<int, 3> pixelTypes;
+  pixelTypes.fill(TINYEXR_PIXELTYPE_FLOAT);
+  // Header and image borrow these arrays: FreeEXRHeader() and FreeEXRImage() must not see them.
+  EXRHeader header;
+  InitEXRHeader(&header);
+  header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
+  header.num_channels = 3;
+  header.channels = channels.data();
+  header.pixel_types = pixelTypes.data();
+  header.requested_pixel_types = pixelTypes.data();
+  EXRImage source;
+  InitEXRImage(&source);
+  source.num_channels = 3;
+  source.width = image.width;
+  source.height = image.height;
+  source.images = planePointers.data();
+  unsigned char* memory = nullptr;
+  const char* message = nullptr;
+  const size_t size = SaveEXRImageToMemory(&source, &header, &memory, &message);
+  const std::unique_ptr<unsigned char, decltype(&std::free)> owner(memory, &std::free);
+  if (size == 0) {
+    throw std::runtime_error(file.string() + ": cannot be encoded as EXR: " + takeMessage(message) +
+                             " (a smaller picture is needed)");
+  }
+  return {memory, memory + size};
 }
 
 }  // namespace
@@ -43,18 +85,16 @@ LinearImage readExr(const std::filesystem::path& file) {
 }
 
 void writeExr(const std::filesystem::path& file, const LinearImage& image) {
-  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
   if (image.width < 1 || image.height < 1) {
     throw std::runtime_error(file.string() + ": the picture has no pixels (width and height of 1 or more are needed)");
   }
+  const std::vector<uint8_t> bytes = encodeExr(file, image);
   replaceFile(file, [&](const std::filesystem::path& target) {
-    const char* message = nullptr;
-    constexpr int kChannels = 3;
-    constexpr int kFullFloat = 0;
-    if (SaveEXR(&image.pixels.front().x, image.width, image.height, kChannels, kFullFloat, target.c_str(), &message) !=
-        TINYEXR_SUCCESS) {
-      throw std::runtime_error(file.string() + ": cannot be written: " + takeMessage(message) +
-                               " (check the folder's permissions and free space)");
+    std::ofstream stream(target, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    stream.close();
+    if (!stream) {
+      throw std::runtime_error(file.string() + ": cannot be written (check the folder's permissions and free space)");
     }
   });
 }

@@ -44,7 +44,9 @@ std::optional<double> parseNumber(std::string_view token) {
 
 class LineScanner {
  public:
-  LineScanner(const std::filesystem::path& file, std::string_view text) : file_(file), rest_(text) {
+  // With `continued`, a backslash at the end of a line joins the next one to it.
+  LineScanner(const std::filesystem::path& file, std::string_view text, bool continued)
+      : file_(file), rest_(text), continued_(continued) {
     if (rest_.starts_with("\xef\xbb\xbf")) {
       rest_.remove_prefix(3);
     }
@@ -53,11 +55,12 @@ class LineScanner {
   // The next line that holds anything but blanks and a comment, as its tokens.
   bool next() {
     while (!rest_.empty()) {
-      const size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
-      line_ = rest_.substr(0, end);
-      const bool crLf = rest_.substr(end).starts_with("\r\n");
-      rest_.remove_prefix(std::min(end + (crLf ? 2 : 1), rest_.size()));
-      ++number_;
+      number_ += linesTaken_;
+      linesTaken_ = 0;
+      line_ = takeLine();
+      if (continued_ && continues(line_)) {
+        joinContinuation();
+      }
       if (line_.find('\0') != std::string_view::npos) {
         fail("file", "is not a text file", "a Wavefront OBJ or MTL file is needed");
       }
@@ -98,11 +101,38 @@ class LineScanner {
   }
 
  private:
+  // A backslash that ends a comment is part of the comment.
+  static bool continues(std::string_view line) {
+    return line.ends_with('\\') && line.find('#') == std::string_view::npos;
+  }
+
+  std::string_view takeLine() {
+    const size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    const std::string_view line = rest_.substr(0, end);
+    const bool crLf = rest_.substr(end).starts_with("\r\n");
+    rest_.remove_prefix(std::min(end + (crLf ? 2 : 1), rest_.size()));
+    ++linesTaken_;
+    return line;
+  }
+
+  void joinContinuation() {
+    joined_.clear();
+    while (continues(line_)) {
+      joined_.append(line_.substr(0, line_.size() - 1)).push_back(' ');
+      line_ = rest_.empty() ? std::string_view() : takeLine();
+    }
+    joined_.append(line_);
+    line_ = joined_;
+  }
+
   const std::filesystem::path& file_;
   std::string_view rest_;
+  bool continued_;
   std::string_view line_;
+  std::string joined_;  // what line_ shows of a continued line
   std::vector<std::string_view> tokens_;
-  int number_ = 0;
+  int number_ = 1;      // of the first of the lines that line_ joins
+  int linesTaken_ = 0;  // that line_ joins
 };
 
 bool allFinite(const std::vector<double>& values, size_t count) {
@@ -178,7 +208,7 @@ std::string_view trimmed(std::string_view text) {
 
 ObjScan scanObj(const std::filesystem::path& file, std::string_view text) {
   ObjScan scan;
-  LineScanner line(file, text);
+  LineScanner line(file, text, true);
   scan.text.reserve(text.size());
   while (line.next()) {
     if (scanGeometry(line, scan)) {
@@ -196,7 +226,7 @@ ObjScan scanObj(const std::filesystem::path& file, std::string_view text) {
 std::map<std::string, MtlLines> scanMtl(const std::filesystem::path& file, std::string_view text) {
   std::map<std::string, MtlLines> materials;
   MtlLines* current = nullptr;
-  LineScanner line(file, text);
+  LineScanner line(file, text, false);
   while (line.next()) {
     const std::string_view key = line.keyword();
     const bool color = key == "Kd" || key == "Ks" || key == "Ke";
