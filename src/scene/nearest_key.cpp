@@ -28,7 +28,7 @@ size_t editDistance(std::string_view a, std::string_view b) {
 std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known) {
   // Keys of any length come from the file; beyond this nothing known is near.
   constexpr size_t kLongest = 64;
-  size_t least = key.size() > kLongest ? 0 : std::max<size_t>(1, key.size() / 3) + 1;
+  size_t least = key.size() > kLongest ? 0 : std::max<size_t>(1, key.size() * 2 / 5) + 1;
   std::string_view nearest;
   for (const std::string_view candidate : known) {
     const size_t distance = least == 0 ? 1 : editDistance(key, candidate);

@@ -44,13 +44,25 @@ LightState lightState(const PointLight& light, double time) {
   return {orbit.center + rotationAboutAxis(orbit.axis, orbit.speed * time) * (light.position - orbit.center)};
 }
 
+// Unit direction of the first edge that has a length, in the plane: the vertices may lie a little off it.
+glm::dvec3 firstEdge(const std::vector<glm::dvec3>& polygon, const glm::dvec3& normal) {
+  for (size_t i = 1; i < polygon.size(); ++i) {
+    const glm::dvec3 edge = polygon[i] - polygon[i - 1];
+    const glm::dvec3 inPlane = edge - normal * glm::dot(normal, edge);
+    if (std::isnormal(glm::dot(inPlane, inPlane))) {
+      return glm::normalize(inPlane);
+    }
+  }
+  throw std::invalid_argument("a mirror's polygon has no edge");
+}
+
 MirrorState mirrorState(const Mirror& mirror, double time) {
   MirrorState state;
   if (!mirror.polygon.empty()) {
     state.polygon = mirror.polygon;
     state.origin = mirror.polygon[0];
     state.normal = glm::normalize(newellVector(mirror.polygon));
-    state.axisX = glm::normalize(mirror.polygon[1] - mirror.polygon[0]);
+    state.axisX = firstEdge(mirror.polygon, state.normal);
     state.axisY = glm::cross(state.normal, state.axisX);
     return state;
   }

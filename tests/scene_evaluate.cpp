@@ -1,0 +1,236 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "optics/polygon.hpp"
+#include "scene/scene_state.hpp"
+
+namespace speculum {
+namespace {
+
+void expectNear(const glm::dvec3& value, const glm::dvec3& expected, double tolerance) {
+  EXPECT_NEAR(value.x, expected.x, tolerance);
+  EXPECT_NEAR(value.y, expected.y, tolerance);
+  EXPECT_NEAR(value.z, expected.z, tolerance);
+}
+
+Mesh boxMesh(const glm::dvec3& center, const glm::dvec3& halfExtent) {
+  Mesh mesh{.center = center, .halfExtent = halfExtent, .radius = glm::length(halfExtent)};
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec3 sign((i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1);
+    mesh.vertices.push_back({.position = sign * halfExtent});
+  }
+  return mesh;
+}
+
+Scene sceneWithCamera() {
+  Scene scene;
+  scene.camera.position = {0, 0, 4};
+  return scene;
+}
+
+Scene sceneWithObject(const Object& object) {
+  Scene scene = sceneWithCamera();
+  scene.meshes.push_back(boxMesh({10, 20, 30}, {1, 2, 3}));
+  scene.objects.push_back(object);
+  scene.objects[0].mesh = 0;
+  return scene;
+}
+
+TEST(Evaluate, ObjectIsScaledThenTurnedThenMoved) {
+  const Scene scene = sceneWithObject({.position = {100, 0, 0}, .rotation = {0, 90, 0}, .scale = {1, 2, -3}});
+  const InstanceState instance = evaluate(scene, 0.0).instances.at(0);
+  // Model space (11, 22, 33) -> scaled (11, 44, -99) -> turned about Y by 90 degrees: x' = z, z' = -x.
+  expectNear(instance.worldFromMesh.point({1, 2, 3}), {100 - 99, 44, -11}, 1e-12);
+  expectNear(instance.center, instance.worldFromMesh.point(glm::dvec3(0.0)), 0.0);
+}
+
+TEST(Evaluate, RotationOrderIsYawPitchRoll) {
+  Scene scene = sceneWithObject({.rotation = {90, 90, 90}});
+  scene.meshes[0].center = glm::dvec3(0.0);
+  // Roll takes X to Y, pitch Y to Z, yaw Z to X.
+  expectNear(evaluate(scene, 0.0).instances[0].worldFromMesh.vector({1, 0, 0}), {1, 0, 0}, 1e-15);
+  // Roll takes Y to -X, pitch leaves it, yaw takes -X to Z.
+  expectNear(evaluate(scene, 0.0).instances[0].worldFromMesh.vector({0, 1, 0}), {0, 0, 1}, 1e-15);
+}
+
+TEST(Evaluate, SpinAddsToRotation) {
+  const Scene scene = sceneWithObject({.rotation = {0, 30, 0}, .spin = {0, 20, 0}});
+  const Scene turned = sceneWithObject({.rotation = {0, 30 + 60, 0}});
+  expectNear(evaluate(scene, 3.0).instances[0].center, evaluate(turned, 0.0).instances[0].center, 1e-12);
+  const Scene back = sceneWithObject({.rotation = {0, 30 - 60, 0}});
+  expectNear(evaluate(scene, -3.0).instances[0].center, evaluate(back, 0.0).instances[0].center, 1e-12);
+}
+
+TEST(Evaluate, MillionSecondsAreAsExactAsOne) {
+  // 1e6 s at 20 degrees per second are 55555 turns and 200 degrees.
+  const Scene scene = sceneWithObject({.spin = {0, 20, 0}});
+  const Scene turned = sceneWithObject({.rotation = {0, 200, 0}});
+  expectNear(evaluate(scene, 1e6).instances[0].center, evaluate(turned, 0.0).instances[0].center, 1e-12);
+  expectNear(evaluate(scene, -1e6).instances[0].center,
+             evaluate(sceneWithObject({.rotation = {0, -200, 0}}), 0.0).instances[0].center, 1e-12);
+}
+
+TEST(Evaluate, CopiesMoveInWorldSpace) {
+  const Scene scene = sceneWithObject({.position = {1, 2, 3},
+                                       .rotation = {0, 90, 0},
+                                       .scale = glm::dvec3(5.0),
+                                       .copies = {.count = 3, .step = {0.5, 0, -1}}});
+  const SceneState state = evaluate(scene, 0.0);
+  ASSERT_EQ(state.instances.size(), 3u);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(state.instances[k].copy, k);
+    expectNear(state.instances[k].center - state.instances[0].center, glm::dvec3(0.5 * k, 0, -1.0 * k), 1e-12);
+  }
+}
+
+TEST(Evaluate, InstancesAreSortedByMeshObjectCopy) {
+  Scene scene = sceneWithCamera();
+  scene.meshes = {boxMesh(glm::dvec3(0.0), glm::dvec3(1.0)), boxMesh(glm::dvec3(0.0), glm::dvec3(1.0))};
+  scene.objects = {{.mesh = 1, .copies = {.count = 2}}, {.mesh = 0}, {.mesh = 1}, {.mesh = 0, .copies = {.count = 2}}};
+  std::vector<std::array<int, 3>> order;
+  for (const InstanceState& instance : evaluate(scene, 0.0).instances) {
+    order.push_back({instance.mesh, instance.object, instance.copy});
+  }
+  EXPECT_EQ(order.size(), 6u);
+  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+}
+
+TEST(Evaluate, BoundingSphereHoldsEveryVertex) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-3.0, 3.0);
+  for (int i = 0; i < 200; ++i) {
+    const auto vector = [&] { return glm::dvec3(number(random), number(random), number(random)); };
+    const Scene scene =
+        sceneWithObject({.position = vector(), .rotation = 100.0 * vector(), .scale = vector(), .spin = vector()});
+    const InstanceState instance = evaluate(scene, number(random)).instances[0];
+    for (const Vertex& vertex : scene.meshes[0].vertices) {
+      EXPECT_LE(glm::distance(instance.worldFromMesh.point(vertex.position), instance.center), instance.radius);
+    }
+  }
+}
+
+TEST(Evaluate, LightOrbitsByTheRightHandRule) {
+  Scene scene = sceneWithCamera();
+  scene.lights.push_back({.position = {3, 5, 0}, .orbit = Orbit{.center = {1, 2, 0}, .axis = {0, 7, 0}, .speed = 30}});
+  scene.lights.push_back({.position = {1, 2, 3}});
+  expectNear(evaluate(scene, 0.0).lights[0].position, {3, 5, 0}, 1e-15);
+  expectNear(evaluate(scene, 3.0).lights[0].position, {1, 5, -2}, 1e-14);
+  expectNear(evaluate(scene, -3.0).lights[0].position, {1, 5, 2}, 1e-14);
+  // 3e7 degrees are 83333 turns and 120 degrees.
+  expectNear(evaluate(scene, 1e6).lights[0].position, {1 - 1, 5, -std::sqrt(3.0)}, 1e-12);
+  EXPECT_EQ(evaluate(scene, 5.0).lights[1].position, glm::dvec3(1, 2, 3));
+}
+
+TEST(Evaluate, CameraOrbitsAboutUpThroughTarget) {
+  Scene scene = sceneWithCamera();
+  scene.camera = {.position = {2, 3, 4}, .target = {2, 1, 1}, .up = {0, 2, 0}, .orbitSpeed = 90};
+  expectNear(evaluate(scene, 0.0).camera.eye, {2, 3, 4}, 1e-15);
+  // +Z turns to +X about +Y.
+  expectNear(evaluate(scene, 1.0).camera.eye, {5, 3, 1}, 1e-14);
+  expectNear(evaluate(scene, -1.0).camera.eye, {-1, 3, 1}, 1e-14);
+  expectNear(evaluate(scene, 1e6).camera.eye, {2, 3, 4}, 1e-12);
+}
+
+TEST(Evaluate, UnrotatedMirrorFacesPlusZ) {
+  Scene scene = sceneWithCamera();
+  scene.mirrors.push_back({.position = {1, 2, 3}, .size = {4, 2}});
+  const MirrorState mirror = evaluate(scene, 0.0).mirrors.at(0);
+  EXPECT_EQ(mirror.origin, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(mirror.normal, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(mirror.axisX, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(mirror.axisY, glm::dvec3(0, 1, 0));
+  ASSERT_EQ(mirror.polygon.size(), 4u);
+  expectNear(newellVector(mirror.polygon), {0, 0, 16}, 1e-12);
+  for (const glm::dvec3& corner : mirror.polygon) {
+    EXPECT_EQ(glm::abs(corner - mirror.origin), glm::dvec3(2, 1, 0));
+  }
+}
+
+TEST(Evaluate, MirrorSpins) {
+  Scene scene = sceneWithCamera();
+  scene.mirrors.push_back({.position = {1, 2, 3}, .rotation = {0, 30, 0}, .spin = {0, 30, 0}, .size = {4, 2}});
+  for (const double turns : {0.0, 30.0, -20.0}) {
+    const MirrorState mirror = evaluate(scene, 2.0 + 12.0 * turns).mirrors[0];
+    expectNear(mirror.normal, {1, 0, 0}, 1e-13);
+    expectNear(mirror.axisX, {0, 0, -1}, 1e-13);
+    expectNear(glm::normalize(newellVector(mirror.polygon)), mirror.normal, 1e-13);
+  }
+}
+
+TEST(Evaluate, PolygonMirrorHasItsFirstVertexAndEdgeAsFrame) {
+  Scene scene = sceneWithCamera();
+  // In the plane x = 5, the last vertex 1e-5 off it.
+  scene.mirrors.push_back({.polygon = {{5, 1, 0}, {5, 3, 0}, {5, 3, 2}, {5 + 1e-5, 1, 2}}});
+  const MirrorState mirror = evaluate(scene, 7.0).mirrors[0];
+  EXPECT_EQ(mirror.polygon, scene.mirrors[0].polygon);
+  EXPECT_EQ(mirror.origin, glm::dvec3(5, 1, 0));
+  expectNear(mirror.normal, {1, 0, 0}, 1e-5);
+  expectNear(mirror.axisX, {0, 1, 0}, 1e-5);
+  expectNear(mirror.axisY, {0, 0, 1}, 1e-5);
+  EXPECT_NEAR(glm::dot(mirror.axisX, mirror.normal), 0.0, 1e-16);
+  EXPECT_NEAR(glm::length(mirror.axisX), 1.0, 1e-15);
+  EXPECT_NEAR(glm::length(mirror.axisY), 1.0, 1e-15);
+}
+
+TEST(Evaluate, RepeatedVerticesLeaveTheFrameWhole) {
+  Scene scene = sceneWithCamera();
+  scene.mirrors.push_back({.polygon = {{0, 0, 0}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}}});
+  const MirrorState mirror = evaluate(scene, 0.0).mirrors[0];
+  EXPECT_EQ(mirror.normal, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(mirror.axisX, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(mirror.axisY, glm::dvec3(0, 1, 0));
+}
+
+TEST(Evaluate, FarFromTheOriginNothingIsLost) {
+  const glm::dvec3 far(1e7, -2e7, 3e7);
+  Scene scene = sceneWithObject({.position = far});
+  scene.meshes[0].center = glm::dvec3(0.0);
+  scene.mirrors.push_back({.position = far, .rotation = {10, 20, 30}, .size = {1, 1}});
+  scene.camera.position = far + glm::dvec3(0, 0, 4);
+  scene.camera.target = far;
+  const SceneState state = evaluate(scene, 1.0);
+  EXPECT_EQ(state.instances[0].center, far);
+  EXPECT_EQ(state.camera.eye, scene.camera.position);
+  Scene near = sceneWithCamera();
+  near.mirrors.push_back({.rotation = {10, 20, 30}, .size = {1, 1}});
+  EXPECT_EQ(state.mirrors[0].normal, evaluate(near, 1.0).mirrors[0].normal);
+}
+
+TEST(LookAt, RowsAreRightUpBack) {
+  const CameraPose pose = lookAt({0, 0, 4}, {0, 0, 0}, {0, 5, 5}, 90.0, 0.5);
+  EXPECT_EQ(pose.eye, glm::dvec3(0, 0, 4));
+  EXPECT_NEAR(pose.verticalFov, std::acos(0.0), 1e-15);
+  EXPECT_EQ(pose.near, 0.5);
+  expectNear(pose.worldToView * glm::dvec3(1, 0, 0), {1, 0, 0}, 1e-15);
+  expectNear(pose.worldToView * glm::dvec3(0, 1, 0), {0, 1, 0}, 1e-15);
+  expectNear(pose.worldToView * glm::dvec3(0, 0, -1), {0, 0, -1}, 1e-15);
+}
+
+TEST(LookAt, RefusesWhatHasNoDirection) {
+  EXPECT_THROW(lookAt({1, 2, 3}, {1, 2, 3}, {0, 1, 0}, 60, 0.1), std::invalid_argument);
+  EXPECT_THROW(lookAt({0, 0, 0}, {0, -3, 0}, {0, 1, 0}, 60, 0.1), std::invalid_argument);
+  EXPECT_THROW(lookAt({0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 60, 0.1), std::invalid_argument);
+}
+
+TEST(Environment, BackgroundWithoutSky) {
+  const Environment environment{.background = {1, 2, 3}};
+  EXPECT_EQ(environment.radiance({0, 1, 0}), glm::dvec3(1, 2, 3));
+}
+
+TEST(Environment, SkyIsBlendedByHeight) {
+  const Environment environment{.background = {9, 9, 9}, .sky = Sky{{0, 0, 1}, {1, 1, 1}, {0.5, 0, 0}}};
+  EXPECT_EQ(environment.radiance({0, 1, 0}), glm::dvec3(0, 0, 1));
+  EXPECT_EQ(environment.radiance({1, 0, 0}), glm::dvec3(1, 1, 1));
+  // sqrt(0.25) = 0.5 up; 8 * 0.0625 = 0.5 down.
+  expectNear(environment.radiance({std::sqrt(1 - 0.0625), 0.25, 0}), {0.5, 0.5, 1}, 1e-15);
+  expectNear(environment.radiance({std::sqrt(1 - 0.0625 * 0.0625), -0.0625, 0}), {0.75, 0.5, 0.5}, 1e-15);
+  EXPECT_EQ(environment.radiance({0, -0.125, 0}), glm::dvec3(0.5, 0, 0));
+  EXPECT_EQ(environment.radiance({0, -1, 0}), glm::dvec3(0.5, 0, 0));
+}
+
+}  // namespace
+}  // namespace speculum

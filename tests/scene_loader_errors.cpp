@@ -1,0 +1,228 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "scene_support.hpp"
+
+namespace speculum {
+namespace {
+
+// Three lines in front of the text of every case.
+constexpr const char* kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
+
+struct Fault {
+  const char* name;
+  std::string text;     // from line 4 on
+  const char* place;    // LINE: key:
+  const char* message;  // what is wrong or what would be right
+};
+
+void PrintTo(const Fault& fault, std::ostream* stream) {
+  *stream << fault.name;
+}
+
+void expectFault(const std::string& text, const std::string& place, const std::string& part) {
+  const TemporaryFolder folder;
+  folder.write("triangle.obj", kTriangleObj);
+  const std::filesystem::path file = folder.write("scene.toml", text);
+  const std::string message = inputErrorOf([&] { loadScene(file); });
+  EXPECT_EQ(message.rfind(file.string() + ":" + place + " ", 0), 0u) << message << "\nexpected at " << place;
+  EXPECT_NE(message.find(part), std::string::npos) << message << "\nexpected to hold " << part;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  EXPECT_EQ(message.back(), ')') << message;
+}
+
+class SceneFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(SceneFault, IsToldWithLineAndKey) {
+  expectFault(kCamera + GetParam().text, GetParam().place, GetParam().message);
+}
+
+std::string nameOf(const testing::TestParamInfo<Fault>& info) {
+  return info.param.name;
+}
+
+const std::string kObject = "[[object]]\nmodel = 'triangle.obj'\n";
+const std::string kLight = "[[light]]\nposition = [0, 2, 0]\n";
+const std::string kMirror = "[[mirror]]\nsize = [2, 1]\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    File, SceneFault,
+    testing::Values(Fault{"UnknownTable", "[mirors]\n", "4: mirors:", "did you mean 'mirror'?"},
+                    Fault{"UnknownKeyFarFromAny", "[weather]\n", "4: weather:", "one of: title environment"},
+                    Fault{"Malformed", "\n[environment\n", "5: toml:", "a TOML 1.0 file is needed"},
+                    Fault{"DuplicateKey", "near = 1\nnear = 2\n", "5: toml:", "near"},
+                    Fault{"TitleIsNumber", "[settings]\n[[light]]\nname = 3\n", "6: light[0].name:", "is an integer"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Camera, SceneFault,
+    testing::Values(Fault{"UnknownKey", "verticl_fov = 60\n", "4: camera.verticl_fov:", "did you mean 'vertical_fov'?"},
+                    Fault{"FovTooSmall", "vertical_fov = 0.9\n", "4: camera.vertical_fov:", "1 .. 170"},
+                    Fault{"FovTooLarge", "vertical_fov = 170.5\n", "4: camera.vertical_fov:", "is 170.5"},
+                    Fault{"FovIsString", "vertical_fov = '60'\n", "4: camera.vertical_fov:", "is a string"},
+                    Fault{"NearZero", "near = 0\n", "4: camera.near:", "above 0"},
+                    Fault{"NearNegative", "near = -1.0\n", "4: camera.near:", "above 0"},
+                    Fault{"NearInfinite", "near = inf\n", "4: camera.near:", "finite"},
+                    Fault{"OrbitSpeedNan", "orbit_speed = nan\n", "4: camera.orbit_speed:", "finite"},
+                    Fault{"UpZero", "up = [0, 0, 0]\n", "4: camera.up:", "no direction"},
+                    Fault{"UpParallel", "up = [0, 0, -2]\n", "4: camera.up:", "parallel"},
+                    Fault{"UpTooShort", "up = [0, 1]\n", "4: camera.up:", "has 2 elements"},
+                    Fault{"UpHoldsString", "up = [0,\n '1',\n 0]\n", "5: camera.up[1]:", "is a string"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Environment, SceneFault,
+    testing::Values(Fault{"IsNoTable", "[[environment]]\n", "4: environment:", "a table is needed"},
+                    Fault{"NegativeBackground", "[environment]\nbackground = [0, -0.1, 0]\n",
+                          "5: environment.background[1]:", "0 or more"},
+                    Fault{"AmbientIsNumber", "[environment]\nambient = 1\n",
+                          "5: environment.ambient:", "array of 3 numbers"},
+                    Fault{"SkyWithoutGround", "[environment]\nsky = { zenith = [0,0,0], horizon = [0,0,0] }\n",
+                          "5: environment.sky.ground:", "is missing"},
+                    Fault{"SkyUnknownKey", "[environment.sky]\nzenit = [0,0,0]\n",
+                          "5: environment.sky.zenit:", "did you mean 'zenith'?"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(Settings, SceneFault,
+                         testing::Values(Fault{"IsArray", "[[settings]]\n", "4: settings:", "a table is needed"},
+                                         Fault{"IsDate", "[settings]\n'view.exposure' = 2024-01-01\n",
+                                               "5: settings.view.exposure:", "is a date"},
+                                         Fault{"IsNan", "[settings]\nview.exposure = nan\n",
+                                               "5: settings.view.exposure:", "not finite"},
+                                         Fault{"ArrayOfStrings", "[settings]\nview.clear_color = [0,\n'a', 0]\n",
+                                               "6: settings.view.clear_color:", "not a finite number"},
+                                         Fault{"SetTwice", "[settings]\n'view.exposure' = 1\nview.exposure = 2\n",
+                                               "5: settings.view.exposure:", "is set twice"}),
+                         nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Object, SceneFault,
+    testing::Values(
+        Fault{"SingleTable", "[object]\nmodel = 'triangle.obj'\n", "4: object:", "[[object]]"},
+        Fault{"ArrayOfNumbers", "[settings]\n[[light]]\nposition = [0,0,0]\norbit = 3\n",
+              "7: light[0].orbit:", "a table is needed"},
+        Fault{"NoModel", "[[object]]\nposition = [0, 0, 0]\n", "4: object[0].model:", "is missing"},
+        Fault{"ModelMissing", "[[object]]\nmodel = 'none.obj'\n", "5: object[0].model:", "none.obj"},
+        Fault{"ModelIsFolder", "[[object]]\nmodel = '.'\n", "5: object[0].model:", "there is no file"},
+        Fault{"ModelEmpty", "[[object]]\nmodel = ''\n", "5: object[0].model:", "there is no file"},
+        Fault{"ModelIsNumber", "[[object]]\nmodel = 3\n", "5: object[0].model:", "is an integer"},
+        Fault{"SecondObjectByIndex", kObject + "[[object]]\nmodle = 'x'\n", "7: object[1].modle:", "'model'"},
+        Fault{"ByName", kObject + "name = 'knot'\nscale = 0\n", "7: object[knot].scale:", "is zero"},
+        Fault{"NestedMirror", kObject + "mirror = { roughness = 0 }\n", "6: object[0].mirror:", "not a known key"},
+        Fault{"ScaleZeroInOneAxis", kObject + "scale = [1, 0, 1]\n", "6: object[0].scale:", "is zero"},
+        Fault{"ScaleInfinite", kObject + "scale = inf\n", "6: object[0].scale:", "finite"},
+        Fault{"ScaleIsString", kObject + "scale = 'big'\n", "6: object[0].scale:", "a number or an array"},
+        Fault{"PositionNan", kObject + "position = [0, nan, 0]\n", "6: object[0].position[1]:", "finite"},
+        Fault{"RotationIsString", kObject + "rotation = ['a', 0, 0]\n", "6: object[0].rotation[0]:", "is a string"},
+        Fault{"SpinIsBoolean", kObject + "spin = true\n", "6: object[0].spin:", "is a boolean"},
+        Fault{"ColorNegative", kObject + "color = [-1, 0, 0]\n", "6: object[0].color[0]:", "0 or more"},
+        Fault{"SpecularNegative", kObject + "specular = [0, 0, -1]\n", "6: object[0].specular[2]:", "0 or more"},
+        Fault{"ShininessIsArray", kObject + "shininess = [1]\n", "6: object[0].shininess:", "is an array"},
+        Fault{"CopiesZero", kObject + "copies = { count = 0 }\n", "6: object[0].copies.count:", "1 .. 1000000"},
+        Fault{"CopiesTooMany", kObject + "copies = { count = 1000001 }\n", "6: object[0].copies.count:", "1000001"},
+        Fault{"CopiesFraction", kObject + "copies = { count = 2.0 }\n", "6: object[0].copies.count:", "an integer"},
+        Fault{"CopiesUnknownKey", kObject + "copies = { steps = 2 }\n", "6: object[0].copies.steps:", "'step'"},
+        Fault{"CopiesIsNumber", kObject + "copies = 3\n", "6: object[0].copies:", "a table is needed"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Light, SceneFault,
+    testing::Values(
+        Fault{"NoPosition", "[[light]]\nglow = 1\n", "4: light[0].position:", "is missing"},
+        Fault{"UnknownKey", kLight + "colour = [1,1,1]\n", "6: light[0].colour:", "did you mean 'color'?"},
+        Fault{"ColorNegative", kLight + "color = [1, -1, 1]\n", "6: light[0].color[1]:", "0 or more"},
+        Fault{"IntensityNegative", kLight + "intensity = -1\n", "6: light[0].intensity:", "0 or more"},
+        Fault{"RadiusZero", kLight + "radius = 0.0\n", "6: light[0].radius:", "above 0"},
+        Fault{"GlowNegative", kLight + "glow = -0.5\n", "6: light[0].glow:", "0 or more"},
+        Fault{"CastsShadowIsNumber", kLight + "casts_shadow = 1\n", "6: light[0].casts_shadow:", "true or false"},
+        Fault{"OrbitAxisZero", kLight + "orbit = { axis = [0, 0, 0] }\n", "6: light[0].orbit.axis:", "no direction"},
+        Fault{"OrbitUnknownKey", kLight + "orbit = { centre = [0, 0, 0] }\n", "6: light[0].orbit.centre:", "'center'"},
+        Fault{"OrbitSpeedIsString", kLight + "orbit = { speed = 'fast' }\n", "6: light[0].orbit.speed:", "a string"}),
+    nameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Mirror, SceneFault,
+    testing::Values(
+        Fault{"NoShape", "[[mirror]]\nposition = [0, 0, 0]\n", "4: mirror[0].size:", "or polygon"},
+        Fault{"UnknownKey", kMirror + "reflectence = 1\n", "6: mirror[0].reflectence:", "'reflectance'"},
+        Fault{"SizeZero", "[[mirror]]\nsize = [1, 0]\n", "5: mirror[0].size[1]:", "above 0"},
+        Fault{"SizeNegative", "[[mirror]]\nsize = [-1, 1]\n", "5: mirror[0].size[0]:", "above 0"},
+        Fault{"SizeOfThree", "[[mirror]]\nsize = [1, 1, 1]\n", "5: mirror[0].size:", "array of 2 numbers"},
+        Fault{"SizeASliver", "[[mirror]]\nname = 'slit'\nsize = [1, 9e-9]\n", "6: mirror[slit].size:", "has no area"},
+        Fault{"SizeBelowArithmetic", "[[mirror]]\nsize = [1e-200, 1e-200]\n", "5: mirror[0].size:", "has no area"},
+        Fault{"PolygonAndSize", kMirror + "polygon = [[0,0,0],[1,0,0],[0,1,0]]\n", "5: mirror[0].size:", "polygon"},
+        Fault{"PolygonAndPosition", "[[mirror]]\npolygon = [[0,0,0],[1,0,0],[0,1,0]]\nposition = [0,0,0]\n",
+              "6: mirror[0].position:", "polygon"},
+        Fault{"PolygonAndRotation", "[[mirror]]\npolygon = [[0,0,0],[1,0,0],[0,1,0]]\nrotation = [0,0,0]\n",
+              "6: mirror[0].rotation:", "polygon"},
+        Fault{"PolygonAndSpin", "[[mirror]]\npolygon = [[0,0,0],[1,0,0],[0,1,0]]\nspin = [0,0,0]\n",
+              "6: mirror[0].spin:", "polygon"},
+        Fault{"PolygonOfTwo", "[[mirror]]\npolygon = [[0,0,0],[1,0,0]]\n", "5: mirror[0].polygon:", "fewer than 3"},
+        Fault{"PolygonCollinear", "[[mirror]]\nname = 'line'\npolygon = [[0,0,0],[1,1,1],[2,2,2]]\n",
+              "6: mirror[line].polygon:", "has no area"},
+        Fault{"PolygonNotPlanar", "[[mirror]]\npolygon = [[0,0,0],[1,0,0],[1,1,0.01],[0,1,0]]\n",
+              "5: mirror[0].polygon:", "not planar"},
+        Fault{"PolygonNotConvex", "[[mirror]]\npolygon = [[0,0,0],[2,0,0],[0.5,0.5,0],[0,2,0]]\n",
+              "5: mirror[0].polygon:", "not convex"},
+        Fault{"PolygonNan", "[[mirror]]\npolygon = [[0,0,0],\n[1,0,nan],[0,1,0]]\n",
+              "6: mirror[0].polygon[1][2]:", "finite"},
+        Fault{"PolygonOfNumbers", "[[mirror]]\npolygon = [1, 2, 3]\n", "5: mirror[0].polygon[0]:", "an array of 3"},
+        Fault{"ReflectanceAboveOne", kMirror + "reflectance = [1, 1.01, 1]\n",
+              "6: mirror[0].reflectance[1]:", "0 .. 1"},
+        Fault{"ReflectanceIsNumber", kMirror + "reflectance = 1\n", "6: mirror[0].reflectance:", "array of 3 numbers"},
+        Fault{"FresnelUnknown", kMirror + "fresnel = 'shlick'\n", "6: mirror[0].fresnel:", "did you mean 'schlick'?"},
+        Fault{"BaseColorNegative", kMirror + "base_color = [0, 0, -1]\n", "6: mirror[0].base_color[2]:", "0 or more"},
+        Fault{"BackColorNegative", kMirror + "back_color = [-1, 0, 0]\n", "6: mirror[0].back_color[0]:", "0 or more"},
+        Fault{"RoughnessAboveOne", kMirror + "roughness = 1.5\n", "6: mirror[0].roughness:", "0 .. 1"},
+        Fault{"RippleWavelengthZero", kMirror + "ripple = { wavelength = 0 }\n",
+              "6: mirror[0].ripple.wavelength:", "above 0"},
+        Fault{"RippleAmplitudeNegative", kMirror + "ripple = { amplitude = -1 }\n",
+              "6: mirror[0].ripple.amplitude:", "0 or more"},
+        Fault{"RippleUnknownKey", kMirror + "ripple = { height = 1 }\n", "6: mirror[0].ripple.height:", "one of:"},
+        Fault{"TwoSidedIsString", kMirror + "two_sided = 'yes'\n", "6: mirror[0].two_sided:", "true or false"},
+        Fault{"CastsLightIsNumber", kMirror + "casts_light = 0\n", "6: mirror[0].casts_light:", "true or false"},
+        Fault{"NameCannotBreakTheLine", kMirror + "name = \"a\\nb\"\nfresnel = 1\n",
+              "7: mirror[a?b].fresnel:", "is an integer"}),
+    nameOf);
+
+TEST(SceneFaults, CameraParts) {
+  expectFault("", "1: camera:", "is missing");
+  expectFault("title = 'x'\n\n[camera]\ntarget = [0, 0, 0]\n", "3: camera.position:", "is missing");
+  expectFault("[camera]\nposition = [0, 0, 0]\n", "1: camera.target:", "is missing");
+  expectFault("[camera]\nposition = [1, 2, 3]\ntarget = [1, 2, 3]\n", "3: camera.target:", "away from position");
+  expectFault("[camera]\nposition = [0, 4, 0]\ntarget = [0, 0, 0]\n", "3: camera.target:", "parallel");
+  expectFault("title = 3\n", "1: title:", "is an integer");
+  expectFault("camera = 3\n", "1: camera:", "a table is needed");
+}
+
+TEST(SceneFaults, UnknownKeysComeInTheOrderOfTheFile) {
+  expectFault("[camera]\nzebra = 1\napple = 2\n", "2: camera.zebra:", "not a known key");
+}
+
+TEST(SceneFaults, FilesThatAreNone) {
+  const TemporaryFolder folder;
+  const std::string missing = inputErrorOf([&] { loadScene(folder / "none.toml"); });
+  EXPECT_EQ(missing, (folder / "none.toml").string() +
+                         ":1: file: cannot be read: No such file or directory (a scene file is needed)");
+  const std::string directory = inputErrorOf([&] { loadScene(folder / ""); });
+  EXPECT_NE(directory.find(":1: file: is a folder (a scene file is needed)"), std::string::npos) << directory;
+}
+
+TEST(SceneFaults, GarbageIsToldNotCrashedOn) {
+  expectFault(std::string("\x00\xff\xfe\x80garbage", 12), "1: toml:", "a TOML 1.0 file is needed");
+  expectFault(std::string(100'000, '['), "1: toml:", "a TOML 1.0 file is needed");
+  expectFault("a = " + std::string(100'000, '['), "1: toml:", "a TOML 1.0 file is needed");
+}
+
+TEST(SceneFaults, FaultOfAModelIsToldWithItsOwnFile) {
+  const TemporaryFolder folder;
+  folder.write("models/bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+  const auto scene = folder.write("scenes/a.toml", std::string(kCamera) + "[[object]]\nmodel = '../models/bad.obj'\n");
+  const std::string message = inputErrorOf([&] { loadScene(scene); });
+  EXPECT_EQ(message.rfind((folder / "models/bad.obj").string() + ":4: f: ", 0), 0u) << message;
+}
+
+}  // namespace
+}  // namespace speculum
