@@ -7,6 +7,7 @@
 #include "image/file_io.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_sections.hpp"
+#include "scene/toml_depth.hpp"
 
 namespace speculum {
 
@@ -14,20 +15,35 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// A device or pipe might never end, and nobody writes a larger scene by hand.
+constexpr uintmax_t kLargestFile = 16u << 20;
+
 std::string readSceneText(const fs::path& file) {
+  std::error_code error;
+  if (fs::exists(file, error) && !fs::is_directory(file, error)) {
+    const bool regular = fs::is_regular_file(file, error);
+    if (!regular || fs::file_size(file, error) > kLargestFile) {
+      throwInputError(file, 1, "file", regular ? "is larger than 16 MiB" : "is a device or pipe",
+                      "a scene file is needed");
+    }
+  }
   try {
     const std::vector<uint8_t> bytes = readFileBytes(file);
     return std::string(bytes.begin(), bytes.end());
-  } catch (const std::runtime_error& error) {
-    const std::string message = error.what();
+  } catch (const std::runtime_error& failure) {
+    const std::string message = failure.what();
     const size_t start = file.string().size() + 2;
     throwInputError(file, 1, "file", message.substr(start, message.rfind(" (") - start), "a scene file is needed");
   }
 }
 
 toml::table parseToml(const fs::path& file) {
+  const std::string text = readSceneText(file);
+  if (const int line = lineOfTooDeepKey(text)) {
+    throwInputError(file, line, "toml", "a key has too many parts", "no key of a scene file has more than 3");
+  }
   try {
-    return toml::parse(readSceneText(file));
+    return toml::parse(text);
   } catch (const toml::parse_error& error) {
     const int line = static_cast<int>(error.source().begin.line);
     throwInputError(file, std::max(1, line), "toml", error.description(), "a TOML 1.0 file is needed");
@@ -37,8 +53,13 @@ toml::table parseToml(const fs::path& file) {
 // The place of the model among the scene's meshes; each file is loaded once, whatever it is called.
 int meshIndex(const TableReader& object, Scene& scene) {
   const std::string model = object.text("model");
-  const fs::path file = (scene.file.parent_path() / model).lexically_normal();
+  const fs::path named = scene.file.parent_path() / model;
+  fs::path file = named.lexically_normal();
   std::error_code error;
+  // The two differ where a symbolic link to a folder is followed by "..".
+  if (fs::exists(named, error) && !fs::equivalent(named, file, error)) {
+    file = named;
+  }
   if (model.empty() || !fs::is_regular_file(file, error)) {
     object.fail("model", "there is no file '" + file.string() + "'",
                 "name a Wavefront OBJ file, relative to the scene file");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "optics/polygon.hpp"
@@ -14,12 +15,18 @@ namespace {
 
 using Key = std::string_view;
 
+// Checking a polygon takes time in the square of this.
+constexpr size_t kMostVertices = 1000;
+
 Copies readCopies(const TableReader& object) {
   static constexpr std::array<Key, 2> kKeys{"count", "step"};
   Copies copies;
   if (const std::optional<TableReader> table = object.subtable("copies", kKeys)) {
+    if (!table->has("count")) {
+      table->fail("count", "is missing", "an integer 1 .. 1000000 is needed");
+    }
     copies.count = static_cast<int>(table->integer("count", copies.count, 1, 1'000'000));
-    copies.step = table->vec3("step", copies.step);
+    copies.step = table->vec3("step");
   }
   return copies;
 }
@@ -72,6 +79,9 @@ void readShape(const TableReader& table, Mirror& mirror) {
       }
     }
     mirror.polygon = table.points("polygon");
+    if (mirror.polygon.size() > kMostVertices) {
+      table.fail("polygon", "has " + std::to_string(mirror.polygon.size()) + " vertices", "3 .. 1000 are needed");
+    }
     checkShape(table, "polygon", mirror.polygon);
     return;
   }
@@ -118,7 +128,7 @@ SettingEntry readSetting(const TableReader& settings, const toml::node& node, co
 }
 
 void flatten(const TableReader& settings, const toml::table& table, const std::string& prefix, int tableLine,
-             std::vector<SettingEntry>& entries) {
+             std::map<std::string, SettingEntry>& entries) {
   for (const auto& [key, node] : table) {
     const std::string full = prefix + std::string(key.str());
     const int line = key.source().begin.line > 0 ? static_cast<int>(key.source().begin.line) : tableLine;
@@ -126,12 +136,10 @@ void flatten(const TableReader& settings, const toml::table& table, const std::s
       flatten(settings, *node.as_table(), full + ".", line, entries);
       continue;
     }
-    const bool twice =
-        std::any_of(entries.begin(), entries.end(), [&](const SettingEntry& entry) { return entry.key == full; });
-    if (twice) {
+    if (entries.contains(full)) {
       settings.failAt(node, full, "is set twice", "set it once, either quoted or nested");
     }
-    entries.push_back(readSetting(settings, node, full, line));
+    entries.emplace(full, readSetting(settings, node, full, line));
   }
 }
 
@@ -185,20 +193,15 @@ CameraSpec readCamera(const TableReader& file) {
 
 std::vector<SettingEntry> readSettings(const TableReader& file) {
   std::vector<SettingEntry> entries;
-  const toml::node* node = file.table().get("settings");
-  if (node == nullptr) {
+  const std::optional<TableReader> settings = file.subtable("settings");
+  if (!settings) {
     return entries;
   }
-  if (!node->is_table()) {
-    file.failAt(*node, "settings", "is " + std::string(typeName(*node)), "a table is needed");
+  std::map<std::string, SettingEntry> byKey;
+  flatten(*settings, settings->table(), "", settings->line(), byKey);
+  for (auto& [key, entry] : byKey) {
+    entries.push_back(std::move(entry));
   }
-  // Which keys there are is not known here.
-  std::vector<Key> keys;
-  for (const auto& [key, value] : *node->as_table()) {
-    keys.push_back(key.str());
-  }
-  const TableReader settings = file.subtable("settings", keys).value();
-  flatten(settings, settings.table(), "", settings.line(), entries);
   std::stable_sort(entries.begin(), entries.end(),
                    [](const SettingEntry& a, const SettingEntry& b) { return a.line < b.line; });
   return entries;
@@ -215,6 +218,9 @@ Object readObject(const TableReader& table) {
     if (object.scale[i] == 0.0) {
       table.fail("scale", "is zero along an axis", "scales other than 0 are needed, negative ones mirror");
     }
+  }
+  if (!std::isnormal(object.scale.x * object.scale.y * object.scale.z)) {
+    table.fail("scale", "leaves the range of double precision", "scales nearer to 1 are needed");
   }
   if (table.has("color")) {
     object.color = table.vec3("color", kNotNegative);

@@ -57,9 +57,12 @@ std::string_view typeName(const toml::node& node) {
   }
 }
 
+TableReader::TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line)
+    : file_(file), label_(std::move(label)), table_(table), line_(std::max(1, line)) {}
+
 TableReader::TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line,
                          std::span<const std::string_view> known)
-    : file_(file), label_(std::move(label)), table_(table), line_(std::max(1, line)) {
+    : TableReader(file, std::move(label), table, line) {
   const toml::key* first = nullptr;
   for (const auto& [key, value] : table_) {
     const bool isKnown = std::find(known.begin(), known.end(), key.str()) != known.end();
@@ -225,15 +228,22 @@ size_t TableReader::choice(std::string_view key, size_t fallback, std::span<cons
   return static_cast<size_t>(found - choices.begin());
 }
 
-std::optional<TableReader> TableReader::subtable(std::string_view key, std::span<const std::string_view> known) const {
+const toml::table* TableReader::tableOf(std::string_view key) const {
   const toml::node* node = table_.get(key);
-  if (node == nullptr) {
-    return std::nullopt;
-  }
-  if (!node->is_table()) {
+  if (node != nullptr && !node->is_table()) {
     failAt(*node, key, fmt::format("is {}", typeName(*node)), "a table is needed");
   }
-  return TableReader(file_, fullKey(key), *node->as_table(), line(key), known);
+  return node == nullptr ? nullptr : node->as_table();
+}
+
+std::optional<TableReader> TableReader::subtable(std::string_view key, std::span<const std::string_view> known) const {
+  const toml::table* table = tableOf(key);
+  return table == nullptr ? std::nullopt : std::optional<TableReader>({file_, fullKey(key), *table, line(key), known});
+}
+
+std::optional<TableReader> TableReader::subtable(std::string_view key) const {
+  const toml::table* table = tableOf(key);
+  return table == nullptr ? std::nullopt : std::optional<TableReader>({file_, fullKey(key), *table, line(key)});
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key, std::span<const std::string_view> known) const {

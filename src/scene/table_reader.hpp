@@ -36,6 +36,8 @@ class TableReader {
   // `table` and `known` must outlive the reader.
   TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line,
               std::span<const std::string_view> known);
+  // Takes any key.
+  TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line);
 
   bool has(std::string_view key) const { return table_.contains(key); }
   int line() const { return line_; }
@@ -58,6 +60,7 @@ class TableReader {
   size_t choice(std::string_view key, size_t fallback, std::span<const std::string_view> choices) const;
 
   std::optional<TableReader> subtable(std::string_view key, std::span<const std::string_view> known) const;
+  std::optional<TableReader> subtable(std::string_view key) const;  // takes any key
   // [[key]] tables; each is labelled with its name, or else its index.
   std::vector<TableReader> tables(std::string_view key, std::span<const std::string_view> known) const;
 
@@ -67,6 +70,7 @@ class TableReader {
 
  private:
   std::string fullKey(std::string_view key) const;
+  const toml::table* tableOf(std::string_view key) const;
   const toml::node& required(std::string_view key, std::string_view right) const;
   double numberOf(const toml::node& node, std::string_view key, const Range& range) const;
   std::vector<double> numbersOf(const toml::node& node, std::string_view key, size_t count, const Range& range) const;

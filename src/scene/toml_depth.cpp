@@ -1,0 +1,63 @@
+#include "scene/toml_depth.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace speculum {
+
+namespace {
+
+// The place after the string that starts at `start` with a quotation mark, or after what an unfinished one spans.
+size_t endOfString(std::string_view toml, size_t start) {
+  const char quote = toml[start];
+  const bool multiLine = toml.substr(start, 3) == std::string_view(quote == '"' ? "\"\"\"" : "'''");
+  const size_t marks = multiLine ? 3 : 1;
+  size_t i = start + marks;
+  while (i < toml.size()) {
+    if (toml[i] == '\\' && quote == '"') {
+      i += 2;
+    } else if (toml[i] == '\n' && !multiLine) {
+      return i;
+    } else if (toml.substr(i, marks) == toml.substr(start, marks)) {
+      i += marks;
+      // Up to two quotation marks may stand right before the closing three.
+      for (int extra = 0; extra < 2 && multiLine && i < toml.size() && toml[i] == quote; ++extra) {
+        ++i;
+      }
+      return i;
+    } else {
+      ++i;
+    }
+  }
+  return toml.size();
+}
+
+}  // namespace
+
+int lineOfTooDeepKey(std::string_view toml) {
+  constexpr int kMostDots = 31;
+  int line = 1;
+  int dots = 0;
+  for (size_t i = 0; i < toml.size();) {
+    const size_t start = i;
+    const char c = toml[i++];
+    if (c == '"' || c == '\'') {
+      i = endOfString(toml, start);
+      for (const char skipped : toml.substr(start, i - start)) {
+        line += skipped == '\n' ? 1 : 0;
+      }
+    } else if (c == '#') {
+      i = std::min(toml.find('\n', i), toml.size());
+    } else if (c == '.') {
+      if (++dots > kMostDots) {
+        return line;
+      }
+    } else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
+      dots = 0;
+      line += c == '\n' ? 1 : 0;
+    }
+  }
+  return 0;
+}
+
+}  // namespace speculum

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+namespace speculum {
+
+// The line of the first dotted key or table header with more than 32 parts, or 0. The TOML library limits the nesting
+// of values but not the parts of a key, makes a table of each, and takes one of them apart inside the other: a hundred
+// thousand parts overflow the stack.
+int lineOfTooDeepKey(std::string_view toml);
+
+}  // namespace speculum
