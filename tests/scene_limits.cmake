@@ -1,0 +1,1 @@
+speculum_test(scene_limits SOURCES scene_limits.cpp LIBRARIES scene ext::spdlog TIMEOUT 30)

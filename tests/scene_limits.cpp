@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cmath>
+
+#include "scene/toml_depth.hpp"
+#include "scene_support.hpp"
+
+namespace speculum {
+namespace {
+
+// Files that are no scene by anybody's hand must still end in one line, without a crash and in short time.
+
+constexpr const char* kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
+
+std::string repeated(const std::string& part, size_t count) {
+  std::string text;
+  text.reserve(part.size() * count);
+  for (size_t i = 0; i < count; ++i) {
+    text += part;
+  }
+  return text;
+}
+
+std::string faultOf(const std::string& text) {
+  const TemporaryFolder folder;
+  folder.write("triangle.obj", kTriangleObj);
+  const std::filesystem::path file = folder.write("scene.toml", kCamera + text);
+  const std::string message = inputErrorOf([&] { loadScene(file); });
+  const std::string prefix = file.string() + ":";
+  return message.rfind(prefix, 0) == 0 ? message.substr(prefix.size()) : message;
+}
+
+// A regular polygon of radius 1.
+std::string polygonOf(int vertices) {
+  std::string text = "[[mirror]]\npolygon = [";
+  for (int i = 0; i < vertices; ++i) {
+    const double angle = 2.0 * 3.14159265358979323846 * i / vertices;
+    text += "[" + std::to_string(std::cos(angle)) + ", " + std::to_string(std::sin(angle)) + ", 0],\n";
+  }
+  return text + "]\n";
+}
+
+TEST(SceneLimits, KeysOfManyPartsAreToldBeforeTheyAreParsed) {
+  const std::string deep = repeated("a.", 200'000) + "a";
+  const std::string told = " toml: a key has too many parts (no key of a scene file has more than 3)";
+  EXPECT_EQ(faultOf("[settings]\n" + deep + " = 1\n"), "5:" + told);
+  EXPECT_EQ(faultOf("[" + deep + "]\n"), "4:" + told);
+  EXPECT_EQ(faultOf("\n[[" + deep + "]]\n"), "5:" + told);
+  EXPECT_EQ(faultOf("[settings]\nx = { " + deep + " = 1 }\n"), "5:" + told);
+  EXPECT_EQ(faultOf("[settings]\n" + repeated("\"a\" . ", 200'000) + "b = 1\n"), "5:" + told);
+}
+
+TEST(TomlDepth, CountsThePartsOfOneKey) {
+  EXPECT_EQ(lineOfTooDeepKey(repeated("a.", 31) + "a = 1\n"), 0);
+  EXPECT_EQ(lineOfTooDeepKey(repeated("a.", 32) + "a = 1\n"), 1);
+  EXPECT_EQ(lineOfTooDeepKey(repeated("a.b = 1\n", 100)), 0);
+  EXPECT_EQ(lineOfTooDeepKey("[" + repeated("[0.5, 0.25, 1.5], ", 100) + "]"), 0);
+}
+
+TEST(TomlDepth, DotsInStringsAndCommentsDoNotCount) {
+  const std::string dots(100, '.');
+  EXPECT_EQ(lineOfTooDeepKey("title = \"" + dots + "\"\n"), 0);
+  EXPECT_EQ(lineOfTooDeepKey("title = \"\\\"" + dots + "\"\n"), 0);
+  EXPECT_EQ(lineOfTooDeepKey("title = '" + dots + "'\n"), 0);
+  EXPECT_EQ(lineOfTooDeepKey("title = \"\"\"\n\"" + dots + "\n\"\"\"\n"), 0);
+  EXPECT_EQ(lineOfTooDeepKey("title = '''" + dots + "\n'" + dots + "'''\n"), 0);
+  EXPECT_EQ(lineOfTooDeepKey("# " + dots + "\ntitle = '' # " + dots + "\n"), 0);
+}
+
+TEST(TomlDepth, StringsHideNothingBehindThem) {
+  const std::string deep = repeated("a.", 40) + "a = 1";
+  EXPECT_EQ(lineOfTooDeepKey("t = \"\"\n" + deep), 2);
+  EXPECT_EQ(lineOfTooDeepKey("t = \"\\\\\"\n" + deep), 2);
+  EXPECT_EQ(lineOfTooDeepKey("t = '\\'\n" + deep), 2);
+  EXPECT_EQ(lineOfTooDeepKey("t = [\"\"\"\nx\"\"\"\"\", {" + deep + "}]"), 2);
+  EXPECT_EQ(lineOfTooDeepKey("t = ['''\n\nx'''', {" + deep + "}]"), 3);
+  EXPECT_EQ(lineOfTooDeepKey("# \"\n" + deep), 2);
+}
+
+TEST(SceneLimits, NestedValuesAreTold) {
+  EXPECT_NE(faultOf("x = " + repeated("{ a = ", 100'000)).find("4: toml: "), std::string::npos);
+}
+
+TEST(SceneLimits, PolygonsOfUpTo1000Vertices) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(loadScene(folder.write("a.toml", kCamera + polygonOf(1000))).mirrors[0].polygon.size(), 1000u);
+  EXPECT_EQ(faultOf(polygonOf(1001)), "5: mirror[0].polygon: has 1001 vertices (3 .. 1000 are needed)");
+  EXPECT_EQ(faultOf(polygonOf(100'000)), "5: mirror[0].polygon: has 100000 vertices (3 .. 1000 are needed)");
+}
+
+TEST(SceneLimits, ScalesStayInTheRangeOfDoubles) {
+  const std::string object = "[[object]]\nmodel = 'triangle.obj'\n";
+  for (const std::string scale : {"1e-320", "1e-110", "1e110", "[1e200, 1, 1e200]"}) {
+    EXPECT_EQ(faultOf(object + "scale = " + scale + "\n"),
+              "6: object[0].scale: leaves the range of double precision (scales nearer to 1 are needed)");
+  }
+  EXPECT_EQ(faultOf(object + "scale = [1e-100, 1e100, -1]\n"), "no InputError was thrown");
+}
+
+TEST(SceneLimits, CopiesNeedCountAndStep) {
+  const std::string object = "[[object]]\nmodel = 'triangle.obj'\n";
+  EXPECT_EQ(faultOf(object + "copies = { step = [1, 0, 0] }\n"),
+            "6: object[0].copies.count: is missing (an integer 1 .. 1000000 is needed)");
+  EXPECT_EQ(faultOf(object + "copies = { count = 2 }\n"),
+            "6: object[0].copies.step: is missing (an array of 3 numbers is needed)");
+}
+
+TEST(SceneLimits, ManySettingsAreReadInShortTime) {
+  const TemporaryFolder folder;
+  std::string text = std::string(kCamera) + "[settings]\n";
+  for (int i = 0; i < 200'000; ++i) {
+    text += "key" + std::to_string(i) + " = " + std::to_string(i) + "\n";
+  }
+  const Scene scene = loadScene(folder.write("scene.toml", text));
+  ASSERT_EQ(scene.settings.size(), 200'000u);
+  EXPECT_EQ(scene.settings.back().key, "key199999");
+  EXPECT_EQ(scene.settings.back().line, 200'004);
+}
+
+TEST(SceneLimits, PipesDevicesAndHugeFilesAreNotRead) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder / "pipe.toml";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(inputErrorOf([&] { loadScene(pipe); }),
+            pipe.string() + ":1: file: is a device or pipe (a scene file is needed)");
+  EXPECT_EQ(inputErrorOf([] { loadScene("/dev/zero"); }),
+            "/dev/zero:1: file: is a device or pipe (a scene file is needed)");
+  const std::filesystem::path huge = folder.write("huge.toml", kCamera);
+  std::filesystem::resize_file(huge, (16u << 20) + 1);
+  EXPECT_EQ(inputErrorOf([&] { loadScene(huge); }),
+            huge.string() + ":1: file: is larger than 16 MiB (a scene file is needed)");
+}
+
+TEST(SceneLimits, LineEndsAndByteOrderMarkKeepTheLines) {
+  EXPECT_EQ(faultOf("\r\nnear = 0\r\n"), "5: camera.near: is 0 (a finite number above 0 is needed)");
+  const TemporaryFolder folder;
+  const auto file = folder.write("scene.toml", std::string("\xef\xbb\xbf") + kCamera + "near = 0\n");
+  EXPECT_EQ(inputErrorOf([&] { loadScene(file); }),
+            file.string() + ":4: camera.near: is 0 (a finite number above 0 is needed)");
+}
+
+TEST(SceneLimits, ModelsAreFoundThroughLinkedFolders) {
+  const TemporaryFolder folder;
+  folder.write("far/models/box.obj", kTriangleObj);
+  std::filesystem::create_directories(folder / "far/parts");
+  std::filesystem::create_directory_symlink(folder / "far/parts", folder / "parts");
+  const auto file =
+      folder.write("scene.toml", std::string(kCamera) + "[[object]]\nmodel = 'parts/../models/box.obj'\n" +
+                                     "[[object]]\nmodel = 'far/models/box.obj'\n");
+  EXPECT_EQ(loadScene(file).meshes.size(), 1u);
+}
+
+}  // namespace
+}  // namespace speculum
