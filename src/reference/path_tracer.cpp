@@ -1,0 +1,188 @@
+#include "reference/path_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reference/shading.hpp"
+
+namespace speculum {
+
+namespace {
+
+uint64_t splitMix(uint64_t& state) {
+  state += 0x9E3779B97F4A7C15ull;
+  uint64_t z = state;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+  return z ^ (z >> 31);
+}
+
+double unitInterval(uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1.0p-53;
+}
+
+// The ray seen in the plane through `position` with unit `normal`: it starts at the reflected eye and, because
+// distances are kept, reaches the mirror at the same t. A ray that would go below the mirror's own plane is turned back
+// above it.
+Ray reflectedRay(const Ray& ray, const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& planeNormal,
+                 double t) {
+  const glm::dvec3 toEye = ray.origin - position;
+  Ray reflected{position + toEye - 2.0 * glm::dot(toEye, normal) * normal,
+                ray.direction - 2.0 * glm::dot(ray.direction, normal) * normal, t};
+  const double outward = glm::dot(reflected.direction, planeNormal);
+  if (outward < 0.0) {
+    reflected.direction -= 2.0 * outward * planeNormal;
+    reflected.origin = position - t * reflected.direction;
+  }
+  return reflected;
+}
+
+// A normal of GGX with density D(m)(n.m), about n: Walter et al., "Microfacet Models for Refraction through Rough
+// Surfaces" (2007), equations 35 and 36.
+glm::dvec3 microfacet(const glm::dvec3& n, double alpha, const glm::dvec2& u) {
+  const double cosine2 = (1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x);
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine2));
+  const double angle = 2.0 * std::numbers::pi * u.y;
+  const glm::dvec3 helper = std::abs(n.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+  const glm::dvec3 x = glm::normalize(glm::cross(helper, n));
+  const glm::dvec3 y = glm::cross(n, x);
+  return sine * std::cos(angle) * x + sine * std::sin(angle) * y + std::sqrt(cosine2) * n;
+}
+
+double largestChannel(const glm::dvec3& c) {
+  return std::max({c.r, c.g, c.b});
+}
+
+}  // namespace
+
+MicrofacetSampler::MicrofacetSampler(uint32_t x, uint32_t y) : state_((uint64_t{y} << 32) | x) {
+  shift_.x = unitInterval(splitMix(state_));
+  shift_.y = unitInterval(splitMix(state_));
+}
+
+glm::dvec2 MicrofacetSampler::next(int level) {
+  if (level > 0) {
+    const double a = unitInterval(splitMix(state_));
+    return {a, unitInterval(splitMix(state_))};
+  }
+  constexpr double plastic = 1.32471795724474602596;
+  ++drawn_;
+  return glm::fract(shift_ + static_cast<double>(drawn_) * glm::dvec2(1.0 / plastic, 1.0 / (plastic * plastic)));
+}
+
+glm::dvec3 PathTracer::background(const glm::dvec3& direction) const {
+  return environment_.sky ? environment_.radiance(glm::normalize(direction)) : environment_.background;
+}
+
+bool PathTracer::reflects(const SceneHit& hit) const {
+  return hit.mirrorFront || world_.scene().mirrors[hit.index].twoSided;
+}
+
+PathTracer::Bounce PathTracer::bounceAt(const Ray& ray, const SceneHit& hit) const {
+  const Mirror& mirror = world_.scene().mirrors[hit.index];
+  const MirrorState& state = world_.mirrors()[hit.index];
+  const double side = hit.mirrorFront ? 1.0 : -1.0;
+  Bounce bounce{.mirror = hit.index, .position = ray.at(hit.t), .planeNormal = side * state.normal, .t = hit.t};
+  bounce.normal = side * mirrorNormal(mirror, state, bounce.position, time_);
+  bounce.reflectance = mirrorReflectance(mirror, -glm::dot(bounce.normal, ray.direction));
+  return bounce;
+}
+
+glm::dvec3 PathTracer::mirrorLayer(const Ray& ray, const SceneHit& hit, const glm::dvec3& normal,
+                                   const glm::dvec3& color) const {
+  return surfaceRadiance(world_, {.position = ray.at(hit.t),
+                                  .normal = normal,
+                                  .toViewer = -ray.direction,
+                                  .diffuse = color,
+                                  .self = {.mirror = hit.index}});
+}
+
+glm::dvec3 PathTracer::backSide(const Ray& ray, const SceneHit& hit) const {
+  return mirrorLayer(ray, hit, -world_.mirrors()[hit.index].normal, world_.scene().mirrors[hit.index].backColor);
+}
+
+PathTracer::Path PathTracer::reflected(const Path& path, const Bounce& bounce, const Ray& ray) const {
+  return {ray, {.mirror = bounce.mirror}, path.depth + 1, path.throughput, path.roughLevel};
+}
+
+glm::dvec3 PathTracer::roughReflection(const Path& path, const Bounce& bounce) {
+  const double roughness = world_.scene().mirrors[bounce.mirror].roughness;
+  const int level = path.roughLevel;
+  const int wanted = level == 0 ? options_.roughSamples : level == 1 ? std::max(1, options_.roughSamples / 16) : 1;
+  glm::dvec3 sum(0.0);
+  int taken = 0;
+  for (int drawn = 0; taken < wanted && drawn < 4 * wanted + 16; ++drawn) {
+    const glm::dvec3 m = microfacet(bounce.normal, roughness * roughness, sampler_.next(level));
+    const double facing = -glm::dot(m, path.ray.direction);
+    const glm::dvec3 direction = path.ray.direction + 2.0 * facing * m;
+    if (facing <= 0.0 || glm::dot(direction, bounce.planeNormal) <= 0.0) {
+      continue;
+    }
+    ++taken;
+    Path next = reflected(path, bounce, reflectedRay(path.ray, bounce.position, m, bounce.planeNormal, bounce.t));
+    ++next.roughLevel;
+    sum += follow(next);
+  }
+  if (taken > 0) {
+    return sum / static_cast<double>(taken);
+  }
+  return follow(
+      reflected(path, bounce, reflectedRay(path.ray, bounce.position, bounce.normal, bounce.planeNormal, bounce.t)));
+}
+
+glm::dvec3 PathTracer::follow(Path path) {
+  glm::dvec3 sum(0.0);
+  glm::dvec3 weight(1.0);
+  for (;;) {
+    const auto hit = world_.closest(path.ray, path.skip);
+    if (!hit) {
+      return sum + weight * background(path.ray.direction);
+    }
+    if (hit->kind == HitKind::glyph) {
+      const PointLight& light = world_.scene().lights[hit->index];
+      return sum + weight * light.color * light.glow;
+    }
+    if (hit->kind == HitKind::object) {
+      return sum + weight * surfaceRadiance(world_, objectPoint(world_, path.ray, *hit));
+    }
+    if (!reflects(*hit)) {
+      return sum + weight * backSide(path.ray, *hit);
+    }
+    const Mirror& mirror = world_.scene().mirrors[hit->index];
+    const Bounce bounce = bounceAt(path.ray, *hit);
+    if (mirror.baseColor != glm::dvec3(0.0)) {
+      sum += weight * (1.0 - bounce.reflectance) * mirrorLayer(path.ray, *hit, bounce.normal, mirror.baseColor);
+    }
+    weight *= bounce.reflectance;
+    path.throughput *= bounce.reflectance;
+    const Ray ray = reflectedRay(path.ray, bounce.position, bounce.normal, bounce.planeNormal, bounce.t);
+    const double throughput = largestChannel(path.throughput);
+    if (path.depth >= options_.maxDepth || throughput < options_.minThroughput || throughput == 0.0) {
+      return sum + weight * background(ray.direction);
+    }
+    if (mirror.roughness > 0.0) {
+      return sum + weight * roughReflection(path, bounce);
+    }
+    path = reflected(path, bounce, ray);
+  }
+}
+
+int PathTracer::countMirrors(Ray ray, bool& background) const {
+  Skip skip;
+  background = false;
+  const int most = std::min(255, std::max(options_.maxDepth, 0) + 1);
+  for (int count = 0; count < most; ++count) {
+    const auto hit = world_.closest(ray, skip);
+    background = background || (count == 0 && !hit);
+    if (!hit || hit->kind != HitKind::mirror || !reflects(*hit)) {
+      return count;
+    }
+    const Bounce bounce = bounceAt(ray, *hit);
+    ray = reflectedRay(ray, bounce.position, bounce.normal, bounce.planeNormal, bounce.t);
+    skip = {.mirror = hit->index};
+  }
+  return most;
+}
+
+}  // namespace speculum

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "reference/ray_tracer.hpp"
+#include "reference/trace_world.hpp"
+
+namespace speculum {
+
+// Points in the unit square for microfacets. Mirrors seen directly draw from an additive recurrence with the plastic
+// number (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), shifted per pixel; deeper ones
+// from a hash, so that the levels are independent of each other.
+class MicrofacetSampler {
+ public:
+  MicrofacetSampler(uint32_t x, uint32_t y);
+  glm::dvec2 next(int level);
+
+ private:
+  uint64_t state_;
+  glm::dvec2 shift_;
+  uint64_t drawn_ = 0;
+};
+
+// Follows one pixel's rays through the mirrors of a world. Positions are relative to the eye of the world's state.
+class PathTracer {
+ public:
+  PathTracer(const TraceWorld& world, const Environment& environment, const TraceOptions& options, double time,
+             MicrofacetSampler sampler)
+      : world_(world), environment_(environment), options_(options), time_(time), sampler_(sampler) {}
+
+  // Radiance along a ray with a direction of unit length.
+  glm::dvec3 radiance(const Ray& ray) { return follow({ray, {}, 0, glm::dvec3(1.0), 0}); }
+
+  // Reflecting sides in a row along the ray, the one that is cut off by maxDepth included; sets `background` if the first thing met is nothing.
+  int countMirrors(Ray ray, bool& background) const;
+
+ private:
+  struct Path {
+    Ray ray;
+    Skip skip;
+    int depth;              // of the next mirror
+    glm::dvec3 throughput;  // of the bounces so far
+    int roughLevel;         // rough bounces so far
+  };
+  // A mirror's reflecting side at one point.
+  struct Bounce {
+    int mirror;
+    glm::dvec3 position;
+    glm::dvec3 planeNormal;  // unit, on the viewer's side
+    glm::dvec3 normal;       // with ripples
+    glm::dvec3 reflectance;
+    double t;
+  };
+  bool reflects(const SceneHit& hit) const;
+  Bounce bounceAt(const Ray& ray, const SceneHit& hit) const;
+  glm::dvec3 follow(Path path);
+  glm::dvec3 mirrorLayer(const Ray& ray, const SceneHit& hit, const glm::dvec3& normal, const glm::dvec3& color) const;
+  glm::dvec3 backSide(const Ray& ray, const SceneHit& hit) const;
+  glm::dvec3 roughReflection(const Path& path, const Bounce& bounce);
+  glm::dvec3 background(const glm::dvec3& direction) const;
+  Path reflected(const Path& path, const Bounce& bounce, const Ray& ray) const;
+
+  const TraceWorld& world_;
+  const Environment& environment_;
+  const TraceOptions& options_;
+  double time_;
+  MicrofacetSampler sampler_;
+};
+
+}  // namespace speculum

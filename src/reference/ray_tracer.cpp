@@ -1,0 +1,177 @@
+#include "reference/ray_tracer.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+
+#include "reference/path_tracer.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr int tileSize = 16;
+
+int gridSize(int samples) {
+  const int side = static_cast<int>(std::lround(std::sqrt(std::max(samples, 0))));
+  if (side < 1 || side * side != samples) {
+    throw std::invalid_argument("the number of samples must be a square (1, 4, 9, 16 ...), not " +
+                                std::to_string(samples));
+  }
+  return side;
+}
+
+void check(const TraceOptions& options) {
+  if (options.width < 1 || options.height < 1) {
+    throw std::invalid_argument("a picture needs a width and a height of at least 1 pixel");
+  }
+  if (options.roughSamples < 1) {
+    throw std::invalid_argument("rough mirrors need at least 1 sample");
+  }
+  gridSize(options.samples);
+}
+
+Environment environmentOf(const Scene& scene, const TraceOptions& options) {
+  Environment environment = scene.environment;
+  if (options.clearColor) {
+    environment.background = *options.clearColor;
+    environment.sky.reset();
+  }
+  return environment;
+}
+
+PickResult::Kind kindOf(HitKind kind) {
+  switch (kind) {
+    case HitKind::object:
+      return PickResult::Kind::object;
+    case HitKind::mirror:
+      return PickResult::Kind::mirror;
+    case HitKind::glyph:
+      return PickResult::Kind::light;
+  }
+  return PickResult::Kind::nothing;
+}
+
+}  // namespace
+
+struct RayTracer::Impl {
+  TraceWorld world;
+  CameraPose camera;
+  double time = 0.0;
+
+  explicit Impl(const Scene& scene) : world(scene) {}
+
+  void place(const SceneState& state) {
+    world.place(state);
+    camera = state.camera;
+    time = state.time;
+  }
+
+  // Through (x, y) pixels from the top left corner; the eye is the origin.
+  Ray cameraRay(int width, int height, double x, double y) const {
+    const double tangent = std::tan(0.5 * camera.verticalFov);
+    const glm::dvec3 view((2.0 * x / width - 1.0) * tangent * width / height, (1.0 - 2.0 * y / height) * tangent, -1.0);
+    return {glm::dvec3(0.0), glm::normalize(glm::transpose(camera.worldToView) * view)};
+  }
+
+  Ray worldRay(const glm::dvec3& origin, const glm::dvec3& direction) const { return {origin - camera.eye, direction}; }
+
+  PickResult pick(const Ray& ray) const {
+    const auto hit = world.closest(ray, {});
+    if (!hit) {
+      return {};
+    }
+    const int64_t triangle = hit->kind == HitKind::object ? int64_t{hit->triangle} : -1;
+    return {kindOf(hit->kind), hit->index, triangle, hit->t, hit->mirrorFront};
+  }
+
+  glm::dvec3 pixel(const Environment& environment, const TraceOptions& options, int x, int y) const {
+    const int side = gridSize(options.samples);
+    PathTracer tracer(world, environment, options, time,
+                      MicrofacetSampler(static_cast<uint32_t>(x), static_cast<uint32_t>(y)));
+    glm::dvec3 sum(0.0);
+    for (int j = 0; j < side; ++j) {
+      for (int i = 0; i < side; ++i) {
+        sum += tracer.radiance(cameraRay(options.width, options.height, x + (i + 0.5) / side, y + (j + 0.5) / side));
+      }
+    }
+    return sum / static_cast<double>(options.samples);
+  }
+
+  void tile(const Environment& environment, const TraceOptions& options, int x0, int y0, TraceResult& result) const {
+    for (int y = y0; y < std::min(y0 + tileSize, options.height); ++y) {
+      for (int x = x0; x < std::min(x0 + tileSize, options.width); ++x) {
+        const size_t i = static_cast<size_t>(y) * options.width + x;
+        result.image.pixels[i] = glm::vec3(pixel(environment, options, x, y));
+        const PathTracer center(world, environment, options, time, MicrofacetSampler(0, 0));
+        bool background = false;
+        const int mirrors = center.countMirrors(cameraRay(options.width, options.height, x + 0.5, y + 0.5), background);
+        result.mirrorDepth[i] = static_cast<uint8_t>(mirrors);
+        result.mirrorMask[i] = mirrors > 0;
+        result.backgroundMask[i] = background;
+      }
+    }
+  }
+};
+
+RayTracer::RayTracer(const Scene& scene, const SceneState& state) : impl_(std::make_unique<Impl>(scene)) {
+  impl_->place(state);
+}
+RayTracer::~RayTracer() = default;
+RayTracer::RayTracer(RayTracer&&) noexcept = default;
+RayTracer& RayTracer::operator=(RayTracer&&) noexcept = default;
+
+void RayTracer::setState(const SceneState& state) {
+  impl_->place(state);
+}
+
+std::optional<TraceResult> RayTracer::render(const TraceOptions& options, const Progress& progress) const {
+  check(options);
+  const Environment environment = environmentOf(impl_->world.scene(), options);
+  const size_t pixels = static_cast<size_t>(options.width) * options.height;
+  TraceResult result{LinearImage(options.width, options.height), std::vector<uint8_t>(pixels),
+                     std::vector<uint8_t>(pixels), std::vector<uint8_t>(pixels)};
+  const int columns = (options.width + tileSize - 1) / tileSize;
+  const int tiles = columns * ((options.height + tileSize - 1) / tileSize);
+  std::atomic<bool> cancelled = false;
+  std::mutex reporting;
+  int done = 0;
+  tbb::parallel_for(tbb::blocked_range<int>(0, tiles, 1), [&](const tbb::blocked_range<int>& range) {
+    for (int t = range.begin(); t < range.end() && !cancelled; ++t) {
+      impl_->tile(environment, options, t % columns * tileSize, t / columns * tileSize, result);
+      const std::lock_guard lock(reporting);
+      ++done;
+      if (progress && !cancelled && !progress(static_cast<double>(done) / tiles)) {
+        cancelled = true;
+      }
+    }
+  });
+  return cancelled ? std::nullopt : std::optional(std::move(result));
+}
+
+glm::dvec3 RayTracer::pixel(const TraceOptions& options, int x, int y) const {
+  check(options);
+  return impl_->pixel(environmentOf(impl_->world.scene(), options), options, x, y);
+}
+
+glm::dvec3 RayTracer::radiance(const TraceOptions& options, const glm::dvec3& origin,
+                               const glm::dvec3& direction) const {
+  check(options);
+  const Environment environment = environmentOf(impl_->world.scene(), options);
+  PathTracer tracer(impl_->world, environment, options, impl_->time, MicrofacetSampler(0, 0));
+  return tracer.radiance(impl_->worldRay(origin, glm::normalize(direction)));
+}
+
+PickResult RayTracer::pick(const glm::dvec3& origin, const glm::dvec3& direction) const {
+  return impl_->pick(impl_->worldRay(origin, direction));
+}
+
+PickResult RayTracer::pickPixel(int width, int height, double x, double y) const {
+  return impl_->pick(impl_->cameraRay(width, height, x, y));
+}
+
+}  // namespace speculum

@@ -1,0 +1,173 @@
+#include "reference/shading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace speculum {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+glm::dvec3 safeNormalize(const glm::dvec3& v) {
+  return v / std::sqrt(std::max(glm::dot(v, v), 1e-200));
+}
+
+// Light of `irradiance` at 1 m, from a source (or its mirror image) at `toLight` from the point.
+glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, const glm::dvec3& irradiance,
+                         double radius) {
+  const glm::dvec3 l = safeNormalize(toLight);
+  const double cosine = std::clamp(glm::dot(point.normal, l), 0.0, 1.0);
+  const double lobe = std::clamp(glm::dot(point.normal, safeNormalize(l + point.toViewer)), 0.0, 1.0);
+  const glm::dvec3 brdf =
+      point.diffuse / pi + point.specular * ((point.shininess + 8.0) / (8.0 * pi) * std::pow(lobe, point.shininess));
+  return irradiance * (cosine / std::max(glm::dot(toLight, toLight), radius * radius)) * brdf;
+}
+
+// The light by way of one mirror: a straight line from the point to the light's image behind the mirror.
+glm::dvec3 mirroredLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
+  const Mirror& material = world.scene().mirrors[mirror];
+  const MirrorState& plane = world.mirrors()[mirror];
+  const PointLight& source = world.scene().lights[light];
+  const glm::dvec3& position = world.lights()[light].position;
+  const double pointSide = glm::dot(plane.normal, point.position - plane.origin);
+  const double lightSide = glm::dot(plane.normal, position - plane.origin);
+  const bool sameSide = pointSide > 0.0 ? lightSide > 0.0 : material.twoSided && pointSide < 0.0 && lightSide < 0.0;
+  if (!sameSide || point.self.mirror == mirror) {
+    return glm::dvec3(0.0);
+  }
+  const glm::dvec3 toImage = position - 2.0 * lightSide * plane.normal - point.position;
+  const Ray leg{point.position, toImage, 0.0, 1.0};
+  const auto crossing = world.meetMirror(leg, mirror);
+  if (!crossing || glm::dot(point.normal, toImage) <= 0.0) {
+    return glm::dvec3(0.0);
+  }
+  if (source.castsShadow) {
+    Skip first = point.self;
+    first.secondMirror = mirror;
+    const glm::dvec3 bounce = leg.at(*crossing);
+    const Skip second{.mirror = mirror};
+    if (world.occluded({point.position, toImage, 0.0, *crossing}, first) ||
+        world.occluded({bounce, position - bounce, 0.0, 1.0}, second)) {
+      return glm::dvec3(0.0);
+    }
+  }
+  const double cosine = std::abs(glm::dot(plane.normal, safeNormalize(toImage)));
+  return mirrorReflectance(material, cosine) *
+         lightRadiance(point, toImage, source.color * source.intensity, source.radius);
+}
+
+glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int light) {
+  const PointLight& source = world.scene().lights[light];
+  const glm::dvec3 toLight = world.lights()[light].position - point.position;
+  if (glm::dot(point.normal, toLight) <= 0.0) {
+    return glm::dvec3(0.0);
+  }
+  if (source.castsShadow && world.occluded({point.position, toLight, 0.0, 1.0}, point.self)) {
+    return glm::dvec3(0.0);
+  }
+  return lightRadiance(point, toLight, source.color * source.intensity, source.radius);
+}
+
+bool isBlack(const glm::dvec3& c) {
+  return c == glm::dvec3(0.0);
+}
+
+void applyMaterial(const Scene& scene, const Object& object, const Material& material, const glm::dvec2& uv,
+                   ShadingPoint& point) {
+  point.diffuse = object.color.value_or(material.diffuse);
+  if (material.diffuseTexture >= 0) {
+    point.diffuse *= textureColor(scene.textures[material.diffuseTexture], uv);
+  }
+  point.specular = object.specular.value_or(material.specular);
+  point.shininess = std::max(1.0, object.shininess.value_or(material.shininess));
+  point.emission = material.emission;
+}
+
+}  // namespace
+
+glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv) {
+  if (texture.texels.empty()) {
+    return glm::dvec3(1.0);
+  }
+  const auto wrap = [](int i, int size) { return ((i % size) + size) % size; };
+  const double x = (uv.x - std::floor(uv.x)) * texture.width - 0.5;
+  const double v = 1.0 - uv.y;
+  const double y = (v - std::floor(v)) * texture.height - 0.5;
+  const double cornerX = std::floor(x);
+  const double cornerY = std::floor(y);
+  const auto texel = [&](int dx, int dy) {
+    const int column = wrap(static_cast<int>(cornerX) + dx, texture.width);
+    const int row = wrap(static_cast<int>(cornerY) + dy, texture.height);
+    return glm::dvec3(texture.texels[static_cast<size_t>(row) * texture.width + column]);
+  };
+  const double wx = x - cornerX;
+  const double wy = y - cornerY;
+  return glm::mix(glm::mix(texel(0, 0), texel(1, 0), wx), glm::mix(texel(0, 1), texel(1, 1), wx), wy);
+}
+
+glm::dvec3 mirrorReflectance(const Mirror& mirror, double cosine) {
+  if (mirror.fresnel == Fresnel::none) {
+    return mirror.reflectance;
+  }
+  const double grazing = 1.0 - std::clamp(cosine, 0.0, 1.0);
+  return mirror.reflectance + (1.0 - mirror.reflectance) * std::pow(grazing, 5.0);
+}
+
+glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time) {
+  if (!mirror.ripple || mirror.ripple->amplitude == 0.0) {
+    return state.normal;
+  }
+  const double k = 2.0 * pi / mirror.ripple->wavelength;
+  const double slope = mirror.ripple->amplitude * k;
+  const double shift = mirror.ripple->speed * time;
+  const double x = glm::dot(position - state.origin, state.axisX);
+  const double y = glm::dot(position - state.origin, state.axisY);
+  const glm::dvec3 first = slope * std::cos(k * (x + shift)) * state.axisX;
+  const glm::dvec3 second = slope * std::cos(k * (0.6 * x + 0.8 * y - shift)) * (0.6 * state.axisX + 0.8 * state.axisY);
+  return glm::normalize(state.normal - first - second);
+}
+
+ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit& hit) {
+  const InstanceState& instance = world.instances()[hit.index];
+  const Mesh& mesh = world.scene().meshes[instance.mesh];
+  const uint32_t* index = &mesh.indices[size_t{hit.triangle} * 3];
+  const Vertex& a = mesh.vertices[index[0]];
+  const Vertex& b = mesh.vertices[index[1]];
+  const Vertex& c = mesh.vertices[index[2]];
+  const glm::dvec3& w = hit.weights;
+  const glm::dmat3& normalFromMesh = world.normalFromMesh(hit.index);
+
+  ShadingPoint point;
+  point.position = instance.worldFromMesh.point(w.x * a.position + w.y * b.position + w.z * c.position);
+  point.toViewer = safeNormalize(-ray.direction);
+  const glm::dvec3 geometric = normalFromMesh * glm::cross(b.position - a.position, c.position - a.position);
+  const glm::dvec3 shading = safeNormalize(normalFromMesh * (w.x * a.normal + w.y * b.normal + w.z * c.normal));
+  point.normal = glm::dot(geometric, point.toViewer) < 0.0 ? -shading : shading;
+  point.self = {.instance = hit.index, .triangle = hit.triangle};
+  static const Material defaultMaterial;
+  const Material& material = mesh.parts.empty() ? defaultMaterial : mesh.parts[world.partOf(hit)].material;
+  applyMaterial(world.scene(), world.scene().objects[instance.object], material, w.x * a.uv + w.y * b.uv + w.z * c.uv,
+                point);
+  return point;
+}
+
+glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point) {
+  const Scene& scene = world.scene();
+  glm::dvec3 radiance = point.emission + scene.environment.ambient * point.diffuse;
+  if (isBlack(point.diffuse) && isBlack(point.specular)) {
+    return radiance;
+  }
+  for (size_t light = 0; light < scene.lights.size(); ++light) {
+    radiance += directLight(world, point, static_cast<int>(light));
+    for (size_t mirror = 0; mirror < scene.mirrors.size(); ++mirror) {
+      if (scene.mirrors[mirror].castsLight) {
+        radiance += mirroredLight(world, point, static_cast<int>(light), static_cast<int>(mirror));
+      }
+    }
+  }
+  return radiance;
+}
+
+}  // namespace speculum

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "reference/trace_world.hpp"
+
+namespace speculum {
+
+// A point of a surface as its radiance formula sees it. Positions are relative to the eye of the world's state.
+struct ShadingPoint {
+  glm::dvec3 position{0.0};
+  glm::dvec3 normal{0.0};    // unit, on the viewer's side; zero if the model's normals cancel
+  glm::dvec3 toViewer{0.0};  // unit
+  glm::dvec3 diffuse{0.0};   // with the texture applied
+  glm::dvec3 specular{0.0};
+  glm::dvec3 emission{0.0};
+  double shininess = 1.0;
+  Skip self;
+};
+
+// Of an object that `ray` met. The shading normal is negated when the triangle's geometric normal, by the winding in
+// the model file, faces away from the viewer.
+ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit& hit);
+
+// Emission, ambient, and Phong-Blinn from every light and its images in mirrors that cast light, with shadows.
+glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
+
+// Bilinear on linear texels, repeated, v up; texel centres at (i + 0.5) / size.
+glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv);
+
+// The mirror's F for the cosine between its normal and the viewer: constant, or Schlick, "An Inexpensive BRDF Model for
+// Physically-based Rendering" (1994).
+glm::dvec3 mirrorReflectance(const Mirror& mirror, double cosine);
+
+// The mirror's front normal at a world position relative to the eye: its plane's, or with ripples that of the height
+// field, which is the same from both sides.
+glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time);
+
+}  // namespace speculum
