@@ -48,10 +48,15 @@ struct BoxTester {
   double enter(const Bounds& box, double tMin, double tMax) const {
     const glm::dvec3 a = (box.low - origin) * inverse;
     const glm::dvec3 b = (box.high - origin) * inverse;
-    const double near = std::max({std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z), tMin});
-    const double far = std::min({std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z), tMax});
+    const double near = larger(larger(smaller(a.x, b.x), smaller(a.y, b.y)), larger(smaller(a.z, b.z), tMin));
+    const double far = smaller(smaller(larger(a.x, b.x), larger(a.y, b.y)), smaller(larger(a.z, b.z), tMax));
     return near <= far * (1.0 + 1e-15) ? near : std::numeric_limits<double>::infinity();
   }
+
+ private:
+  // By value: each is one instruction, where the library's references make branches.
+  static double smaller(double x, double y) { return x < y ? x : y; }
+  static double larger(double x, double y) { return x > y ? x : y; }
 };
 
 // Bounding volume hierarchy over boxes: binary, binned surface area heuristic (Wald, "On fast Construction of SAH-based

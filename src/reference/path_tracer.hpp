@@ -33,7 +33,8 @@ class PathTracer {
   // Radiance along a ray with a direction of unit length.
   glm::dvec3 radiance(const Ray& ray) { return follow({ray, {}, 0, glm::dvec3(1.0), 0}); }
 
-  // Reflecting sides in a row along the ray, the one that is cut off by maxDepth included; sets `background` if the first thing met is nothing.
+  // Reflecting sides in a row along the ray, the one that is cut off by maxDepth included; sets `background` if the
+  // first thing met is nothing.
   int countMirrors(Ray ray, bool& background) const;
 
  private:

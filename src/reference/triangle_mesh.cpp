@@ -13,11 +13,12 @@ int largestAxis(const glm::dvec3& d) {
 
 }  // namespace
 
-ShearedRay::ShearedRay(const Ray& ray) : origin_(ray.origin) {
+ShearedRay::ShearedRay(const Ray& ray) {
   kz_ = largestAxis(ray.direction);
   kx_ = (kz_ + 1) % 3;
   ky_ = (kz_ + 2) % 3;
   const glm::dvec3& d = ray.direction;
+  origin_ = {ray.origin[kx_], ray.origin[ky_], ray.origin[kz_]};
   shear_ = {d[kx_] / d[kz_], d[ky_] / d[kz_], 1.0 / d[kz_]};
 }
 

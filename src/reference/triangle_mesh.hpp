@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <vector>
 
@@ -17,14 +18,14 @@ class ShearedRay {
   explicit ShearedRay(const Ray& ray);
 
   // x, y: across the ray; z: the parameter t of the ray.
-  glm::dvec3 project(const glm::dvec3& p) const {
-    const glm::dvec3 d = p - origin_;
-    const double along = d[kz_];
-    return {d[kx_] - shear_.x * along, d[ky_] - shear_.y * along, shear_.z * along};
+  glm::dvec3 project(const glm::dvec3& p) const { return project(glm::value_ptr(p)); }
+  glm::dvec3 project(const double* p) const {
+    const double along = p[kz_] - origin_.z;
+    return {p[kx_] - origin_.x - shear_.x * along, p[ky_] - origin_.y - shear_.y * along, shear_.z * along};
   }
 
  private:
-  glm::dvec3 origin_;
+  glm::dvec3 origin_;  // components in the order kx, ky, kz
   glm::dvec3 shear_;
   int kx_, ky_, kz_;
 };
