@@ -71,8 +71,15 @@ INSTANTIATE_TEST_SUITE_P(
                  "view.clear_color: '1,2' is not a colour (three linear values >= 0, such as 0.1,0.2,0.3)"},
         BadValue{"view.clear_color", "1,2,3,4",
                  "view.clear_color: '1,2,3,4' is not a colour (three linear values >= 0, such as 0.1,0.2,0.3)"},
-        BadValue{"view.exposur", "1", "view.exposur: unknown setting (did you mean view.exposure?)"},
-        BadValue{"zzz", "1", "zzz: unknown setting (see speculum --help for the keys)"}));
+        BadValue{"view.exposur", "1", "view.exposur: unknown setting (did you mean 'view.exposure'?)"}));
+
+TEST(Settings, AKeyLikeNoneGetsTheListOfAll) {
+  Settings settings;
+  const std::string problem = setSetting(settings, "zzz", "1").value_or("");
+  for (const SettingInfo& info : settingInfos()) {
+    EXPECT_NE(problem.find(info.key), std::string::npos) << info.key;
+  }
+}
 
 TEST(Settings, OfASceneNameFileAndLine) {
   Scene scene;

@@ -98,14 +98,6 @@ TEST(SceneLimits, ScalesStayInTheRangeOfDoubles) {
   EXPECT_EQ(faultOf(object + "scale = [1e-100, 1e100, -1]\n"), "no InputError was thrown");
 }
 
-TEST(SceneLimits, CopiesNeedCountAndStep) {
-  const std::string object = "[[object]]\nmodel = 'triangle.obj'\n";
-  EXPECT_EQ(faultOf(object + "copies = { step = [1, 0, 0] }\n"),
-            "6: object[0].copies.count: is missing (an integer 1 .. 1000000 is needed)");
-  EXPECT_EQ(faultOf(object + "copies = { count = 2 }\n"),
-            "6: object[0].copies.step: is missing (an array of 3 numbers is needed)");
-}
-
 TEST(SceneLimits, ManySettingsAreReadInShortTime) {
   const TemporaryFolder folder;
   std::string text = std::string(kCamera) + "[settings]\n";

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <map>
 
@@ -100,6 +101,9 @@ void addCompare(CLI::App& app, Options& options) {
 void applyRaw(const Raw& raw, Options& options) {
   if (!raw.size.empty()) {
     options.size = parseSize(raw.size);
+  }
+  if (!std::isfinite(options.time)) {
+    throw UsageError("--time: not a finite number (seconds of animation, such as 2.5)");
   }
   Settings scratch;
   for (const std::string& text : raw.settings) {

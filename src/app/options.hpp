@@ -32,7 +32,7 @@ struct Options {
   std::string gpu;
   RenderPath renderPath = RenderPath::automatic;
   bool validation = false;
-  std::string logLevel = "info";
+  std::string logLevel = "warn";
   std::filesystem::path shaderDir;
   PresentMode presentMode = PresentMode::fifo;
   std::filesystem::path reference;  // compare

@@ -38,13 +38,13 @@ int runRender(const Options& options) {
   Progress progress("render", count);
   for (int i = 0; i < count; ++i) {
     session.draw(options.time + i / options.fps, true);
+    session.finish();
     savePicture(session, files.at(i));
     progress.advance();
     if (interruptRequested()) {
       return 1;
     }
   }
-  session.renderer().waitIdle();
   if (!options.stats.empty()) {
     writeJson(options.stats, frameStats(session, session.renderer().timings()));
   }
@@ -59,7 +59,7 @@ int runBench(const Options& options) {
   for (int i = 0; i < options.warmup + measured; ++i) {
     session.draw(options.time, false);
     // One frame at a time: the times of a frame are then all its own.
-    session.renderer().waitIdle();
+    session.finish();
     if (i >= options.warmup) {
       frames.push_back(frameStats(session, session.renderer().timings()));
     }

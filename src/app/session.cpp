@@ -2,8 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <chrono>
-
 #include "core/platform.hpp"
 #include "scene/scene_effects.hpp"
 
@@ -88,7 +86,7 @@ Session::Session(const Options& options)
 }
 
 const DrawnFrame& Session::draw(double time, bool capture) {
-  const Clock::time_point start = Clock::now();
+  start_ = Clock::now();
   renderer_.reloadShaders();
   Frame frame = renderer_.beginFrame().value();
   const Clock::time_point recording = Clock::now();
@@ -99,8 +97,13 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   sceneRenderer_.record(frame, frame_.state, loaded_.settings, frame_.plan);
   frame_.cpuMs = millisecondsSince(recording);
   renderer_.endFrame(frame);
-  frame_.frameMs = millisecondsSince(start);
+  frame_.frameMs = 0.0;
   return frame_;
+}
+
+void Session::finish() {
+  renderer_.waitIdle();
+  frame_.frameMs = millisecondsSince(start_);
 }
 
 Image8 Session::picture() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 
 #include "app/options.hpp"
@@ -34,7 +35,7 @@ struct DrawnFrame {
   FramePlan plan;
   uint64_t number = 0;   // of the renderer; its GPU times arrive under this number
   double cpuMs = 0.0;    // planning and recording
-  double frameMs = 0.0;  // from begin to submission, waits included
+  double frameMs = 0.0;  // from begin to the GPU's end; 0 before Session::finish
 };
 
 // A scene drawn without a window.
@@ -44,6 +45,8 @@ class Session {
 
   // Draws the scene at `time`. picture() needs `capture`.
   const DrawnFrame& draw(double time, bool capture);
+  // Waits for the GPU. Afterwards frameMs covers the whole frame, and the renderer's timings are this frame's.
+  void finish();
   Image8 picture();        // of the last frame drawn with `capture`
   LinearImage radiance();  // of the last frame, before the display pass
 
@@ -61,6 +64,7 @@ class Session {
   Renderer renderer_;
   SceneRenderer sceneRenderer_;
   DrawnFrame frame_;
+  std::chrono::steady_clock::time_point start_;
 };
 
 }  // namespace speculum

@@ -6,9 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <numeric>
-#include <sstream>
 
+#include "scene/nearest_key.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {
@@ -214,12 +213,11 @@ const Setting* find(std::string_view key) {
 }
 
 std::string unknownKey(std::string_view key) {
-  std::vector<std::string> keys;
+  std::vector<std::string_view> keys;
   for (const Setting& setting : table()) {
-    keys.emplace_back(setting.info.key);
+    keys.push_back(setting.info.key);
   }
-  const std::optional<std::string> nearest = nearestName(key, keys);
-  return "unknown setting (" + (nearest ? "did you mean " + *nearest + "?" : "see speculum --help for the keys") + ")";
+  return "unknown setting (" + nearestKeyAdvice(key, keys) + ")";
 }
 
 std::string entryText(const SettingEntry& entry) {
@@ -235,21 +233,6 @@ std::string entryText(const SettingEntry& entry) {
 
 bool takesText(const Setting& setting) {
   return setting.get(Settings()).is_string();
-}
-
-size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t above = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -305,19 +288,6 @@ ordered_json settingsJson(const Settings& settings) {
     json[std::string(setting.info.key)] = setting.get(settings);
   }
   return json;
-}
-
-std::optional<std::string> nearestName(std::string_view word, std::span<const std::string> candidates) {
-  const std::string* best = nullptr;
-  size_t bestDistance = std::max<size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    const size_t distance = editDistance(word, candidate);
-    if (distance < bestDistance) {
-      bestDistance = distance;
-      best = &candidate;
-    }
-  }
-  return best ? std::optional(*best) : std::nullopt;
 }
 
 Environment effectiveEnvironment(const Scene& scene, const Settings& settings) {

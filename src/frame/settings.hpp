@@ -65,9 +65,6 @@ Settings settingsOf(const Scene& scene);
 // Every key with its value, as numbers, booleans and strings.
 nlohmann::ordered_json settingsJson(const Settings& settings);
 
-// The candidate with the smallest edit distance to `word`, if one is near enough to be what was meant.
-std::optional<std::string> nearestName(std::string_view word, std::span<const std::string> candidates);
-
 // The environment with view.clear_color applied.
 Environment effectiveEnvironment(const Scene& scene, const Settings& settings);
 

@@ -22,11 +22,8 @@ Copies readCopies(const TableReader& object) {
   static constexpr std::array<Key, 2> kKeys{"count", "step"};
   Copies copies;
   if (const std::optional<TableReader> table = object.subtable("copies", kKeys)) {
-    if (!table->has("count")) {
-      table->fail("count", "is missing", "an integer 1 .. 1000000 is needed");
-    }
     copies.count = static_cast<int>(table->integer("count", copies.count, 1, 1'000'000));
-    copies.step = table->vec3("step");
+    copies.step = table->vec3("step", copies.step);
   }
   return copies;
 }

@@ -1,0 +1,225 @@
+// The program as scripts call it: exit codes, one line for every mistake, files and figures.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/platform.hpp"
+#include "image/image.hpp"
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+namespace fs = std::filesystem;
+
+ProcessResult speculum(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), std::string(SPECULUM_BINARY_DIR) + "/speculum");
+  return runProcess(arguments);
+}
+
+nlohmann::json readJson(const fs::path& file) {
+  std::ifstream stream(file);
+  return nlohmann::json::parse(stream);
+}
+
+const std::string smallScene = R"([environment]
+background = [0.2, 0.3, 0.4]
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.5, 1, 0]
+spin = [0, 90, 0]
+[[light]]
+position = [0, 3, 3]
+intensity = 10
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [5, 3]
+[[mirror]]
+position = [0, 1, 9]
+size = [1, 1]
+)";
+
+class CommandLine : public testing::Test {
+ protected:
+  std::string scene_ = writeScene("command_line", smallScene).string();
+  TemporaryDirectory out_;
+  std::string out(const std::string& name) const { return (out_.path() / name).string(); }
+};
+
+struct UsageCase {
+  std::vector<std::string> arguments;
+  std::string says;
+};
+
+class UsageErrors : public testing::TestWithParam<UsageCase> {};
+
+TEST_P(UsageErrors, AreOneLineAndExitTwo) {
+  const ProcessResult result = speculum(GetParam().arguments);
+  EXPECT_EQ(result.exitCode, 2) << result.output;
+  EXPECT_NE(result.output.find(GetParam().says), std::string::npos) << result.output;
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, UsageErrors,
+    testing::Values(
+        UsageCase{{"paint"}, "paint"}, UsageCase{{"render"}, "--out"}, UsageCase{{"render", "--out"}, "--out"},
+        UsageCase{{"render", "--out", "x.jpg"}, "'x.jpg' has no known ending (.png or .exr)"},
+        UsageCase{{"render", "--out", "x.png", "--frames", "2"}, "a pattern such as dir/%04d.png"},
+        UsageCase{{"render", "--out", "x.png", "--size", "0x10"}, "--size: '0x10' is not a size"},
+        UsageCase{{"render", "--out", "x.png", "--size", "640"}, "--size: '640' is not a size"},
+        UsageCase{{"render", "--out", "x.png", "--size", "640x-3"}, "--size: '640x-3' is not a size"},
+        UsageCase{{"render", "--out", "x.png", "--size", "99999x9"}, "--size: '99999x9' is not a size"},
+        UsageCase{{"render", "--out", "x.png", "--time", "soon"}, "--time"},
+        UsageCase{{"render", "--out", "x.png", "--time", "nan"}, "--time"},
+        UsageCase{{"render", "--out", "x.png", "--fps", "0", "--frames", "1"}, "--fps"},
+        UsageCase{{"render", "--out", "x.png", "--scene", "nowhere.toml"}, "there is no file 'nowhere.toml'"},
+        UsageCase{{"render", "--out", "x.png", "--set", "view.exposure"}, "has no value (key=value)"},
+        UsageCase{{"render", "--out", "x.png", "--set", "view.exposre=1"}, "did you mean 'view.exposure'?"},
+        UsageCase{{"render", "--out", "x.png", "--set", "reflection.scale=9"}, "(0.125 .. 4)"},
+        UsageCase{{"render", "--out", "x.png", "--set", "debug.omit_barrier=x"}, "there is no barrier 'x'"},
+        UsageCase{{"render", "--out", "x.png", "--render-path", "raster"}, "auto | dynamic | renderpass"},
+        UsageCase{{"render", "--out", "x.png", "--log-level", "loud"}, "--log-level"},
+        UsageCase{{"render", "--out", "x.png", "--gpu", "No Such GPU"}, "No Such GPU"},
+        UsageCase{{"render", "--out", "x.png", "--shader-dir", "/nowhere"}, "/nowhere"},
+        UsageCase{{"render", "--out", "x.png", "--bogus"}, "--bogus"},
+        UsageCase{{"render", "--out", "/nowhere/at/all.png"}, "/nowhere/at/all.png"},
+        UsageCase{{"bench", "--frames", "0"}, "--frames"}, UsageCase{{"bench", "--warmup", "-1"}, "--warmup"}));
+
+TEST_F(CommandLine, HelpAndVersionExitZero) {
+  const ProcessResult help = speculum({"--help"});
+  EXPECT_EQ(help.exitCode, 0);
+  EXPECT_NE(help.output.find("reflection.max_depth"), std::string::npos);
+  EXPECT_EQ(speculum({"render", "--help"}).exitCode, 0);
+  const ProcessResult version = speculum({"--version"});
+  EXPECT_EQ(version.exitCode, 0);
+  EXPECT_EQ(version.output.rfind("speculum ", 0), 0u);
+}
+
+TEST_F(CommandLine, InfoAndScenesList) {
+  const ProcessResult info = speculum({"info"});
+  EXPECT_EQ(info.exitCode, 0);
+  EXPECT_NE(info.output.find("llvmpipe"), std::string::npos) << info.output;
+  const ProcessResult scenes = speculum({"scenes"});
+  EXPECT_EQ(scenes.exitCode, 0);
+  for (const char* name : {"gallery", "single_plane", "facing_mirrors", "many_mirrors", "mirror_maze", "no_mirror"}) {
+    EXPECT_NE(scenes.output.find(name), std::string::npos) << name;
+  }
+}
+
+TEST_F(CommandLine, BrokenSceneNamesFileAndLine) {
+  const std::string broken =
+      writeScene("broken", "[camera]\nposition = [0, 0, 0]\ntarget = [0, 0, 1]\nvertical_fow = 3\n");
+  const ProcessResult result = speculum({"render", "--scene", broken, "--out", out("x.png")});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_EQ(result.output.rfind(broken + ":4: camera.vertical_fow:", 0), 0u) << result.output;
+  EXPECT_NE(result.output.find("vertical_fov"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out("x.png")));
+}
+
+TEST_F(CommandLine, StatsFollowTheirContract) {
+  const ProcessResult result = speculum({"render", "--scene", scene_, "--out", out("a.png"), "--size", "160x90",
+                                         "--stats", out("s.json"), "--set", "reflection.max_depth=2", "--validation"});
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  const nlohmann::json stats = readJson(out("s.json"));
+  EXPECT_EQ(stats["scene"], scene_);
+  EXPECT_EQ(stats["size"], nlohmann::json({160, 90}));
+  EXPECT_EQ(stats["render_path"], "dynamic");
+  EXPECT_EQ(stats["settings"]["reflection.max_depth"], 2);
+  ASSERT_EQ(stats["passes"].size(), 3u);
+  const nlohmann::json& mirror = stats["passes"][0];
+  EXPECT_EQ(mirror["mirror"], "wall");
+  EXPECT_EQ(mirror["path"], nlohmann::json({"wall"}));
+  EXPECT_EQ(mirror["depth"], 0);
+  EXPECT_GT(mirror["gpu_ms"], 0.0);
+  EXPECT_GT(mirror["draws"], 0);
+  EXPECT_GT(mirror["triangles"], 0);
+  EXPECT_GT(mirror["fragments"], 0);
+  EXPECT_GT(mirror["area_px"], 100.0);
+  EXPECT_TRUE(stats["passes"][1]["mirror"].is_null());
+  EXPECT_TRUE(stats["passes"][1]["depth"].is_null());
+  ASSERT_EQ(stats["skipped"].size(), 2u);
+  EXPECT_EQ(stats["skipped"][0]["mirror"], "1");
+  EXPECT_EQ(stats["skipped"][0]["path"], nlohmann::json({"1"}));
+  EXPECT_EQ(stats["skipped"][0]["depth"], 0);
+  EXPECT_EQ(stats["skipped"][0]["reason"], "behind");
+  EXPECT_EQ(stats["skipped"][1]["path"], nlohmann::json({"wall", "1"}));
+  EXPECT_EQ(stats["effects"].size(), 11u);
+  for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms", "device_bytes", "peak_rss_bytes", "pipelines"}) {
+    EXPECT_GT(stats["totals"][key], 0) << key;
+  }
+  EXPECT_EQ(stats["totals"]["validation_messages"], 0);
+}
+
+TEST_F(CommandLine, BenchSummarisesTimes) {
+  const ProcessResult result = speculum(
+      {"bench", "--scene", scene_, "--size", "64x36", "--frames", "5", "--warmup", "1", "--json", out("b.json")});
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  const nlohmann::json json = readJson(out("b.json"));
+  EXPECT_EQ(json["frames"], 5);
+  for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms"}) {
+    const nlohmann::json& total = json["totals"][key];
+    EXPECT_LE(total["min"], total["median"]) << key;
+    EXPECT_LE(total["median"], total["p95"]) << key;
+    EXPECT_LE(total["p95"], total["max"]) << key;
+    EXPECT_GT(total["min"], 0.0) << key;
+  }
+  EXPECT_TRUE(json["passes"][0]["gpu_ms"].contains("median"));
+}
+
+TEST_F(CommandLine, SequenceWritesEveryPictureAndTimeMoves) {
+  const ProcessResult result = speculum({"render", "--scene", scene_, "--size", "64x36", "--frames", "3", "--fps", "2",
+                                         "--time", "1", "--out", out("%03d.png")});
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  const ProcessResult single =
+      speculum({"render", "--scene", scene_, "--size", "64x36", "--time", "1.5", "--out", out("single.png")});
+  ASSERT_EQ(single.exitCode, 0) << single.output;
+  EXPECT_EQ(readImage8(out("001.png")).rgba, readImage8(out("single.png")).rgba);
+  EXPECT_TRUE(fs::exists(out("000.png")));
+  EXPECT_TRUE(fs::exists(out("002.png")));
+  EXPECT_FALSE(fs::exists(out("003.png")));
+}
+
+TEST_F(CommandLine, ExrIsTheLinearPictureBehindThePng) {
+  for (const char* name : {"a.png", "a.exr"}) {
+    ASSERT_EQ(speculum({"render", "--scene", scene_, "--size", "64x36", "--out", out(name)}).exitCode, 0);
+  }
+  const Image8 shown = toDisplay(readExr(out("a.exr")), 1.0, ToneMap::clamp);
+  EXPECT_LE(difference(shown, readImage8(out("a.png")), 1).largest, 1);
+}
+
+TEST_F(CommandLine, ShippedScenesAreFoundFromAnyDirectory) {
+  for (const char* name : {"no_mirror", "no_mirror.toml", "scenes/no_mirror.toml"}) {
+    const std::string command = "cd / && exec '" + std::string(SPECULUM_BINARY_DIR) + "/speculum' render --scene " +
+                                name + " --size 32x18 --out '" + out("n.png") + "'";
+    const ProcessResult result = runProcess({"bash", "-c", command});
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+  }
+}
+
+TEST_F(CommandLine, SmallestAndFlattestPicturesAreDrawn) {
+  for (const char* size : {"1x1", "8192x1", "1x2000"}) {
+    EXPECT_EQ(speculum({"render", "--scene", scene_, "--size", size, "--out", out("s.png"), "--validation"}).exitCode,
+              0)
+        << size;
+  }
+}
+
+TEST_F(CommandLine, MissingMirrorsOfTheFormatAreSaidOnce) {
+  const std::string scene = writeScene(
+      "effects", smallScene + "roughness = 0.2\n[[mirror]]\nposition = [9, 9, 9]\nsize = [1, 1]\nroughness = 0.1\n");
+  const ProcessResult result = speculum({"render", "--scene", scene, "--size", "32x18", "--out", out("e.png")});
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  const size_t first = result.output.find("roughness");
+  ASSERT_NE(first, std::string::npos) << result.output;
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 2) << result.output;
+}
+
+}  // namespace
+}  // namespace speculum
