@@ -46,6 +46,9 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
       throw UsageError("--set: " + *problem);
     }
   }
+  if (loaded.settings.reflection.updateInterval != 1) {
+    spdlog::warn("reflection.update_interval is read but not acted on by this version: mirror images are always fresh");
+  }
   for (const std::string& line : ignoredEffects(loaded.scene)) {
     spdlog::warn("{}", line);
   }
