@@ -1,0 +1,86 @@
+#include "accuracy/compared_image.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace speculum {
+
+namespace {
+
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+bool isLinearFile(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".exr";
+}
+
+}  // namespace
+
+ComparedImage comparedImage(const Image8& image, std::string name) {
+  std::array<float, 256> linearOf{};
+  for (int code = 0; code < 256; ++code) {
+    linearOf[code] = static_cast<float>(srgbDecode(code / 255.0));
+  }
+  ComparedImage result{std::move(name), image.width, image.height};
+  const size_t count = static_cast<size_t>(image.width) * image.height;
+  result.linear.resize(count);
+  result.display.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const uint8_t code = image.rgba[i * 4 + c];
+      result.linear[i][c] = linearOf[code];
+      result.display[i][c] = code;
+    }
+  }
+  return result;
+}
+
+ComparedImage comparedImage(const LinearImage& image, std::string name) {
+  ComparedImage result{std::move(name), image.width, image.height};
+  result.linear.resize(image.pixels.size());
+  result.display.resize(image.pixels.size());
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const float value = image.pixels[i][c];
+      if (std::isnan(value)) {
+        const int width = std::max(image.width, 1);
+        throw std::runtime_error(result.name + ": pixel (" + std::to_string(i % width) + ", " +
+                                 std::to_string(i / width) + ") is not a number (every channel must be one)");
+      }
+      result.linear[i][c] = std::clamp(value, 0.0f, 1.0f);
+      result.display[i][c] = static_cast<float>(255.0 * srgbEncode(result.linear[i][c]));
+    }
+  }
+  return result;
+}
+
+ComparedImage readComparedImage(const std::filesystem::path& file) {
+  return isLinearFile(file) ? comparedImage(readExr(file), file.string())
+                            : comparedImage(readImage8(file), file.string());
+}
+
+PixelMask readPixelMask(const std::filesystem::path& file) {
+  const Image8 image = readImage8(file);
+  PixelMask mask{image.width, image.height};
+  for (size_t i = 0; i < image.rgba.size(); i += 4) {
+    mask.selected.push_back(image.rgba[i] >= 128);
+  }
+  return mask;
+}
+
+void requireSameSize(const ComparedImage& a, const ComparedImage& b) {
+  if (a.width != b.width || a.height != b.height) {
+    throw std::runtime_error(b.name + ": is " + sizeText(b.width, b.height) + ", but " + a.name + " is " +
+                             sizeText(a.width, a.height) + " (both must have the same size)");
+  }
+  if (a.width < 1 || a.height < 1) {
+    throw std::runtime_error(a.name + ": has no pixels");
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "image/image.hpp"
+
+namespace speculum {
+
+// A picture as metrics see it, in both encodings; row 0 at the top.
+struct ComparedImage {
+  std::string name;  // for messages
+  int width = 0;
+  int height = 0;
+  std::vector<glm::vec3> linear;   // clamped to [0, 1]
+  std::vector<glm::vec3> display;  // sRGB codes, 0 .. 255; whole numbers if the picture had 8 bits
+};
+
+ComparedImage comparedImage(const Image8& image, std::string name = "the picture");
+
+// Exposure 1, tone curve clamp, no rounding to 8 bits. Throws std::runtime_error with the first pixel that is not a
+// number.
+ComparedImage comparedImage(const LinearImage& image, std::string name = "the picture");
+
+// By the file's ending: .exr is linear, everything else 8-bit sRGB. Throws std::runtime_error with the file's name.
+ComparedImage readComparedImage(const std::filesystem::path& file);
+
+// 1 where the picture's red channel is 128 or more. Throws std::runtime_error if the file cannot be read.
+struct PixelMask {
+  int width = 0;
+  int height = 0;
+  std::vector<uint8_t> selected;
+};
+PixelMask readPixelMask(const std::filesystem::path& file);
+
+// Throws std::runtime_error that names both pictures and both sizes, unless they are equal and not zero.
+void requireSameSize(const ComparedImage& a, const ComparedImage& b);
+
+}  // namespace speculum

@@ -1,0 +1,167 @@
+#include "accuracy/image_metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "accuracy/flip.hpp"
+#include "accuracy/ssim.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Maps {
+  Plane2d flip;
+  Plane2d ssim;
+};
+
+double largestDifference(const glm::vec3& a, const glm::vec3& b) {
+  const glm::vec3 d = glm::abs(a - b);
+  return std::max({d.r, d.g, d.b});
+}
+
+double squaredLength(const glm::dvec3& v) {
+  return glm::dot(v, v);
+}
+
+bool nearBorder(size_t pixel, int width, int height) {
+  const int x = static_cast<int>(pixel % width);
+  const int y = static_cast<int>(pixel / width);
+  return x < ssimBorder || y < ssimBorder || x >= width - ssimBorder || y >= height - ssimBorder;
+}
+
+// Pictures and masks that have nothing but border keep it.
+double meanSsim(const Plane2d& map, const std::vector<size_t>& pixels) {
+  double inner = 0.0;
+  double all = 0.0;
+  size_t innerCount = 0;
+  for (const size_t i : pixels) {
+    all += map.values[i];
+    if (!nearBorder(i, map.width, map.height)) {
+      inner += map.values[i];
+      ++innerCount;
+    }
+  }
+  return innerCount > 0 ? inner / static_cast<double>(innerCount) : all / static_cast<double>(pixels.size());
+}
+
+ImageMetrics metricsOf(const ComparedImage& reference, const ComparedImage& test, const Maps& maps,
+                       const std::vector<size_t>& pixels, double tolerance) {
+  ImageMetrics metrics{.pixels = static_cast<int64_t>(pixels.size())};
+  double linearError = 0.0;
+  double linearPower = 0.0;
+  double displayError = 0.0;
+  std::vector<double> differences;
+  differences.reserve(pixels.size());
+  for (const size_t i : pixels) {
+    linearError += squaredLength(glm::dvec3(reference.linear[i]) - glm::dvec3(test.linear[i]));
+    linearPower += squaredLength(glm::dvec3(reference.linear[i]));
+    displayError += squaredLength((glm::dvec3(reference.display[i]) - glm::dvec3(test.display[i])) / 255.0);
+    metrics.flip += maps.flip.values[i];
+    differences.push_back(largestDifference(reference.display[i], test.display[i]));
+    metrics.pixelsOver += differences.back() > tolerance;
+  }
+  const double count = static_cast<double>(pixels.size());
+  metrics.rmse = std::sqrt(linearError / (3.0 * count));
+  metrics.relativeRmse = linearError == 0.0 ? 0.0 : std::sqrt(linearError / linearPower);
+  metrics.psnr = displayError == 0.0 ? infinity : -10.0 * std::log10(displayError / (3.0 * count));
+  metrics.ssim = meanSsim(maps.ssim, pixels);
+  metrics.flip /= count;
+  metrics.maxDiff = *std::max_element(differences.begin(), differences.end());
+  const auto rank = static_cast<size_t>(std::ceil(0.99 * count)) - 1;
+  std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(rank), differences.end());
+  metrics.p99Diff = differences[rank];
+  return metrics;
+}
+
+std::vector<size_t> selectedPixels(size_t count, const PixelMask* mask) {
+  std::vector<size_t> pixels;
+  pixels.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    if (mask == nullptr || mask->selected[i]) {
+      pixels.push_back(i);
+    }
+  }
+  return pixels;
+}
+
+nlohmann::ordered_json metricsJson(const ImageMetrics& m) {
+  const auto number = [](double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr; };
+  return {{"rmse", number(m.rmse)},        {"relative_rmse", number(m.relativeRmse)},
+          {"psnr", number(m.psnr)},        {"ssim", number(m.ssim)},
+          {"flip", number(m.flip)},        {"max_diff", number(m.maxDiff)},
+          {"p99_diff", number(m.p99Diff)}, {"pixels_over", m.pixelsOver}};
+}
+
+std::string cell(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+std::string tableLine(const std::string& label, const std::string& whole, const std::optional<std::string>& masked) {
+  char text[160];
+  std::snprintf(text, sizeof(text), "%-22s %14s %14s", label.c_str(), whole.c_str(), masked ? masked->c_str() : "");
+  std::string line(text);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+}  // namespace
+
+Comparison compareImages(const ComparedImage& reference, const ComparedImage& test, const CompareOptions& options) {
+  requireSameSize(reference, test);
+  const PixelMask* mask = options.mask;
+  if (mask != nullptr && (mask->width != reference.width || mask->height != reference.height)) {
+    throw std::runtime_error("the mask is " + std::to_string(mask->width) + "x" + std::to_string(mask->height) +
+                             ", but " + reference.name + " is " + std::to_string(reference.width) + "x" +
+                             std::to_string(reference.height) + " (both must have the same size)");
+  }
+  Maps maps{flipMap(reference, test), ssimMap(reference, test)};
+  const size_t count = reference.display.size();
+  Comparison result;
+  result.whole = metricsOf(reference, test, maps, selectedPixels(count, nullptr), options.tolerance);
+  if (mask != nullptr) {
+    const std::vector<size_t> pixels = selectedPixels(count, mask);
+    if (!pixels.empty()) {
+      result.masked = metricsOf(reference, test, maps, pixels, options.tolerance);
+    }
+  }
+  result.flip = std::move(maps.flip);
+  return result;
+}
+
+nlohmann::ordered_json comparisonJson(const Comparison& comparison) {
+  nlohmann::ordered_json json = metricsJson(comparison.whole);
+  if (comparison.masked) {
+    json["mask"] = metricsJson(*comparison.masked);
+  }
+  return json;
+}
+
+std::string comparisonTable(const Comparison& comparison, double tolerance) {
+  const auto line = [&](const std::string& label, const char* format, auto&& value) {
+    return tableLine(label, cell(format, value(comparison.whole)),
+                     comparison.masked ? std::optional(cell(format, value(*comparison.masked))) : std::nullopt);
+  };
+  using M = ImageMetrics;
+  return tableLine("", "whole", comparison.masked ? std::optional<std::string>("mask") : std::nullopt) +
+         line("pixels", "%.0f", [](const M& m) { return static_cast<double>(m.pixels); }) +
+         line("RMSE (linear)", "%.6f", [](const M& m) { return m.rmse; }) +
+         line("relative RMSE", "%.6f", [](const M& m) { return m.relativeRmse; }) +
+         line("PSNR (dB)", "%.3f", [](const M& m) { return m.psnr; }) +
+         line("SSIM", "%.6f", [](const M& m) { return m.ssim; }) +
+         line("FLIP", "%.6f", [](const M& m) { return m.flip; }) +
+         line("largest (1/255)", "%.4g", [](const M& m) { return m.maxDiff; }) +
+         line("99th perc. (1/255)", "%.4g", [](const M& m) { return m.p99Diff; }) +
+         line("pixels over " + cell("%g", tolerance) + "/255", "%.0f",
+              [](const M& m) { return static_cast<double>(m.pixelsOver); });
+}
+
+}  // namespace speculum

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "accuracy/compared_image.hpp"
+#include "accuracy/plane.hpp"
+
+namespace speculum {
+
+struct ImageMetrics {
+  double rmse = 0.0;          // root mean square over pixels and channels, linear [0, 1]
+  double relativeRmse = 0.0;  // rmse / root mean square of the reference; infinite if only the reference is black
+  double psnr = 0.0;          // dB, display sRGB [0, 1]; infinite for equal pictures
+  double ssim = 0.0;          // mean of the map without its border of 5 pixels (see ssim.hpp)
+  double flip = 0.0;          // mean of the map
+  double maxDiff = 0.0;       // 1/255, of the channel that differs most
+  double p99Diff = 0.0;       // 1/255; 99 % of the pixels differ by no more (nearest rank)
+  int64_t pixelsOver = 0;     // pixels that differ by more than the tolerance in any channel
+  int64_t pixels = 0;         // that were looked at
+};
+
+struct Comparison {
+  ImageMetrics whole;
+  std::optional<ImageMetrics> masked;  // nothing without a mask or with one that selects no pixel
+  Plane2d flip;                        // the map, for a heat map
+};
+
+struct CompareOptions {
+  double tolerance = 2.0;           // 1/255
+  const PixelMask* mask = nullptr;  // for Comparison::masked; maps are computed on the whole picture all the same
+};
+
+// Throws std::runtime_error when sizes differ or a picture has no pixels.
+Comparison compareImages(const ComparedImage& reference, const ComparedImage& test, const CompareOptions& options = {});
+
+// { "rmse", "relative_rmse", "psnr", "ssim", "flip", "max_diff", "p99_diff", "pixels_over" } and the same under "mask",
+// if there is one. JSON has no infinity: null stands for it.
+nlohmann::ordered_json comparisonJson(const Comparison& comparison);
+
+// For people: a line per metric, a column for the whole picture and one for the mask.
+std::string comparisonTable(const Comparison& comparison, double tolerance);
+
+}  // namespace speculum

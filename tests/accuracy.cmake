@@ -1,0 +1,3 @@
+speculum_test(test_accuracy
+  SOURCES accuracy_metrics.cpp accuracy_flip.cpp accuracy_pictures.cpp
+  LIBRARIES accuracy ext::tbb)

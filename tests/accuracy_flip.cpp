@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "accuracy/flip.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr int size = 128;
+constexpr double tolerance = 2e-4;
+
+template <typename Color>
+ComparedImage picture(Color&& color) {
+  Image8 image(size, size);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const glm::dvec3 c = 255.0 * color(x, y);
+      std::copy_n(std::array{static_cast<uint8_t>(c.r), static_cast<uint8_t>(c.g), static_cast<uint8_t>(c.b)}.begin(),
+                  3, image.at(x, y));
+    }
+  }
+  return comparedImage(image);
+}
+
+ComparedImage constant(const glm::dvec3& c) {
+  return picture([&](int, int) { return c; });
+}
+
+glm::dvec3 checker(int x, int y) {
+  return glm::dvec3(((x / 8 + y / 8) & 1) != 0 ? 204.0 / 255.0 : 51.0 / 255.0);
+}
+
+double meanFlip(const ComparedImage& a, const ComparedImage& b) {
+  const Plane2d map = flipMap(a, b);
+  return std::accumulate(map.values.begin(), map.values.end(), 0.0) / static_cast<double>(map.values.size());
+}
+
+// Means of the published implementation.
+TEST(Flip, BlackAgainstWhite) {
+  EXPECT_NEAR(meanFlip(constant(glm::dvec3(0.0)), constant(glm::dvec3(1.0))), 0.967380, tolerance);
+}
+
+TEST(Flip, GreenAgainstBlue) {
+  EXPECT_NEAR(meanFlip(constant({0, 1, 0}), constant({0, 0, 1})), 1.0, tolerance);
+}
+
+TEST(Flip, CheckerMovedByOnePixel) {
+  const auto moved = picture([](int x, int y) { return checker(x + 1, y); });
+  const auto movedBack = picture([](int x, int y) { return checker(x + 15, y); });
+  EXPECT_NEAR(meanFlip(picture(checker), moved), 0.232971, tolerance);
+  EXPECT_NEAR(meanFlip(picture(checker), movedBack), 0.232971, tolerance);
+}
+
+TEST(Flip, OneWhitePixelOnBlack) {
+  const auto dot = picture([](int x, int y) { return glm::dvec3(x == 64 && y == 64 ? 1.0 : 0.0); });
+  EXPECT_NEAR(meanFlip(constant(glm::dvec3(0.0)), dot), 0.000874, 2e-6);
+}
+
+TEST(Flip, IsZeroForEqualPicturesAndSymmetric) {
+  const auto a = picture(checker);
+  const auto b = picture([](int x, int y) { return checker(x, y) * glm::dvec3(1.0, 0.8, 0.6); });
+  EXPECT_EQ(meanFlip(a, a), 0.0);
+  EXPECT_GT(meanFlip(a, b), 0.05);
+  EXPECT_NEAR(meanFlip(a, b), meanFlip(b, a), 1e-12);
+}
+
+TEST(Flip, WorksOnPicturesSmallerThanItsFilters) {
+  Image8 one(1, 1);
+  Image8 other(1, 1);
+  other.at(0, 0)[0] = 0;
+  EXPECT_GT(flipMap(comparedImage(one), comparedImage(other)).values[0], 0.1);
+}
+
+}  // namespace
+}  // namespace speculum
