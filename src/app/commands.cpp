@@ -58,6 +58,7 @@ int runCommand(const Options& options) {
       {"demo", runDemo},
       {"render", runRender},
       {"bench", runBench},
+      {"reference", runReference},
       {"info", [](const Options&) { return runInfo(); }},
       {"scenes", [](const Options&) { return runScenes(); }},
   };

@@ -1,0 +1,54 @@
+#include <cmath>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/session.hpp"
+#include "core/platform.hpp"
+#include "reference/ray_tracer.hpp"
+
+namespace speculum {
+
+namespace {
+
+TraceOptions traceOptions(const Options& options, const Settings& settings) {
+  return {.width = options.size.width,
+          .height = options.size.height,
+          .samples = options.samples,
+          .maxDepth = settings.reflection.maxDepth,
+          .minThroughput = settings.reflection.minThroughput,
+          .clearColor = settings.view.clearColor};
+}
+
+void checkSamples(int samples) {
+  const int side = static_cast<int>(std::lround(std::sqrt(samples)));
+  if (side * side != samples) {
+    throw UsageError("--samples: " + std::to_string(samples) + " is not a square number (1, 4, 9, 16, 25, 36, 49, 64)");
+  }
+}
+
+}  // namespace
+
+int runReference(const Options& options) {
+  checkSamples(options.samples);
+  const PictureFiles files(options.out, 0);
+  const LoadedScene loaded = loadSceneWithSettings(options);
+  const SceneState state = evaluate(loaded.scene, options.time);
+  const RayTracer tracer(loaded.scene, state);
+  installInterruptHandler();
+  Progress progress("reference", 1.0);
+  const std::optional<TraceResult> result = tracer.render(traceOptions(options, loaded.settings), [&](double part) {
+    progress.set(part);
+    return !interruptRequested();
+  });
+  if (!result) {
+    return 1;
+  }
+  if (options.out.extension() == ".exr") {
+    writeExr(files.at(0), result->image);
+  } else {
+    writePng(files.at(0), toDisplay(result->image, loaded.settings.view.exposure, loaded.settings.view.toneMap));
+  }
+  return 0;
+}
+
+}  // namespace speculum
