@@ -1,6 +1,7 @@
 #include "core/instance.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <cstring>
 #include <stdexcept>
 
@@ -41,6 +42,19 @@ uint32_t usedVersion() {
   return std::min(version, VK_API_VERSION_1_3);
 }
 
+// Mesa's software driver keeps compiled shaders on disk under a key that leaves out its vector width (seen in 22.3.6):
+// code of another width crashes. Each width that is asked for gets a cache of its own; one that the user chose is kept.
+void separateShaderCaches() {
+  const std::string width = environment("LP_NATIVE_VECTOR_WIDTH");
+  constexpr const char* variable = "MESA_SHADER_CACHE_DIR";
+  if (!width.empty() && environment(variable).empty()) {
+    const std::filesystem::path directory = userCacheDir() / ("mesa_width_" + width);
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    setEnvironment(variable, directory.string());
+  }
+}
+
 // Checks across submissions have no structure of their own in the layers of 2023; only this variable turns them on. It
 // is read when the instance is made, so a value that the user has set is kept.
 void enableQueueSubmitValidation() {
@@ -78,6 +92,7 @@ Instance::Instance(const DeviceOptions& options) {
                                       .applicationVersion = 1,
                                       .pEngineName = "speculum",
                                       .apiVersion = usedVersion()};
+  separateShaderCaches();
   const std::vector<const char*> layers = chooseLayers(options);
   debugUtils_ = extensionPresent(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) || options.validation;
   std::vector<const char*> extensions;
