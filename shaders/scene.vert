@@ -28,7 +28,8 @@ void main() {
   vec3 n1 = instances[gl_InstanceIndex].normalFromMesh[1].xyz;
   vec3 n2 = instances[gl_InstanceIndex].normalFromMesh[2].xyz;
   relativePosition = vec3(dot(m0, p), dot(m1, p), dot(m2, p));
-  relativeNormal = normalize(vec3(dot(n0, normal), dot(n1, normal), dot(n2, normal)));
+  // Not normalised here: interpolation has to be linear in the mesh's own normals.
+  relativeNormal = vec3(dot(n0, normal), dot(n1, normal), dot(n2, normal));
   textureUv = uv;
   gl_Position = instances[gl_InstanceIndex].clipFromMesh * p;
   gl_ClipDistance[0] = clipAtMirror ? dot(instances[gl_InstanceIndex].clipPlane, p) : 1.0;

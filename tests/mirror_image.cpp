@@ -155,7 +155,7 @@ TEST(MirrorImages, NothingBehindThePlaneShows) {
                                    "[environment]\nbackground = [0.3, 0.5, 0.4]\n[camera]\nposition = "
                                    "[0, 0, 0]\ntarget = [0, 0, -1]\n");
     ASSERT_GT(std::count(mask.begin(), mask.end(), true), 0);
-    const Difference d = difference(seen, empty, 0, mask);
+    const PictureAgreement d = difference(seen, empty, 0, mask);
     // Glyphs of lights stand in front in no case here either: they were mirrored with the rest.
     EXPECT_EQ(d.largest, 0) << "something behind the mirror shows, seed " << seed;
   }

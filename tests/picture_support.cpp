@@ -10,25 +10,6 @@ namespace speculum::testing_support {
 
 namespace {
 
-int pixelDifference(const uint8_t* a, const uint8_t* b) {
-  return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
-}
-
-bool anyBlock(const std::vector<bool>& over, int width, int height) {
-  for (int y = 0; y + 3 <= height; ++y) {
-    for (int x = 0; x + 3 <= width; ++x) {
-      bool all = true;
-      for (int i = 0; i < 9 && all; ++i) {
-        all = over[static_cast<size_t>(y + i / 3) * width + x + i % 3];
-      }
-      if (all) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 void writeEvidence(const Image8& actual, const Image8& expected, const std::string& name) {
   const std::filesystem::path directory = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "failed";
   std::filesystem::create_directories(directory);
@@ -45,34 +26,20 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
 
 }  // namespace
 
-Difference difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts) {
-  Difference result;
-  const size_t pixels = static_cast<size_t>(a.width) * a.height;
-  std::vector<bool> over(pixels, false);
-  size_t overCount = 0;
-  for (size_t i = 0; i < pixels; ++i) {
-    if (!counts.empty() && !counts[i]) {
-      continue;
-    }
-    const int d = pixelDifference(&a.rgba[4 * i], &b.rgba[4 * i]);
-    ++result.counted;
-    result.largest = std::max(result.largest, d);
-    over[i] = d > tolerance;
-    overCount += over[i] ? 1 : 0;
+PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts) {
+  std::vector<uint8_t> exclude;
+  for (const bool counted : counts) {
+    exclude.push_back(counted ? 0 : 1);
   }
-  result.shareOver = result.counted ? static_cast<double>(overCount) / static_cast<double>(result.counted) : 0.0;
-  result.blockOver = anyBlock(over, a.width, a.height);
-  return result;
+  return pictureAgreement(a, b, tolerance, exclude);
 }
 
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts) {
-  ASSERT_EQ(actual.width, expected.width) << name;
-  ASSERT_EQ(actual.height, expected.height) << name;
-  const Difference d = difference(actual, expected, tolerance, counts);
-  EXPECT_LE(d.shareOver, 0.001) << name << ": largest difference " << d.largest << "/255";
-  EXPECT_FALSE(d.blockOver) << name << ": a 3x3 block is wholly over " << tolerance << "/255";
-  if (d.shareOver > 0.001 || d.blockOver) {
+  const PictureAgreement d = difference(actual, expected, tolerance, counts);
+  EXPECT_GE(d.fractionWithin(), 0.999) << name << ": largest difference " << d.largest << "/255";
+  EXPECT_FALSE(d.solidBlock) << name << ": wholly over " << tolerance << "/255 at " << d.blockX << ", " << d.blockY;
+  if (!d.holds(0.999)) {
     writeEvidence(actual, expected, name);
   }
 }

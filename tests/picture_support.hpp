@@ -4,24 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/picture_agreement.hpp"
 #include "app/session.hpp"
 #include "image/image.hpp"
 
 namespace speculum::testing_support {
 
-// How two pictures differ: a pixel is over when a channel differs by more than the tolerance.
-struct Difference {
-  double shareOver = 0.0;  // of the pixels that count
-  bool blockOver = false;  // a 3x3 block of counting pixels lies wholly over
-  int largest = 0;         // in 1/255
-  size_t counted = 0;
-};
+// Compares the pixels whose `counts` is set, all of them if it is empty.
+PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
 
-// `counts`: a mask of the pixels' size, empty for all.
-Difference difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
-
-// At most 0.1 % of the pixels over and no 3x3 block wholly over. On failure writes NAME-actual.png, NAME-expected.png
-// and NAME-difference.png below the build tree and says where.
+// 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes NAME-actual.png,
+// NAME-expected.png and NAME-difference.png below the build tree and says where.
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts = {});
 

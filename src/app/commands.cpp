@@ -59,6 +59,7 @@ int runCommand(const Options& options) {
       {"render", runRender},
       {"bench", runBench},
       {"reference", runReference},
+      {"compare", runCompare},
       {"info", [](const Options&) { return runInfo(); }},
       {"scenes", [](const Options&) { return runScenes(); }},
   };

@@ -1,0 +1,53 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "accuracy/compared_image.hpp"
+#include "accuracy/heat_map.hpp"
+#include "accuracy/image_metrics.hpp"
+#include "app/commands.hpp"
+#include "app/stats.hpp"
+
+namespace speculum {
+
+namespace {
+
+// What exceeds the limits that were given, or an empty text.
+std::string exceeded(const ImageMetrics& metrics, const Options& options) {
+  std::string text;
+  if (options.maxFlip && metrics.flip > *options.maxFlip) {
+    text += "FLIP " + std::to_string(metrics.flip) + " is above --max-flip " + std::to_string(*options.maxFlip) + ". ";
+  }
+  if (options.maxDiff && metrics.maxDiff > *options.maxDiff) {
+    text += std::to_string(metrics.pixelsOver) + " pixels differ by more than --max-diff " +
+            std::to_string(*options.maxDiff) + ".";
+  }
+  return text;
+}
+
+}  // namespace
+
+int runCompare(const Options& options) {
+  const ComparedImage reference = readComparedImage(options.reference);
+  const ComparedImage test = readComparedImage(options.test);
+  std::optional<PixelMask> mask;
+  if (!options.mask.empty()) {
+    mask = readPixelMask(options.mask);
+  }
+  const double tolerance = options.maxDiff.value_or(2);
+  const Comparison comparison =
+      compareImages(reference, test, {.tolerance = tolerance, .mask = mask ? &*mask : nullptr});
+  std::fputs(comparisonTable(comparison, tolerance).c_str(), stdout);
+  if (!options.json.empty()) {
+    writeJson(options.json, comparisonJson(comparison));
+  }
+  if (!options.heatmap.empty()) {
+    writePng(options.heatmap, heatMap(comparison.flip));
+  }
+  const std::string problem = exceeded(comparison.whole, options);
+  if (!problem.empty()) {
+    std::fprintf(stderr, "%s\n", problem.c_str());
+  }
+  return problem.empty() ? 0 : 1;
+}
+
+}  // namespace speculum
