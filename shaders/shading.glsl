@@ -2,6 +2,7 @@
 
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
+const float shareMax = 65472.0;  // of what is weighted and added to another share: their sum rounds to halfMax at most
 
 struct Surface {
   vec3 position;  // relative

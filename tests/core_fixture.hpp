@@ -40,7 +40,7 @@ class SmallScene {
   void copy(Frame& frame, VkCommandBuffer commands, const Pipeline& pipeline, OffScreen& source);
 
   Renderer& renderer_;
-  SharedAttachments shared_;
+  SharedDepth shared_;
   OffScreen mirror_;
   OffScreen main_;
   DescriptorSetLayoutHandle layout_;

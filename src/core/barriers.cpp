@@ -113,7 +113,8 @@ void Barriers::samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Ima
     image.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
   }
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenSamplesBeforeWrite, BarrierKind::mainSamplesBeforeWrite);
-  record(commands, kind, image, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT}, {colorStage, colorAccess},
+  const VkPipelineStageFlags readers = image.desc().usage & VK_IMAGE_USAGE_SAMPLED_BIT ? sampleStage : 0;
+  record(commands, kind, image, {colorStage | readers, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT}, {colorStage, colorAccess},
          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
 

@@ -15,7 +15,7 @@ class Buffer;
 // Every dependency of the project has a name, so that a test can leave each out in turn and see it missed.
 enum class BarrierKind {
   offscreenBeforeWrite,         // resolved or single-sample colour: earlier samplings and writes -> attachment
-  offscreenSamplesBeforeWrite,  // multisampled colour
+  offscreenSamplesBeforeWrite,  // multisampled colour: earlier resolves, samplings and writes -> attachment
   offscreenDepthBeforeWrite,    // late depth writes of the pass before -> clear
   offscreenToSample,            // attachment -> fragment shader
   mainBeforeWrite,

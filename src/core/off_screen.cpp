@@ -6,14 +6,19 @@ namespace speculum {
 
 namespace {
 
-Image makeColor(Device& device, VkExtent2D extent, VkFormat format, VkSampleCountFlagBits samples, std::string name) {
-  const bool multisampled = samples != VK_SAMPLE_COUNT_1_BIT;
-  const VkImageUsageFlags reads = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  return Image(device, {.extent = extent,
-                        .format = format,
-                        .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | (multisampled ? 0 : reads),
+enum class Use { output, resolved };
+
+Image makeColor(Device& device, const OffScreenDesc& desc, Use use) {
+  const bool output = use == Use::output;
+  const VkSampleCountFlagBits samples = output && !desc.keepSamples ? VK_SAMPLE_COUNT_1_BIT : desc.samples;
+  VkImageUsageFlags usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  usage |= output ? VK_IMAGE_USAGE_SAMPLED_BIT : 0;
+  usage |= samples == VK_SAMPLE_COUNT_1_BIT ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;
+  return Image(device, {.extent = desc.extent,
+                        .format = desc.format,
+                        .usage = usage,
                         .samples = samples,
-                        .name = std::move(name)});
+                        .name = output ? desc.name : desc.name + " samples"});
 }
 
 Image makeDepth(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples, std::string name) {
@@ -30,37 +35,31 @@ bool equal(VkExtent2D a, VkExtent2D b) {
 
 }  // namespace
 
-SharedAttachments::SharedAttachments(Device& device, VkSampleCountFlagBits samples, const std::string& name)
+SharedDepth::SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name)
     : device_(&device), samples_(samples), name_(name) {}
 
-void SharedAttachments::require(VkExtent2D extent, RetireQueue& retired) {
+void SharedDepth::require(VkExtent2D extent, RetireQueue& retired) {
   trim({std::max(extent.width, extent_.width), std::max(extent.height, extent_.height)}, retired);
 }
 
-void SharedAttachments::trim(VkExtent2D extent, RetireQueue& retired) {
+void SharedDepth::trim(VkExtent2D extent, RetireQueue& retired) {
   if (equal(extent, extent_)) {
     return;
   }
-  if (depth_) {
-    retired.retire(std::exchange(color_, Image()));
-    retired.retire(std::exchange(depth_, Image()));
+  if (image_) {
+    retired.retire(std::exchange(image_, Image()));
   }
   extent_ = extent;
-  if (extent.width == 0 || extent.height == 0) {
-    return;
+  if (extent.width > 0 && extent.height > 0) {
+    image_ = makeDepth(*device_, extent, samples_, name_ + " depth");
   }
-  if (samples_ != VK_SAMPLE_COUNT_1_BIT) {
-    color_ = makeColor(*device_, extent, colorFormat, samples_, name_ + " samples");
-  }
-  depth_ = makeDepth(*device_, extent, samples_, name_ + " depth");
 }
 
 OffScreen::OffScreen(Device& device, const OffScreenDesc& desc, RetireQueue& retired) : device_(&device), desc_(desc) {
   if (desc_.shared) {
     desc_.samples = desc_.shared->samples();
   }
-  sampler_ = createSampler(device, {.filter = desc_.filter, .maxLod = 0.0f}, desc_.name);
-  createImages(retired);
+  create(retired);
 }
 
 void OffScreen::resize(VkExtent2D extent, RetireQueue& retired) {
@@ -70,7 +69,7 @@ void OffScreen::resize(VkExtent2D extent, RetireQueue& retired) {
   if (!equal(extent, desc_.extent) || !color_) {
     desc_.extent = extent;
     retire(retired);
-    createImages(retired);
+    create(retired);
   }
 }
 
@@ -83,16 +82,15 @@ void OffScreen::retire(RetireQueue& retired) {
   }
 }
 
-void OffScreen::createImages(RetireQueue& retired) {
-  color_ = makeColor(*device_, desc_.extent, desc_.format, VK_SAMPLE_COUNT_1_BIT, desc_.name);
+void OffScreen::create(RetireQueue& retired) {
+  sampler_ = createSampler(*device_, {.filter = desc_.filter, .maxLod = 0.0f}, desc_.name);
+  color_ = makeColor(*device_, desc_, Use::output);
+  if (color_.samples() != desc_.samples) {
+    samples_ = makeColor(*device_, desc_, Use::resolved);
+  }
   if (desc_.shared) {
     desc_.shared->require(desc_.extent, retired);
-    return;
-  }
-  if (desc_.samples != VK_SAMPLE_COUNT_1_BIT) {
-    samples_ = makeColor(*device_, desc_.extent, desc_.format, desc_.samples, desc_.name + " samples");
-  }
-  if (desc_.depth) {
+  } else if (desc_.depth) {
     depth_ = makeDepth(*device_, desc_.extent, desc_.samples, desc_.name + " depth");
   }
 }
@@ -102,10 +100,9 @@ uint64_t OffScreen::bytes() const {
 }
 
 PassTargets OffScreen::targets() {
-  Image* samples = desc_.shared ? desc_.shared->color() : samples_ ? &samples_ : nullptr;
-  Image* depth = desc_.shared ? desc_.shared->depth() : depth_ ? &depth_ : nullptr;
-  return {.color = samples ? samples : &color_,
-          .resolve = samples ? &color_ : nullptr,
+  Image* depth = desc_.shared ? desc_.shared->image() : &depth_;
+  return {.color = samples_ ? &samples_ : &color_,
+          .resolve = samples_ ? &color_ : nullptr,
           .depth = desc_.depth ? depth : nullptr,
           .role = desc_.role};
 }

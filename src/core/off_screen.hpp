@@ -8,29 +8,27 @@
 
 namespace speculum {
 
-// One multisampled colour and one depth image that several OffScreen targets use in turn; as large as the largest asks.
-class SharedAttachments {
+// One depth image that several OffScreen targets use in turn; as large as the largest asks.
+class SharedDepth {
  public:
-  SharedAttachments(Device& device, VkSampleCountFlagBits samples, const std::string& name);
+  SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name);
 
-  // Grows to cover `extent`; the old images are retired. Never shrinks: see trim.
+  // Grows to cover `extent`; the old image is retired. Never shrinks: see trim.
   void require(VkExtent2D extent, RetireQueue& retired);
-  // Makes the images exactly `extent`, or none for 0x0.
+  // Makes the image exactly `extent`, or none for 0x0.
   void trim(VkExtent2D extent, RetireQueue& retired);
 
   VkSampleCountFlagBits samples() const { return samples_; }
   VkExtent2D extent() const { return extent_; }
-  uint64_t bytes() const { return color_.bytes() + depth_.bytes(); }
-  Image* color() { return color_ ? &color_ : nullptr; }  // null at one sample
-  Image* depth() { return depth_ ? &depth_ : nullptr; }
+  uint64_t bytes() const { return image_.bytes(); }
+  Image* image() { return image_ ? &image_ : nullptr; }
 
  private:
   Device* device_;
   VkSampleCountFlagBits samples_;
   std::string name_;
   VkExtent2D extent_{0, 0};
-  Image color_;
-  Image depth_;
+  Image image_;
 };
 
 struct OffScreenDesc {
@@ -38,13 +36,15 @@ struct OffScreenDesc {
   VkExtent2D extent{1, 1};
   VkFormat format = colorFormat;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  bool keepSamples = false;  // the output is the multisampled colour, read sample by sample; else it is resolved
   bool depth = true;
   VkFilter filter = VK_FILTER_LINEAR;
   TargetRole role = TargetRole::offscreen;
-  SharedAttachments* shared = nullptr;  // outlives the target; its sample count replaces `samples`
+  SharedDepth* shared = nullptr;  // outlives the target; its sample count replaces `samples`
 };
 
-// A render target that is sampled later: single-sample colour, with depth and multisampled colour of its own or shared.
+// A render target that is sampled later: its colour, with one sample or resolved to one or with all its samples, and
+// depth of its own or shared.
 class OffScreen {
  public:
   OffScreen(Device& device, const OffScreenDesc& desc, RetireQueue& retired);
@@ -57,19 +57,19 @@ class OffScreen {
   const OffScreenDesc& desc() const { return desc_; }
   VkExtent2D extent() const { return desc_.extent; }
   VkSampleCountFlagBits samples() const { return desc_.samples; }
-  uint64_t bytes() const;  // without shared attachments
+  uint64_t bytes() const;  // without shared depth
   Image& color() { return color_; }
   PassTargets targets();
   VkDescriptorImageInfo descriptor() const { return color_.descriptor(sampler_.get()); }
 
  private:
-  void createImages(RetireQueue& retired);
+  void create(RetireQueue& retired);
 
   Device* device_;
   OffScreenDesc desc_;
   SamplerHandle sampler_;
-  Image color_;
-  Image samples_;
+  Image color_;    // the output
+  Image samples_;  // what is resolved to it
   Image depth_;
 };
 

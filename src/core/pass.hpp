@@ -11,7 +11,8 @@ namespace speculum {
 class GpuTimer;
 class RenderPassCache;
 
-// `color` is multisampled exactly when `resolve` is given. Any extent not below the render area will do.
+// With `resolve`, `color` is multisampled and the pass's output is the resolved image; without it the output is `color`
+// with the samples it has. Any extent not below the render area will do.
 struct PassTargets {
   Image* color = nullptr;
   Image* resolve = nullptr;

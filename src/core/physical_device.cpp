@@ -100,10 +100,10 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index) {
   device.core13 = device.properties.apiVersion >= VK_API_VERSION_1_3;
   readFeatures(device);
   DeviceCaps& caps = device.caps;
-  caps.sampleCounts = sampleCounts(handle, colorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) &
-                      sampleCounts(handle, depthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) &
-                      device.properties.limits.framebufferColorSampleCounts &
-                      device.properties.limits.framebufferDepthSampleCounts;
+  caps.sampleCounts =
+      sampleCounts(handle, colorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
+      sampleCounts(handle, depthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) &
+      device.properties.limits.framebufferColorSampleCounts & device.properties.limits.framebufferDepthSampleCounts;
   caps.timestampPeriod = device.properties.limits.timestampPeriod;
   caps.pipelineStatistics = device.features.pipelineStatisticsQuery;
   caps.sampleRateShading = device.features.sampleRateShading;

@@ -73,13 +73,14 @@ VkPipelineDepthStencilStateCreateInfo depthState(const GraphicsPipelineDesc& des
           .depthCompareOp = desc.depthCompare};
 }
 
-VkPipelineColorBlendAttachmentState blending(bool enable) {
-  return {.blendEnable = enable,
-          .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
-          .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+VkPipelineColorBlendAttachmentState blending(Blend blend) {
+  const bool add = blend == Blend::add;
+  return {.blendEnable = blend != Blend::none,
+          .srcColorBlendFactor = add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_SRC_ALPHA,
+          .dstColorBlendFactor = add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
           .colorBlendOp = VK_BLEND_OP_ADD,
-          .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-          .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+          .srcAlphaBlendFactor = add ? VK_BLEND_FACTOR_ZERO : VK_BLEND_FACTOR_ONE,
+          .dstAlphaBlendFactor = add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
           .alphaBlendOp = VK_BLEND_OP_ADD,
           .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
                             VK_COLOR_COMPONENT_A_BIT};

@@ -11,6 +11,13 @@
 
 namespace speculum {
 
+// How a fragment joins what the target holds.
+enum class Blend {
+  none,  // replaces it
+  over,  // source alpha over destination
+  add,   // colours are added, the target's alpha stays
+};
+
 // Dynamic: viewport, scissor, front face. Everything else is fixed here.
 struct GraphicsPipelineDesc {
   std::string name;
@@ -28,8 +35,8 @@ struct GraphicsPipelineDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER;  // reversed Z
   bool depthClamp = true;                            // nothing is cut at the near plane; ignored where not supported
   bool sampleShading = false;                        // one invocation per sample; ignored where not supported
-  bool blend = false;                                // source alpha over destination
-  bool lines = false;                                // wireframe; filled where not supported
+  Blend blend = Blend::none;
+  bool lines = false;  // wireframe; filled where not supported
   VkCullModeFlags cullMode = VK_CULL_MODE_NONE;
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   std::vector<VkVertexInputBindingDescription> vertexBindings;

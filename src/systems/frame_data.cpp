@@ -202,10 +202,14 @@ void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projecti
 void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan,
                            const Scene& scene, PassData& data) {
   for (const MirrorDraw& draw : pass.mirrors) {
-    MirrorRange range{static_cast<uint32_t>(mirrors_.size()), static_cast<uint32_t>(mirrorVertices_.size()), 0,
-                      draw.pass};
+    const Mirror& mirror = scene.mirrors[draw.mirror];
     const PlannedPass* image = draw.pass >= 0 ? &plan.passes[draw.pass] : nullptr;
-    mirrors_.push_back(mirrorData(draw, scene.mirrors[draw.mirror], pass.view, image));
+    MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
+                      .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
+                      .pass = draw.pass,
+                      .base = mirror.baseColor != glm::dvec3(0.0)};
+    mirrors_.push_back(mirrorData(draw, mirror, pass.view, image));
+    range.lookup = static_cast<Lookup>(mirrors_.back().image.z);
     std::vector<glm::vec4> clip;
     for (const glm::dvec3& p : draw.polygon) {
       clip.emplace_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));

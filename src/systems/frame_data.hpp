@@ -13,6 +13,7 @@ namespace speculum {
 // Where a mirror's image was rendered to, for those who look it up.
 struct MirrorImage {
   VkDescriptorImageInfo descriptor{};
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   PixelRect rect;               // pixels of the whole picture at the image's resolution; texel (0, 0) is its corner
   glm::dvec2 pictureSize{0.0};  // of the whole picture at the image's resolution
 };
@@ -29,6 +30,8 @@ struct MirrorRange {
   uint32_t firstVertex = 0;
   uint32_t vertexCount = 0;
   int pass = -1;  // of its image; -1: none
+  Lookup lookup = Lookup::fetch;
+  bool base = false;  // there is a diffuse layer under the reflection
 };
 
 // What the systems draw in one pass: indices into the buffers of FrameData.

@@ -20,7 +20,7 @@ uint64_t area(VkExtent2D extent) {
 
 }  // namespace
 
-ImagePool::ImagePool(Device& device, SharedAttachments& shared) : device_(device), shared_(shared) {}
+ImagePool::ImagePool(Device& device, SharedDepth& depth) : device_(device), depth_(depth) {}
 
 OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
   Entry* best = nullptr;
@@ -34,7 +34,8 @@ OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
   }
   if (!best) {
     best = &entries_.emplace_back();
-    const OffScreenDesc desc{.name = "mirror image " + std::to_string(made_++), .extent = rounded, .shared = &shared_};
+    const OffScreenDesc desc{
+        .name = "mirror image " + std::to_string(made_++), .extent = rounded, .keepSamples = true, .shared = &depth_};
     best->target = std::make_unique<OffScreen>(device_, desc, retired);
   }
   best->taken = true;

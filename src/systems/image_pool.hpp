@@ -7,12 +7,12 @@
 
 namespace speculum {
 
-// Targets for mirror images. An image is taken for a pass and given back as soon as the pass that samples it is
-// recorded, so that a frame holds no more than the images alive at one time. Targets are kept for later frames and
-// dropped when a number of frames went by without need of them.
+// Targets for mirror images, which keep their samples. An image is taken for a pass and given back as soon as the pass
+// that samples it is recorded, so that a frame holds no more than the images alive at one time. Targets are kept for
+// later frames and dropped when a number of frames went by without need of them.
 class ImagePool {
  public:
-  ImagePool(Device& device, SharedAttachments& shared);
+  ImagePool(Device& device, SharedDepth& depth);
 
   // A target that covers `extent`, free until release().
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
@@ -31,7 +31,7 @@ class ImagePool {
   };
 
   Device& device_;
-  SharedAttachments& shared_;
+  SharedDepth& depth_;
   std::vector<Entry> entries_;
   int made_ = 0;
 };

@@ -21,30 +21,59 @@ const Pipeline& MirrorSystem::pipeline(const Variant& variant) {
     desc.pushConstantBytes = sizeof(DrawConstants);
     desc.samples = variant.samples;
     desc.depthClamp = variant.clampDepth;
+    if (variant.shading == Shading::base) {
+      desc.fragConstants = {true};
+    } else if (variant.shading == Shading::average) {
+      desc.frag = "mirror_average.frag";
+    } else if (variant.shading != Shading::single) {
+      desc.frag = "mirror_sample.frag";
+      desc.sampleShading = true;
+    }
+    if (variant.shading == Shading::ownSampleAdded) {
+      desc.depthCompare = VK_COMPARE_OP_EQUAL;
+      desc.depthWrite = false;
+      desc.blend = Blend::add;
+    }
     pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
   }
   return *pipeline;
 }
 
+std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const FrameInfo& info,
+                                                          const PassFormat& format) const {
+  if (mirror.pass < 0 || info.images[mirror.pass].samples == VK_SAMPLE_COUNT_1_BIT) {
+    return {Shading::single};
+  }
+  if (info.images[mirror.pass].samples != format.samples || mirror.lookup != Lookup::fetch ||
+      !device_.caps().sampleRateShading) {
+    return {Shading::average};
+  }
+  if (mirror.base) {
+    return {Shading::base, Shading::ownSampleAdded};
+  }
+  return {Shading::ownSample};
+}
+
 uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
   const PassData& data = info.data.passes()[pass];
-  if (data.mirrors.empty()) {
-    return 0;
-  }
   const bool oblique = format.mirrorView && info.settings.reflection.clip == ClipMethod::oblique;
-  const Pipeline& drawn = pipeline({.samples = format.samples, .clampDepth = !oblique});
-  drawn.bind(scope.commands());
-  drawn.bindSet(scope.commands(), 0, info.data.set());
+  const VkDescriptorImageInfo noImage = noImage_.descriptor(sampler_.get());
+  uint32_t draws = 0;
   for (const MirrorRange& mirror : data.mirrors) {
-    const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
-    const VkDescriptorImageInfo image =
-        mirror.pass >= 0 ? info.images[mirror.pass].descriptor : noImage_.descriptor(sampler_.get());
-    DescriptorWriter().image(0, image).update(device_, set);
-    drawn.bindSet(scope.commands(), 1, set);
-    drawn.push(scope.commands(), DrawConstants{data.view, mirror.mirror});
-    vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
+    for (const Shading shading : shadings(mirror, info, format)) {
+      const Pipeline& drawn = pipeline({.shading = shading, .samples = format.samples, .clampDepth = !oblique});
+      const bool reads = mirror.pass >= 0 && shading != Shading::base;
+      const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
+      DescriptorWriter().image(0, reads ? info.images[mirror.pass].descriptor : noImage).update(device_, set);
+      drawn.bind(scope.commands());
+      drawn.bindSet(scope.commands(), 0, info.data.set());
+      drawn.bindSet(scope.commands(), 1, set);
+      drawn.push(scope.commands(), DrawConstants{data.view, mirror.mirror});
+      vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
+      ++draws;
+    }
   }
-  return static_cast<uint32_t>(data.mirrors.size());
+  return draws;
 }
 
 }  // namespace speculum

@@ -7,8 +7,9 @@
 
 namespace speculum {
 
-// Draws the mirrors of a pass: fronts sample the images that earlier passes rendered for them, fronts without an image
-// show the background, backs their paint.
+// Draws the mirrors of a pass: fronts read the images that earlier passes rendered for them, fronts without an image
+// show the background, backs their paint. An image with the pass's samples and pixels is read sample by sample; the
+// layer under the reflection, whose light costs much more, is then a draw of its own at one invocation per pixel.
 class MirrorSystem {
  public:
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
@@ -17,12 +18,16 @@ class MirrorSystem {
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
+  enum class Shading { single, average, base, ownSample, ownSampleAdded };
   struct Variant {
+    Shading shading;
     VkSampleCountFlagBits samples;
     bool clampDepth;
     auto operator<=>(const Variant&) const = default;
   };
   const Pipeline& pipeline(const Variant& variant);
+  // The draws of a mirror, in order.
+  std::vector<Shading> shadings(const MirrorRange& mirror, const FrameInfo& info, const PassFormat& format) const;
 
   Device& device_;
   PipelineFactory& factory_;

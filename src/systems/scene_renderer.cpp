@@ -74,23 +74,23 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
 
 void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
   const VkSampleCountFlagBits samples = device_.sampleCount(settings.reflection.samples);
-  if (shared_ && (shared_->samples() != samples || plan.passes.empty())) {
+  if (depth_ && (depth_->samples() != samples || plan.passes.empty())) {
     pool_->clear(retired);
     pool_.reset();
-    shared_->trim({0, 0}, retired);
-    shared_.reset();
+    depth_->trim({0, 0}, retired);
+    depth_.reset();
   }
   if (!plan.passes.empty()) {
-    if (!shared_) {
-      shared_ = std::make_unique<SharedAttachments>(device_, samples, "mirror images");
-      pool_ = std::make_unique<ImagePool>(device_, *shared_);
+    if (!depth_) {
+      depth_ = std::make_unique<SharedDepth>(device_, samples, "mirror images");
+      pool_ = std::make_unique<ImagePool>(device_, *depth_);
     }
     VkExtent2D largest{1, 1};
     for (const PlannedPass& pass : plan.passes) {
       largest.width = std::max(largest.width, static_cast<uint32_t>(pass.view.rect.width));
       largest.height = std::max(largest.height, static_cast<uint32_t>(pass.view.rect.height));
     }
-    shared_->require(largest, retired);
+    depth_->require(largest, retired);
   }
   const VkExtent2D extent{static_cast<uint32_t>(plan.width), static_cast<uint32_t>(plan.height)};
   const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
@@ -146,7 +146,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
   }
   recorded_.push_back(std::move(recorded));
   targets_[index] = &target;
-  images_[index] = {target.descriptor(), view.rect, view.pictureSize};
+  images_[index] = {target.descriptor(), target.samples(), view.rect, view.pictureSize};
   releaseImages(pass);
 }
 
@@ -164,14 +164,17 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
   releaseImages(info.plan.main);
 }
 
-const Pipeline& SceneRenderer::displayPipeline(ToneMap toneMap) {
-  std::unique_ptr<Pipeline>& pipeline = displayPipelines_[{toneMap, renderer_.displayFormat()}];
+const Pipeline& SceneRenderer::displayPipeline(const DisplayVariant& variant) {
+  std::unique_ptr<Pipeline>& pipeline = displayPipelines_[variant];
   if (!pipeline) {
     GraphicsPipelineDesc desc{.name = "display", .vert = "full_screen.vert", .frag = "display.frag"};
-    desc.fragConstants = {toneMap == ToneMap::aces};
+    if (variant.multisampled) {
+      desc.frag = "display_average.frag";
+    }
+    desc.fragConstants = {variant.toneMap == ToneMap::aces};
     desc.setLayouts = {displayLayout_.get()};
     desc.pushConstantBytes = sizeof(DisplayConstants);
-    desc.color = renderer_.displayFormat();
+    desc.color = variant.format;
     desc.depth = VK_FORMAT_UNDEFINED;
     desc.depthTest = false;
     desc.depthWrite = false;
@@ -180,11 +183,13 @@ const Pipeline& SceneRenderer::displayPipeline(ToneMap toneMap) {
   return *pipeline;
 }
 
-void SceneRenderer::recordDisplay(Frame& frame, const PassDesc& desc, const VkDescriptorImageInfo& radiance,
+void SceneRenderer::recordDisplay(Frame& frame, const PassDesc& desc, const MirrorImage& radiance,
                                   const glm::vec4& lookup, const Settings& settings) {
-  const Pipeline& pipeline = displayPipeline(settings.view.toneMap);
+  const Pipeline& pipeline = displayPipeline({.toneMap = settings.view.toneMap,
+                                              .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
+                                              .format = renderer_.displayFormat()});
   const VkDescriptorSet set = frame.descriptors->allocate(displayLayout_.get());
-  DescriptorWriter().image(0, radiance).update(device_, set);
+  DescriptorWriter().image(0, radiance.descriptor).update(device_, set);
   const PassScope scope = renderer_.beginPass(frame, desc);
   pipeline.bind(scope.commands());
   pipeline.bindSet(scope.commands(), 0, set);
@@ -194,7 +199,7 @@ void SceneRenderer::recordDisplay(Frame& frame, const PassDesc& desc, const VkDe
 }
 
 void SceneRenderer::recordDisplayPass(Frame& frame, const Settings& settings) {
-  recordDisplay(frame, fullPass("display", renderer_.displayTargets(frame)), main_->descriptor(),
+  recordDisplay(frame, fullPass("display", renderer_.displayTargets(frame)), {.descriptor = main_->descriptor()},
                 glm::vec4(1.0f, 1.0f, 0.0f, 0.0f), settings);
 }
 
@@ -215,7 +220,7 @@ void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, cons
   desc.loadColor = true;
   const glm::dvec2 scale = glm::dvec2(image.width, image.height) / glm::dvec2(area.width, area.height);
   const glm::dvec2 offset = -glm::dvec2(area.x, area.y) * scale;
-  recordDisplay(frame, desc, images_[debug.pass].descriptor, glm::vec4(glm::dvec4(scale, offset)), settings);
+  recordDisplay(frame, desc, images_[debug.pass], glm::vec4(glm::dvec4(scale, offset)), settings);
 }
 
 }  // namespace speculum

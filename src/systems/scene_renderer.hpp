@@ -48,16 +48,22 @@ class SceneRenderer {
   OffScreen& mainTarget() { return *main_; }  // linear radiance of the main view, of the last recorded frame
 
  private:
+  struct DisplayVariant {
+    ToneMap toneMap;
+    bool multisampled;  // of the image that is shown
+    VkFormat format;
+    auto operator<=>(const DisplayVariant&) const = default;
+  };
   void prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index);
   void recordMainPass(Frame& frame, const FrameInfo& info);
   void recordDisplayPass(Frame& frame, const Settings& settings);
   void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
-  void recordDisplay(Frame& frame, const PassDesc& desc, const VkDescriptorImageInfo& radiance, const glm::vec4& lookup,
+  void recordDisplay(Frame& frame, const PassDesc& desc, const MirrorImage& radiance, const glm::vec4& lookup,
                      const Settings& settings);
   void releaseImages(const PlannedPass& pass);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
-  const Pipeline& displayPipeline(ToneMap toneMap);
+  const Pipeline& displayPipeline(const DisplayVariant& variant);
 
   Renderer& renderer_;
   Device& device_;
@@ -68,8 +74,8 @@ class SceneRenderer {
   PointLightSystem pointLightSystem_;
   MirrorSystem mirrorSystem_;
   DescriptorSetLayoutHandle displayLayout_;
-  std::map<std::pair<ToneMap, VkFormat>, std::unique_ptr<Pipeline>> displayPipelines_;
-  std::unique_ptr<SharedAttachments> shared_;
+  std::map<DisplayVariant, std::unique_ptr<Pipeline>> displayPipelines_;
+  std::unique_ptr<SharedDepth> depth_;
   std::unique_ptr<ImagePool> pool_;
   std::unique_ptr<OffScreen> main_;
   std::vector<OffScreen*> targets_;  // of the plan's passes while they are alive

@@ -1,0 +1,4 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define MIRROR_IMAGE sampler2DMS
+#include "mirror_shading.glsl"
