@@ -1,8 +1,8 @@
 #include "core/instance.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 #include "core/device.hpp"
