@@ -32,3 +32,33 @@ function(speculum_library name)
     target_link_libraries(${name} INTERFACE ${ARG_PUBLIC})
   endif()
 endfunction()
+
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+find_program(SPIRV_VAL spirv-val REQUIRED)
+
+# speculum_shaders(TARGET OUTPUT dir SOURCES file... [ALL]): GLSL to dir/FILE.spv, each module checked by spirv-val.
+function(speculum_shaders target)
+  cmake_parse_arguments(ARG "ALL" "OUTPUT" "SOURCES" ${ARGN})
+  file(MAKE_DIRECTORY ${ARG_OUTPUT})
+  set(outputs)
+  foreach(source IN LISTS ARG_SOURCES)
+    get_filename_component(name ${source} NAME)
+    get_filename_component(directory ${source} DIRECTORY)
+    set(output ${ARG_OUTPUT}/${name}.spv)
+    add_custom_command(
+      OUTPUT ${output}
+      COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.1 -I${directory} --depfile ${output}.d -o ${output}
+              ${source}
+      COMMAND ${SPIRV_VAL} --target-env vulkan1.1 ${output}
+      DEPENDS ${source}
+      DEPFILE ${output}.d
+      COMMENT "Shader ${name}"
+      VERBATIM)
+    list(APPEND outputs ${output})
+  endforeach()
+  if(ARG_ALL)
+    add_custom_target(${target} ALL DEPENDS ${outputs})
+  else()
+    add_custom_target(${target} DEPENDS ${outputs})
+  endif()
+endfunction()
