@@ -31,7 +31,8 @@ Demo::Demo(const Options& options)
       window_({.title = "Speculum", .width = options.size.width, .height = options.size.height}),
       device_(deviceOptions(options, &window_)),
       renderer_(device_, rendererOptions(options, &window_)),
-      sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, loaded_->scene)) {
+      sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, loaded_->scene)),
+      planner_(device_) {
   applyDebugSettings(loaded_->settings, device_);
   installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
@@ -153,15 +154,16 @@ void Demo::drawFrame(double seconds) {
   }
   SceneState state = evaluate(loaded_->scene, time_);
   state.camera = camera_.pose(state.camera);
-  const FramePlan plan = planFrame(loaded_->scene, state, model_.settings, static_cast<int>(frame->extent.width),
-                                   static_cast<int>(frame->extent.height));
+  const FittedPlan fitted = planner_.plan(loaded_->scene, state, model_.settings, static_cast<int>(frame->extent.width),
+                                          static_cast<int>(frame->extent.height));
+  const FramePlan& plan = fitted.plan;
   std::optional<DebugView> debug;
   if (model_.debugPass >= static_cast<int>(plan.passes.size())) {
     model_.debugPass = -1;
   } else if (model_.debugPass >= 0 && model_.debugArea) {
     debug = DebugView{model_.debugPass, *model_.debugArea};
   }
-  sceneRenderer_->record(*frame, state, model_.settings, plan, debug);
+  sceneRenderer_->record(*frame, state, fitted.settings, plan, debug);
   {
     const PassScope scope = renderer_.beginOverlay(*frame);
     ui_->record(scope);

@@ -43,6 +43,7 @@ class Demo {
   Device device_;
   Renderer renderer_;
   std::unique_ptr<SceneRenderer> sceneRenderer_;
+  BudgetPlanner planner_;
   std::unique_ptr<SimpleUI> ui_;
   CameraController camera_;
   UiModel model_;

@@ -79,12 +79,25 @@ void applyDebugSettings(const Settings& settings, Device& device) {
   device.barriers().omit(kind);
 }
 
+FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
+                               int height) {
+  // The rest is for meshes, textures and what else uses the device.
+  const uint64_t budget = device_.memoryBudget().budgetBytes / 4 * 3;
+  FittedPlan fitted = planWithin(budget, scene, state, settings, width, height);
+  if (!fitted.message.empty() && said_.empty()) {
+    spdlog::warn("{}", fitted.message);
+  }
+  said_ = fitted.message;
+  return fitted;
+}
+
 Session::Session(const Options& options)
     : size_(options.size),
       loaded_(loadSceneWithSettings(options)),
       device_(deviceOptions(options, nullptr)),
       renderer_(device_, rendererOptions(options, nullptr)),
-      sceneRenderer_(renderer_, loaded_.scene) {
+      sceneRenderer_(renderer_, loaded_.scene),
+      planner_(device_) {
   applyDebugSettings(loaded_.settings, device_);
 }
 
@@ -94,10 +107,12 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   Frame frame = renderer_.beginFrame().value();
   const Clock::time_point recording = Clock::now();
   frame_.state = evaluate(loaded_.scene, time);
-  frame_.plan = planFrame(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height);
+  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height);
+  frame_.plan = std::move(fitted.plan);
+  frame_.settings = fitted.settings;
   frame_.number = frame.number;
   frame.capture = capture;
-  sceneRenderer_.record(frame, frame_.state, loaded_.settings, frame_.plan);
+  sceneRenderer_.record(frame, frame_.state, frame_.settings, frame_.plan);
   frame_.cpuMs = millisecondsSince(recording);
   renderer_.endFrame(frame);
   frame_.frameMs = 0.0;

@@ -5,7 +5,7 @@
 
 #include "app/options.hpp"
 #include "frame/effects.hpp"
-#include "frame/frame_plan.hpp"
+#include "frame/memory_fit.hpp"
 #include "scene/scene_loader.hpp"
 #include "systems/scene_renderer.hpp"
 
@@ -29,10 +29,22 @@ RendererOptions rendererOptions(const Options& options, Window* window);
 // debug.omit_barrier. Throws UsageError with the names for one that does not exist.
 void applyDebugSettings(const Settings& settings, Device& device);
 
+// planWithin for what the device has left; says in the log when it begins to lower settings.
+class BudgetPlanner {
+ public:
+  explicit BudgetPlanner(const Device& device) : device_(device) {}
+  FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height);
+
+ private:
+  const Device& device_;
+  std::string said_;
+};
+
 // One frame as it was planned and recorded.
 struct DrawnFrame {
   SceneState state;
   FramePlan plan;
+  Settings settings;     // that the plan was made with
   uint64_t number = 0;   // of the renderer; its GPU times arrive under this number
   double cpuMs = 0.0;    // planning and recording
   double frameMs = 0.0;  // from begin to the GPU's end; 0 before Session::finish
@@ -63,6 +75,7 @@ class Session {
   Device device_;
   Renderer renderer_;
   SceneRenderer sceneRenderer_;
+  BudgetPlanner planner_;
   DrawnFrame frame_;
   std::chrono::steady_clock::time_point start_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 namespace speculum {
 
@@ -225,6 +227,12 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
 void FrameData::upload(Frame& frame, Kind kind, std::span<const std::byte> data) {
   static constexpr std::array<const char*, kindCount> names = {"views", "lights", "instances", "mirrors",
                                                                "mirror vertices"};
+  const uint64_t limit = device_.limits().maxStorageBufferRange;
+  if (data.size() > limit) {
+    throw std::runtime_error("a frame has " + std::to_string(data.size() >> 20) + " MiB of " + names[kind] +
+                             ", the device takes " + std::to_string(limit >> 20) +
+                             " (fewer copies of objects, or a lower reflection.max_passes)");
+  }
   Buffer& buffer = buffers_[frame.index][kind];
   if (!buffer || buffer.bytes() < data.size()) {
     buffer = Buffer(device_, data.size() + data.size() / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,

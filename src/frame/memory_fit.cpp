@@ -1,0 +1,84 @@
+#include "frame/memory_fit.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace speculum {
+
+namespace {
+
+constexpr uint64_t colorBytes = 8;  // RGBA16F
+constexpr uint64_t depthBytes = 4;  // D32F
+constexpr double smallestScale = 0.125;
+
+uint64_t pixels(const PixelRect& rect) {
+  return static_cast<uint64_t>(rect.area());
+}
+
+// The most pixels of mirror images that are alive together: each from its own pass until its parent's.
+uint64_t peakPixels(const FramePlan& plan) {
+  uint64_t alive = 0;
+  uint64_t peak = 0;
+  for (const PlannedPass& pass : plan.passes) {
+    alive += pixels(pass.view.rect);
+    peak = std::max(peak, alive);
+    for (const MirrorDraw& draw : pass.mirrors) {
+      alive -= draw.pass >= 0 ? pixels(plan.passes[draw.pass].view.rect) : 0;
+    }
+  }
+  return peak;
+}
+
+bool lower(Settings& settings, std::string& what) {
+  ReflectionSettings& reflection = settings.reflection;
+  if (reflection.samples > 1) {
+    reflection.samples /= 2;
+    what = "reflection.samples to " + std::to_string(reflection.samples);
+  } else if (settings.view.samples > 1) {
+    settings.view.samples /= 2;
+    what = "view.samples to " + std::to_string(settings.view.samples);
+  } else if (reflection.scale > smallestScale) {
+    reflection.scale = std::max(smallestScale, reflection.scale / 2.0);
+    what = "reflection.scale to " + settingValue(settings, "reflection.scale");
+  } else {
+    return false;
+  }
+  return true;
+}
+
+std::string mebibytes(uint64_t bytes) {
+  return std::to_string(bytes >> 20) + " MiB";
+}
+
+}  // namespace
+
+uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
+  const auto viewSamples = static_cast<uint64_t>(settings.view.samples);
+  const auto imageSamples = static_cast<uint64_t>(settings.reflection.samples);
+  const uint64_t multisampled = viewSamples > 1 ? viewSamples * colorBytes : 0;
+  uint64_t largest = 0;
+  for (const PlannedPass& pass : plan.passes) {
+    largest = std::max(largest, pixels(pass.view.rect));
+  }
+  return pixels(plan.main.view.rect) * (colorBytes + multisampled + viewSamples * depthBytes) +
+         peakPixels(plan) * imageSamples * colorBytes + largest * imageSamples * depthBytes;
+}
+
+FittedPlan planWithin(uint64_t budgetBytes, const Scene& scene, const SceneState& state, const Settings& settings,
+                      int width, int height) {
+  FittedPlan fitted{planFrame(scene, state, settings, width, height), settings, {}};
+  const uint64_t wanted = targetBytes(fitted.plan, settings);
+  std::string what;
+  std::string lowered;
+  while (targetBytes(fitted.plan, fitted.settings) > budgetBytes && lower(fitted.settings, what)) {
+    lowered += (lowered.empty() ? "" : ", ") + what;
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height);
+  }
+  if (!lowered.empty()) {
+    fitted.message = "targets of " + mebibytes(wanted) + " do not fit the device's " + mebibytes(budgetBytes) +
+                     ": lowered " + lowered;
+  }
+  return fitted;
+}
+
+}  // namespace speculum

@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include "frame/memory_fit.hpp"
+
+namespace speculum {
+namespace {
+
+// The camera looks straight at a mirror that fills the view.
+Scene wallScene() {
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  Mirror mirror;
+  mirror.position = {0, 0, -1};
+  mirror.size = {20, 20};
+  scene.mirrors = {mirror};
+  return scene;
+}
+
+FittedPlan fit(uint64_t budget) {
+  const Scene scene = wallScene();
+  return planWithin(budget, scene, evaluate(scene, 0.0), {}, 1000, 1000);
+}
+
+TEST(MemoryFit, CountsMainViewImagesAndDepth) {
+  const FittedPlan fitted = fit(1ull << 40);
+  // Per pixel: main 8 resolved + 4 * (8 + 4); mirror image 4 * 8 + 4 * 4.
+  EXPECT_EQ(targetBytes(fitted.plan, fitted.settings), 1000000ull * (8 + 48 + 48));
+  EXPECT_TRUE(fitted.message.empty());
+  EXPECT_EQ(fitted.settings.reflection.samples, 4);
+}
+
+TEST(MemoryFit, LowersMirrorSamplesThenViewSamplesThenScale) {
+  EXPECT_EQ(fit(90'000'000).settings.reflection.samples, 2);
+  EXPECT_EQ(fit(90'000'000).settings.view.samples, 4);
+  const FittedPlan less = fit(50'000'000);
+  EXPECT_EQ(less.settings.reflection.samples, 1);
+  EXPECT_EQ(less.settings.view.samples, 2);
+  EXPECT_EQ(less.settings.reflection.scale, 1.0);
+  EXPECT_LE(targetBytes(less.plan, less.settings), 50'000'000u);
+  EXPECT_NE(less.message.find("lowered reflection.samples to 2, reflection.samples to 1, view.samples to 2"),
+            std::string::npos)
+      << less.message;
+  EXPECT_LT(fit(16'000'000).settings.reflection.scale, 1.0);
+}
+
+TEST(MemoryFit, PlansAsItIsWhenNothingIsLeftToLower) {
+  const FittedPlan least = fit(1);
+  EXPECT_EQ(least.settings.reflection.scale, 0.125);
+  EXPECT_EQ(least.plan.passes.size(), 1u);
+}
+
+}  // namespace
+}  // namespace speculum
