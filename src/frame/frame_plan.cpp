@@ -10,6 +10,8 @@ namespace speculum {
 
 namespace {
 
+constexpr double largestNear = 0.001;  // metres
+
 // A pass before its place in the order of recording is known.
 struct Node {
   PlannedPass pass;
@@ -68,7 +70,10 @@ class Planner {
  public:
   Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height)
       : scene_(scene), state_(state), settings_(settings.reflection) {
-    plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, state.camera.near);
+    // Everything in front of `near` is clamped to one depth and would lose its order; a larger one gains nothing,
+    // because depth is near / distance in a float.
+    const double near = std::min(state.camera.near, largestNear);
+    plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, near);
     plan_.width = width;
     plan_.height = height;
   }
@@ -83,7 +88,7 @@ class Planner {
       candidates_.pop();
       expand(best);
     }
-    record(0, -1);
+    record(0);
     return std::move(plan_);
   }
 
@@ -92,7 +97,7 @@ class Planner {
   void consider(int node, int mirror);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
-  int record(int node, int parent);
+  int record(int node);
   bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
@@ -211,11 +216,11 @@ void Planner::expand(const Candidate& candidate) {
 }
 
 // Depth first, so that an image lives no longer than until its parent is drawn. Returns the pass's index, -1 for main.
-int Planner::record(int node, int) {
+int Planner::record(int node) {
   std::vector<int> childPasses;
   for (const int child : nodes_[node].children) {
     const size_t draw = static_cast<size_t>(nodes_[child].pass.parent);
-    const int pass = record(child, node);
+    const int pass = record(child);
     nodes_[node].pass.mirrors[draw].pass = pass;
     childPasses.push_back(pass);
   }
