@@ -30,7 +30,7 @@ struct View {
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height);
 
 // The view that a mirror's plane makes of `parent`. `plane` faces the parent's eye, `visible` is the part of the mirror
-// that the parent sees (world), `scale` the resolution of mirror images relative to the screen.
+// that the parent sees (world). `rect` and `pictureSize` are at the resolution of mirror images.
 View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,
                    const PixelRect& rect, const glm::dvec2& pictureSize);
 
