@@ -35,6 +35,7 @@ int runRender(const Options& options) {
   const int count = std::max(1, options.frames);
   const PictureFiles files(options.out, options.frames > 0 ? count : 0);
   Session session(options);
+  installInterruptHandler();
   Progress progress("render", count);
   for (int i = 0; i < count; ++i) {
     session.draw(options.time + i / options.fps, true);
@@ -54,6 +55,7 @@ int runRender(const Options& options) {
 int runBench(const Options& options) {
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
+  installInterruptHandler();
   Progress progress("bench", options.warmup + measured);
   std::vector<nlohmann::ordered_json> frames;
   for (int i = 0; i < options.warmup + measured; ++i) {
