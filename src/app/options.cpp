@@ -54,7 +54,7 @@ void addScene(CLI::App& app, Options& options, Raw& raw) {
 
 void addDemo(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw);
-  app.add_option("--frames", options.frames, "end after so many frames")->check(CLI::PositiveNumber);
+  app.add_option("--frames", options.frames, "end after so many frames")->check(CLI::Range(1, 1000000000));
   app.add_option("--present-mode", raw.presentMode, "fifo | mailbox | immediate")
       ->check(CLI::IsMember({"fifo", "mailbox", "immediate"}));
 }
@@ -69,7 +69,7 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
   app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
   app.add_option("--stats", options.stats, "JSON: passes, skipped mirrors, effects, totals");
   app.add_option("--frames", options.frames, "a sequence of so many pictures")->check(CLI::Range(1, 1000000));
-  app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::PositiveNumber);
+  app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6));
 }
 
 void addReference(CLI::App& app, Options& options, Raw& raw) {
@@ -94,7 +94,7 @@ void addCompare(CLI::App& app, Options& options) {
   app.add_option("--heatmap", options.heatmap, "PNG of the FLIP error");
   app.add_option("--json", options.json, "write the figures to F");
   app.add_option("--max-flip", options.maxFlip, "exit 1 above this mean FLIP")->check(CLI::NonNegativeNumber);
-  app.add_option("--max-diff", options.maxDiff, "exit 1 if a channel differs by more 1/255")
+  app.add_option("--max-diff", options.maxDiff, "exit 1 if a channel differs by more than N/255")
       ->check(CLI::NonNegativeNumber);
 }
 
@@ -104,6 +104,13 @@ void applyRaw(const Raw& raw, Options& options) {
   }
   if (!std::isfinite(options.time)) {
     throw UsageError("--time: not a finite number (seconds of animation, such as 2.5)");
+  }
+  // A range check lets NaN pass, and no error is above a NaN.
+  if (!std::isfinite(options.fps)) {
+    throw UsageError("--fps: not a finite number (pictures per second, such as 30)");
+  }
+  if (options.maxFlip && !std::isfinite(*options.maxFlip)) {
+    throw UsageError("--max-flip: not a finite number (a mean FLIP, such as 0.05)");
   }
   Settings scratch;
   for (const std::string& text : raw.settings) {
