@@ -113,6 +113,9 @@ void SimpleUI::build(UiModel& model) {
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
   model.widgets.clear();
+  model.debugArea.reset();
+  model.resetCamera = false;
+  model.resetSettings = false;
   if (visible_) {
     buildPanel(model);
     buildDebugView(model);
@@ -147,7 +150,6 @@ void SimpleUI::buildPanel(UiModel& model) {
 // The window is a frame without a background: the renderer draws the image below it, because this version of ImGui's
 // Vulkan backend draws no textures but its font.
 void SimpleUI::buildDebugView(UiModel& model) {
-  model.debugArea.reset();
   if (model.debugPass < 0) {
     return;
   }
