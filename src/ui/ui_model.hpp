@@ -31,7 +31,7 @@ struct UiModel {
   std::string device;
   std::string driver;
   std::string renderPath;
-  std::vector<std::string> scenes;  // titles
+  std::vector<std::string> scenes;  // names
   int scene = 0;                    // index into scenes; changed by the person
   Settings settings;
   glm::vec3 sceneBackground{0.0f};  // linear; shown as the clear colour while none is set
