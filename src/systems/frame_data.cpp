@@ -241,14 +241,4 @@ void FrameData::upload(Frame& frame, Kind kind, std::span<const std::byte> data)
   buffer.write(data);
 }
 
-uint64_t FrameData::bytes() const {
-  uint64_t sum = 0;
-  for (const auto& slot : buffers_) {
-    for (const Buffer& buffer : slot) {
-      sum += buffer.bytes();
-    }
-  }
-  return sum;
-}
-
 }  // namespace speculum

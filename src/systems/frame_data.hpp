@@ -14,8 +14,6 @@ namespace speculum {
 struct MirrorImage {
   VkDescriptorImageInfo descriptor{};
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-  PixelRect rect;               // pixels of the whole picture at the image's resolution; texel (0, 0) is its corner
-  glm::dvec2 pictureSize{0.0};  // of the whole picture at the image's resolution
 };
 
 // Instances of one mesh that stand together in the instance buffer.
@@ -56,7 +54,6 @@ class FrameData {
 
   const std::vector<PassData>& passes() const { return passes_; }
   VkDescriptorSet set() const { return set_; }
-  uint64_t bytes() const;
 
  private:
   enum Kind { views, lights, instances, mirrors, mirrorVertices, kindCount };

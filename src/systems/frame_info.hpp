@@ -11,7 +11,6 @@ namespace speculum {
 struct FrameInfo {
   Frame& frame;
   const Scene& scene;
-  const SceneState& state;
   const Settings& settings;
   const FramePlan& plan;
   const SceneResources& resources;

@@ -67,12 +67,4 @@ void ImagePool::clear(RetireQueue& retired) {
   entries_.clear();
 }
 
-uint64_t ImagePool::bytes() const {
-  uint64_t sum = 0;
-  for (const Entry& entry : entries_) {
-    sum += entry.target->bytes();
-  }
-  return sum;
-}
-
 }  // namespace speculum

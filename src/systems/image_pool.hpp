@@ -20,9 +20,6 @@ class ImagePool {
   void endFrame(RetireQueue& retired);
   void clear(RetireQueue& retired);  // drops every target; none may be taken
 
-  uint64_t bytes() const;
-  size_t size() const { return entries_.size(); }
-
  private:
   struct Entry {
     std::unique_ptr<OffScreen> target;

@@ -57,7 +57,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   targets_.assign(plan.passes.size(), nullptr);
   images_.assign(plan.passes.size(), {});
   recorded_.clear();
-  const FrameInfo info{frame, scene_, state, settings, plan, resources_, data_, images_};
+  const FrameInfo info{frame, scene_, settings, plan, resources_, data_, images_};
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     recordMirrorPass(frame, info, i);
   }
@@ -146,7 +146,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
   }
   recorded_.push_back(std::move(recorded));
   targets_[index] = &target;
-  images_[index] = {target.descriptor(), target.samples(), view.rect, view.pictureSize};
+  images_[index] = {target.descriptor(), target.samples()};
   releaseImages(pass);
 }
 
