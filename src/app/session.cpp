@@ -20,7 +20,8 @@ double millisecondsSince(Clock::time_point start) {
 std::filesystem::path findScene(const std::string& wanted) {
   namespace fs = std::filesystem;
   const fs::path path = wanted.empty() ? "gallery.toml" : fs::path(wanted);
-  if (!wanted.empty() && fs::exists(path)) {
+  // A folder of a scene's name, say of its pictures, must not hide the scene.
+  if (!wanted.empty() && fs::exists(path) && !fs::is_directory(path)) {
     return path;
   }
   if (path.is_relative()) {
@@ -110,7 +111,6 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height);
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
-  frame_.number = frame.number;
   frame.capture = capture;
   sceneRenderer_.record(frame, frame_.state, frame_.settings, frame_.plan);
   frame_.cpuMs = millisecondsSince(recording);

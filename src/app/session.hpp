@@ -45,7 +45,6 @@ struct DrawnFrame {
   SceneState state;
   FramePlan plan;
   Settings settings;     // that the plan was made with
-  uint64_t number = 0;   // of the renderer; its GPU times arrive under this number
   double cpuMs = 0.0;    // planning and recording
   double frameMs = 0.0;  // from begin to the GPU's end; 0 before Session::finish
 };

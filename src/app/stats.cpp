@@ -50,7 +50,7 @@ ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
 ordered_json effectsJson(Session& session) {
   ordered_json effects = ordered_json::array();
   const DrawnFrame& frame = session.lastFrame();
-  for (const Effect& effect : effectsOf(session.scene(), frame.state, session.settings(), frame.plan)) {
+  for (const Effect& effect : effectsOf(session.scene(), frame.state, frame.settings, frame.plan)) {
     // What an effect adds to passes that run anyway has no time of its own yet.
     effects.push_back({{"name", effect.name},
                        {"called_for", effect.calledFor},
@@ -103,7 +103,7 @@ ordered_json frameStats(Session& session, const FrameTimings& timings) {
   json["device"] = device.info().name;
   json["driver"] = device.info().driver;
   json["render_path"] = renderPathName(device.renderPath());
-  json["settings"] = settingsJson(session.settings());
+  json["settings"] = settingsJson(frame.settings);
   json["passes"] = passesJson(session, timings);
   json["skipped"] = skippedJson(session.scene(), frame.plan);
   json["effects"] = effectsJson(session);
