@@ -37,7 +37,9 @@ void CameraController::drag(double dx, double dy) {
   const glm::dmat3 yaw = rotationAboutAxis(up, -dx * degreesPerPixel);
   glm::dvec3 turned = yaw * arm;
   const glm::dvec3 pitched = rotationAboutAxis(yaw * right, -dy * degreesPerPixel) * turned;
-  if (std::abs(glm::dot(glm::normalize(pitched), up)) < steepest) {
+  const auto steepness = [&](const glm::dvec3& v) { return std::abs(glm::dot(glm::normalize(v), up)); };
+  // A scene may start steeper than that; back from there must be possible.
+  if (steepness(pitched) < std::max(steepest, steepness(turned))) {
     turned = pitched;
   }
   (orbit ? eye_ : target_) = orbit ? target_ + turned : eye_ + turned;
