@@ -18,7 +18,7 @@ Scene wallScene() {
 
 FittedPlan fit(uint64_t budget) {
   const Scene scene = wallScene();
-  return planWithin(budget, scene, evaluate(scene, 0.0), {}, 1000, 1000);
+  return planWithin({.budgetBytes = budget, .largestSide = 4096}, scene, evaluate(scene, 0.0), {}, 1000, 1000);
 }
 
 TEST(MemoryFit, CountsMainViewImagesAndDepth) {
@@ -41,6 +41,17 @@ TEST(MemoryFit, LowersMirrorSamplesThenViewSamplesThenScale) {
             std::string::npos)
       << less.message;
   EXPECT_LT(fit(16'000'000).settings.reflection.scale, 1.0);
+}
+
+TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
+  const Scene scene = wallScene();
+  Settings settings;
+  settings.reflection.scale = 4.0;
+  const FittedPlan fitted =
+      planWithin({.budgetBytes = 1ull << 40, .largestSide = 2500}, scene, evaluate(scene, 0.0), settings, 1000, 500);
+  EXPECT_EQ(fitted.settings.reflection.scale, 2.5);
+  EXPECT_EQ(fitted.plan.passes.at(0).view.pictureSize.x, 2500.0);
+  EXPECT_NE(fitted.message.find("lowered reflection.scale to 2.5"), std::string::npos) << fitted.message;
 }
 
 TEST(MemoryFit, PlansAsItIsWhenNothingIsLeftToLower) {

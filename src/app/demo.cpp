@@ -183,6 +183,9 @@ void Demo::fillModel(const FramePlan& plan) {
   model_.deviceBytes = device_.allocatedBytes();
   model_.validationMessages = device_.validation() ? device_.validationMessages() : -1;
   model_.message = sceneError_.empty() ? renderer_.pipelines().errors() : sceneError_;
+  if (model_.message.empty()) {
+    model_.message = planner_.message();
+  }
   model_.time = time_;
   model_.passes.clear();
   for (const RecordedPass& pass : recorded) {

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "core/platform.hpp"
 #include "scene/scene_effects.hpp"
 
@@ -80,15 +82,26 @@ void applyDebugSettings(const Settings& settings, Device& device) {
   device.barriers().omit(kind);
 }
 
+BudgetPlanner::BudgetPlanner(const Device& device) {
+  // The rest is for meshes, textures and what else uses the device. Asked once: plans of equal frames stay equal.
+  limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
+  limits_.largestSide =
+      static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
+                                 device.limits().maxViewportDimensions[1]}));
+}
+
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
                                int height) {
-  // The rest is for meshes, textures and what else uses the device.
-  const uint64_t budget = device_.memoryBudget().budgetBytes / 4 * 3;
-  FittedPlan fitted = planWithin(budget, scene, state, settings, width, height);
-  if (!fitted.message.empty() && said_.empty()) {
+  if (std::max(width, height) > limits_.largestSide) {
+    throw UsageError("--size: " + std::to_string(width) + "x" + std::to_string(height) +
+                     " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
+                     " pixels a side)");
+  }
+  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height);
+  if (!fitted.message.empty() && message_.empty()) {
     spdlog::warn("{}", fitted.message);
   }
-  said_ = fitted.message;
+  message_ = fitted.message;
   return fitted;
 }
 

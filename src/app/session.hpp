@@ -29,15 +29,16 @@ RendererOptions rendererOptions(const Options& options, Window* window);
 // debug.omit_barrier. Throws UsageError with the names for one that does not exist.
 void applyDebugSettings(const Settings& settings, Device& device);
 
-// planWithin for what the device has left; says in the log when it begins to lower settings.
+// planWithin for what the device has; says in the log when it begins to lower settings.
 class BudgetPlanner {
  public:
-  explicit BudgetPlanner(const Device& device) : device_(device) {}
+  explicit BudgetPlanner(const Device& device);
   FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height);
+  const std::string& message() const { return message_; }  // of the last plan; empty if nothing was lowered
 
  private:
-  const Device& device_;
-  std::string said_;
+  TargetLimits limits_;
+  std::string message_;
 };
 
 // One frame as it was planned and recorded.

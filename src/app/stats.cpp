@@ -11,6 +11,20 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// The mirror's name, or its index as a number.
+ordered_json mirrorJson(const Scene& scene, int mirror) {
+  const std::string& name = scene.mirrors[mirror].name;
+  return name.empty() ? ordered_json(mirror) : ordered_json(name);
+}
+
+ordered_json pathJson(const Scene& scene, const std::vector<int>& path) {
+  ordered_json json = ordered_json::array();
+  for (const int mirror : path) {
+    json.push_back(mirrorJson(scene, mirror));
+  }
+  return json;
+}
+
 ordered_json passesJson(Session& session, const FrameTimings& timings) {
   ordered_json passes = ordered_json::array();
   const std::vector<RecordedPass>& recorded = session.sceneRenderer().passes();
@@ -19,8 +33,8 @@ ordered_json passesJson(Session& session, const FrameTimings& timings) {
     const PassTiming timing = i < timings.passes.size() ? timings.passes[i] : PassTiming{};
     const bool mirror = pass.depth >= 0;
     passes.push_back({{"name", pass.name},
-                      {"mirror", mirror ? ordered_json(pass.mirror) : ordered_json(nullptr)},
-                      {"path", pass.path},
+                      {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
+                      {"path", pathJson(session.scene(), pass.path)},
                       {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
                       {"gpu_ms", timing.gpuMs},
                       {"draws", pass.draws},
@@ -34,12 +48,8 @@ ordered_json passesJson(Session& session, const FrameTimings& timings) {
 ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
   ordered_json skipped = ordered_json::array();
   for (const SkippedMirror& skip : plan.skipped) {
-    std::vector<std::string> path;
-    for (const int mirror : skip.path) {
-      path.push_back(mirrorName(scene, mirror));
-    }
-    skipped.push_back({{"mirror", mirrorName(scene, skip.mirror)},
-                       {"path", path},
+    skipped.push_back({{"mirror", mirrorJson(scene, skip.mirror)},
+                       {"path", pathJson(scene, skip.path)},
                        {"depth", skip.depth},
                        {"reason", skipReasonName(skip.reason)},
                        {"detail", skip.detail}});

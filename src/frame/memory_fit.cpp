@@ -64,19 +64,28 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
          peakPixels(plan) * imageSamples * colorBytes + largest * imageSamples * depthBytes;
 }
 
-FittedPlan planWithin(uint64_t budgetBytes, const Scene& scene, const SceneState& state, const Settings& settings,
+FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
                       int width, int height) {
-  FittedPlan fitted{planFrame(scene, state, settings, width, height), settings, {}};
-  const uint64_t wanted = targetBytes(fitted.plan, settings);
+  FittedPlan fitted{{}, settings, {}};
+  ReflectionSettings& reflection = fitted.settings.reflection;
+  const double largestScale = static_cast<double>(limits.largestSide) / std::max(width, height);
+  if (reflection.scale > largestScale) {
+    reflection.scale = largestScale;
+    fitted.message = "mirror images of " + settingValue(settings, "reflection.scale") +
+                     " times the picture's size are larger than the device's " + std::to_string(limits.largestSide) +
+                     " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
+  }
+  fitted.plan = planFrame(scene, state, fitted.settings, width, height);
+  const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
   std::string lowered;
-  while (targetBytes(fitted.plan, fitted.settings) > budgetBytes && lower(fitted.settings, what)) {
+  while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && lower(fitted.settings, what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
     fitted.plan = planFrame(scene, state, fitted.settings, width, height);
   }
   if (!lowered.empty()) {
-    fitted.message = "targets of " + mebibytes(wanted) + " do not fit the device's " + mebibytes(budgetBytes) +
-                     ": lowered " + lowered;
+    fitted.message += (fitted.message.empty() ? "" : "; ") + ("targets of " + mebibytes(wanted)) +
+                      " do not fit the device's " + mebibytes(limits.budgetBytes) + ": lowered " + lowered;
   }
   return fitted;
 }

@@ -10,15 +10,21 @@ namespace speculum {
 // Device memory of a plan's render targets: the main view, and the mirror images alive at one time with their depth.
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 
+struct TargetLimits {
+  uint64_t budgetBytes = 0;  // for all render targets together
+  int largestSide = 0;       // pixels of a picture, at any resolution
+};
+
 struct FittedPlan {
   FramePlan plan;
   Settings settings;    // as asked for, or lowered
   std::string message;  // what was lowered and why; empty if nothing was
 };
 
-// planFrame, with samples of mirror images, then of the main view, then the resolution of mirror images halved step by
-// step until the targets take at most `budgetBytes`. What cannot be lowered any more is planned as it is.
-FittedPlan planWithin(uint64_t budgetBytes, const Scene& scene, const SceneState& state, const Settings& settings,
+// planFrame, with the resolution of mirror images within the largest side, and samples of mirror images, then of the
+// main view, then the resolution of mirror images halved step by step until the targets fit the budget. What cannot be
+// lowered any more is planned as it is.
+FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
                       int width, int height);
 
 }  // namespace speculum

@@ -127,10 +127,9 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
   OffScreen& target = pool_->acquire(area.extent, *frame.retired);
   RecordedPass recorded{.depth = pass.depth, .areaPx = pass.areaPx};
   for (const int mirror : view.path) {
-    recorded.path.push_back(mirrorName(scene_, mirror));
-    recorded.name += (recorded.name.empty() ? "mirror " : " > ") + recorded.path.back();
+    recorded.name += (recorded.name.empty() ? "mirror " : " > ") + mirrorName(scene_, mirror);
   }
-  recorded.mirror = recorded.path.back();
+  recorded.path = view.path;
   const PassDesc desc{.name = recorded.name,
                       .targets = target.targets(),
                       .renderArea = area,

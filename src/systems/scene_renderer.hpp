@@ -15,9 +15,8 @@ namespace speculum {
 // What was recorded for one pass; its GPU figures follow under the same index in FrameTimings::passes.
 struct RecordedPass {
   std::string name;
-  std::string mirror;             // empty for the main view and the display pass
-  std::vector<std::string> path;  // mirrors from the eye
-  int depth = -1;                 // -1: the main view or the display pass
+  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
+  int depth = -1;         // -1: the main view or the display pass
   uint32_t draws = 0;
   double areaPx = 0.0;
 };
