@@ -145,16 +145,17 @@ void passes(UiModel& model) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
   }
-  ImGui::Text("CPU %.2f ms   GPU %.2f ms   %.1f MiB on the device", model.cpuMs, model.gpuMs,
-              static_cast<double>(model.deviceBytes) / (1024.0 * 1024.0));
+  ImGui::TextWrapped("CPU %.2f ms   GPU %.2f ms   %.1f MiB of device memory", model.cpuMs, model.gpuMs,
+                     static_cast<double>(model.deviceBytes) / (1024.0 * 1024.0));
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("passes", 4, flags)) {
     return;
   }
-  ImGui::TableSetupColumn("pass (click: show image)");
-  ImGui::TableSetupColumn("GPU ms");
-  ImGui::TableSetupColumn("draws");
-  ImGui::TableSetupColumn("pixels");
+  const float figure = 4.0f * ImGui::GetFontSize();
+  ImGui::TableSetupColumn("pass (click: its image)", ImGuiTableColumnFlags_WidthStretch);
+  for (const char* name : {"GPU ms", "draws", "pixels"}) {
+    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, figure);
+  }
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
     const UiPass& pass = model.passes[i];

@@ -131,6 +131,7 @@ void SimpleUI::buildPanel(UiModel& model) {
   ImGui::SetNextWindowPos(ImVec2(12.0f * scale, 12.0f * scale), ImGuiCond_FirstUseEver);
   ImGui::SetNextWindowSize(ImVec2(420.0f * scale, 660.0f * scale), ImGuiCond_FirstUseEver);
   if (ImGui::Begin("Speculum")) {
+    ImGui::PushItemWidth(-9.0f * ImGui::GetFontSize());  // the rest is for the labels
     ImGui::Text("%.2f ms/frame (%.1f FPS)", model.frameMs, model.frameMs > 0.0 ? 1000.0 / model.frameMs : 0.0);
     panels::message(model);
     panels::scene(model);
@@ -143,6 +144,7 @@ void SimpleUI::buildPanel(UiModel& model) {
     panels::passes(model);
     panels::skipped(model);
     panels::device(model);
+    ImGui::PopItemWidth();
   }
   ImGui::End();
 }
