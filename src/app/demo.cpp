@@ -15,14 +15,6 @@ constexpr double longestStep = 0.1;        // seconds: a pause of the program is
 constexpr double pausedWaitSeconds = 0.1;  // between looks at a window that shows nothing
 constexpr double smoothing = 0.05;         // of the frame time shown
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) {
-    text += (text.empty() ? "" : " > ") + name;
-  }
-  return text;
-}
-
 }  // namespace
 
 Demo::Demo(const Options& options)
@@ -198,11 +190,8 @@ void Demo::fillModel(const FramePlan& plan) {
   }
   model_.skipped.clear();
   for (const SkippedMirror& skip : plan.skipped) {
-    std::vector<std::string> path;
-    for (const int mirror : skip.path) {
-      path.push_back(mirrorName(loaded_->scene, mirror));
-    }
-    model_.skipped.push_back({joined(path), std::string(skipReasonName(skip.reason)), skip.detail});
+    model_.skipped.push_back(
+        {mirrorPathName(loaded_->scene, skip.path), std::string(skipReasonName(skip.reason)), skip.detail});
   }
 }
 

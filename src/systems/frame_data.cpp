@@ -122,14 +122,13 @@ FrameData::FrameData(Device& device) : device_(device) {
 }
 
 void FrameData::build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
-                      const Settings& settings, const FramePlan& plan) {
+                      const Settings& settings, const Environment& environment, const FramePlan& plan) {
   views_.clear();
   lights_.clear();
   instances_.clear();
   mirrors_.clear();
   mirrorVertices_.clear();
   passes_.clear();
-  const Environment environment = effectiveEnvironment(scene, settings);
   for (const PlannedPass& pass : plan.passes) {
     addPass(pass, plan, scene, state, settings, environment);
   }

@@ -50,7 +50,7 @@ class FrameData {
   // Fills the buffers of this frame in flight. Afterwards passes()[i] belongs to plan.passes[i], the last to the main
   // view, and set() is valid until the frame has finished.
   void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
-             const Settings& settings, const FramePlan& plan);
+             const Settings& settings, const Environment& environment, const FramePlan& plan);
 
   const std::vector<PassData>& passes() const { return passes_; }
   VkDescriptorSet set() const { return set_; }

@@ -12,6 +12,7 @@ struct FrameInfo {
   Frame& frame;
   const Scene& scene;
   const Settings& settings;
+  const Environment& environment;  // with view.clear_color applied
   const FramePlan& plan;
   const SceneResources& resources;
   const FrameData& data;

@@ -74,7 +74,7 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, siz
                                     .trilinear = info.settings.view.textureFilter == TextureFilter::trilinear,
                                     .wireframe = info.settings.view.wireframe}));
   }
-  if (effectiveEnvironment(info.scene, info.settings).sky) {
+  if (info.environment.sky) {
     const Pipeline& pipeline = sky(format.samples);
     pipeline.bind(scope.commands());
     pipeline.bindSet(scope.commands(), 0, info.data.set());

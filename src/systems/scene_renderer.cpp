@@ -10,8 +10,8 @@ VkRect2D areaOf(const PixelRect& rect) {
   return {{0, 0}, {static_cast<uint32_t>(rect.width), static_cast<uint32_t>(rect.height)}};
 }
 
-std::array<float, 4> clearColor(const Scene& scene, const Settings& settings) {
-  const glm::vec3 color(glm::min(effectiveEnvironment(scene, settings).background, glm::dvec3(65504.0)));
+std::array<float, 4> clearColor(const Environment& environment) {
+  const glm::vec3 color(glm::min(environment.background, glm::dvec3(65504.0)));
   return {color.r, color.g, color.b, 1.0f};
 }
 
@@ -24,6 +24,14 @@ VkFrontFace frontFace(const View& view) {
 std::string mirrorName(const Scene& scene, int mirror) {
   const std::string& name = scene.mirrors[mirror].name;
   return name.empty() ? std::to_string(mirror) : name;
+}
+
+std::string mirrorPathName(const Scene& scene, std::span<const int> path) {
+  std::string text;
+  for (const int mirror : path) {
+    text += (text.empty() ? "" : " > ") + mirrorName(scene, mirror);
+  }
+  return text;
 }
 
 SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
@@ -53,11 +61,12 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                            const std::optional<DebugView>& debug) {
   keptPass_ = debug ? std::optional(debug->pass) : std::nullopt;
   prepareTargets(settings, plan, *frame.retired);
-  data_.build(frame, resources_, scene_, state, settings, plan);
+  const Environment environment = effectiveEnvironment(scene_, settings);
+  data_.build(frame, resources_, scene_, state, settings, environment, plan);
   targets_.assign(plan.passes.size(), nullptr);
   images_.assign(plan.passes.size(), {});
   recorded_.clear();
-  const FrameInfo info{frame, scene_, settings, plan, resources_, data_, images_};
+  const FrameInfo info{frame, scene_, settings, environment, plan, resources_, data_, images_};
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     recordMirrorPass(frame, info, i);
   }
@@ -125,11 +134,10 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
   const View& view = pass.view;
   const VkRect2D area = areaOf(view.rect);
   OffScreen& target = pool_->acquire(area.extent, *frame.retired);
-  RecordedPass recorded{.depth = pass.depth, .areaPx = pass.areaPx};
-  for (const int mirror : view.path) {
-    recorded.name += (recorded.name.empty() ? "mirror " : " > ") + mirrorName(scene_, mirror);
-  }
-  recorded.path = view.path;
+  RecordedPass recorded{.name = "mirror " + mirrorPathName(scene_, view.path),
+                        .path = view.path,
+                        .depth = pass.depth,
+                        .areaPx = pass.areaPx};
   const PassDesc desc{.name = recorded.name,
                       .targets = target.targets(),
                       .renderArea = area,
@@ -137,7 +145,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
                                    static_cast<float>(view.pictureSize.x), static_cast<float>(view.pictureSize.y)},
                       .scissor = area,
                       .frontFace = frontFace(view),
-                      .clearColor = clearColor(scene_, info.settings),
+                      .clearColor = clearColor(info.environment),
                       .collectStatistics = true};
   {
     const PassScope scope = renderer_.beginPass(frame, desc);
@@ -151,7 +159,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
 
 void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
   PassDesc desc = fullPass("main view", main_->targets());
-  desc.clearColor = clearColor(scene_, info.settings);
+  desc.clearColor = clearColor(info.environment);
   desc.frontFace = frontFace(info.plan.main.view);
   desc.collectStatistics = true;
   RecordedPass recorded{.name = desc.name, .areaPx = info.plan.main.areaPx};

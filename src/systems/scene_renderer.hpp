@@ -23,6 +23,8 @@ struct RecordedPass {
 
 // The name of a mirror as people see it: its `name`, or its index.
 std::string mirrorName(const Scene& scene, int mirror);
+// The mirrors of a path from the eye, as "floor > wall".
+std::string mirrorPathName(const Scene& scene, std::span<const int> path);
 
 // A mirror image shown over the picture, fitted into an area of the display image.
 struct DebugView {
