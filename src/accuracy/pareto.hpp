@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/sweep_results.hpp"
+
+namespace speculum {
+
+struct FrontCandidate {
+  double error = 0.0;
+  Spread cost;
+};
+
+// The candidates that are worth their price: no other is at least as accurate and at most as expensive, by medians, and
+// each is cheaper than every more accurate one of the front by more than the spread, its upper quartile below their
+// lower ones. Indices, cheapest first.
+std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates);
+
+// Mean FLIP of the whole picture against GPU milliseconds: indices of points, cheapest first. Where the device has no
+// timestamps the frame's milliseconds stand in.
+std::vector<int> paretoFront(const std::vector<SweepPoint>& points);
+double costMs(const SweepPoint& point);
+
+// The point of the front that a budget picks, and what it gives up.
+struct BudgetChoice {
+  int point = 0;    // index into SweepResults::points
+  bool met = true;  // false: no point meets the budget, and this one comes closest
+  std::string why;  // one sentence for people
+};
+struct QualityBudget {
+  double ms = 0.0;     // GPU milliseconds a frame; 0: no bound. The most accurate point within it is chosen
+  double error = 0.0;  // mean FLIP; 0: no bound. The cheapest point within it is chosen; with both, ms decides first
+};
+// Nothing without a bound or without points.
+std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget);
+
+}  // namespace speculum

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace speculum {
+
+// Repeated measurements of one thing, in the unit of the values.
+struct Spread {
+  double median = 0.0;
+  double minimum = 0.0;
+  double lowerQuartile = 0.0;
+  double upperQuartile = 0.0;
+  int repeats = 0;
+};
+
+// Quartiles by linear interpolation between order statistics (type 7 of Hyndman and Fan, "Sample Quantiles in
+// Statistical Packages", 1996). All zero without values.
+Spread spreadOf(std::vector<double> values);
+
+struct Sample2d {
+  double x = 0.0;
+  double y = 0.0;
+};
+// y = offset + slope * x
+struct LineFit {
+  double slope = 0.0;
+  double offset = 0.0;
+};
+// Least squares. Nothing without two different x.
+std::optional<LineFit> fitLine(std::span<const Sample2d> samples);
+
+}  // namespace speculum

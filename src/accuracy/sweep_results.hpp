@@ -1,0 +1,85 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/image_metrics.hpp"
+#include "accuracy/statistics.hpp"
+
+namespace speculum {
+
+// A setting as `--set key=value` takes it.
+struct SettingChange {
+  std::string key;
+  std::string value;
+  bool operator==(const SettingChange&) const = default;
+};
+
+// One configuration of a sweep: its error against the ground truth and its price.
+struct SweepPoint {
+  std::string name;                     // unique within the sweep
+  std::vector<SettingChange> changes;   // from the sweep's base settings
+  ImageMetrics whole;                   // of the display picture; means over the phases of reflection.update_interval
+  std::optional<ImageMetrics> mirrors;  // over the pixels that show a mirror's reflecting side, if there are any
+  Spread gpuMs;                         // milliseconds a frame
+  Spread cpuMs;
+  Spread frameMs;
+  bool onFront = false;  // of mean FLIP against gpuMs; see pareto.hpp
+  std::string picture;   // PNG, relative to the results' folder; empty if it was not kept
+  std::string heatMap;   // likewise, of the FLIP error
+};
+
+// Points that differ in one setting, in ascending order of it, and what theory says of their error.
+struct SweepSeries {
+  enum class Axis { logarithmic, linear };  // of the setting; the error's is logarithmic
+
+  std::string key;   // of the setting
+  std::string name;  // for people
+  Axis axis = Axis::logarithmic;
+  std::vector<double> x;       // values of the setting
+  std::vector<int> points;     // indices into SweepResults::points, as many
+  std::string note;            // where the theoretical slope comes from
+  double theorySlope = 0.0;    // of log(error) over log(x), or over x on a linear axis; errors are RMSE over mirrors
+  std::optional<LineFit> fit;  // of the points, natural logarithms, the same axes; over those of `fitted`
+  std::vector<int> fitted;     // places in `points` that the fit takes: above the floor of what else is wrong
+};
+
+// A sweep over one scene, one size, one time, one machine.
+struct SweepResults {
+  std::string scene;  // file name
+  std::string title;
+  std::string sweep;  // "quick", "full" or a file
+  int width = 0;      // pixels
+  int height = 0;
+  double time = 0.0;  // seconds of animation
+  std::string device;
+  std::string driver;
+  std::string renderPath;
+  std::string machine;              // processor and operating system
+  std::string version;              // of Speculum
+  std::string date;                 // UTC, ISO 8601
+  std::vector<SettingChange> base;  // every setting that a point's changes are relative to
+
+  // The ground truth: traced on an 8x8 grid a pixel, depth 64, throughput 0.
+  double truthMs = 0.0;  // wall clock
+  int truthThreads = 0;
+  ImageMetrics floorWhole;  // of references on a 9x9 against those on an 8x8 grid: errors below say nothing
+  std::optional<ImageMetrics> floorMirrors;
+  std::string truthPicture;  // PNG, relative to the results' folder; empty if it was not kept
+
+  std::vector<SweepPoint> points;
+  std::vector<SweepSeries> series;
+};
+
+nlohmann::ordered_json sweepJson(const SweepResults& results);
+
+// Throws InputError "FILE: key: what is wrong (what would be right)" for a file that is no sweep's results.json.
+SweepResults readSweepResults(const std::filesystem::path& file);
+
+// A header line, then a line per point. RFC 4180.
+std::string sweepCsv(const SweepResults& results);
+
+}  // namespace speculum
