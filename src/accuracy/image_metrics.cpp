@@ -91,14 +91,6 @@ std::vector<size_t> selectedPixels(size_t count, const PixelMask* mask) {
   return pixels;
 }
 
-nlohmann::ordered_json metricsJson(const ImageMetrics& m) {
-  const auto number = [](double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr; };
-  return {{"rmse", number(m.rmse)},        {"relative_rmse", number(m.relativeRmse)},
-          {"psnr", number(m.psnr)},        {"ssim", number(m.ssim)},
-          {"flip", number(m.flip)},        {"max_diff", number(m.maxDiff)},
-          {"p99_diff", number(m.p99Diff)}, {"pixels_over", m.pixelsOver}};
-}
-
 std::string cell(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof(text), format, value);
@@ -114,6 +106,14 @@ std::string tableLine(const std::string& label, const std::string& whole, const 
 }
 
 }  // namespace
+
+nlohmann::ordered_json metricsJson(const ImageMetrics& m) {
+  const auto number = [](double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr; };
+  return {{"rmse", number(m.rmse)},        {"relative_rmse", number(m.relativeRmse)},
+          {"psnr", number(m.psnr)},        {"ssim", number(m.ssim)},
+          {"flip", number(m.flip)},        {"max_diff", number(m.maxDiff)},
+          {"p99_diff", number(m.p99Diff)}, {"pixels_over", m.pixelsOver}};
+}
 
 Comparison compareImages(const ComparedImage& reference, const ComparedImage& test, const CompareOptions& options) {
   requireSameSize(reference, test);

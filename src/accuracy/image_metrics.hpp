@@ -37,8 +37,11 @@ struct CompareOptions {
 // Throws std::runtime_error when sizes differ or a picture has no pixels.
 Comparison compareImages(const ComparedImage& reference, const ComparedImage& test, const CompareOptions& options = {});
 
-// { "rmse", "relative_rmse", "psnr", "ssim", "flip", "max_diff", "p99_diff", "pixels_over" } and the same under "mask",
-// if there is one. JSON has no infinity: null stands for it.
+// { "rmse", "relative_rmse", "psnr", "ssim", "flip", "max_diff", "p99_diff", "pixels_over" }. JSON has no infinity:
+// null stands for it.
+nlohmann::ordered_json metricsJson(const ImageMetrics& metrics);
+
+// Those of the whole picture, and again under "mask" if there is one.
 nlohmann::ordered_json comparisonJson(const Comparison& comparison);
 
 // For people: a line per metric, a column for the whole picture and one for the mask.

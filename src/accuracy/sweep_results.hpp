@@ -17,13 +17,15 @@ struct SettingChange {
   std::string value;
   bool operator==(const SettingChange&) const = default;
 };
+// "key=value key=value"; empty for no change.
+std::string settingsText(const std::vector<SettingChange>& changes);
 
 // One configuration of a sweep: its error against the ground truth and its price.
 struct SweepPoint {
   std::string name;                     // unique within the sweep
   std::vector<SettingChange> changes;   // from the sweep's base settings
   ImageMetrics whole;                   // of the display picture; means over the phases of reflection.update_interval
-  std::optional<ImageMetrics> mirrors;  // over the pixels that show a mirror's reflecting side, if there are any
+  std::optional<ImageMetrics> mirrors;  // over the inside of mirrors (GroundTruth::mirrors), if any is in view
   Spread gpuMs;                         // milliseconds a frame
   Spread cpuMs;
   Spread frameMs;
@@ -39,10 +41,12 @@ struct SweepSeries {
   std::string key;   // of the setting
   std::string name;  // for people
   Axis axis = Axis::logarithmic;
-  std::vector<double> x;       // values of the setting
-  std::vector<int> points;     // indices into SweepResults::points, as many
-  std::string note;            // where the theoretical slope comes from
-  double theorySlope = 0.0;    // of log(error) over log(x), or over x on a linear axis; errors are RMSE over mirrors
+  std::vector<double> x;    // values of the setting
+  std::vector<int> points;  // indices into SweepResults::points, as many
+  std::string note;         // where the theoretical slope comes from
+  // Of log(error) over log(x), or over x on a linear axis, 0 where theory says nothing. Errors are RMSE over mirrors,
+  // or over the whole picture without mirrors in view.
+  double theorySlope = 0.0;
   std::optional<LineFit> fit;  // of the points, natural logarithms, the same axes; over those of `fitted`
   std::vector<int> fitted;     // places in `points` that the fit takes: above the floor of what else is wrong
 };

@@ -60,6 +60,7 @@ int runCommand(const Options& options) {
       {"bench", runBench},
       {"reference", runReference},
       {"compare", runCompare},
+      {"accuracy", runAccuracy},
       {"info", [](const Options&) { return runInfo(); }},
       {"scenes", [](const Options&) { return runScenes(); }},
   };

@@ -12,6 +12,7 @@ int runRender(const Options& options);
 int runBench(const Options& options);
 int runReference(const Options& options);
 int runCompare(const Options& options);
+int runAccuracy(const Options& options);
 int runInfo();
 int runScenes();
 

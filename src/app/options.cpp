@@ -47,14 +47,20 @@ void addCommon(CLI::App& app, Options& options, Raw& raw) {
       ->check(CLI::ExistingDirectory);
 }
 
-void addScene(CLI::App& app, Options& options, Raw& raw) {
+void addScene(CLI::App& app, Options& options, Raw& raw, const std::string& usualSize = "1280x720") {
   app.add_option("--scene", options.scene, "scene file, or the name of a scene of `speculum scenes`");
-  app.add_option("--size", raw.size, "WIDTHxHEIGHT in pixels, 1280x720 unless given");
+  app.add_option("--size", raw.size, "WIDTHxHEIGHT in pixels, " + usualSize + " unless given");
+}
+
+void addSweepResults(CLI::App& app, Options& options) {
+  app.add_option("--sweep-results", options.sweepResults,
+                 "results.json of `speculum accuracy`: what quality.budget_ms and quality.max_error choose from");
 }
 
 void addDemo(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw);
   app.add_option("--frames", options.frames, "end after so many frames")->check(CLI::Range(1, 1000000000));
+  addSweepResults(app, options);
   app.add_option("--present-mode", raw.presentMode, "fifo | mailbox | immediate")
       ->check(CLI::IsMember({"fifo", "mailbox", "immediate"}));
 }
@@ -67,6 +73,7 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw);
   addTime(app, options);
   app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
+  addSweepResults(app, options);
   app.add_option("--stats", options.stats, "JSON: passes, skipped mirrors, effects, totals");
   app.add_option("--frames", options.frames, "a sequence of so many pictures")->check(CLI::Range(1, 1000000));
   app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6));
@@ -85,6 +92,15 @@ void addBench(CLI::App& app, Options& options, Raw& raw) {
   app.add_option("--frames", options.frames, "measured frames")->check(CLI::Range(1, 1000000));
   app.add_option("--warmup", options.warmup, "frames before")->check(CLI::Range(0, 1000000));
   app.add_option("--json", options.json, "write the figures to F");
+  addSweepResults(app, options);
+  app.add_flag("--reference", options.benchReference, "the ray tracer instead: rays per second and core");
+}
+
+void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
+  addScene(app, options, raw, "640x360");
+  addTime(app, options);
+  app.add_option("--out", options.out, "folder of the report; a sweep that was interrupted goes on there")->required();
+  app.add_option("--sweep", options.sweep, "quick | full | F.toml");
 }
 
 void addCompare(CLI::App& app, Options& options) {
@@ -101,6 +117,8 @@ void addCompare(CLI::App& app, Options& options) {
 void applyRaw(const Raw& raw, Options& options) {
   if (!raw.size.empty()) {
     options.size = parseSize(raw.size);
+  } else if (options.command == "accuracy") {
+    options.size = {640, 360};
   }
   if (!std::isfinite(options.time)) {
     throw UsageError("--time: not a finite number (seconds of animation, such as 2.5)");
@@ -160,6 +178,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
   addRender(*command("render", "draw a picture or a sequence without a window"), options, raw);
   addReference(*command("reference", "trace the picture in double precision"), options, raw);
   addCompare(*command("compare", "error figures of a picture against a reference"), options);
+  addAccuracy(*command("accuracy", "error and time of many settings, as a report"), options, raw);
   addBench(*command("bench", "measure frames"), options, raw);
   command("info", "GPUs, drivers, features");
   command("scenes", "scenes that come with the program");

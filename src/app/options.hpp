@@ -41,6 +41,9 @@ struct Options {
   std::filesystem::path heatmap;
   std::optional<double> maxFlip;
   std::optional<int> maxDiff;
+  std::string sweep = "quick";         // accuracy: quick, full or a file
+  std::filesystem::path sweepResults;  // results.json of an earlier sweep; empty: none
+  bool benchReference = false;         // bench: the ray tracer in the place of the renderer
 };
 
 // Bad usage; what() is one line.

@@ -8,6 +8,7 @@
 #include "app/session.hpp"
 #include "app/stats.hpp"
 #include "core/platform.hpp"
+#include "reference/throughput.hpp"
 
 namespace speculum {
 
@@ -52,7 +53,34 @@ int runRender(const Options& options) {
   return failOnMessages(session.device());
 }
 
+namespace {
+
+// Rays per second and core of the double-precision tracer, next to what `bench` says of the renderer.
+int benchReference(const Options& options) {
+  constexpr int64_t triangles = 100000;
+  constexpr int64_t rays = 1000000;
+  const RayThroughput result = measureRayThroughput(triangles, rays);
+  std::printf(
+      "%lld triangles, %lld random rays, %.1f %% hit, one core: %.3f million rays per second (hierarchy: %.2f s)\n",
+      static_cast<long long>(result.triangles), static_cast<long long>(result.rays), 100.0 * result.hitFraction,
+      1e-6 * result.raysPerSecond(), result.buildSeconds);
+  if (!options.json.empty()) {
+    writeJson(options.json, {{"triangles", result.triangles},
+                             {"rays", result.rays},
+                             {"hit_fraction", result.hitFraction},
+                             {"seconds", result.seconds},
+                             {"build_seconds", result.buildSeconds},
+                             {"rays_per_second", result.raysPerSecond()}});
+  }
+  return 0;
+}
+
+}  // namespace
+
 int runBench(const Options& options) {
+  if (options.benchReference) {
+    return benchReference(options);
+  }
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
   installInterruptHandler();

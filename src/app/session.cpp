@@ -42,13 +42,14 @@ LoadedScene loadSceneWithSettings(const Options& options) {
 }
 
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options) {
-  LoadedScene loaded{loadScene(file), {}};
+  LoadedScene loaded{.scene = loadScene(file)};
   loaded.settings = settingsOf(loaded.scene);
   for (const auto& [key, value] : options.settings) {
     if (const auto problem = setSetting(loaded.settings, key, value)) {
       throw UsageError("--set: " + *problem);
     }
   }
+  loaded.quality = chooseQuality(options, loaded.settings);
   if (loaded.settings.reflection.updateInterval != 1) {
     spdlog::warn("reflection.update_interval is read but not acted on by this version: mirror images are always fresh");
   }
@@ -121,6 +122,7 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   Frame frame = renderer_.beginFrame().value();
   const Clock::time_point recording = Clock::now();
   frame_.state = evaluate(loaded_.scene, time);
+  frame_.state.camera = camera_.value_or(frame_.state.camera);
   FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height);
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;

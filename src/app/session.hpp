@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/options.hpp"
+#include "app/quality.hpp"
 #include "frame/effects.hpp"
 #include "frame/memory_fit.hpp"
 #include "scene/scene_loader.hpp"
@@ -15,10 +16,13 @@ namespace speculum {
 // name. Throws UsageError.
 std::filesystem::path findScene(const std::string& wanted);
 
-// The scene with the settings that hold for it: defaults, [settings], --set. Warns of keys that are not drawn.
+// The scene with the settings that hold for it: defaults, [settings], --set, and what a sweep has for the bounds of
+// quality.*. Warns of
+// keys that are not drawn.
 struct LoadedScene {
   Scene scene;
   Settings settings;
+  std::optional<QualityChoice> quality;
 };
 LoadedScene loadSceneWithSettings(const Options& options);
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options);
@@ -55,6 +59,11 @@ class Session {
  public:
   explicit Session(const Options& options);
 
+  // Settings of the frames from now on.
+  void setSettings(const Settings& settings) { loaded_.settings = settings; }
+  void restart() {}
+  // A camera in the place of the scene's.
+  void setCamera(const std::optional<CameraPose>& camera) { camera_ = camera; }
   // Draws the scene at `time`. picture() needs `capture`.
   const DrawnFrame& draw(double time, bool capture);
   // Waits for the GPU. Afterwards frameMs covers the whole frame, and the renderer's timings are this frame's.
@@ -64,6 +73,8 @@ class Session {
 
   const Scene& scene() const { return loaded_.scene; }
   const Settings& settings() const { return loaded_.settings; }
+  const std::optional<QualityChoice>& quality() const { return loaded_.quality; }
+  PictureSize size() const { return size_; }
   Device& device() { return device_; }
   Renderer& renderer() { return renderer_; }
   SceneRenderer& sceneRenderer() { return sceneRenderer_; }
@@ -72,6 +83,7 @@ class Session {
  private:
   PictureSize size_;
   LoadedScene loaded_;
+  std::optional<CameraPose> camera_;
   Device device_;
   Renderer renderer_;
   SceneRenderer sceneRenderer_;

@@ -117,6 +117,13 @@ ordered_json frameStats(Session& session, const FrameTimings& timings) {
   json["passes"] = passesJson(session, timings);
   json["skipped"] = skippedJson(session.scene(), frame.plan);
   json["effects"] = effectsJson(session);
+  if (const std::optional<QualityChoice>& quality = session.quality()) {
+    json["quality"] = {{"point", quality->point.name},
+                       {"flip", quality->point.whole.flip},
+                       {"gpu_ms", costMs(quality->point)},
+                       {"met", quality->met},
+                       {"why", quality->why}};
+  }
   json["totals"] = {{"cpu_ms", frame.cpuMs},
                     {"gpu_ms", timings.gpuMs},
                     {"frame_ms", frame.frameMs},
@@ -145,12 +152,15 @@ ordered_json mergeStats(const std::vector<ordered_json>& frames) {
   return merged;
 }
 
-void writeJson(const std::filesystem::path& file, const ordered_json& json) {
-  const std::string text = json.dump(2) + "\n";
+void writeText(const std::filesystem::path& file, const std::string& text) {
   const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
   if (!replaceFile(file, bytes)) {
     throw std::runtime_error(file.string() + ": cannot be written (a file in a writable directory)");
   }
+}
+
+void writeJson(const std::filesystem::path& file, const ordered_json& json) {
+  writeText(file, json.dump(2) + "\n");
 }
 
 }  // namespace speculum

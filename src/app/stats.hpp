@@ -12,7 +12,8 @@ nlohmann::ordered_json frameStats(Session& session, const FrameTimings& timings)
 // Over the measured frames each *_ms becomes an object of median, min, p95 and max. `frames` are stats of equal plans.
 nlohmann::ordered_json mergeStats(const std::vector<nlohmann::ordered_json>& frames);
 
-// Throws std::runtime_error when the file cannot be written.
+// Both throw std::runtime_error when the file cannot be written. The folder is made.
+void writeText(const std::filesystem::path& file, const std::string& text);
 void writeJson(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 
 }  // namespace speculum

@@ -8,11 +8,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 namespace speculum {
 
@@ -114,6 +116,22 @@ ProcessResult runProcess(const std::vector<std::string>& arguments) {
   }
   ::close(ends[0]);
   return result;
+}
+
+std::string machineDescription() {
+  const auto valueAfter = [](const char* file, std::string_view start) -> std::string {
+    std::ifstream stream(file);
+    for (std::string line; std::getline(stream, line);) {
+      if (line.starts_with(start)) {
+        line.erase(0, line.find_first_of(":=") + 1);
+        std::erase(line, '"');
+        return line.substr(std::min(line.find_first_not_of(' '), line.size()));
+      }
+    }
+    return "unknown";
+  };
+  return valueAfter("/proc/cpuinfo", "model name") + ", " + std::to_string(std::thread::hardware_concurrency()) +
+         " threads, " + valueAfter("/etc/os-release", "PRETTY_NAME");
 }
 
 uint64_t peakResidentBytes() {

@@ -28,6 +28,7 @@ struct ProcessResult {
 // Searches PATH; no shell takes part.
 ProcessResult runProcess(const std::vector<std::string>& arguments);
 
+std::string machineDescription();  // processor, its threads, operating system
 uint64_t peakResidentBytes();
 
 // Writes beside `file` and renames over it, so that a reader sees the old or the new content. Creates the directory.

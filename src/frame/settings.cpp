@@ -194,11 +194,23 @@ std::vector<Setting> viewTable() {
   };
 }
 
+std::vector<Setting> qualityTable() {
+  using Q = QualitySettings;
+  const auto group = &Settings::quality;
+  return {
+      number<Q>({"quality.budget_ms", "0 ..", "the most accurate measured settings within so many GPU ms; 0: off"},
+                group, &Q::budgetMs, 0.0, 1e6),
+      number<Q>({"quality.max_error", "0 .. 1", "the fastest measured settings within this mean FLIP; 0: off"}, group,
+                &Q::maxError, 0.0, 1.0),
+  };
+}
+
 const std::vector<Setting>& table() {
   static const std::vector<Setting> settings = [] {
     std::vector<Setting> all = reflectionTable();
-    std::vector<Setting> view = viewTable();
-    std::move(view.begin(), view.end(), std::back_inserter(all));
+    for (std::vector<Setting>& more : std::array{viewTable(), qualityTable()}) {
+      std::move(more.begin(), more.end(), std::back_inserter(all));
+    }
     all.push_back(text({"debug.omit_barrier", "name of a barrier", "leaves one barrier out; validation must notice"},
                        &DebugSettings::omitBarrier));
     return all;

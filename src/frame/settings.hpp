@@ -36,6 +36,12 @@ struct ViewSettings {
   bool wireframe = false;
 };
 
+// Bounds that a measured sweep is asked to keep; see accuracy/pareto.hpp. Nothing in the frame plan reads them.
+struct QualitySettings {
+  double budgetMs = 0.0;  // GPU milliseconds a frame; 0: no bound
+  double maxError = 0.0;  // mean FLIP; 0: no bound
+};
+
 struct DebugSettings {
   std::string omitBarrier;  // name of a barrier that is not recorded, to show that validation notices; empty: none
 };
@@ -43,6 +49,7 @@ struct DebugSettings {
 struct Settings {
   ReflectionSettings reflection;
   ViewSettings view;
+  QualitySettings quality;
   DebugSettings debug;
 };
 

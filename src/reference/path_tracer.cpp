@@ -168,21 +168,25 @@ glm::dvec3 PathTracer::follow(Path path) {
   }
 }
 
-int PathTracer::countMirrors(Ray ray, bool& background) const {
+MirrorChain PathTracer::followMirrors(Ray ray) const {
+  MirrorChain chain;
   Skip skip;
-  background = false;
+  glm::dvec3 throughput(1.0);
   const int most = std::min(255, std::max(options_.maxDepth, 0) + 1);
-  for (int count = 0; count < most; ++count) {
+  while (chain.count < most) {
     const auto hit = world_.closest(ray, skip);
-    background = background || (count == 0 && !hit);
+    chain.background = chain.background || (chain.count == 0 && !hit);
     if (!hit || hit->kind != HitKind::mirror || !reflects(*hit)) {
-      return count;
+      break;
     }
     const Bounce bounce = bounceAt(ray, *hit);
     ray = reflectedRay(ray, bounce.position, bounce.normal, bounce.planeNormal, bounce.t);
     skip = {.mirror = hit->index};
+    throughput *= bounce.reflectance;
+    ++chain.count;
   }
-  return most;
+  chain.throughput = (throughput.r + throughput.g + throughput.b) / 3.0;
+  return chain;
 }
 
 }  // namespace speculum

@@ -23,6 +23,13 @@ class MicrofacetSampler {
   uint64_t drawn_ = 0;
 };
 
+// Reflecting sides in a row along a ray, the one that is cut off by maxDepth included.
+struct MirrorChain {
+  int count = 0;            // at most 255
+  double throughput = 1.0;  // product of their reflectances, mean of the channels
+  bool background = false;  // the ray meets nothing at all
+};
+
 // Follows one pixel's rays through the mirrors of a world. Positions are relative to the eye of the world's state.
 class PathTracer {
  public:
@@ -33,9 +40,7 @@ class PathTracer {
   // Radiance along a ray with a direction of unit length.
   glm::dvec3 radiance(const Ray& ray) { return follow({ray, {}, 0, glm::dvec3(1.0), 0}); }
 
-  // Reflecting sides in a row along the ray, the one that is cut off by maxDepth included; sets `background` if the
-  // first thing met is nothing.
-  int countMirrors(Ray ray, bool& background) const;
+  MirrorChain followMirrors(Ray ray) const;
 
  private:
   struct Path {

@@ -28,6 +28,7 @@ struct TraceResult {
   std::vector<uint8_t> mirrorMask;      // 1: first of all the reflecting side of a mirror
   std::vector<uint8_t> backgroundMask;  // 1: nothing
   std::vector<uint8_t> mirrorDepth;     // reflecting sides in a row, at most maxDepth + 1; roughness is ignored
+  std::vector<float> mirrorThroughput;  // product of their reflectances, mean of the channels; 1 without any
 };
 
 // What the ray through a point of the picture meets first.

@@ -1,54 +1,16 @@
 #include "scene/scene_loader.hpp"
 
-#include <toml++/toml.h>
-
 #include <array>
 
-#include "image/file_io.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_sections.hpp"
-#include "scene/toml_depth.hpp"
+#include "scene/toml_file.hpp"
 
 namespace speculum {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// A device or pipe might never end, and nobody writes a larger scene by hand.
-constexpr uintmax_t kLargestFile = 16u << 20;
-
-std::string readSceneText(const fs::path& file) {
-  std::error_code error;
-  if (fs::exists(file, error) && !fs::is_directory(file, error)) {
-    const bool regular = fs::is_regular_file(file, error);
-    if (!regular || fs::file_size(file, error) > kLargestFile) {
-      throwInputError(file, 1, "file", regular ? "is larger than 16 MiB" : "is a device or pipe",
-                      "a scene file is needed");
-    }
-  }
-  try {
-    const std::vector<uint8_t> bytes = readFileBytes(file);
-    return std::string(bytes.begin(), bytes.end());
-  } catch (const std::runtime_error& failure) {
-    const std::string message = failure.what();
-    const size_t start = file.string().size() + 2;
-    throwInputError(file, 1, "file", message.substr(start, message.rfind(" (") - start), "a scene file is needed");
-  }
-}
-
-toml::table parseToml(const fs::path& file) {
-  const std::string text = readSceneText(file);
-  if (const int line = lineOfTooDeepKey(text)) {
-    throwInputError(file, line, "toml", "a key has too many parts", "no key of a scene file has more than 3");
-  }
-  try {
-    return toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    const int line = static_cast<int>(error.source().begin.line);
-    throwInputError(file, std::max(1, line), "toml", error.description(), "a TOML 1.0 file is needed");
-  }
-}
 
 // The place of the model among the scene's meshes; each file is loaded once, whatever it is called.
 int meshIndex(const TableReader& object, Scene& scene) {
@@ -78,7 +40,7 @@ int meshIndex(const TableReader& object, Scene& scene) {
 Scene loadScene(const fs::path& file) {
   static constexpr std::array<std::string_view, 7> kKeys{"title",  "environment", "camera", "settings",
                                                          "object", "light",       "mirror"};
-  const toml::table root = parseToml(file);
+  const toml::table root = readToml(file, "scene file");
   const TableReader reader(file, "", root, 1, kKeys);
   Scene scene{.file = file};
   scene.title = reader.text("title", "");

@@ -124,4 +124,12 @@ SceneState evaluate(const Scene& scene, double timeSeconds) {
   return state;
 }
 
+bool moves(const Scene& scene) {
+  const auto any = [](const auto& list, const auto& test) { return std::any_of(list.begin(), list.end(), test); };
+  const glm::dvec3 still(0.0);
+  return scene.camera.orbitSpeed != 0.0 || any(scene.objects, [&](const Object& o) { return o.spin != still; }) ||
+         any(scene.lights, [](const PointLight& l) { return l.orbit && l.orbit->speed != 0.0; }) ||
+         any(scene.mirrors, [&](const Mirror& m) { return m.spin != still || (m.ripple && m.ripple->speed != 0.0); });
+}
+
 }  // namespace speculum

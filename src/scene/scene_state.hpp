@@ -55,4 +55,7 @@ struct SceneState {
 // Pure function of scene and time. Angles are reduced in double, so 1e6 s of animation is as exact as one.
 SceneState evaluate(const Scene& scene, double timeSeconds);
 
+// Whether anything depends on the time.
+bool moves(const Scene& scene);
+
 }  // namespace speculum

@@ -1,0 +1,66 @@
+#include "accuracy/fingerprint.hpp"
+
+#include "image/file_io.hpp"
+
+namespace speculum {
+
+namespace {
+
+static_assert(sizeof(Vertex) == 8 * sizeof(double) && sizeof(glm::vec3) == 3 * sizeof(float),
+              "padding would make equal content differ");
+
+void addColor(Fingerprint& fingerprint, const glm::dvec3& color) {
+  for (int i = 0; i < 3; ++i) {
+    fingerprint.add(color[i]);
+  }
+}
+
+void addMesh(Fingerprint& fingerprint, const Mesh& mesh) {
+  addColor(fingerprint, mesh.center);
+  fingerprint.add(std::as_bytes(std::span(mesh.vertices)));
+  fingerprint.add(std::as_bytes(std::span(mesh.indices)));
+  for (const MeshPart& part : mesh.parts) {
+    fingerprint.add(part.firstIndex);
+    addColor(fingerprint, part.material.diffuse);
+    addColor(fingerprint, part.material.specular);
+    addColor(fingerprint, part.material.emission);
+    fingerprint.add(part.material.shininess);
+    fingerprint.add(part.material.diffuseTexture);
+  }
+}
+
+}  // namespace
+
+void Fingerprint::add(std::span<const std::byte> bytes) {
+  for (const std::byte byte : bytes) {
+    state_ = (state_ ^ static_cast<uint64_t>(byte)) * 0x100000001b3u;
+  }
+}
+
+void Fingerprint::add(std::string_view text) {
+  add(static_cast<uint64_t>(text.size()));
+  add(std::as_bytes(std::span(text)));
+}
+
+std::string Fingerprint::hex() const {
+  static constexpr std::string_view digits = "0123456789abcdef";
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4) {
+    text += digits[(state_ >> shift) & 15u];
+  }
+  return text;
+}
+
+void addScene(Fingerprint& fingerprint, const Scene& scene) {
+  const std::vector<uint8_t> file = readFileBytes(scene.file);
+  fingerprint.add(std::as_bytes(std::span(file)));
+  for (const Mesh& mesh : scene.meshes) {
+    addMesh(fingerprint, mesh);
+  }
+  for (const Texture& texture : scene.textures) {
+    fingerprint.add(texture.width);
+    fingerprint.add(std::as_bytes(std::span(texture.texels)));
+  }
+}
+
+}  // namespace speculum

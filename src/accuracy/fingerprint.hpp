@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "scene/scene.hpp"
+
+namespace speculum {
+
+// FNV-1a with 64 bits (Fowler, Noll, Vo): tells content apart that changed by accident, not by intent.
+class Fingerprint {
+ public:
+  void add(std::span<const std::byte> bytes);
+  void add(std::string_view text);  // and its length, so that "ab" "c" differs from "a" "bc"
+  template <typename T>
+  requires std::is_arithmetic_v<T>
+  void add(T value) { add(std::as_bytes(std::span(&value, 1))); }
+
+  std::string hex() const;  // 16 digits
+
+ private:
+  uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+// Everything that a picture of the scene depends on: the scene file's text, and models and textures as they were read.
+void addScene(Fingerprint& fingerprint, const Scene& scene);
+
+}  // namespace speculum

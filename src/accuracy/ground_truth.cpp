@@ -1,0 +1,103 @@
+#include "accuracy/ground_truth.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "reference/ray_tracer.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr int truthDepth = 64;
+
+double milliseconds(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Of a pixel with `count` bounces of `throughput` in all, each is taken to let through the same share.
+std::vector<double> throughputBeyond(const TraceResult& trace) {
+  std::vector<double> squares;
+  double pixels = 0.0;
+  for (size_t i = 0; i < trace.mirrorDepth.size(); ++i) {
+    const int count = trace.mirrorDepth[i];
+    pixels += count > 0 ? 1.0 : 0.0;
+    squares.resize(std::max<size_t>(squares.size(), count), 0.0);
+    for (int depth = 0; depth < count; ++depth) {
+      squares[depth] += std::pow(trace.mirrorThroughput[i], 2.0 * (depth + 1) / count);
+    }
+  }
+  for (double& square : squares) {
+    square = std::sqrt(square / pixels);
+  }
+  return squares;
+}
+
+// Without the pixels at a mirror's border: their error is the main view's.
+std::vector<uint8_t> interior(const std::vector<uint8_t>& mask, int width, int height) {
+  std::vector<uint8_t> inner(mask.size(), 0);
+  for (int y = 1; y + 1 < height; ++y) {
+    for (int x = 1; x + 1 < width; ++x) {
+      bool all = true;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          all = all && mask[static_cast<size_t>(y + dy) * width + x + dx] != 0;
+        }
+      }
+      inner[static_cast<size_t>(y) * width + x] = all;
+    }
+  }
+  return inner;
+}
+
+}  // namespace
+
+std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState& state, const TruthRequest& request,
+                                            const FractionCallback& progress) {
+  const RayTracer tracer(scene, state);
+  TraceOptions options{.width = request.width,
+                       .height = request.height,
+                       .samples = request.samples,
+                       .maxDepth = truthDepth,
+                       .minThroughput = 0.0,
+                       .clearColor = request.settings.view.clearColor};
+  const int side = static_cast<int>(std::lround(std::sqrt(request.samples)));
+  const int finer = request.noiseFloor ? (side + 1) * (side + 1) : 0;
+  const double total = request.samples + finer;
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<TraceResult> trace =
+      tracer.render(options, [&](double part) { return !progress || progress(part * request.samples / total); });
+  if (!trace) {
+    return std::nullopt;
+  }
+  GroundTruth truth{.ms = milliseconds(start), .threads = tbb::this_task_arena::max_concurrency()};
+  truth.throughputBeyond = throughputBeyond(*trace);
+  truth.mirrors = {request.width, request.height, interior(trace->mirrorMask, request.width, request.height)};
+  truth.image = std::move(trace->image);
+  if (!request.noiseFloor) {
+    return truth;
+  }
+  options.samples = finer;
+  const std::optional<TraceResult> second = tracer.render(
+      options, [&](double part) { return !progress || progress((request.samples + part * finer) / total); });
+  if (!second) {
+    return std::nullopt;
+  }
+  const ViewSettings& view = request.settings.view;
+  truth.floor = errorsAgainst(truth, toDisplay(second->image, view.exposure, view.toneMap), request.settings);
+  return truth;
+}
+
+ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings, Plane2d* map) {
+  const Image8 shown = toDisplay(truth.image, settings.view.exposure, settings.view.toneMap);
+  const CompareOptions options{.mask = &truth.mirrors};
+  Comparison comparison = compareImages(comparedImage(shown, "the ground truth"), comparedImage(picture), options);
+  if (map != nullptr) {
+    *map = std::move(comparison.flip);
+  }
+  return {comparison.whole, comparison.masked};
+}
+
+}  // namespace speculum

@@ -1,0 +1,104 @@
+#include "accuracy/pareto.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+namespace speculum {
+
+namespace {
+
+std::string figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+const Spread& cost(const SweepPoint& point) {
+  return point.gpuMs.median > 0.0 ? point.gpuMs : point.frameMs;
+}
+
+// What the chosen point differs in from the most accurate one that was measured.
+std::string givenUp(const SweepPoint& chosen, const SweepPoint& best) {
+  if (&chosen == &best) {
+    return "gives up nothing of what was measured";
+  }
+  return "gives up " + figure(chosen.whole.flip - best.whole.flip) + " of mean FLIP against '" + best.name + "' (" +
+         figure(best.whole.flip) + " at " + figure(costMs(best)) + " ms)";
+}
+
+std::string described(const SweepPoint& point) {
+  return "'" + point.name + "', mean FLIP " + figure(point.whole.flip) + " at " + figure(costMs(point)) + " ms";
+}
+
+}  // namespace
+
+std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates) {
+  std::vector<int> order(candidates.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    const FrontCandidate& ca = candidates[a];
+    const FrontCandidate& cb = candidates[b];
+    if (ca.error != cb.error) {
+      return ca.error < cb.error;
+    }
+    return ca.cost.median != cb.cost.median ? ca.cost.median < cb.cost.median : a < b;
+  });
+  std::vector<int> front;
+  double cheapestMedian = std::numeric_limits<double>::infinity();
+  double cheapestQuartile = std::numeric_limits<double>::infinity();
+  for (const int index : order) {
+    const Spread& spread = candidates[index].cost;
+    if (spread.median < cheapestMedian && spread.upperQuartile < cheapestQuartile) {
+      front.push_back(index);
+      cheapestQuartile = spread.lowerQuartile;
+    }
+    cheapestMedian = std::min(cheapestMedian, spread.median);
+  }
+  std::reverse(front.begin(), front.end());
+  return front;
+}
+
+std::vector<int> paretoFront(const std::vector<SweepPoint>& points) {
+  std::vector<FrontCandidate> candidates;
+  for (const SweepPoint& point : points) {
+    candidates.push_back({point.whole.flip, cost(point)});
+  }
+  return paretoFront(candidates);
+}
+
+double costMs(const SweepPoint& point) {
+  return cost(point).median;
+}
+
+std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget) {
+  const std::vector<int> front = paretoFront(results.points);
+  if (front.empty() || (budget.ms <= 0.0 && budget.error <= 0.0)) {
+    return std::nullopt;
+  }
+  const auto& points = results.points;
+  const SweepPoint& best = points[front.back()];
+  const auto affordable = [&](int i) { return budget.ms <= 0.0 || costMs(points[i]) <= budget.ms; };
+  const auto exact = [&](int i) { return budget.error <= 0.0 || points[i].whole.flip <= budget.error; };
+  BudgetChoice choice{.point = front.front()};
+  if (budget.error > 0.0) {
+    const auto good = std::find_if(front.begin(), front.end(), exact);
+    choice.point = good == front.end() ? front.back() : *good;
+  }
+  if (budget.ms > 0.0 && (budget.error <= 0.0 || !affordable(choice.point))) {
+    const auto dear = std::find_if(front.begin(), front.end(), [&](int i) { return !affordable(i); });
+    choice.point = dear == front.begin() ? front.front() : *(dear - 1);
+  }
+  choice.met = affordable(choice.point) && exact(choice.point);
+  choice.why = described(points[choice.point]) + "; " + givenUp(points[choice.point], best);
+  if (!affordable(choice.point)) {
+    choice.why += "; no measured point fits " + figure(budget.ms) + " ms";
+  }
+  if (!exact(choice.point)) {
+    choice.why += "; the error bound " + figure(budget.error) + " is not met";
+  }
+  return choice;
+}
+
+}  // namespace speculum

@@ -1,0 +1,241 @@
+#include "accuracy/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/fingerprint.hpp"
+#include "accuracy/heat_map.hpp"
+#include "accuracy/pareto.hpp"
+
+namespace speculum {
+
+namespace {
+
+// A fit takes no point nearer to the floor than this: there the error is no longer the setting's.
+constexpr double floorsAbove = 2.0;
+constexpr double restsAbove = 1.02;  // likewise of what is left at the greatest depth: noise in a difference of squares
+
+double seriesError(const SweepPoint& point) {
+  return point.mirrors ? point.mirrors->rmse : point.whole.rmse;
+}
+
+std::string keyOf(std::initializer_list<std::string_view> parts) {
+  Fingerprint fingerprint;
+  for (const std::string_view part : parts) {
+    fingerprint.add(part);
+  }
+  return fingerprint.hex();
+}
+
+std::string settingsKey(const Settings& settings) {
+  std::string text;
+  for (const SettingInfo& info : settingInfos()) {
+    text += std::string(info.key) + "=" + settingValue(settings, info.key) + "\n";
+  }
+  return text;
+}
+
+// Over the phases of an update interval: squares where the figure is a root of a mean of squares, means of the rest.
+ImageMetrics meanMetrics(const std::vector<ImageMetrics>& all) {
+  ImageMetrics mean{.pixels = all.front().pixels};
+  const double share = 1.0 / static_cast<double>(all.size());
+  for (const ImageMetrics& m : all) {
+    mean.rmse += share * m.rmse * m.rmse;
+    mean.relativeRmse += share * m.relativeRmse * m.relativeRmse;
+    mean.psnr += share * std::pow(10.0, -0.1 * m.psnr);
+    mean.ssim += share * m.ssim;
+    mean.flip += share * m.flip;
+    mean.maxDiff = std::max(mean.maxDiff, m.maxDiff);
+    mean.p99Diff += share * m.p99Diff;
+    mean.pixelsOver += m.pixelsOver;
+  }
+  mean.rmse = std::sqrt(mean.rmse);
+  mean.relativeRmse = std::sqrt(mean.relativeRmse);
+  mean.psnr = -10.0 * std::log10(mean.psnr);
+  mean.pixelsOver = std::llround(share * static_cast<double>(mean.pixelsOver));
+  return mean;
+}
+
+class Sweep {
+ public:
+  Sweep(const SweepPlan& plan, const Settings& base, const SweepScene& scene, SweepSubject& subject, SweepStore& store,
+        const SweepProgress& progress)
+      : plan_(plan), base_(base), scene_(scene), subject_(subject), store_(store), progress_(progress) {
+    for (const SweepConfiguration& configuration : plan.configurations) {
+      settings_.push_back(settingsWith(base, configuration.changes));
+      keys_.push_back(keyOf({scene.identity, settingsKey(settings_.back())}));
+    }
+  }
+
+  bool run() { return trace() && compare() && time(); }
+  void fill(SweepResults& results);
+
+ private:
+  bool trace();
+  bool compare();
+  bool time();
+  void measureErrors(size_t index);
+  bool report(const char* stage, double fraction) const { return !progress_ || progress_({stage, fraction}); }
+  void fit(SweepSeries& series, PlannedSeries::Theory theory, const SweepResults& results) const;
+
+  const SweepPlan& plan_;
+  const Settings& base_;
+  const SweepScene& scene_;
+  SweepSubject& subject_;
+  SweepStore& store_;
+  const SweepProgress& progress_;
+  std::vector<Settings> settings_;  // by configuration
+  std::vector<std::string> keys_;   // likewise
+  GroundTruth truth_;
+};
+
+bool Sweep::trace() {
+  const char* stage = "ground truth";
+  const std::string key = keyOf({scene_.identity, settingsKey(base_), "truth"});
+  std::optional<GroundTruth> truth = store_.truth(key);
+  if (!truth) {
+    const TruthRequest request{.width = scene_.width,
+                               .height = scene_.height,
+                               .samples = scene_.truthSamples,
+                               .noiseFloor = scene_.noiseFloor,
+                               .settings = base_};
+    truth =
+        traceGroundTruth(scene_.scene, scene_.state, request, [&](double fraction) { return report(stage, fraction); });
+    if (!truth) {
+      return false;
+    }
+    store_.keepTruth(key, *truth);
+  }
+  truth_ = std::move(*truth);
+  return report(stage, 1.0);
+}
+
+void Sweep::measureErrors(size_t index) {
+  Measurement& measurement = store_.at(keys_[index]);
+  std::vector<ImageMetrics> whole;
+  std::vector<ImageMetrics> mirrors;
+  const std::vector<Image8> pictures = subject_.pictures(settings_[index]);
+  Plane2d flip;
+  for (const Image8& picture : pictures) {
+    const ErrorFigures errors = errorsAgainst(truth_, picture, settings_[index], &flip);
+    whole.push_back(errors.whole);
+    if (errors.mirrors) {
+      mirrors.push_back(*errors.mirrors);
+    }
+  }
+  measurement.errors =
+      ErrorFigures{meanMetrics(whole), mirrors.empty() ? std::nullopt : std::optional(meanMetrics(mirrors))};
+  measurement.picture = store_.keepPicture(keys_[index] + ".png", pictures.back());
+  measurement.heatMap = store_.keepPicture(keys_[index] + "-flip.png", heatMap(flip));
+}
+
+bool Sweep::compare() {
+  for (size_t i = 0; i < keys_.size(); ++i) {
+    if (!store_.at(keys_[i]).errors) {
+      measureErrors(i);
+      store_.save();
+    }
+    if (!report("pictures", static_cast<double>(i + 1) / static_cast<double>(keys_.size()))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Sweep::time() {
+  const double total = static_cast<double>(plan_.repeats) * static_cast<double>(keys_.size());
+  for (size_t round = 0; round < static_cast<size_t>(plan_.repeats); ++round) {
+    bool measured = false;
+    for (size_t i = 0; i < keys_.size(); ++i) {
+      Measurement& measurement = store_.at(keys_[i]);
+      if (measurement.gpuMs.size() <= round) {
+        const FrameCost cost = subject_.cost(settings_[i]);
+        measurement.gpuMs.push_back(cost.gpuMs);
+        measurement.cpuMs.push_back(cost.cpuMs);
+        measurement.frameMs.push_back(cost.frameMs);
+        measured = true;
+      }
+      if (!report("times", static_cast<double>(round * keys_.size() + i + 1) / total)) {
+        store_.save();
+        return false;
+      }
+    }
+    if (measured) {
+      store_.save();
+    }
+  }
+  return true;
+}
+
+// In natural logarithms, over the points that stand clear of the noise floor. What is left at the greatest depth of
+// recursion is the error of everything else; independent errors add as squares, so it is taken off as a square.
+void Sweep::fit(SweepSeries& series, PlannedSeries::Theory theory, const SweepResults& results) const {
+  const bool depths = theory == PlannedSeries::Theory::depth;
+  const double floor = results.floorMirrors ? results.floorMirrors->rmse : results.floorWhole.rmse;
+  const double rest = depths ? seriesError(results.points[series.points.back()]) : 0.0;
+  std::vector<Sample2d> samples;
+  std::vector<Sample2d> expected;
+  for (size_t i = 0; i < series.points.size(); ++i) {
+    const double error = seriesError(results.points[series.points[i]]);
+    if (!(error > floorsAbove * floor && error > restsAbove * rest)) {
+      continue;
+    }
+    const double x = series.axis == SweepSeries::Axis::linear ? series.x[i] : std::log(series.x[i]);
+    series.fitted.push_back(static_cast<int>(i));
+    samples.push_back({x, 0.5 * std::log(error * error - rest * rest)});
+    const auto depth = static_cast<size_t>(series.x[i]);
+    if (depths && depth < truth_.throughputBeyond.size()) {
+      expected.push_back({x, std::log(truth_.throughputBeyond[depth])});
+    }
+  }
+  series.fit = fitLine(samples);
+  if (depths) {
+    series.theorySlope = fitLine(expected).value_or(LineFit{}).slope;
+  }
+}
+
+void Sweep::fill(SweepResults& results) {
+  results.width = scene_.width;
+  results.height = scene_.height;
+  results.truthMs = truth_.ms;
+  results.truthThreads = truth_.threads;
+  results.floorWhole = truth_.floor.whole;
+  results.floorMirrors = truth_.floor.mirrors;
+  results.points.clear();
+  for (size_t i = 0; i < keys_.size(); ++i) {
+    const Measurement& measurement = store_.at(keys_[i]);
+    results.points.push_back({.name = plan_.configurations[i].name,
+                              .changes = plan_.configurations[i].changes,
+                              .whole = measurement.errors->whole,
+                              .mirrors = measurement.errors->mirrors,
+                              .gpuMs = spreadOf(measurement.gpuMs),
+                              .cpuMs = spreadOf(measurement.cpuMs),
+                              .frameMs = spreadOf(measurement.frameMs),
+                              .picture = measurement.picture,
+                              .heatMap = measurement.heatMap});
+  }
+  for (const int index : paretoFront(results.points)) {
+    results.points[index].onFront = true;
+  }
+  results.series.clear();
+  for (const PlannedSeries& planned : plan_.series) {
+    results.series.push_back(planned.series);
+    fit(results.series.back(), planned.theory, results);
+  }
+  const Image8 shown = toDisplay(truth_.image, base_.view.exposure, base_.view.toneMap);
+  results.truthPicture = store_.keepPicture("truth.png", shown);
+}
+
+}  // namespace
+
+bool runSweep(const SweepPlan& plan, const Settings& base, const SweepScene& scene, SweepSubject& subject,
+              SweepStore& store, SweepResults& results, const SweepProgress& progress) {
+  Sweep sweep(plan, base, scene, subject, store, progress);
+  const bool finished = sweep.run();
+  if (finished) {
+    sweep.fill(results);
+  }
+  return finished;
+}
+
+}  // namespace speculum

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/image_metrics.hpp"
+#include "scene/scene_loader.hpp"
+
+namespace speculum {
+
+// { "whole", "mirrors" }: metrics with their number of pixels; null for a picture without mirrors.
+nlohmann::ordered_json errorsJson(const ImageMetrics& whole, const std::optional<ImageMetrics>& mirrors);
+
+// Reads one member after another; every failure names the file and the member's place.
+class JsonReader {
+ public:
+  JsonReader(const std::filesystem::path& file, const nlohmann::ordered_json& json, std::string place)
+      : file_(file), json_(json), place_(std::move(place)) {}
+
+  template <typename T>
+  T get(const char* key) const {
+    try {
+      return json_.at(key).get<T>();
+    } catch (const nlohmann::json::exception&) {
+      fail(key);
+    }
+  }
+  // JSON has no infinity: null stands for it.
+  double number(const char* key) const {
+    const nlohmann::ordered_json& value = member(key);
+    return value.is_null() ? std::numeric_limits<double>::infinity() : get<double>(key);
+  }
+  JsonReader at(const char* key) const { return {file_, member(key), place_ + key + "."}; }
+  std::vector<JsonReader> items(const char* key) const {
+    std::vector<JsonReader> readers;
+    const nlohmann::ordered_json& array = member(key);
+    if (!array.is_array()) {
+      fail(key);
+    }
+    for (size_t i = 0; i < array.size(); ++i) {
+      readers.emplace_back(file_, array[i], place_ + key + "[" + std::to_string(i) + "].");
+    }
+    return readers;
+  }
+  bool null(const char* key) const { return member(key).is_null(); }
+  const nlohmann::ordered_json& json() const { return json_; }
+  [[noreturn]] void fail(const char* key) const {
+    throw InputError(file_.string() + ": " + place_ + key +
+                     ": missing or of another kind (a results.json of speculum accuracy is needed)");
+  }
+
+ private:
+  const nlohmann::ordered_json& member(const char* key) const {
+    if (!json_.is_object() || !json_.contains(key)) {
+      fail(key);
+    }
+    return json_.at(key);
+  }
+
+  const std::filesystem::path& file_;
+  const nlohmann::ordered_json& json_;
+  std::string place_;
+};
+
+struct ErrorFigures {
+  ImageMetrics whole;
+  std::optional<ImageMetrics> mirrors;
+};
+ErrorFigures readErrors(const JsonReader& errors);
+
+}  // namespace speculum

@@ -1,0 +1,133 @@
+#include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "accuracy/sweep_plan.hpp"
+#include "scene/table_reader.hpp"
+#include "scene/toml_file.hpp"
+
+namespace speculum {
+
+namespace {
+
+using Key = std::string_view;
+using Changes = SweepPlanner::Changes;
+
+constexpr Key valueKinds = "a number, true, false, a string or an array of those is needed";
+
+std::string valueText(const TableReader& table, Key key, const toml::node& node) {
+  if (const toml::value<std::string>* text = node.as_string()) {
+    return text->get();
+  }
+  if (!node.is_number() && !node.is_boolean()) {
+    table.failAt(node, key, "is " + std::string(typeName(node)), valueKinds);
+  }
+  if (const toml::value<bool>* flag = node.as_boolean()) {
+    return flag->get() ? "true" : "false";
+  }
+  return node.is_integer() ? std::to_string(node.as_integer()->get())
+                           : nlohmann::json(node.as_floating_point()->get()).dump();
+}
+
+// The values of a key, of which a plain one is the only one.
+std::vector<std::string> valueTexts(const TableReader& table, Key key, const toml::node& node) {
+  std::vector<std::string> texts;
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& element : *array) {
+      texts.push_back(valueText(table, key, element));
+    }
+  } else {
+    texts.push_back(valueText(table, key, node));
+  }
+  if (texts.empty()) {
+    table.failAt(node, key, "is empty", "at least one value is needed");
+  }
+  return texts;
+}
+
+using Axes = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+Axes readAxes(const TableReader& table) {
+  Axes axes;
+  if (const std::optional<TableReader> settings = table.subtable("settings")) {
+    for (const auto& [key, node] : settings->table()) {
+      axes.emplace_back(std::string(key.str()), valueTexts(*settings, key.str(), node));
+    }
+  }
+  return axes;
+}
+
+Changes readChanges(const TableReader& table) {
+  Changes changes;
+  for (auto& [key, values] : readAxes(table)) {
+    if (values.size() != 1) {
+      table.fail("settings", key + " has several values", "one is needed here; [[grid]] takes several");
+    }
+    changes.push_back({key, values.front()});
+  }
+  return changes;
+}
+
+void readSeries(const TableReader& table, SweepPlanner& planner) {
+  static constexpr std::array<Key, 2> axes{"logarithmic", "linear"};
+  PlannedSeries planned;
+  SweepSeries& series = planned.series;
+  series.key = table.text("key");
+  series.name = table.text("name", series.key);
+  series.axis = static_cast<SweepSeries::Axis>(table.choice("axis", 0, axes));
+  series.note = table.text("note", "");
+  series.theorySlope = table.number("theory", 0.0);
+  planned.theory = table.has("theory") ? PlannedSeries::Theory::fixed : PlannedSeries::Theory::none;
+  const toml::node* values = table.table().get("values");
+  if (values == nullptr || !values->is_array()) {
+    table.fail("values", "is missing or no array", "numbers in ascending order are needed");
+  }
+  std::vector<std::string> texts = valueTexts(table, "values", *values);
+  double last = -std::numeric_limits<double>::infinity();
+  for (const toml::node& node : *values->as_array()) {
+    const double value = node.value_or(std::numeric_limits<double>::quiet_NaN());
+    if (!(value > last) || (series.axis == SweepSeries::Axis::logarithmic && value <= 0.0)) {
+      table.failAt(node, "values", "is out of order or no number",
+                   "numbers in ascending order are needed, above 0 on a logarithmic axis");
+    }
+    last = value;
+  }
+  planner.series(std::move(planned), texts, readChanges(table));
+}
+
+// What setSetting says of a bad key or value, with the table it stands in.
+template <typename Add>
+void checked(const TableReader& table, const Add& add) {
+  try {
+    add();
+  } catch (const std::invalid_argument& problem) {
+    table.fail("settings", problem.what(), "keys and values as --set takes them are needed");
+  }
+}
+
+}  // namespace
+
+SweepPlan readSweepPlan(const std::filesystem::path& file, const SweepContext& context) {
+  static constexpr std::array<Key, 4> keys{"repeats", "configuration", "grid", "series"};
+  static constexpr std::array<Key, 2> configurationKeys{"name", "settings"};
+  static constexpr std::array<Key, 1> gridKeys{"settings"};
+  static constexpr std::array<Key, 7> seriesKeys{"key", "name", "values", "axis", "theory", "note", "settings"};
+  const toml::table root = readToml(file, "sweep file");
+  const TableReader reader(file, "", root, 1, keys);
+  SweepPlanner planner(file.filename().string(), context);
+  planner.plan.repeats =
+      static_cast<int>(reader.integer("repeats", SweepPlan::leastRepeats, SweepPlan::leastRepeats, 1000));
+  for (const TableReader& table : reader.tables("configuration", configurationKeys)) {
+    checked(table, [&] { planner.add(readChanges(table), table.text("name", "")); });
+  }
+  for (const TableReader& table : reader.tables("grid", gridKeys)) {
+    checked(table, [&] { planner.grid(readAxes(table)); });
+  }
+  for (const TableReader& table : reader.tables("series", seriesKeys)) {
+    checked(table, [&] { readSeries(table, planner); });
+  }
+  return std::move(planner.plan);
+}
+
+}  // namespace speculum

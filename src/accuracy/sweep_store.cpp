@@ -1,0 +1,158 @@
+#include "accuracy/sweep_store.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "image/file_io.hpp"
+
+namespace speculum {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+void writeText(const fs::path& file, const std::string& text) {
+  replaceFile(file, [&](const fs::path& path) {
+    std::ofstream out(path, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) {
+      throw std::runtime_error(file.string() + ": cannot be written");
+    }
+  });
+}
+
+// Nothing for a file that is absent or broken: what it held is measured again.
+std::optional<ordered_json> readJson(const fs::path& file) {
+  if (!fs::exists(file)) {
+    return std::nullopt;
+  }
+  try {
+    const std::vector<uint8_t> bytes = readFileBytes(file);
+    return ordered_json::parse(bytes.begin(), bytes.end());
+  } catch (const std::exception&) {
+    spdlog::warn("{}: unreadable, what it held is measured again", file.string());
+    return std::nullopt;
+  }
+}
+
+Image8 maskImage(const PixelMask& mask) {
+  Image8 image(mask.width, mask.height);
+  for (size_t i = 0; i < mask.selected.size(); ++i) {
+    std::fill_n(&image.rgba[4 * i], 3, static_cast<uint8_t>(mask.selected[i] ? 255 : 0));
+  }
+  return image;
+}
+
+Measurement readMeasurement(const fs::path& file, const ordered_json& json) {
+  const JsonReader reader(file, json, "");
+  Measurement m{.picture = reader.get<std::string>("picture"),
+                .heatMap = reader.get<std::string>("heat_map"),
+                .gpuMs = reader.get<std::vector<double>>("gpu_ms"),
+                .cpuMs = reader.get<std::vector<double>>("cpu_ms"),
+                .frameMs = reader.get<std::vector<double>>("frame_ms")};
+  if (!reader.null("error")) {
+    m.errors = readErrors(reader.at("error"));
+  }
+  return m;
+}
+
+}  // namespace
+
+SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {
+  if (folder_.empty()) {
+    return;
+  }
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error || !fs::is_directory(folder_)) {
+    throw std::runtime_error(folder_.string() + ": cannot be made (a folder in a writable place is needed)");
+  }
+  load();
+}
+
+void SweepStore::load() {
+  const fs::path file = folder_ / "measurements.json";
+  const std::optional<ordered_json> json = readJson(file);
+  if (!json) {
+    return;
+  }
+  try {
+    for (const auto& [key, value] : json->items()) {
+      Measurement measurement = readMeasurement(file, value);
+      const auto kept = [&](const std::string& name) { return name.empty() || fs::exists(folder_ / name); };
+      if (!kept(measurement.picture) || !kept(measurement.heatMap)) {
+        measurement.errors.reset();
+      }
+      measurements_[key] = std::move(measurement);
+    }
+  } catch (const std::exception& problem) {
+    spdlog::warn("{}", problem.what());
+    measurements_.clear();
+  }
+}
+
+void SweepStore::save() const {
+  if (folder_.empty()) {
+    return;
+  }
+  ordered_json json = ordered_json::object();
+  for (const auto& [key, m] : measurements_) {
+    json[key] = {{"picture", m.picture}, {"heat_map", m.heatMap}, {"gpu_ms", m.gpuMs},
+                 {"cpu_ms", m.cpuMs},    {"frame_ms", m.frameMs}, {"error", nullptr}};
+    if (m.errors) {
+      json[key]["error"] = errorsJson(m.errors->whole, m.errors->mirrors);
+    }
+  }
+  writeText(folder_ / "measurements.json", json.dump());
+}
+
+std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
+  const fs::path base = folder_ / ("truth-" + key);
+  const std::optional<ordered_json> json = folder_.empty() ? std::nullopt : readJson(base.string() + ".json");
+  if (!json) {
+    return std::nullopt;
+  }
+  try {
+    const JsonReader reader(base, *json, "");
+    GroundTruth truth{.image = readExr(base.string() + ".exr"),
+                      .mirrors = readPixelMask(base.string() + "-mirrors.png"),
+                      .floor = readErrors(reader.at("floor")),
+                      .ms = reader.get<double>("ms"),
+                      .threads = reader.get<int>("threads"),
+                      .throughputBeyond = reader.get<std::vector<double>>("throughput_beyond")};
+    return truth;
+  } catch (const std::exception& problem) {
+    spdlog::warn("{}", problem.what());
+    return std::nullopt;
+  }
+}
+
+void SweepStore::keepTruth(const std::string& key, const GroundTruth& truth) const {
+  if (folder_.empty()) {
+    return;
+  }
+  const std::string base = (folder_ / ("truth-" + key)).string();
+  writeExr(base + ".exr", truth.image);
+  writePng(base + "-mirrors.png", maskImage(truth.mirrors));
+  const ordered_json json = {{"floor", errorsJson(truth.floor.whole, truth.floor.mirrors)},
+                             {"ms", truth.ms},
+                             {"threads", truth.threads},
+                             {"throughput_beyond", truth.throughputBeyond}};
+  // Last: it is what says that the rest is there.
+  writeText(base + ".json", json.dump());
+}
+
+std::string SweepStore::keepPicture(const std::string& name, const Image8& image) const {
+  if (folder_.empty()) {
+    return {};
+  }
+  writePng(folder_ / name, image);
+  return name;
+}
+
+}  // namespace speculum

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "accuracy/ground_truth.hpp"
+
+namespace speculum {
+
+// What was measured of one configuration so far.
+struct Measurement {
+  std::optional<ErrorFigures> errors;
+  std::string picture;  // files in the store's folder; empty if not kept
+  std::string heatMap;
+  std::vector<double> gpuMs;  // one value a round, as many in each
+  std::vector<double> cpuMs;
+  std::vector<double> frameMs;
+};
+
+// A sweep's measurements by the fingerprint of all that they depend on, kept in a folder so that a sweep that was
+// interrupted goes on where it stopped. Every write replaces a whole file; a file that cannot be read counts as absent.
+class SweepStore {
+ public:
+  // In memory only without a folder. Creates the folder; throws std::runtime_error if that fails.
+  explicit SweepStore(std::filesystem::path folder = {});
+
+  Measurement& at(const std::string& key) { return measurements_[key]; }
+  void save() const;
+
+  std::optional<GroundTruth> truth(const std::string& key) const;
+  void keepTruth(const std::string& key, const GroundTruth& truth) const;
+
+  // Writes a picture; returns its name in the folder, empty without one.
+  std::string keepPicture(const std::string& name, const Image8& image) const;
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  void load();
+
+  std::filesystem::path folder_;
+  std::map<std::string, Measurement> measurements_;
+};
+
+}  // namespace speculum

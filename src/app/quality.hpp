@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "accuracy/pareto.hpp"
+#include "app/options.hpp"
+#include "frame/settings.hpp"
+
+namespace speculum {
+
+// The point of a sweep that the bounds of quality.* chose.
+struct QualityChoice {
+  SweepPoint point;
+  bool met = true;
+  std::string why;
+};
+
+// Chooses from the file of --sweep-results for quality.budget_ms and quality.max_error, brings `settings` to the chosen
+// point, except for what --set says itself, and tells on stderr what was chosen and given up. Nothing without bounds.
+// Throws UsageError for bounds of --set without a sweep, InputError for a file that is none.
+std::optional<QualityChoice> chooseQuality(const Options& options, Settings& settings);
+
+// Brings settings to a point: every key that some point of the sweep changes gets the point's value. Keys listed in
+// `kept` stay. Throws InputError with what setSetting says.
+void applyPoint(const SweepResults& results, int point, const std::vector<std::string>& kept, Settings& settings);
+
+}  // namespace speculum

@@ -1,0 +1,57 @@
+#include "app/session_subject.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double secondsBetweenFrames = 1.0 / 30.0;
+
+}  // namespace
+
+void SessionSubject::drawBefore(int framesBefore, bool capture) {
+  session_.draw(time_ - framesBefore * secondsBetweenFrames, capture);
+  session_.finish();
+}
+
+std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
+  session_.setSettings(settings);
+  const int interval = settings.reflection.updateInterval;
+  std::vector<Image8> pictures;
+  // After one interval every mirror is at its own place in the rhythm, and n frames in a row show each at every age.
+  for (int last = interval > 1 ? interval : 0; last < (interval > 1 ? 2 * interval : 1); ++last) {
+    session_.restart();
+    for (int frame = 0; frame <= last; ++frame) {
+      drawBefore(last - frame, frame == last);
+    }
+    pictures.push_back(session_.picture());
+  }
+  return pictures;
+}
+
+FrameCost SessionSubject::cost(const Settings& settings) {
+  session_.setSettings(settings);
+  session_.restart();
+  const int counted = settings.reflection.updateInterval;
+  FrameCost cost;
+  for (int frame = 2 * counted - 1; frame >= 0; --frame) {
+    drawBefore(counted == 1 ? 0 : frame, false);
+    if (frame < counted) {
+      cost.gpuMs += session_.renderer().timings().gpuMs / counted;
+      cost.cpuMs += session_.lastFrame().cpuMs / counted;
+      cost.frameMs += session_.lastFrame().frameMs / counted;
+    }
+  }
+  return cost;
+}
+
+std::vector<int> sampleCountsOf(const Device& device) {
+  std::vector<int> counts;
+  for (const int count : {1, 2, 4, 8}) {
+    if ((device.caps().sampleCounts & static_cast<VkSampleCountFlags>(count)) != 0) {
+      counts.push_back(count);
+    }
+  }
+  return counts;
+}
+
+}  // namespace speculum

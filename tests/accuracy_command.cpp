@@ -1,0 +1,195 @@
+// `speculum accuracy` and what uses its results, as scripts call them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "accuracy/sweep_results.hpp"
+#include "core/platform.hpp"
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+namespace fs = std::filesystem;
+
+ProcessResult speculum(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), std::string(SPECULUM_BINARY_DIR) + "/speculum");
+  return runProcess(arguments);
+}
+
+nlohmann::json readJson(const fs::path& file) {
+  std::ifstream stream(file);
+  return nlohmann::json::parse(stream);
+}
+
+std::string readText(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+const std::string facing = R"([environment]
+background = [0.2, 0.3, 0.4]
+[camera]
+position = [0.4, 1, 1]
+target = [0, 1, -1]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.5, 1, -0.5]
+scale = 0.3
+spin = [0, 90, 0]
+[[light]]
+position = [0, 2, 0.5]
+intensity = 4
+[[mirror]]
+position = [0, 1, -1.5]
+size = [3, 3]
+reflectance = [0.8, 0.8, 0.8]
+[[mirror]]
+position = [0, 1, 1.5]
+rotation = [0, 180, 0]
+size = [3, 3]
+reflectance = [0.8, 0.8, 0.8]
+)";
+
+const std::string sweep = R"([[series]]
+key = "reflection.max_depth"
+values = [0, 1, 2, 3]
+axis = "linear"
+settings = { "reflection.samples" = 1, "view.samples" = 1 }
+[[configuration]]
+name = "half <scale>"
+settings = { "reflection.scale" = 0.5 }
+[[configuration]]
+settings = { "reflection.update_interval" = 2 }
+)";
+
+class AccuracyCommand : public testing::Test {
+ protected:
+  AccuracyCommand() { std::ofstream(out("sweep.toml")) << sweep; }
+  std::string out(const std::string& name) const { return (out_.path() / name).string(); }
+  ProcessResult measure(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"accuracy", "--scene", scene_,    "--out",           out("report"),
+                                          "--size",   "64x36",   "--sweep", out("sweep.toml"), "--validation"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return speculum(arguments);
+  }
+  ProcessResult render(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"render",
+                                          "--scene",
+                                          scene_,
+                                          "--size",
+                                          "64x36",
+                                          "--out",
+                                          out("p.png"),
+                                          "--stats",
+                                          out("s.json"),
+                                          "--sweep-results",
+                                          out("report/results.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return speculum(arguments);
+  }
+
+  std::string scene_ = writeScene("accuracy_command", facing).string();
+  TemporaryDirectory out_;
+};
+
+TEST_F(AccuracyCommand, WritesAReportWhosePicturesHaveTheErrorsItSays) {
+  const ProcessResult result = measure();
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  const SweepResults results = readSweepResults(out("report/results.json"));
+  EXPECT_EQ(results.width, 64);
+  ASSERT_EQ(results.points.size(), 7u) << "base, half scale, interval 2, four depths";
+  for (const SweepPoint& point : results.points) {
+    EXPECT_GE(point.gpuMs.repeats, 15) << point.name;
+    EXPECT_GT(point.gpuMs.minimum, 0.0) << point.name;
+    EXPECT_LE(point.gpuMs.lowerQuartile, point.gpuMs.upperQuartile) << point.name;
+  }
+  const auto& depths = results.series.at(0).points;
+  EXPECT_LT(results.points[depths[3]].mirrors->rmse, results.points[depths[0]].mirrors->rmse);
+  // Anyone can check a figure from the pictures beside it.
+  const SweepPoint& point = results.points[depths[1]];
+  const ProcessResult compared = speculum(
+      {"compare", out("report/" + results.truthPicture), out("report/" + point.picture), "--json", out("c.json")});
+  ASSERT_EQ(compared.exitCode, 0) << compared.output;
+  EXPECT_NEAR(readJson(out("c.json"))["flip"].get<double>(), point.whole.flip, 1e-9);
+  EXPECT_NEAR(readJson(out("c.json"))["rmse"].get<double>(), point.whole.rmse, 1e-9);
+  EXPECT_EQ(readText(out("report/results.csv")).substr(0, 22), "name,settings,on_front");
+  const std::string html = readText(out("report/index.html"));
+  EXPECT_NE(html.find("half &lt;scale&gt;"), std::string::npos);
+  EXPECT_NE(html.find("<svg"), std::string::npos);
+}
+
+TEST_F(AccuracyCommand, ASecondRunMeasuresNothingAnew) {
+  ASSERT_EQ(measure().exitCode, 0);
+  const std::string first = readText(out("report/measurements/measurements.json"));
+  ASSERT_EQ(measure().exitCode, 0);
+  EXPECT_EQ(readText(out("report/measurements/measurements.json")), first);
+}
+
+TEST_F(AccuracyCommand, AStoredSweepChoosesForABudget) {
+  ASSERT_EQ(measure().exitCode, 0);
+  const SweepResults results = readSweepResults(out("report/results.json"));
+  const auto chosen = [&](const std::string& bound) {
+    const ProcessResult result = render({"--set", bound});
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_NE(result.output.find("quality: '"), std::string::npos) << result.output;
+    return readJson(out("s.json"));
+  };
+  double bestFlip = 1.0;
+  for (const SweepPoint& point : results.points) {
+    bestFlip = std::min(bestFlip, point.whole.flip);
+  }
+  const nlohmann::json rich = chosen("quality.budget_ms=100000");
+  EXPECT_EQ(rich["quality"]["flip"].get<double>(), bestFlip);
+  EXPECT_TRUE(rich["quality"]["met"]);
+  const nlohmann::json poor = chosen("quality.budget_ms=0.000001");
+  EXPECT_FALSE(poor["quality"]["met"]);
+  for (const SweepPoint& point : results.points) {
+    if (point.name == poor["quality"]["point"]) {
+      for (const SettingChange& change : point.changes) {
+        const nlohmann::json& value = poor["settings"][change.key];
+        EXPECT_EQ(value.is_string() ? value.get<std::string>() : value.dump(), change.value) << change.key;
+      }
+    }
+  }
+  EXPECT_TRUE(chosen("quality.max_error=1")["quality"]["met"]);
+}
+
+TEST_F(AccuracyCommand, MistakesAreOneLineAndExitTwo) {
+  const auto says = [](const ProcessResult& result) {
+    EXPECT_EQ(result.exitCode, 2) << result.output;
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+    return result.output;
+  };
+  EXPECT_NE(says(speculum({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("absent.toml")}))
+                .find("absent.toml:1: file:"),
+            std::string::npos);
+  std::ofstream(out("bad.toml")) << "[[configuration]]\nsettings = { \"reflection.scle\" = 1 }\n";
+  EXPECT_NE(says(speculum({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("bad.toml")}))
+                .find("did you mean 'reflection.scale'?"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(out("r"))) << "bad input leaves nothing behind";
+  std::ofstream(out("file")) << "x";
+  says(speculum({"accuracy", "--scene", scene_, "--out", out("file"), "--sweep", out("sweep.toml")}));
+  EXPECT_NE(says(speculum({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3"}))
+                .find("--sweep-results"),
+            std::string::npos);
+  EXPECT_NE(says(speculum({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3",
+                           "--sweep-results", out("bad.toml")}))
+                .find("not JSON"),
+            std::string::npos);
+}
+
+TEST_F(AccuracyCommand, BenchOfTheReference) {
+  const ProcessResult result = speculum({"bench", "--reference", "--json", out("b.json")});
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  EXPECT_NE(result.output.find("million rays per second"), std::string::npos) << result.output;
+  const nlohmann::json json = readJson(out("b.json"));
+  EXPECT_GT(json["triangles"], 90000);
+  EXPECT_GT(json["rays_per_second"], 0.0);
+}
+
+}  // namespace
+}  // namespace speculum
