@@ -49,9 +49,6 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
       throw UsageError("--set: " + *problem);
     }
   }
-  if (loaded.settings.reflection.updateInterval != 1) {
-    spdlog::warn("reflection.update_interval is read but not acted on by this version: mirror images are always fresh");
-  }
   for (const std::string& line : ignoredEffects(loaded.scene)) {
     spdlog::warn("{}", line);
   }
@@ -91,13 +88,13 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
-                               int height) {
+                               int height, std::span<const HeldImage> held) {
   if (std::max(width, height) > limits_.largestSide) {
     throw UsageError("--size: " + std::to_string(width) + "x" + std::to_string(height) +
                      " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
                      " pixels a side)");
   }
-  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height);
+  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, held);
   if (!fitted.message.empty() && message_.empty()) {
     spdlog::warn("{}", fitted.message);
   }
@@ -121,7 +118,8 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   Frame frame = renderer_.beginFrame().value();
   const Clock::time_point recording = Clock::now();
   frame_.state = evaluate(loaded_.scene, time);
-  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height);
+  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height,
+                                    sceneRenderer_.heldImages());
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
   frame.capture = capture;
@@ -130,6 +128,11 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   renderer_.endFrame(frame);
   frame_.frameMs = 0.0;
   return frame_;
+}
+
+void Session::setSettings(const Settings& settings) {
+  applyDebugSettings(settings, device_);
+  loaded_.settings = settings;
 }
 
 void Session::finish() {

@@ -33,7 +33,8 @@ void applyDebugSettings(const Settings& settings, Device& device);
 class BudgetPlanner {
  public:
   explicit BudgetPlanner(const Device& device);
-  FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height);
+  FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
+                  std::span<const HeldImage> held);
   const std::string& message() const { return message_; }  // of the last plan; empty if nothing was lowered
 
  private:
@@ -57,6 +58,10 @@ class Session {
 
   // Draws the scene at `time`. picture() needs `capture`.
   const DrawnFrame& draw(double time, bool capture);
+  // The next frame is drawn as the first one was: whatever it shows is rendered in it.
+  void restart() { sceneRenderer_.restart(); }
+  // From the next frame on. Throws UsageError for a debug.omit_barrier that does not exist.
+  void setSettings(const Settings& settings);
   // Waits for the GPU. Afterwards frameMs covers the whole frame, and the renderer's timings are this frame's.
   void finish();
   Image8 picture();        // of the last frame drawn with `capture`
