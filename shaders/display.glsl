@@ -23,6 +23,6 @@ vec3 srgbEncode(vec3 x) {
 }
 
 void main() {
-  vec3 x = exposure * texelRadiance(radiance, ivec2(gl_FragCoord.xy * lookup.xy + lookup.zw));
+  vec3 x = exposure * texelMean(radiance, ivec2(gl_FragCoord.xy * lookup.xy + lookup.zw)).rgb;
   color = vec4(srgbEncode(toneCurve(x)), 1.0);
 }

@@ -46,6 +46,8 @@ struct MirrorData {
   vec4 baseColor;    // of the diffuse layer or of the back; w: one of the mirror* constants
   vec4 lookup;       // texel of the image = pixel of the pass * xy + zw
   ivec4 image;       // width and height of the image's used part in texels; z: one of the lookup* constants
+  vec4 reproject[3]; // columns 0, 1, 2 of a matrix and in their w a vector: homogeneous texel of an image of an earlier
+                     // frame = matrix * (pixel of the pass, 1) + vector * disparity
 };
 
 const float mirrorImage = 0.0;

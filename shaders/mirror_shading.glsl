@@ -4,7 +4,8 @@
 #include "shading.glsl"
 #include "texels.glsl"
 
-layout(constant_id = 0) const bool baseOnly = false;  // the share of the layer under the reflection
+layout(constant_id = 0) const bool baseOnly = false;   // the share of the layer under the reflection
+layout(constant_id = 1) const bool reprojects = false; // the image is one of an earlier frame, and something moved
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 
@@ -13,38 +14,105 @@ layout(location = 0) out vec4 color;
 #ifdef MIRROR_OWN_SAMPLE
 // All views share one projection and one set of sample positions: sample i of the parent's pixel and sample i of the
 // image's texel lie on one ray and its reflection.
-vec3 reflectedRadiance(MirrorData mirror) {
+vec4 valueAt(ivec2 texel) { return texelFetch(reflection, texel, gl_SampleID); }
+
+// Of the values within their texels.
+vec2 valuePosition() { return gl_SamplePosition; }
+
+vec4 reflected(MirrorData mirror) {
   ivec2 texel = ivec2(floor(gl_FragCoord.xy + mirror.lookup.zw));
-  return texelFetch(reflection, clamp(texel, ivec2(0), mirror.image.xy - 1), gl_SampleID).rgb;
+  return valueAt(clamp(texel, ivec2(0), mirror.image.xy - 1));
 }
 #else
-vec3 boxFiltered(vec2 low, vec2 high, ivec2 last) {
-  vec3 sum = vec3(0.0);
+vec4 valueAt(ivec2 texel) { return texelMean(reflection, texel); }
+
+vec2 valuePosition() { return vec2(0.5); }
+
+vec4 boxFiltered(vec2 low, vec2 high, ivec2 last) {
+  vec4 sum = vec4(0.0);
   float area = 0.0;
   for (int y = int(floor(low.y)); y < int(ceil(high.y)); ++y) {
     for (int x = int(floor(low.x)); x < int(ceil(high.x)); ++x) {
       vec2 covered = min(vec2(x + 1, y + 1), high) - max(vec2(x, y), low);
       float weight = max(covered.x, 0.0) * max(covered.y, 0.0);
-      sum += weight * texelRadiance(reflection, clamp(ivec2(x, y), ivec2(0), last));
+      sum += weight * texelMean(reflection, clamp(ivec2(x, y), ivec2(0), last));
       area += weight;
     }
   }
   return sum / max(area, 1e-6);
 }
 
-vec3 reflectedRadiance(MirrorData mirror) {
+vec4 reflected(MirrorData mirror) {
   ivec2 last = mirror.image.xy - 1;
   vec2 texel = gl_FragCoord.xy * mirror.lookup.xy + mirror.lookup.zw;
   if (mirror.image.z == lookupFetch) {
-    return texelRadiance(reflection, clamp(ivec2(floor(texel)), ivec2(0), last));
+    return texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), last));
   }
   if (mirror.image.z == lookupBilinear) {
-    return bilinearRadiance(reflection, clamp(texel, vec2(0.5), vec2(mirror.image.xy) - 0.5));
+    return bilinearMean(reflection, clamp(texel, vec2(0.5), vec2(mirror.image.xy) - 0.5));
   }
   vec2 low = floor(gl_FragCoord.xy) * mirror.lookup.xy + mirror.lookup.zw;
   return boxFiltered(low, low + mirror.lookup.xy, last);
 }
 #endif
+
+// What this fragment sees, from where an image of an earlier frame shows it. docs/architecture.md: Held images.
+struct Reprojection {
+  vec3 direction;  // homogeneous texel of what is infinitely far
+  vec3 parallax;   // added to it per disparity
+  float nearest;   // disparity of the mirror itself: what is seen lies behind it
+};
+
+Reprojection reprojection(MirrorData mirror, float nearest) {
+  mat3 fromPixel = mat3(mirror.reproject[0].xyz, mirror.reproject[1].xyz, mirror.reproject[2].xyz);
+  vec3 parallax = vec3(mirror.reproject[0].w, mirror.reproject[1].w, mirror.reproject[2].w);
+  return Reprojection(fromPixel * vec3(gl_FragCoord.xy, 1.0), parallax, nearest);
+}
+
+vec2 texelAt(Reprojection r, float disparity) {
+  vec3 texel = r.direction + r.parallax * disparity;
+  return texel.xy / max(texel.z, 1e-30);
+}
+
+// The disparity now of a point on this fragment's ray that had disparity `then` in the image.
+float disparityNow(Reprojection r, float then) {
+  float ahead = 1.0 - then * r.parallax.z;
+  return ahead > 1e-6 ? clamp(then * r.direction.z / ahead, 0.0, r.nearest) : r.nearest;
+}
+
+// Which of the image's points lies on this fragment's ray is not known beforehand: the point found at a guess makes the
+// next guess.
+float foundDisparity(Reprojection r, ivec2 last, float start) {
+  float disparity = start;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 texel = clamp(ivec2(floor(texelAt(r, disparity))), ivec2(0), last);
+    disparity = disparityNow(r, valueAt(texel).a);
+  }
+  return disparity;
+}
+
+// Bilinear, but every value counts by how far off the ray its own point is: the far ones beside a silhouette have moved
+// by another length than the near ones and would leave an outline behind.
+vec4 reprojected(MirrorData mirror, float nearest) {
+  ivec2 last = mirror.image.xy - 1;
+  Reprojection r = reprojection(mirror, nearest);
+  vec2 position = texelAt(r, foundDisparity(r, last, nearest)) - valuePosition();
+  ivec2 corner = ivec2(floor(clamp(position, vec2(0.0), vec2(last))));
+  vec4 matching = vec4(0.0);
+  vec4 all = vec4(0.0);
+  float matchingWeight = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 texel = min(corner + ivec2(i & 1, i >> 1), last);
+    vec4 value = valueAt(texel);
+    vec2 own = texelAt(r, disparityNow(r, value.a)) - valuePosition();
+    vec2 near = max(1.0 - abs(own - vec2(texel)), 0.0);
+    vec2 plain = max(1.0 - abs(clamp(position, vec2(0.0), vec2(last)) - vec2(texel)), 0.0);
+    matching += near.x * near.y * value;
+    matchingWeight += near.x * near.y;
+    all += plain.x * plain.y * value;
+  }
+  return matchingWeight > 0.05 ? matching / matchingWeight : all;
+}
 
 // F of docs/picture.md; `inward` is the ray's component along the normal, below zero.
 vec3 reflectance(MirrorData mirror, vec3 ray, float inward) {
@@ -70,6 +138,8 @@ vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
   return back || any(greaterThan(base.diffuse, vec3(0.0))) ? surfaceRadiance(view, base) : vec3(0.0);
 }
 
+// The disparity stored is that of what is reflected, so that an image of this mirror can be reprojected in its turn:
+// views share one projection and reflection keeps lengths, so it is the same in the mirror's image and in its parent's.
 void main() {
   MirrorData mirror = mirrors[draw.drawIndex];
   ViewData view = views[draw.viewIndex];
@@ -78,20 +148,27 @@ void main() {
   vec3 ray = rayThrough(view, gl_FragCoord.xy);
   float inward = min(dot(mirror.plane.xyz, ray), -1e-7 * length(ray));
   vec3 f = reflectance(mirror, ray, inward);
+  // The ray is one metre long along the view's axis.
+  float ownDisparity = inward / min(-mirror.plane.w, -1e-30);
 #ifdef MIRROR_OWN_SAMPLE
-  color = storable(f * min(reflectedRadiance(mirror), shareMax));
+  vec4 image = reprojects ? reprojected(mirror, ownDisparity) : reflected(mirror);
+  color = storable(f * min(image.rgb, shareMax), image.a);
 #else
   vec3 base = baseRadiance(mirror, view, ray * (-mirror.plane.w / inward));
   if (mirror.baseColor.w == mirrorBack) {
-    color = storable(base);
+    color = storable(base, ownDisparity);
     return;
   }
   if (baseOnly) {
-    color = storable((1.0 - f) * min(base, shareMax));
+    color = storable((1.0 - f) * min(base, shareMax), 0.0);
     return;
   }
-  vec3 reflected = mirror.baseColor.w == mirrorImage ? reflectedRadiance(mirror)
-                                                     : backgroundRadiance(view, reflect(ray, mirror.plane.xyz));
-  color = storable(f * reflected + (1.0 - f) * base);
+  vec4 image = vec4(0.0);
+  if (mirror.baseColor.w == mirrorImage) {
+    image = reprojects ? reprojected(mirror, ownDisparity) : reflected(mirror);
+  } else {
+    image.rgb = backgroundRadiance(view, reflect(ray, mirror.plane.xyz));
+  }
+  color = storable(f * image.rgb + (1.0 - f) * base, image.a);
 #endif
 }

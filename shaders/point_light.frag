@@ -29,5 +29,5 @@ void main() {
   }
   vec4 clip = view.clipFromRelative * vec4(ray * t, 1.0);
   gl_FragDepth = clamp(clip.z / clip.w, 0.0, 1.0);
-  color = storable(lights[lightIndex].glow.rgb);
+  color = storable(lights[lightIndex].glow.rgb, 1.0 / max(clip.w, 1e-30));
 }

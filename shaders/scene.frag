@@ -52,5 +52,5 @@ void main() {
   surface.specular = specular.w > 0.0 ? specular.rgb : material.specular.rgb;
   surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
   surface.emission = material.emission.rgb;
-  color = storable(surfaceRadiance(views[draw.viewIndex], surface));
+  color = storable(surfaceRadiance(views[draw.viewIndex], surface), gl_FragCoord.w);
 }

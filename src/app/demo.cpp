@@ -147,7 +147,7 @@ void Demo::drawFrame(double seconds) {
   SceneState state = evaluate(loaded_->scene, time_);
   state.camera = camera_.pose(state.camera);
   const FittedPlan fitted = planner_.plan(loaded_->scene, state, model_.settings, static_cast<int>(frame->extent.width),
-                                          static_cast<int>(frame->extent.height));
+                                          static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
   const FramePlan& plan = fitted.plan;
   std::optional<DebugView> debug;
   if (model_.debugPass >= static_cast<int>(plan.passes.size())) {

@@ -102,18 +102,20 @@ int runBench(const Options& options) {
   if (!options.json.empty()) {
     writeJson(options.json, merged);
   }
-  std::printf("%-40s %10s %10s %8s %10s %10s\n", "pass", "median ms", "p95 ms", "draws", "triangles", "fragments");
+  std::printf("%-40s %6s %10s %10s %8s %10s %10s\n", "pass", "frames", "median ms", "p95 ms", "draws", "triangles",
+              "fragments");
   const auto figure = [](const nlohmann::ordered_json& value) {
     return value.is_null() ? std::string("-") : value.dump();
   };
   for (const auto& pass : merged["passes"]) {
-    std::printf("%-40s %10.3f %10.3f %8s %10s %10s\n", pass["name"].get<std::string>().c_str(),
-                pass["gpu_ms"]["median"].get<double>(), pass["gpu_ms"]["p95"].get<double>(),
-                figure(pass["draws"]).c_str(), figure(pass["triangles"]).c_str(), figure(pass["fragments"]).c_str());
+    std::printf("%-40s %6d %10.3f %10.3f %8s %10s %10s\n", pass["name"].get<std::string>().c_str(),
+                pass.value("frames", measured), pass["gpu_ms"]["median"].get<double>(),
+                pass["gpu_ms"]["p95"].get<double>(), figure(pass["draws"]).c_str(), figure(pass["triangles"]).c_str(),
+                figure(pass["fragments"]).c_str());
   }
   for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms"}) {
     const auto& total = merged["totals"][key];
-    std::printf("%-40s %10.3f %10.3f\n", key, total["median"].get<double>(), total["p95"].get<double>());
+    std::printf("%-40s %6d %10.3f %10.3f\n", key, measured, total["median"].get<double>(), total["p95"].get<double>());
   }
   return failOnMessages(session.device());
 }

@@ -50,9 +50,6 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
     }
   }
   loaded.quality = chooseQuality(options, loaded.settings);
-  if (loaded.settings.reflection.updateInterval != 1) {
-    spdlog::warn("reflection.update_interval is read but not acted on by this version: mirror images are always fresh");
-  }
   for (const std::string& line : ignoredEffects(loaded.scene)) {
     spdlog::warn("{}", line);
   }
@@ -92,13 +89,13 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
-                               int height) {
+                               int height, std::span<const HeldImage> held) {
   if (std::max(width, height) > limits_.largestSide) {
     throw UsageError("--size: " + std::to_string(width) + "x" + std::to_string(height) +
                      " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
                      " pixels a side)");
   }
-  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height);
+  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, held);
   if (!fitted.message.empty() && message_.empty()) {
     spdlog::warn("{}", fitted.message);
   }
@@ -123,7 +120,8 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   const Clock::time_point recording = Clock::now();
   frame_.state = evaluate(loaded_.scene, time);
   frame_.state.camera = camera_.value_or(frame_.state.camera);
-  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height);
+  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height,
+                                    sceneRenderer_.heldImages());
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
   frame.capture = capture;
@@ -132,6 +130,11 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   renderer_.endFrame(frame);
   frame_.frameMs = 0.0;
   return frame_;
+}
+
+void Session::setSettings(const Settings& settings) {
+  applyDebugSettings(settings, device_);
+  loaded_.settings = settings;
 }
 
 void Session::finish() {

@@ -37,7 +37,8 @@ void applyDebugSettings(const Settings& settings, Device& device);
 class BudgetPlanner {
  public:
   explicit BudgetPlanner(const Device& device);
-  FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height);
+  FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
+                  std::span<const HeldImage> held);
   const std::string& message() const { return message_; }  // of the last plan; empty if nothing was lowered
 
  private:
@@ -59,13 +60,14 @@ class Session {
  public:
   explicit Session(const Options& options);
 
-  // Settings of the frames from now on.
-  void setSettings(const Settings& settings) { loaded_.settings = settings; }
-  void restart() {}
   // A camera in the place of the scene's.
   void setCamera(const std::optional<CameraPose>& camera) { camera_ = camera; }
   // Draws the scene at `time`. picture() needs `capture`.
   const DrawnFrame& draw(double time, bool capture);
+  // The next frame is drawn as the first one was: whatever it shows is rendered in it.
+  void restart() { sceneRenderer_.restart(); }
+  // From the next frame on. Throws UsageError for a debug.omit_barrier that does not exist.
+  void setSettings(const Settings& settings);
   // Waits for the GPU. Afterwards frameMs covers the whole frame, and the renderer's timings are this frame's.
   void finish();
   Image8 picture();        // of the last frame drawn with `capture`

@@ -102,6 +102,44 @@ ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
   return merged;
 }
 
+// A pass in the frames in which it ran.
+struct GatheredPass {
+  std::vector<const ordered_json*> passes;
+  const ordered_json* lastFrame = nullptr;
+};
+
+// By name and path; those that share both, because mirrors share a name, stay apart.
+std::vector<GatheredPass> gatherPasses(const std::vector<ordered_json>& frames) {
+  std::vector<GatheredPass> gathered;
+  for (const ordered_json& frame : frames) {
+    std::ptrdiff_t place = 0;
+    for (const ordered_json& pass : frame.at("passes")) {
+      auto found = std::find_if(gathered.begin(), gathered.end(), [&](const GatheredPass& known) {
+        const ordered_json& other = *known.passes.front();
+        return known.lastFrame != &frame && other.at("name") == pass.at("name") && other.at("path") == pass.at("path");
+      });
+      if (found == gathered.end()) {
+        found = gathered.insert(gathered.begin() + place, GatheredPass{});
+      }
+      found->passes.push_back(&pass);
+      found->lastFrame = &frame;
+      place = found - gathered.begin() + 1;
+    }
+  }
+  return gathered;
+}
+
+ordered_json mergePasses(const std::vector<ordered_json>& frames) {
+  ordered_json merged = ordered_json::array();
+  for (const GatheredPass& pass : gatherPasses(frames)) {
+    merged.push_back(mergeObjects(pass.passes));
+    if (pass.passes.size() < frames.size()) {
+      merged.back()["frames"] = pass.passes.size();
+    }
+  }
+  return merged;
+}
+
 }  // namespace
 
 ordered_json frameStats(Session& session, const FrameTimings& timings) {
@@ -142,13 +180,7 @@ ordered_json mergeStats(const std::vector<ordered_json>& frames) {
     totals.push_back(&frame.at("totals"));
   }
   merged["totals"] = mergeObjects(totals);
-  for (size_t i = 0; i < merged["passes"].size(); ++i) {
-    std::vector<const ordered_json*> pass;
-    for (const ordered_json& frame : frames) {
-      pass.push_back(&frame.at("passes").at(i));
-    }
-    merged["passes"][i] = mergeObjects(pass);
-  }
+  merged["passes"] = mergePasses(frames);
   return merged;
 }
 

@@ -9,7 +9,9 @@ namespace speculum {
 // The figures of one frame as `render --stats` writes them; `timings` belong to that frame.
 nlohmann::ordered_json frameStats(Session& session, const FrameTimings& timings);
 
-// Over the measured frames each *_ms becomes an object of median, min, p95 and max. `frames` are stats of equal plans.
+// Over the measured frames each *_ms becomes an object of median, min, p95 and max. `frames` are stats of one scene and
+// one time, whose plans differ at most in which mirrors show images of earlier frames: a pass is merged over those
+// frames in which it ran, and has their number as `frames` if they are not all.
 nlohmann::ordered_json mergeStats(const std::vector<nlohmann::ordered_json>& frames);
 
 // Both throw std::runtime_error when the file cannot be written. The folder is made.

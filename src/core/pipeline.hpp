@@ -15,7 +15,7 @@ namespace speculum {
 enum class Blend {
   none,  // replaces it
   over,  // source alpha over destination
-  add,   // colours are added, the target's alpha stays
+  add,   // colours and alphas are added
 };
 
 // Dynamic: viewport, scissor, front face. Everything else is fixed here.

@@ -88,7 +88,7 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
   if (settings.view.samples > 1) {
     return {"msaa", true, "view.samples = " + std::to_string(settings.view.samples)};
   }
-  if (settings.reflection.samples > 1 && !plan.passes.empty()) {
+  if (settings.reflection.samples > 1 && (!plan.passes.empty() || !plan.held.empty())) {
     return {"msaa", true, "reflection.samples = " + std::to_string(settings.reflection.samples)};
   }
   return {"msaa", false, "one sample a pixel"};

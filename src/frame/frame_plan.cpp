@@ -15,8 +15,10 @@ constexpr double largestNear = 0.001;  // metres
 // A pass before its place in the order of recording is known.
 struct Node {
   PlannedPass pass;
-  glm::dvec3 throughput{1.0};  // per channel
-  std::vector<int> children;   // nodes
+  glm::dvec3 throughput{1.0};     // per channel
+  std::vector<int> children;      // nodes
+  std::optional<HeldImage> held;  // its image, if it is to be held; rendered by the pass if `earlier` is -1
+  bool moved = false;             // since the earlier image
 };
 
 // A mirror that deserves a pass, if the budget reaches it.
@@ -68,8 +70,9 @@ std::string number(double value) {
 
 class Planner {
  public:
-  Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height)
-      : scene_(scene), state_(state), settings_(settings.reflection) {
+  Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
+          std::span<const HeldImage> held)
+      : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), heldBefore_(held) {
     // Everything in front of `near` is clamped to one depth and would lose its order; a larger one gains nothing,
     // because depth is near / distance in a float.
     const double near = std::min(state.camera.near, largestNear);
@@ -89,6 +92,7 @@ class Planner {
       expand(best);
     }
     record(0);
+    forgetHeldSubtrees();
     return std::move(plan_);
   }
 
@@ -97,12 +101,19 @@ class Planner {
   void consider(int node, int mirror);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
+  void hold(Node& node, const Candidate& candidate) const;
+  bool serves(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible) const;
+  int margin(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible, int due) const;
   int record(int node);
+  void showHeld(MirrorDraw& draw, const Node& node);
+  void forgetHeldSubtrees();
   bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
   const SceneState& state_;
+  const Settings& allSettings_;
   const ReflectionSettings& settings_;
+  std::span<const HeldImage> heldBefore_;
   FramePlan plan_;
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> candidates_;
@@ -209,20 +220,85 @@ void Planner::expand(const Candidate& candidate) {
   node.pass.throughput = largest(candidate.throughput);
   node.pass.parent = static_cast<int>(candidate.draw);  // until record() knows the order
   node.throughput = candidate.throughput;
+  if (node.pass.depth == 0 && settings_.updateInterval > 1) {
+    hold(node, candidate);
+  }
   const int index = static_cast<int>(nodes_.size());
   nodes_[candidate.parent].children.push_back(index);
   nodes_.push_back(std::move(node));
   fill(index);
 }
 
+// Decides whether an image of an earlier frame serves, and otherwise what this frame's is to cover.
+void Planner::hold(Node& node, const Candidate& candidate) const {
+  View& view = node.pass.view;
+  const int interval = settings_.updateInterval;
+  const auto before = std::find_if(heldBefore_.begin(), heldBefore_.end(),
+                                   [&](const HeldImage& image) { return image.mirror == view.path.back(); });
+  const bool exists = before != heldBefore_.end();
+  const bool old = exists && before->age >= std::min(before->due, interval);
+  if (exists && !old && serves(*before, node, candidate.visible)) {
+    node.held = *before;
+    ++node.held->age;
+    node.held->pass = -1;
+    node.held->earlier = static_cast<int>(before - heldBefore_.begin());
+    node.moved = !unmoved(*before, view, plan_.projection, candidate.visible);
+    return;
+  }
+  // Images that are rendered out of turn, such as all of the first frame, come due in different frames.
+  const int due = old ? interval : interval - candidate.order % interval;
+  if (const int pixels = exists ? margin(*before, node, candidate.visible, due) : 0; pixels > 0) {
+    view.rect = {view.rect.x - pixels, view.rect.y - pixels, view.rect.width + 2 * pixels,
+                 view.rect.height + 2 * pixels};
+    view.cone = coneOf(view, plan_.projection, view.rect);
+  }
+  node.held = HeldImage{.mirror = view.path.back(),
+                        .view = view,
+                        .projection = plan_.projection,
+                        .visible = candidate.visible,
+                        .settings = allSettings_,
+                        .due = due};
+}
+
+bool Planner::serves(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible) const {
+  const View& view = node.pass.view;
+  return sameMirrorImages(image.settings, allSettings_) && image.view.pictureSize == view.pictureSize &&
+         (unmoved(image, view, plan_.projection, visible) || covers(image, view, visible));
+}
+
+// Pixels on each side that an image needs to serve until it is due, if things go on moving as they did since `image`.
+int Planner::margin(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible, int due) const {
+  constexpr double reserve = 1.25;  // motion is not quite even
+  constexpr double least = 2.0;     // pixels
+  const View& view = node.pass.view;
+  if (image.view.pictureSize != view.pictureSize) {
+    return 0;
+  }
+  const double most = largestMargin * view.pictureSize.y;
+  const double perFrame = largestShift(image, view, plan_.projection, visible) / image.age;
+  // A cut, or too fast for the next frame already: a margin would be lost.
+  if (due == 1 || perFrame == 0.0 || !(perFrame < most)) {
+    return 0;
+  }
+  return static_cast<int>(std::min(most, reserve * perFrame * (due - 1) + least));
+}
+
 // Depth first, so that an image lives no longer than until its parent is drawn. Returns the pass's index, -1 for main.
 int Planner::record(int node) {
   std::vector<int> childPasses;
   for (const int child : nodes_[node].children) {
-    const size_t draw = static_cast<size_t>(nodes_[child].pass.parent);
-    const int pass = record(child);
-    nodes_[node].pass.mirrors[draw].pass = pass;
-    childPasses.push_back(pass);
+    MirrorDraw& draw = nodes_[node].pass.mirrors[static_cast<size_t>(nodes_[child].pass.parent)];
+    if (nodes_[child].held && nodes_[child].held->earlier >= 0) {
+      showHeld(draw, nodes_[child]);
+      continue;
+    }
+    std::optional<HeldImage> held = std::move(nodes_[child].held);
+    draw.pass = record(child);
+    childPasses.push_back(draw.pass);
+    if (held) {
+      held->pass = draw.pass;
+      plan_.held.push_back(std::move(*held));
+    }
   }
   const int index = node == 0 ? -1 : static_cast<int>(plan_.passes.size());
   for (const int pass : childPasses) {
@@ -236,6 +312,27 @@ int Planner::record(int node) {
   return index;
 }
 
+void Planner::showHeld(MirrorDraw& draw, const Node& node) {
+  const HeldImage& image = *node.held;
+  const View& parent = nodes_[0].pass.view;
+  draw.held = node.moved ? heldLookup(image, parent, node.pass.view, plan_.projection) : HeldLookup{};
+  draw.held->image = static_cast<int>(plan_.held.size());
+  const int frames = image.age - 1;
+  skip(parent, image.mirror, SkipReason::unchanged,
+       "image of " + (frames == 1 ? std::string("the last frame") : std::to_string(frames) + " frames ago") +
+           (node.moved ? ", reprojected" : ""));
+  plan_.held.push_back(image);
+}
+
+// What is seen in a held image is not looked at.
+void Planner::forgetHeldSubtrees() {
+  std::erase_if(plan_.skipped, [&](const SkippedMirror& skipped) {
+    return skipped.depth > 0 && std::any_of(plan_.held.begin(), plan_.held.end(), [&](const HeldImage& image) {
+             return image.earlier >= 0 && image.mirror == skipped.path.front();
+           });
+  });
+}
+
 }  // namespace
 
 std::string_view skipReasonName(SkipReason reason) {
@@ -245,8 +342,9 @@ std::string_view skipReasonName(SkipReason reason) {
   return names[static_cast<size_t>(reason)];
 }
 
-FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height) {
-  return Planner(scene, state, settings, width, height).plan();
+FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
+                    std::span<const HeldImage> held) {
+  return Planner(scene, state, settings, width, height, held).plan();
 }
 
 }  // namespace speculum

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frame/held_image.hpp"
 #include "frame/settings.hpp"
 #include "frame/view.hpp"
 
@@ -26,7 +27,8 @@ std::string_view skipReasonName(SkipReason reason);
 struct MirrorDraw {
   int mirror = 0;                   // index into Scene::mirrors
   bool back = false;                // its painted back is seen
-  int pass = -1;                    // index into FramePlan::passes of its image; -1: it shows the background
+  int pass = -1;                    // index into FramePlan::passes of its image; -1: it has none of this frame
+  std::optional<HeldLookup> held;   // of its image of an earlier frame; with neither it shows the background
   std::vector<glm::dvec3> polygon;  // world, cut by the view's clip plane, counter-clockwise for the view's eye
   Plane plane;                      // world; facing the view's eye
 };
@@ -58,10 +60,21 @@ struct FramePlan {
   std::vector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
   PlannedPass main;
   std::vector<SkippedMirror> skipped;
+  std::vector<HeldImage> held;  // after this frame; what the next one may be planned with
 };
+
+// Images that are to be held are rendered with a margin on each side, as wide as the motion of the last frames calls
+// for but at most this part of the picture's height.
+inline constexpr double largestMargin = 0.1;
 
 // Which passes a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. Recursion is
 // spent best first, by visible pixels times throughput.
-FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height);
+//
+// With reflection.update_interval above 1, a mirror seen directly shows its image in `held` again, if that is younger
+// than its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as if
+// every image were rendered, so that an image does not depend on which others are; the passes of held ones are then
+// left out.
+FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
+                    std::span<const HeldImage> held = {});
 
 }  // namespace speculum

@@ -15,10 +15,19 @@ uint64_t pixels(const PixelRect& rect) {
   return static_cast<uint64_t>(rect.area());
 }
 
+// Of images of earlier frames that are shown.
+uint64_t heldPixels(const FramePlan& plan) {
+  uint64_t sum = 0;
+  for (const HeldImage& image : plan.held) {
+    sum += image.earlier >= 0 ? pixels(image.view.rect) : 0;
+  }
+  return sum;
+}
+
 // The most pixels of mirror images that are alive together: each from its own pass until its parent's.
 uint64_t peakPixels(const FramePlan& plan) {
-  uint64_t alive = 0;
-  uint64_t peak = 0;
+  uint64_t alive = heldPixels(plan);
+  uint64_t peak = alive;
   for (const PlannedPass& pass : plan.passes) {
     alive += pixels(pass.view.rect);
     peak = std::max(peak, alive);
@@ -65,23 +74,24 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height) {
+                      int width, int height, std::span<const HeldImage> held) {
   FittedPlan fitted{{}, settings, {}};
   ReflectionSettings& reflection = fitted.settings.reflection;
-  const double largestScale = static_cast<double>(limits.largestSide) / std::max(width, height);
+  const double margins = reflection.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
+  const double largestScale = limits.largestSide / (std::max(width, height) + margins);
   if (reflection.scale > largestScale) {
     reflection.scale = largestScale;
     fitted.message = "mirror images of " + settingValue(settings, "reflection.scale") +
                      " times the picture's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
-  fitted.plan = planFrame(scene, state, fitted.settings, width, height);
+  fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
   std::string lowered;
   while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && lower(fitted.settings, what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height);
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
   }
   if (!lowered.empty()) {
     fitted.message += (fitted.message.empty() ? "" : "; ") + ("targets of " + mebibytes(wanted)) +

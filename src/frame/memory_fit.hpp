@@ -7,7 +7,8 @@
 
 namespace speculum {
 
-// Device memory of a plan's render targets: the main view, and the mirror images alive at one time with their depth.
+// Device memory of a plan's render targets: the main view, the mirror images of earlier frames that it shows, and those
+// alive at one time with their depth.
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 
 struct TargetLimits {
@@ -25,6 +26,6 @@ struct FittedPlan {
 // main view, then the resolution of mirror images halved step by step until the targets fit the budget. What cannot be
 // lowered any more is planned as it is.
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height);
+                      int width, int height, std::span<const HeldImage> held = {});
 
 }  // namespace speculum

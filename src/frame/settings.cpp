@@ -294,6 +294,15 @@ Settings settingsOf(const Scene& scene) {
   return settings;
 }
 
+bool sameMirrorImages(const Settings& a, const Settings& b) {
+  Settings c = b;
+  c.reflection.updateInterval = a.reflection.updateInterval;
+  c.view.samples = a.view.samples;
+  c.view.exposure = a.view.exposure;
+  c.view.toneMap = a.view.toneMap;
+  return a.reflection == c.reflection && a.view == c.view;
+}
+
 ordered_json settingsJson(const Settings& settings) {
   ordered_json json = ordered_json::object();
   for (const Setting& setting : table()) {

@@ -25,6 +25,8 @@ struct ReflectionSettings {
   int maxPasses = 64;
   int updateInterval = 1;  // frames
   ClipMethod clip = ClipMethod::clipDistance;
+
+  bool operator==(const ReflectionSettings&) const = default;
 };
 
 struct ViewSettings {
@@ -34,6 +36,8 @@ struct ViewSettings {
   std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene
   TextureFilter textureFilter = TextureFilter::bilinear;
   bool wireframe = false;
+
+  bool operator==(const ViewSettings&) const = default;
 };
 
 // Bounds that a measured sweep is asked to keep; see accuracy/pareto.hpp. Nothing in the frame plan reads them.
@@ -68,6 +72,10 @@ std::string settingValue(const Settings& settings, std::string_view key);
 
 // Defaults, then the scene's [settings]. Throws InputError with FILE:LINE.
 Settings settingsOf(const Scene& scene);
+
+// Whether a mirror image drawn under one of them could have been drawn under the other: they differ at most in
+// reflection.update_interval, in debug.*, and in what only the main view and the display pass heed.
+bool sameMirrorImages(const Settings& a, const Settings& b);
 
 // Every key with its value, as numbers, booleans and strings.
 nlohmann::ordered_json settingsJson(const Settings& settings);

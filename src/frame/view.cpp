@@ -37,15 +37,31 @@ View mainView(const CameraPose& camera, const Projection& projection, int width,
   view.worldToView = camera.worldToView;
   view.rect = {0, 0, width, height};
   view.pictureSize = glm::dvec2(width, height);
+  view.cone = coneOf(view, projection, view.rect);
+  return view;
+}
+
+std::vector<glm::dvec3> coneOf(const View& view, const Projection& projection, const PixelRect& rect) {
   const double fx = projection.focal / projection.aspect;
   const double fy = projection.focal;
-  const glm::dmat3 viewToWorld = glm::transpose(camera.worldToView);
-  // w + x, w - x, w + y, w - y >= 0 with w = -z.
+  const glm::dvec2 low = glm::dvec2(rect.x, rect.y) * 2.0 / view.pictureSize - 1.0;
+  const glm::dvec2 high = glm::dvec2(rect.x + rect.width, rect.y + rect.height) * 2.0 / view.pictureSize - 1.0;
+  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
+  std::vector<glm::dvec3> cone;
+  // x - low.x w, high.x w - x, high.y w - y, y - low.y w >= 0 with w = -z.
   for (const glm::dvec3& n :
-       {glm::dvec3(fx, 0, -1), glm::dvec3(-fx, 0, -1), glm::dvec3(0, fy, -1), glm::dvec3(0, -fy, -1)}) {
-    view.cone.push_back(viewToWorld * glm::normalize(n));
+       {glm::dvec3(fx, 0, low.x), glm::dvec3(-fx, 0, -high.x), glm::dvec3(0, fy, -high.y), glm::dvec3(0, -fy, low.y)}) {
+    cone.push_back(viewToWorld * glm::normalize(n));
   }
-  return view;
+  return cone;
+}
+
+glm::dvec2 overscan(const View& view) {
+  const glm::dvec2 low(view.rect.x, view.rect.y);
+  const glm::dvec2 high = low + glm::dvec2(view.rect.width, view.rect.height) - view.pictureSize;
+  // A rectangle is rounded up to whole pixels, which takes it past a picture's size that is not whole.
+  const glm::dvec2 beyond = glm::max(-low, glm::floor(high));
+  return 1.0 + 2.0 * glm::max(beyond, 0.0) / view.pictureSize;
 }
 
 View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,

@@ -29,6 +29,13 @@ struct View {
 // The camera's view of a picture of `width` x `height` pixels.
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height);
 
+// Inward unit normals (world) of planes through the eye that bound what `rect` of the picture shows.
+std::vector<glm::dvec3> coneOf(const View& view, const Projection& projection, const PixelRect& rect);
+
+// The part of the plane of projection that must be drawn, in widths and heights of the picture, centred: 1 where
+// `view.rect` lies within the picture, more where an image has a margin beyond its border.
+glm::dvec2 overscan(const View& view);
+
 // The view that a mirror's plane makes of `parent`. `plane` faces the parent's eye, `visible` is the part of the mirror
 // that the parent sees (world). `rect` and `pictureSize` are at the resolution of mirror images.
 View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,

@@ -18,6 +18,7 @@ struct Projection {
   Projection(double verticalFovRadians, double aspectRatio, double nearMetres);
   glm::dmat4 matrix() const;
   glm::dvec4 clip(const glm::dvec3& view) const;  // of a point in view space
+  bool operator==(const Projection&) const = default;
 };
 
 // The projection with its depth row replaced so that z_clip > w_clip exactly behind `plane` (view space, (n, d) with

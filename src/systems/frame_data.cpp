@@ -84,18 +84,29 @@ Lookup lookupFor(const glm::dvec2& ratio) {
   return ratio.x < 1.0 ? Lookup::bilinear : Lookup::box;
 }
 
-MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const View& view, const PlannedPass* image) {
+// The view that the image was rendered with, or null.
+const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
+  return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.held ? &plan.held[draw.held->image].view : nullptr;
+}
+
+MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const View& view, const View* image) {
   MirrorData data{};
   data.plane = glm::vec4(glm::dvec4(draw.plane.normal, draw.plane.distance(view.eye)));
   data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), mirror.fresnel == Fresnel::schlick ? 1.0f : 0.0f);
   const MirrorShows shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
   data.baseColor = glm::vec4(glm::vec3(draw.back ? mirror.backColor : mirror.baseColor), static_cast<float>(shows));
   if (image) {
-    const glm::dvec2 ratio = image->view.pictureSize / view.pictureSize;
-    const PixelRect& rect = image->view.rect;
+    const glm::dvec2 ratio = image->pictureSize / view.pictureSize;
+    const PixelRect& rect = image->rect;
     const glm::dvec2 offset = glm::dvec2(view.rect.x, view.rect.y) * ratio - glm::dvec2(rect.x, rect.y);
     data.lookup = glm::vec4(glm::dvec4(ratio, offset));
     data.image = glm::ivec4(rect.width, rect.height, static_cast<int>(lookupFor(ratio)), 0);
+  }
+  if (draw.held && draw.held->moved) {
+    for (int column = 0; column < 3; ++column) {
+      data.reproject[column] =
+          glm::vec4(glm::dvec4(draw.held->texelFromPixel[column], draw.held->texelFromDisparity[column]));
+    }
   }
   return data;
 }
@@ -103,14 +114,20 @@ MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const View& 
 }  // namespace
 
 glm::dmat4 viewProjection(const FramePlan& plan, const View& view, ClipMethod clip) {
+  glm::dmat4 projection = plan.projection.matrix();
   if (clip == ClipMethod::oblique && view.clip) {
     const glm::dvec4 relative = relativeClipPlane(view);
     const glm::dvec4 plane(view.worldToView * glm::dvec3(relative), relative.w);
     if (const std::optional<glm::dmat4> oblique = obliqueProjection(plan.projection, plane)) {
-      return *oblique;
+      projection = *oblique;
     }
   }
-  return plan.projection.matrix();
+  const glm::dvec2 drawn = overscan(view);
+  for (int column = 0; column < 4; ++column) {
+    projection[column].x /= drawn.x;
+    projection[column].y /= drawn.y;
+  }
+  return projection;
 }
 
 FrameData::FrameData(Device& device) : device_(device) {
@@ -204,12 +221,13 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
                            const Scene& scene, PassData& data) {
   for (const MirrorDraw& draw : pass.mirrors) {
     const Mirror& mirror = scene.mirrors[draw.mirror];
-    const PlannedPass* image = draw.pass >= 0 ? &plan.passes[draw.pass] : nullptr;
     MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
                       .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
                       .pass = draw.pass,
+                      .held = draw.held ? draw.held->image : -1,
+                      .reprojected = draw.held && draw.held->moved,
                       .base = mirror.baseColor != glm::dvec3(0.0)};
-    mirrors_.push_back(mirrorData(draw, mirror, pass.view, image));
+    mirrors_.push_back(mirrorData(draw, mirror, pass.view, imageView(draw, plan)));
     range.lookup = static_cast<Lookup>(mirrors_.back().image.z);
     std::vector<glm::vec4> clip;
     for (const glm::dvec3& p : draw.polygon) {

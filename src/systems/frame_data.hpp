@@ -27,7 +27,9 @@ struct MirrorRange {
   uint32_t mirror = 0;  // index into the mirror buffer
   uint32_t firstVertex = 0;
   uint32_t vertexCount = 0;
-  int pass = -1;  // of its image; -1: none
+  int pass = -1;  // of its image; -1: none of this frame
+  int held = -1;  // index into FramePlan::held of its image of an earlier frame; -1: none
+  bool reprojected = false;
   Lookup lookup = Lookup::fetch;
   bool base = false;  // there is a diffuse layer under the reflection
 };
@@ -79,7 +81,8 @@ class FrameData {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-// The projection of a view under reflection.clip: the common one, or its oblique variant for a mirror's view.
+// The projection of a view under reflection.clip: the common one, or its oblique variant for a mirror's view. To clip
+// space whose unit square is `overscan(view)` times the picture.
 glm::dmat4 viewProjection(const FramePlan& plan, const View& view, ClipMethod clip);
 
 }  // namespace speculum

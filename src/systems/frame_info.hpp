@@ -17,6 +17,7 @@ struct FrameInfo {
   const SceneResources& resources;
   const FrameData& data;
   std::span<const MirrorImage> images;  // of plan.passes, by index; valid while their parent is recorded
+  std::span<const MirrorImage> held;    // of plan.held, by index; set where the image is of an earlier frame
 };
 
 // What decides which pipeline draws in a pass.

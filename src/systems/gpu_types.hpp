@@ -60,8 +60,10 @@ struct MirrorData {
   glm::vec4 baseColor;
   glm::vec4 lookup;
   glm::ivec4 image;
+  glm::vec4 reproject[3];
 };
-static_assert(offsetof(MirrorData, lookup) == 48 && offsetof(MirrorData, image) == 64 && sizeof(MirrorData) == 80);
+static_assert(offsetof(MirrorData, lookup) == 48 && offsetof(MirrorData, image) == 64 &&
+              offsetof(MirrorData, reproject) == 80 && sizeof(MirrorData) == 128);
 
 enum class MirrorShows { image, background, back };
 enum class Lookup { fetch, bilinear, box };

@@ -2,6 +2,14 @@
 
 namespace speculum {
 
+namespace {
+
+const MirrorImage* imageOf(const MirrorRange& mirror, const FrameInfo& info) {
+  return mirror.pass >= 0 ? &info.images[mirror.pass] : mirror.held >= 0 ? &info.held[mirror.held] : nullptr;
+}
+
+}  // namespace
+
 MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory,
                            VkDescriptorSetLayout frameLayout)
     : device_(device), factory_(factory), frameLayout_(frameLayout) {
@@ -21,11 +29,10 @@ const Pipeline& MirrorSystem::pipeline(const Variant& variant) {
     desc.pushConstantBytes = sizeof(DrawConstants);
     desc.samples = variant.samples;
     desc.depthClamp = variant.clampDepth;
-    if (variant.shading == Shading::base) {
-      desc.fragConstants = {true};
-    } else if (variant.shading == Shading::average) {
+    desc.fragConstants = {variant.shading == Shading::base, variant.reprojected};
+    if (variant.shading == Shading::average) {
       desc.frag = "mirror_average.frag";
-    } else if (variant.shading != Shading::single) {
+    } else if (variant.shading == Shading::ownSample || variant.shading == Shading::ownSampleAdded) {
       desc.frag = "mirror_sample.frag";
       desc.sampleShading = true;
     }
@@ -39,13 +46,12 @@ const Pipeline& MirrorSystem::pipeline(const Variant& variant) {
   return *pipeline;
 }
 
-std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const FrameInfo& info,
+std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const MirrorImage* image,
                                                           const PassFormat& format) const {
-  if (mirror.pass < 0 || info.images[mirror.pass].samples == VK_SAMPLE_COUNT_1_BIT) {
+  if (!image || image->samples == VK_SAMPLE_COUNT_1_BIT) {
     return {Shading::single};
   }
-  if (info.images[mirror.pass].samples != format.samples || mirror.lookup != Lookup::fetch ||
-      !device_.caps().sampleRateShading) {
+  if (image->samples != format.samples || mirror.lookup != Lookup::fetch || !device_.caps().sampleRateShading) {
     return {Shading::average};
   }
   if (mirror.base) {
@@ -60,11 +66,13 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
   const VkDescriptorImageInfo noImage = noImage_.descriptor(sampler_.get());
   uint32_t draws = 0;
   for (const MirrorRange& mirror : data.mirrors) {
-    for (const Shading shading : shadings(mirror, info, format)) {
-      const Pipeline& drawn = pipeline({.shading = shading, .samples = format.samples, .clampDepth = !oblique});
-      const bool reads = mirror.pass >= 0 && shading != Shading::base;
+    const MirrorImage* image = imageOf(mirror, info);
+    for (const Shading shading : shadings(mirror, image, format)) {
+      const Pipeline& drawn = pipeline(
+          {.shading = shading, .samples = format.samples, .clampDepth = !oblique, .reprojected = mirror.reprojected});
+      const bool reads = image && shading != Shading::base;
       const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
-      DescriptorWriter().image(0, reads ? info.images[mirror.pass].descriptor : noImage).update(device_, set);
+      DescriptorWriter().image(0, reads ? image->descriptor : noImage).update(device_, set);
       drawn.bind(scope.commands());
       drawn.bindSet(scope.commands(), 0, info.data.set());
       drawn.bindSet(scope.commands(), 1, set);

@@ -9,7 +9,8 @@ namespace speculum {
 
 // Draws the mirrors of a pass: fronts read the images that earlier passes rendered for them, fronts without an image
 // show the background, backs their paint. An image with the pass's samples and pixels is read sample by sample; the
-// layer under the reflection, whose light costs much more, is then a draw of its own at one invocation per pixel.
+// layer under the reflection, whose light costs much more, is then a draw of its own at one invocation per pixel. An
+// image of an earlier frame is read like one of this frame as long as nothing moved, otherwise it is reprojected.
 class MirrorSystem {
  public:
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
@@ -23,11 +24,12 @@ class MirrorSystem {
     Shading shading;
     VkSampleCountFlagBits samples;
     bool clampDepth;
+    bool reprojected;
     auto operator<=>(const Variant&) const = default;
   };
   const Pipeline& pipeline(const Variant& variant);
   // The draws of a mirror, in order.
-  std::vector<Shading> shadings(const MirrorRange& mirror, const FrameInfo& info, const PassFormat& format) const;
+  std::vector<Shading> shadings(const MirrorRange& mirror, const MirrorImage* image, const PassFormat& format) const;
 
   Device& device_;
   PipelineFactory& factory_;

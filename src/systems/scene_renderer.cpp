@@ -1,6 +1,7 @@
 #include "systems/scene_renderer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace speculum {
 
@@ -12,11 +13,24 @@ VkRect2D areaOf(const PixelRect& rect) {
 
 std::array<float, 4> clearColor(const Environment& environment) {
   const glm::vec3 color(glm::min(environment.background, glm::dvec3(65504.0)));
-  return {color.r, color.g, color.b, 1.0f};
+  return {color.r, color.g, color.b, 0.0f};  // infinitely far
+}
+
+// The rectangle's corner is the target's; the viewport is as large as what is drawn of the picture's plane.
+PassViewport viewportOf(const View& view) {
+  const glm::dvec2 size = overscan(view) * view.pictureSize;
+  const glm::dvec2 corner = 0.5 * (view.pictureSize - size) - glm::dvec2(view.rect.x, view.rect.y);
+  return {static_cast<float>(corner.x), static_cast<float>(corner.y), static_cast<float>(size.x),
+          static_cast<float>(size.y)};
 }
 
 VkFrontFace frontFace(const View& view) {
   return view.mirrored() ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+}
+
+// Whether the image that a pass renders is kept for the next frame.
+bool isHeld(const FramePlan& plan, int pass) {
+  return std::any_of(plan.held.begin(), plan.held.end(), [&](const HeldImage& image) { return image.pass == pass; });
 }
 
 }  // namespace
@@ -60,13 +74,14 @@ size_t SceneRenderer::pipelineCount() const {
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
                            const std::optional<DebugView>& debug) {
   keptPass_ = debug ? std::optional(debug->pass) : std::nullopt;
+  takeHeldImages(plan);
   prepareTargets(settings, plan, *frame.retired);
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   targets_.assign(plan.passes.size(), nullptr);
   images_.assign(plan.passes.size(), {});
   recorded_.clear();
-  const FrameInfo info{frame, scene_, settings, environment, plan, resources_, data_, images_};
+  const FrameInfo info{frame, scene_, settings, environment, plan, resources_, data_, images_, heldImages_};
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     recordMirrorPass(frame, info, i);
   }
@@ -74,21 +89,60 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   recordDisplayPass(frame, settings);
   if (debug) {
     recordDebugView(frame, settings, plan, *debug);
-    pool_->release(*targets_[debug->pass]);
+    if (!isHeld(plan, debug->pass)) {
+      pool_->release(*targets_[debug->pass]);
+    }
   }
+  keepHeldImages(plan);
   if (pool_) {
     pool_->endFrame(*frame.retired);
   }
 }
 
+void SceneRenderer::restart() {
+  held_.clear();
+  heldTargets_.clear();
+  restart_ = true;
+}
+
+// Gives back what the plan shows no more: its targets serve passes of this frame. Nothing to wait for, barriers order
+// frames as they do passes.
+void SceneRenderer::takeHeldImages(const FramePlan& plan) {
+  std::vector<OffScreen*> targets(plan.held.size(), nullptr);
+  heldImages_.assign(plan.held.size(), {});
+  for (size_t i = 0; i < plan.held.size(); ++i) {
+    if (plan.held[i].earlier >= 0) {
+      targets[i] = std::exchange(heldTargets_[static_cast<size_t>(plan.held[i].earlier)], nullptr);
+      heldImages_[i] = {targets[i]->descriptor(), targets[i]->samples()};
+    }
+  }
+  for (const OffScreen* unused : heldTargets_) {
+    if (unused) {
+      pool_->release(*unused);
+    }
+  }
+  heldTargets_ = std::move(targets);
+}
+
+void SceneRenderer::keepHeldImages(const FramePlan& plan) {
+  for (size_t i = 0; i < plan.held.size(); ++i) {
+    if (plan.held[i].pass >= 0) {
+      heldTargets_[i] = targets_[static_cast<size_t>(plan.held[i].pass)];
+    }
+  }
+  held_ = plan.held;
+}
+
 void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
   const VkSampleCountFlagBits samples = device_.sampleCount(settings.reflection.samples);
-  if (depth_ && (depth_->samples() != samples || plan.passes.empty())) {
+  const bool needless = plan.passes.empty() && plan.held.empty();
+  if (depth_ && (restart_ || depth_->samples() != samples || needless)) {
     pool_->clear(retired);
     pool_.reset();
     depth_->trim({0, 0}, retired);
     depth_.reset();
   }
+  restart_ = false;
   if (!plan.passes.empty()) {
     if (!depth_) {
       depth_ = std::make_unique<SharedDepth>(device_, samples, "mirror images");
@@ -121,9 +175,10 @@ uint32_t SceneRenderer::recordSystems(const PassScope& scope, const FrameInfo& i
   return draws;
 }
 
-void SceneRenderer::releaseImages(const PlannedPass& pass) {
+// Not those that are kept: for the debug view until the frame ends, for the next frames.
+void SceneRenderer::releaseImages(const FramePlan& plan, const PlannedPass& pass) {
   for (const MirrorDraw& draw : pass.mirrors) {
-    if (draw.pass >= 0 && draw.pass != keptPass_) {
+    if (draw.pass >= 0 && draw.pass != keptPass_ && !isHeld(plan, draw.pass)) {
       pool_->release(*targets_[draw.pass]);
     }
   }
@@ -141,8 +196,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
   const PassDesc desc{.name = recorded.name,
                       .targets = target.targets(),
                       .renderArea = area,
-                      .viewport = {static_cast<float>(-view.rect.x), static_cast<float>(-view.rect.y),
-                                   static_cast<float>(view.pictureSize.x), static_cast<float>(view.pictureSize.y)},
+                      .viewport = viewportOf(view),
                       .scissor = area,
                       .frontFace = frontFace(view),
                       .clearColor = clearColor(info.environment),
@@ -154,7 +208,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
   recorded_.push_back(std::move(recorded));
   targets_[index] = &target;
   images_[index] = {target.descriptor(), target.samples()};
-  releaseImages(pass);
+  releaseImages(info.plan, pass);
 }
 
 void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
@@ -168,7 +222,7 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
     recorded.draws = recordSystems(scope, info, info.plan.passes.size(), {.samples = main_->samples()});
   }
   recorded_.push_back(std::move(recorded));
-  releaseImages(info.plan.main);
+  releaseImages(info.plan, info.plan.main);
 }
 
 const Pipeline& SceneRenderer::displayPipeline(const DisplayVariant& variant) {

@@ -40,7 +40,12 @@ class SceneRenderer {
   SceneRenderer(const SceneRenderer&) = delete;
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-  // Records everything up to and with the display pass.
+  // The images that this frame can be planned with: of the plan recorded last.
+  std::span<const HeldImage> heldImages() const { return held_; }
+  // Forgets them and every target of mirror images, so that what is drawn from now on does not depend on what was.
+  void restart();
+
+  // Records everything up to and with the display pass. `plan` was made with heldImages().
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt);
 
@@ -55,6 +60,8 @@ class SceneRenderer {
     VkFormat format;
     auto operator<=>(const DisplayVariant&) const = default;
   };
+  void takeHeldImages(const FramePlan& plan);
+  void keepHeldImages(const FramePlan& plan);
   void prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index);
   void recordMainPass(Frame& frame, const FrameInfo& info);
@@ -62,7 +69,7 @@ class SceneRenderer {
   void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
   void recordDisplay(Frame& frame, const PassDesc& desc, const MirrorImage& radiance, const glm::vec4& lookup,
                      const Settings& settings);
-  void releaseImages(const PlannedPass& pass);
+  void releaseImages(const FramePlan& plan, const PlannedPass& pass);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   const Pipeline& displayPipeline(const DisplayVariant& variant);
 
@@ -81,6 +88,10 @@ class SceneRenderer {
   std::unique_ptr<OffScreen> main_;
   std::vector<OffScreen*> targets_;  // of the plan's passes while they are alive
   std::vector<MirrorImage> images_;  // likewise
+  std::vector<HeldImage> held_;
+  std::vector<OffScreen*> heldTargets_;  // of held_, taken from the pool
+  std::vector<MirrorImage> heldImages_;  // of the present plan's held images
+  bool restart_ = false;                 // before the next frame
   std::vector<RecordedPass> recorded_;
   std::optional<int> keptPass_;  // its image is not given back before the frame ends
 };

@@ -81,6 +81,8 @@ void reflectionSettings(UiModel& model) {
   slider(model, "min throughput", r.minThroughput, 0.0, 1.0, "%.5f", "reflection.min_throughput");
   ImGui::SliderInt("max passes", &r.maxPasses, 1, 256, "%d", ImGuiSliderFlags_AlwaysClamp);
   describe(model, "reflection.max_passes");
+  ImGui::SliderInt("update interval", &r.updateInterval, 1, 16, "%d", ImGuiSliderFlags_AlwaysClamp);
+  describe(model, "reflection.update_interval");
   choiceCombo(model, "clip", r.clip, clips, "reflection.clip");
 }
 

@@ -1,0 +1,103 @@
+#include "frame/held_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace speculum {
+
+namespace {
+
+constexpr double eyePlane = 1e-12;
+constexpr double filterReach = 0.5;  // texels from where an image is read to the farthest centre that counts
+
+// View space to (x, y, w) of clip space.
+glm::dmat3 clipFromView(const Projection& projection) {
+  glm::dmat3 m(0.0);
+  m[0][0] = projection.focal / projection.aspect;
+  m[1][1] = -projection.focal;
+  m[2][2] = -1.0;
+  return m;
+}
+
+// Homogeneous pixels of the target that shows `view.rect` to x and y of device coordinates.
+glm::dmat3 deviceFromPixel(const View& view) {
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  glm::dmat3 m(1.0);
+  m[0][0] = step.x;
+  m[1][1] = step.y;
+  m[2] = glm::dvec3(view.rect.x * step.x - 1.0, view.rect.y * step.y - 1.0, 1.0);
+  return m;
+}
+
+glm::dmat3 pixelFromDevice(const View& view) {
+  const glm::dvec2 half = 0.5 * view.pictureSize;
+  glm::dmat3 m(1.0);
+  m[0][0] = half.x;
+  m[1][1] = half.y;
+  m[2] = glm::dvec3(half.x - view.rect.x, half.y - view.rect.y, 1.0);
+  return m;
+}
+
+// Texel of the image for a vector relative to its eye; nothing unless it is in front of it.
+std::optional<glm::dvec2> texelOf(const View& view, const Projection& projection, const glm::dvec3& relative) {
+  const glm::dvec3 clip = clipFromView(projection) * (view.worldToView * relative);
+  if (!(clip.z > eyePlane * glm::length(relative))) {
+    return std::nullopt;
+  }
+  const glm::dvec3 texel = pixelFromDevice(view) * clip;
+  return glm::dvec2(texel) / texel.z;
+}
+
+bool shows(const HeldImage& held, const glm::dvec3& relative) {
+  const std::optional<glm::dvec2> texel = texelOf(held.view, held.projection, relative);
+  return texel && texel->x >= filterReach && texel->y >= filterReach &&
+         texel->x <= held.view.rect.width - filterReach && texel->y <= held.view.rect.height - filterReach &&
+         std::all_of(held.view.cone.begin(), held.view.cone.end(),
+                     [&](const glm::dvec3& normal) { return glm::dot(normal, relative) >= 0.0; });
+}
+
+}  // namespace
+
+bool unmoved(const HeldImage& held, const View& now, const Projection& projection,
+             std::span<const glm::dvec3> visible) {
+  return held.view.eye == now.eye && held.view.worldToView == now.worldToView &&
+         held.view.pictureSize == now.pictureSize && held.projection == projection &&
+         std::equal(held.visible.begin(), held.visible.end(), visible.begin(), visible.end());
+}
+
+bool covers(const HeldImage& held, const View& now, std::span<const glm::dvec3> visible) {
+  return std::all_of(visible.begin(), visible.end(), [&](const glm::dvec3& corner) {
+    return shows(held, corner - held.view.eye) && shows(held, corner - now.eye);
+  });
+}
+
+double largestShift(const HeldImage& held, const View& now, const Projection& projection,
+                    std::span<const glm::dvec3> visible) {
+  // In the image's own pixels, whatever rectangle the present view has.
+  View present = now;
+  present.rect = held.view.rect;
+  double largest = 0.0;
+  for (const glm::dvec3& corner : visible) {
+    const std::optional<glm::dvec2> here = texelOf(present, projection, corner - now.eye);
+    for (const glm::dvec3& relative : {corner - held.view.eye, corner - now.eye}) {
+      const std::optional<glm::dvec2> there = texelOf(held.view, held.projection, relative);
+      if (!here || !there) {
+        return std::numeric_limits<double>::infinity();
+      }
+      largest = std::max(largest, glm::length(*there - *here));
+    }
+  }
+  return largest;
+}
+
+HeldLookup heldLookup(const HeldImage& held, const View& parent, const View& now, const Projection& projection) {
+  const glm::dmat3 thenFromNow = held.view.worldToView * glm::transpose(now.worldToView);
+  const glm::dmat3 texelFromView = pixelFromDevice(held.view) * clipFromView(held.projection);
+  return {
+      .moved = true,
+      .texelFromPixel = texelFromView * thenFromNow * glm::inverse(clipFromView(projection)) * deviceFromPixel(parent),
+      .texelFromDisparity = texelFromView * (held.view.worldToView * (now.eye - held.view.eye))};
+}
+
+}  // namespace speculum
