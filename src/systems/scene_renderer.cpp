@@ -1,6 +1,7 @@
 #include "systems/scene_renderer.hpp"
 
 #include <algorithm>
+#include <glm/gtc/packing.hpp>
 #include <utility>
 
 namespace speculum {
@@ -86,7 +87,11 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     recordMirrorPass(frame, info, i);
   }
   recordMainPass(frame, info);
-  recordDisplayPass(frame, settings);
+  if (cover_) {
+    recordCover(frame);
+  } else {
+    recordDisplayPass(frame, settings);
+  }
   if (debug) {
     recordDebugView(frame, settings, plan, *debug);
     if (!isHeld(plan, debug->pass)) {
@@ -262,6 +267,36 @@ void SceneRenderer::recordDisplay(Frame& frame, const PassDesc& desc, const Mirr
 void SceneRenderer::recordDisplayPass(Frame& frame, const Settings& settings) {
   recordDisplay(frame, fullPass("display", renderer_.displayTargets(frame)), {.descriptor = main_->descriptor()},
                 glm::vec4(1.0f, 1.0f, 0.0f, 0.0f), settings);
+}
+
+void SceneRenderer::setCover(const Image8& picture) {
+  if (cover_) {
+    renderer_.retired().retire(std::move(cover_));
+    cover_ = Image();
+  }
+  if (picture.width < 1) {
+    return;
+  }
+  std::vector<uint64_t> texels(static_cast<size_t>(picture.width) * picture.height);
+  for (size_t i = 0; i < texels.size(); ++i) {
+    glm::vec4 linear(1.0f);
+    for (int channel = 0; channel < 3; ++channel) {
+      linear[channel] = static_cast<float>(srgbDecode(picture.rgba[4 * i + channel] / 255.0));
+    }
+    texels[i] = glm::packHalf4x16(linear);
+  }
+  const VkExtent2D extent{static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height)};
+  cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extent, colorFormat, false, "cover");
+  if (!coverSampler_) {
+    coverSampler_ = createSampler(device_, {}, "cover");
+  }
+}
+
+void SceneRenderer::recordCover(Frame& frame) {
+  const glm::vec2 scale(static_cast<float>(cover_.extent().width) / static_cast<float>(frame.extent.width),
+                        static_cast<float>(cover_.extent().height) / static_cast<float>(frame.extent.height));
+  recordDisplay(frame, fullPass("display", renderer_.displayTargets(frame)),
+                {.descriptor = cover_.descriptor(coverSampler_.get())}, glm::vec4(scale, 0.0f, 0.0f), Settings());
 }
 
 void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan,

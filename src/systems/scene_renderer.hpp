@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "image/image.hpp"
 #include "systems/frame_info.hpp"
 #include "systems/image_pool.hpp"
 #include "systems/mirror_system.hpp"
@@ -49,6 +50,10 @@ class SceneRenderer {
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt);
 
+  // From the next frame on this picture is shown in the place of the scene's, stretched over the display image; one
+  // without pixels ends that. Display sRGB.
+  void setCover(const Image8& picture);
+
   const std::vector<RecordedPass>& passes() const { return recorded_; }
   size_t pipelineCount() const;
   OffScreen& mainTarget() { return *main_; }  // linear radiance of the main view, of the last recorded frame
@@ -72,6 +77,7 @@ class SceneRenderer {
   void releaseImages(const FramePlan& plan, const PlannedPass& pass);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   const Pipeline& displayPipeline(const DisplayVariant& variant);
+  void recordCover(Frame& frame);
 
   Renderer& renderer_;
   Device& device_;
@@ -92,6 +98,8 @@ class SceneRenderer {
   std::vector<OffScreen*> heldTargets_;  // of held_, taken from the pool
   std::vector<MirrorImage> heldImages_;  // of the present plan's held images
   bool restart_ = false;                 // before the next frame
+  SamplerHandle coverSampler_;
+  Image cover_;  // empty: none
   std::vector<RecordedPass> recorded_;
   std::optional<int> keptPass_;  // its image is not given back before the frame ends
 };

@@ -12,10 +12,7 @@ namespace {
 
 // After each widget of a setting: notes its place and explains it.
 void describe(UiModel& model, std::string_view key) {
-  const ImVec2 low = ImGui::GetItemRectMin();
-  const ImVec2 size = ImGui::GetItemRectSize();
-  model.widgets.emplace_back(key, PixelRect{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(size.x),
-                                            static_cast<int>(size.y)});
+  notePlace(model, key);
   if (!ImGui::IsItemHovered()) {
     return;
   }
@@ -100,6 +97,13 @@ void viewSettings(UiModel& model) {
 }
 
 }  // namespace
+
+void notePlace(UiModel& model, std::string_view key) {
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 size = ImGui::GetItemRectSize();
+  model.widgets.emplace_back(key, PixelRect{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(size.x),
+                                            static_cast<int>(size.y)});
+}
 
 void message(const UiModel& model) {
   if (!model.message.empty()) {

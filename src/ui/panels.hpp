@@ -11,5 +11,9 @@ void settings(UiModel& model);
 void passes(UiModel& model);
 void skipped(const UiModel& model);
 void device(const UiModel& model);
+void accuracy(UiModel& model);
+
+// After a widget: notes its place under `key` in the model.
+void notePlace(UiModel& model, std::string_view key);
 
 }  // namespace speculum::panels

@@ -116,9 +116,13 @@ void SimpleUI::build(UiModel& model) {
   model.debugArea.reset();
   model.resetCamera = false;
   model.resetSettings = false;
+  model.accuracy.measure = false;
+  model.accuracy.cancel = false;
+  model.accuracy.apply = -1;
   if (visible_) {
     buildPanel(model);
     buildDebugView(model);
+    buildAccuracy(model);
     if (showDemoWindow_) {
       ImGui::ShowDemoWindow(&showDemoWindow_);
     }
@@ -137,6 +141,9 @@ void SimpleUI::buildPanel(UiModel& model) {
     panels::scene(model);
     ImGui::Checkbox("Settings", &showSettings_);
     ImGui::SameLine();
+    ImGui::Checkbox("Accuracy", &showAccuracy_);
+    panels::notePlace(model, "accuracy");
+    ImGui::SameLine();
     ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
     if (showSettings_) {
       panels::settings(model);
@@ -145,6 +152,22 @@ void SimpleUI::buildPanel(UiModel& model) {
     panels::skipped(model);
     panels::device(model);
     ImGui::PopItemWidth();
+  }
+  ImGui::End();
+}
+
+void SimpleUI::buildAccuracy(UiModel& model) {
+  if (!showAccuracy_) {
+    return;
+  }
+  const float scale = ImGui::GetFontSize() / fontPixels;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const ImVec2 size(430.0f * scale, 540.0f * scale);
+  ImGui::SetNextWindowPos(ImVec2(std::max(12.0f * scale, display.x - size.x - 12.0f * scale), 12.0f * scale),
+                          ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
+  if (ImGui::Begin("Accuracy", &showAccuracy_)) {
+    panels::accuracy(model);
   }
   ImGui::End();
 }

@@ -29,6 +29,7 @@ class SimpleUI {
   void initVulkan();
   void buildPanel(UiModel& model);
   void buildDebugView(UiModel& model);
+  void buildAccuracy(UiModel& model);
 
   struct Context {
     Context();
@@ -43,6 +44,7 @@ class SimpleUI {
   std::unique_ptr<Backend> backend_;
   bool visible_ = true;
   bool showSettings_ = true;
+  bool showAccuracy_ = false;
   bool showDemoWindow_ = false;
 };
 

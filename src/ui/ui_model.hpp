@@ -24,6 +24,33 @@ struct UiSkipped {
   std::string detail;
 };
 
+// A measured configuration.
+struct UiAccuracyPoint {
+  std::string name;
+  double error = 0.0;  // mean FLIP
+  double ms = 0.0;     // GPU milliseconds a frame: median and quartiles
+  double lowerMs = 0.0;
+  double upperMs = 0.0;
+};
+
+// What was measured of the accuracy and the price of settings, and what the person wants of it.
+struct UiAccuracy {
+  std::vector<UiAccuracyPoint> points;
+  std::vector<int> front;          // indices into points, cheapest first
+  int current = -1;                // the point that the settings are at; -1: none
+  double noiseFloor = 0.0;         // mean FLIP
+  std::string about;               // what was measured, where
+  std::string stage;               // of the measurement that runs; empty: none runs
+  double progress = 0.0;           // of the stage, 0 .. 1
+  std::string choice;              // what the budget chose and gave up
+  std::string difference;          // what the difference view shows or waits for
+  std::vector<glm::vec3> heatBar;  // colours from no error to an error of 1, display sRGB
+  bool measure = false;            // set by the panel: measure the current view
+  bool cancel = false;             // set by the panel
+  int apply = -1;                  // set by the panel: bring the settings to this point
+  bool showDifference = false;     // changed by the person
+};
+
 enum class CameraMode { fly, orbit };
 
 // What the panel shows and edits. The application fills it before every frame and reads back what was changed.
@@ -50,7 +77,8 @@ struct UiModel {
   std::vector<std::pair<std::string, PixelRect>> widgets;  // where each setting's widget stands, by key
   int debugPass = -1;                  // index into passes of the image to show; -1: none. Changed by the person.
   std::optional<PixelRect> debugArea;  // pixels of the display image where it is to be drawn; set by the panel
-  std::string message;                 // an error to show until the next one, e.g. of a shader or a scene
+  UiAccuracy accuracy;
+  std::string message;  // an error to show until the next one, e.g. of a shader or a scene
 };
 
 }  // namespace speculum

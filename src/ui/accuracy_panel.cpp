@@ -1,0 +1,248 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstdio>
+
+#include "ui/panels.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+constexpr ImU32 frontColor = IM_COL32(250, 190, 70, 255);
+constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
+constexpr ImU32 currentColor = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 gridColor = IM_COL32(255, 255, 255, 40);
+constexpr ImU32 textColor = IM_COL32(200, 205, 215, 255);
+constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
+
+// Logarithmic axes over what there is to show, in screen coordinates.
+struct Plot {
+  ImVec2 corner;  // top left
+  ImVec2 size;
+  double lowMs, highMs, lowError, highError;
+
+  static float part(double value, double low, double high) {
+    return static_cast<float>(std::log(value / low) / std::log(high / low));
+  }
+  float x(double ms) const { return corner.x + size.x * part(std::clamp(ms, lowMs, highMs), lowMs, highMs); }
+  float y(double error) const {
+    return corner.y + size.y * (1.0f - part(std::clamp(error, lowError, highError), lowError, highError));
+  }
+  ImVec2 at(const UiAccuracyPoint& point) const { return {x(point.ms), y(point.error)}; }
+};
+
+Plot plotOf(const UiAccuracy& accuracy, const ImVec2& corner, const ImVec2& size) {
+  Plot plot{corner, size, DBL_MAX, 0.0, DBL_MAX, 0.0};
+  for (const UiAccuracyPoint& point : accuracy.points) {
+    plot.lowMs = std::min(plot.lowMs, point.lowerMs);
+    plot.highMs = std::max(plot.highMs, point.upperMs);
+    plot.lowError = std::min(plot.lowError, std::max(point.error, leastError));
+    plot.highError = std::max(plot.highError, std::max(point.error, leastError));
+  }
+  if (accuracy.noiseFloor > 0.0) {
+    plot.lowError = std::min(plot.lowError, accuracy.noiseFloor);
+  }
+  plot.lowMs = std::max(plot.lowMs, 1e-4) / 1.15;
+  plot.highMs = std::max(plot.highMs, plot.lowMs) * 1.3;
+  plot.lowError /= 1.3;
+  plot.highError *= 1.3;
+  return plot;
+}
+
+// 1, 2 and 5 times powers of ten.
+template <typename Draw>
+void forTicks(double low, double high, const Draw& draw) {
+  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      if (decade * digit >= low && decade * digit <= high) {
+        draw(decade * digit);
+      }
+    }
+  }
+}
+
+std::string figure(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
+  const ImVec2 end(plot.corner.x + plot.size.x, plot.corner.y + plot.size.y);
+  list.AddRect(plot.corner, end, gridColor);
+  forTicks(plot.lowMs, plot.highMs, [&](double ms) {
+    list.AddLine({plot.x(ms), plot.corner.y}, {plot.x(ms), end.y}, gridColor);
+    list.AddText({plot.x(ms) + 2.0f, end.y - ImGui::GetFontSize()}, textColor, figure(ms).c_str());
+  });
+  forTicks(plot.lowError, plot.highError, [&](double error) {
+    list.AddLine({plot.corner.x, plot.y(error)}, {end.x, plot.y(error)}, gridColor);
+    list.AddText({plot.corner.x + 2.0f, plot.y(error)}, textColor, figure(error).c_str());
+  });
+  if (noiseFloor > 0.0) {
+    const float y = plot.y(noiseFloor);
+    for (float x = plot.corner.x; x < end.x; x += 8.0f) {
+      list.AddLine({x, y}, {std::min(x + 4.0f, end.x), y}, textColor);
+    }
+    list.AddText({end.x - 7.0f * ImGui::GetFontSize(), y - ImGui::GetFontSize()}, textColor, "noise floor");
+  }
+}
+
+void drawPoints(ImDrawList& list, const Plot& plot, const UiAccuracy& accuracy, int hovered) {
+  for (size_t i = 1; i < accuracy.front.size(); ++i) {
+    list.AddLine(plot.at(accuracy.points[accuracy.front[i - 1]]), plot.at(accuracy.points[accuracy.front[i]]),
+                 frontColor, 1.5f);
+  }
+  for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
+    const UiAccuracyPoint& point = accuracy.points[i];
+    const bool front = std::find(accuracy.front.begin(), accuracy.front.end(), i) != accuracy.front.end();
+    const ImU32 color = front ? frontColor : otherColor;
+    const ImVec2 place = plot.at(point);
+    list.AddLine({plot.x(point.lowerMs), place.y}, {plot.x(point.upperMs), place.y}, color);
+    list.AddCircleFilled(place, i == hovered ? 6.0f : 4.0f, color);
+    if (i == accuracy.current) {
+      list.AddCircle(place, 8.0f, currentColor, 0, 2.0f);
+    }
+  }
+}
+
+int nearestPoint(const Plot& plot, const UiAccuracy& accuracy, const ImVec2& mouse) {
+  int nearest = -1;
+  float best = 12.0f;
+  for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
+    const ImVec2 place = plot.at(accuracy.points[i]);
+    const float distance = std::hypot(place.x - mouse.x, place.y - mouse.y);
+    if (distance < best) {
+      best = distance;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+// Error against milliseconds; a click on a point applies it.
+void plot(UiModel& model) {
+  UiAccuracy& accuracy = model.accuracy;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const ImVec2 size(ImGui::GetContentRegionAvail().x, 15.0f * ImGui::GetFontSize());
+  ImGui::InvisibleButton("plot", size);
+  notePlace(model, "accuracy.plot");
+  const Plot plot = plotOf(accuracy, corner, size);
+  const int hovered = ImGui::IsItemHovered() ? nearestPoint(plot, accuracy, ImGui::GetMousePos()) : -1;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
+  drawAxes(list, plot, accuracy.noiseFloor);
+  drawPoints(list, plot, accuracy, hovered);
+  list.PopClipRect();
+  for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
+    const ImVec2 place = plot.at(accuracy.points[i]);
+    model.widgets.emplace_back("accuracy.point " + accuracy.points[i].name,
+                               PixelRect{static_cast<int>(place.x) - 2, static_cast<int>(place.y) - 2, 4, 4});
+  }
+  if (hovered >= 0) {
+    const UiAccuracyPoint& point = accuracy.points[hovered];
+    ImGui::SetTooltip("%s\nmean FLIP %s, %s ms (%s .. %s)", point.name.c_str(), figure(point.error).c_str(),
+                      figure(point.ms).c_str(), figure(point.lowerMs).c_str(), figure(point.upperMs).c_str());
+    if (ImGui::IsItemClicked()) {
+      accuracy.apply = hovered;
+    }
+  }
+  ImGui::TextDisabled("mean FLIP (up) against GPU ms, both logarithmic; click a point to use it");
+}
+
+void frontSlider(UiModel& model) {
+  UiAccuracy& accuracy = model.accuracy;
+  const int last = static_cast<int>(accuracy.front.size()) - 1;
+  const auto place = std::find(accuracy.front.begin(), accuracy.front.end(), accuracy.current);
+  const bool onFront = place != accuracy.front.end();
+  int index = onFront ? static_cast<int>(place - accuracy.front.begin()) : 0;
+  const std::string text = onFront ? accuracy.points[accuracy.current].name : "not on the front";
+  ImGui::TextUnformatted("faster");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-8.0f * ImGui::GetFontSize());
+  // '%' in a name would be taken for a format.
+  if (ImGui::SliderInt("more accurate", &index, 0, std::max(last, 0),
+                       text.find('%') == std::string::npos ? text.c_str() : "") &&
+      last >= 0) {
+    accuracy.apply = accuracy.front[index];
+  }
+  notePlace(model, "accuracy.slider");
+}
+
+void budget(UiModel& model) {
+  QualitySettings& quality = model.settings.quality;
+  const auto bound = [&](const char* label, double& value, double usual, const char* format, const char* key) {
+    bool active = value > 0.0;
+    if (ImGui::Checkbox(label, &active)) {
+      value = active ? usual : 0.0;
+    }
+    notePlace(model, key);
+    if (active) {
+      ImGui::SameLine();
+      ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
+      double edited = value;
+      if (ImGui::InputDouble((std::string("##") + key).c_str(), &edited, 0.0, 0.0, format,
+                             ImGuiInputTextFlags_EnterReturnsTrue) &&
+          edited > 0.0) {
+        value = edited;
+      }
+    }
+  };
+  bound("at most so many GPU ms", quality.budgetMs, 16.0, "%.2f", "quality.budget_ms");
+  bound("at most this mean FLIP", quality.maxError, 0.05, "%.4f", "quality.max_error");
+  if (!model.accuracy.choice.empty()) {
+    ImGui::TextWrapped("%s", model.accuracy.choice.c_str());
+  }
+}
+
+void differenceView(UiModel& model) {
+  UiAccuracy& accuracy = model.accuracy;
+  ImGui::Checkbox("difference from the reference", &accuracy.showDifference);
+  notePlace(model, "accuracy.difference");
+  if (!accuracy.showDifference) {
+    return;
+  }
+  ImGui::TextWrapped("%s", accuracy.difference.c_str());
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float height = 0.6f * ImGui::GetFontSize();
+  const float step =
+      ImGui::GetContentRegionAvail().x / static_cast<float>(std::max<size_t>(accuracy.heatBar.size(), 1));
+  for (size_t i = 0; i < accuracy.heatBar.size(); ++i) {
+    const glm::vec3& c = accuracy.heatBar[i];
+    const float x = corner.x + step * static_cast<float>(i);
+    ImGui::GetWindowDrawList()->AddRectFilled({x, corner.y}, {x + step, corner.y + height},
+                                              ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}));
+  }
+  ImGui::Dummy({1.0f, height});
+  ImGui::TextDisabled("FLIP 0 (left) to 1 (right)");
+}
+
+}  // namespace
+
+void accuracy(UiModel& model) {
+  UiAccuracy& accuracy = model.accuracy;
+  if (accuracy.stage.empty()) {
+    accuracy.measure = ImGui::Button("measure this view");
+    notePlace(model, "accuracy.measure");
+  } else {
+    accuracy.cancel = ImGui::Button("cancel");
+    notePlace(model, "accuracy.cancel");
+    ImGui::SameLine();
+    ImGui::ProgressBar(static_cast<float>(accuracy.progress), ImVec2(-1.0f, 0.0f), accuracy.stage.c_str());
+  }
+  if (!accuracy.about.empty()) {
+    ImGui::TextWrapped("%s", accuracy.about.c_str());
+  }
+  if (!accuracy.points.empty()) {
+    plot(model);
+    frontSlider(model);
+  }
+  ImGui::Separator();
+  budget(model);
+  ImGui::Separator();
+  differenceView(model);
+}
+
+}  // namespace speculum::panels
