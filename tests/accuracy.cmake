@@ -1,3 +1,4 @@
 speculum_test(test_accuracy
-  SOURCES accuracy_metrics.cpp accuracy_flip.cpp accuracy_pictures.cpp
+  SOURCES accuracy_metrics.cpp accuracy_flip.cpp accuracy_pictures.cpp accuracy_report.cpp
+          accuracy_plots.cpp html_check.cpp
   LIBRARIES accuracy ext::tbb)
