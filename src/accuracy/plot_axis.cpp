@@ -118,8 +118,10 @@ PlotScale::PlotScale(const PlotAxis& axis, const std::vector<double>& values, do
     high_ = logarithmic ? 0.0 : 1.0;
   }
   // A single value, or nearly so, stands in the middle of some range.
-  const double margin = std::max({padding * (high_ - low_), logarithmic ? 0.05 : 0.0, 1e-9 * std::abs(high_)});
-  const double widening = high_ - low_ < 1e-9 * std::max(1.0, std::abs(high_)) ? (logarithmic ? 0.4 : 1.0) : margin;
+  const double largest = std::max(std::abs(low_), std::abs(high_));
+  const bool single = high_ - low_ <= std::max(1e-9 * largest, 1e-100);
+  const double around = logarithmic ? 0.4 : largest > 1e-100 ? 0.1 * largest : 1.0;
+  const double widening = single ? around : std::max(padding * (high_ - low_), logarithmic ? 0.05 : 0.0);
   low_ -= widening;
   high_ += widening;
   if (zero_) {

@@ -112,7 +112,8 @@ std::string viewerSection(const SweepResults& results, const std::filesystem::pa
   const std::string truth =
       results.truthPicture.empty() ? "" : " The reference is <code>" + escapeHtml(results.truthPicture) + "</code>.";
   return "<section aria-labelledby=\"pictures\">\n<h2 id=\"pictures\">Pictures</h2>\n"
-         "<p>Drag the divider, or focus it and use the arrow keys. These pictures are JPEG to keep the report small; "
+         "<p><span class=\"hint\">Drag the divider, or focus it and use the arrow keys.</span> These pictures are JPEG "
+         "to keep the report small; "
          "every figure was computed from the lossless PNG files beside <code>results.json</code>, which the captions "
          "name." +
          truth + "</p>\n" + viewerHtml(results, folder) + "</section>\n";

@@ -22,6 +22,9 @@ std::string_view reportScript() {
     all('[data-shown]').forEach(e => { e.hidden = e.dataset.shown !== point; });
     if (choice) {
       choice.value = point;
+      if (choice.selectedIndex < 0) {
+        choice.value = '';
+      }
     }
   };
   if (choice) {

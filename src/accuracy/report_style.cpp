@@ -114,7 +114,7 @@ button:hover, select:hover { border-color: var(--soft); }
 .scroll { overflow-x: auto; margin-top: 1rem; }
 table { border-collapse: collapse; width: 100%; font: 0.77rem/1.4 var(--sans); font-variant-numeric: tabular-nums; }
 caption { caption-side: top; text-align: left; color: var(--soft); padding-bottom: 0.5rem; font-size: 0.86rem; }
-th, td { padding: 0.28rem 0.34rem; text-align: left; vertical-align: top; white-space: nowrap; font-weight: 400; }
+th, td { padding: 0.28rem 0.3rem; text-align: left; vertical-align: top; white-space: nowrap; font-weight: 400; }
 thead th { font-weight: 600; vertical-align: bottom; } thead tr:last-child th { border-bottom: 1px solid var(--soft); }
 .groups th { color: var(--soft); font-weight: 400; font-size: 0.76rem; padding-bottom: 0; }
 tbody tr { border-bottom: 1px solid var(--faint); } tbody th { font-weight: 500; }
@@ -134,7 +134,7 @@ footer { margin-top: 3rem; padding-top: 0.8rem; border-top: 1px solid var(--rule
   font: 0.82rem/1.5 var(--sans); }
 html:not(.js) .controls, html:not(.js) .frame input { display: none; }
 
-@media (max-width: 46rem) {
+@media screen and (max-width: 46rem) {
   body { padding-top: 1.5rem; font-size: 1rem; } .lede { font-size: 1.1rem; }
   .figures, .panes { grid-template-columns: minmax(0, 1fr); } .wide { display: none; } .narrow { display: block; }
   dl.terms { grid-template-columns: minmax(0, 1fr); gap: 0; } dl.terms dd { margin-bottom: 0.5rem; }
@@ -146,9 +146,9 @@ html:not(.js) .controls, html:not(.js) .frame input { display: none; }
   @page { size: A4; margin: 14mm 12mm; }
   body { max-width: none; padding: 0; font-size: 10pt; background: #fff; } h2 { margin-top: 1.6rem; }
   h2, h3, figcaption { break-after: avoid; } tr, .panes { break-inside: avoid; }
-  .controls, .copy, .js .copy, .tip { display: none; } .figures { gap: 1rem 1.4rem; } .scroll { overflow: visible; }
+  .controls, .copy, .js .copy, .tip, .hint { display: none; } .plot .mark.selected .hit { stroke: none; } .figures { gap: 1rem 1.4rem; } .scroll { overflow: visible; }
   table { font-size: 5.6pt; } th, td { padding: 0.12rem 0.2rem; } td.settings { min-width: 0; }
-  td.settings code span { white-space: normal; } tbody tr.selected { background: none; }
+  td.settings code { font-size: 0.9em; } .groups th { font-size: inherit; } caption { font-size: 8pt; } tbody tr.selected { background: none; }
   .frame, .legend { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 )css";

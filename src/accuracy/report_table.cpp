@@ -182,8 +182,9 @@ std::string pointTable(const SweepResults& results) {
     rows += row(results.points[index], index, decimals);
   }
   return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All configurations\">\n"
-         "<table id=\"points\">\n<caption>Every configuration. The headings sort; a name shows its picture and marks "
-         "it in the plots.</caption>\n" +
+         "<table id=\"points\">\n<caption>Every configuration, blue dots: on the front. <span class=\"hint\">The "
+         "headings sort; a name shows "
+         "its picture and marks it in the plots.</span></caption>\n" +
          headings() + "<tbody>\n" + rows + "</tbody>\n" + floorRow(results, decimals) + "</table>\n</div>\n";
 }
 

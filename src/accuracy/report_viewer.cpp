@@ -122,7 +122,8 @@ std::string choice(const SweepResults& results, const std::vector<ShownPoint>& s
             "</option>";
   }
   return html +
-         "</select></label> <span class=\"zoom\" role=\"group\" aria-label=\"Zoom\">"
+         "<option value=\"\" hidden>one that is not in this report</option></select></label> <span class=\"zoom\" "
+         "role=\"group\" aria-label=\"Zoom\">"
          "<button type=\"button\" data-zoom=\"1\" aria-pressed=\"true\">1×</button>"
          "<button type=\"button\" data-zoom=\"2\" aria-pressed=\"false\">2×</button>"
          "<button type=\"button\" data-zoom=\"4\" aria-pressed=\"false\">4×</button>"
@@ -270,8 +271,9 @@ std::string viewerHtml(const SweepResults& results, const std::filesystem::path&
   }
   return choice(results, shown) + "<div class=\"panes\">\n<div class=\"pane\">\n" + splitFrame(results, shown, truth) +
          captions(results, shown.front().point) + "</div>\n<div class=\"pane\">\n" + mapFrame(results, shown) +
-         "<p class=\"shown\">FLIP error of each pixel. Point at the map to move a zoomed view; arrow keys move it "
-         "too.</p>\n</div>\n</div>\n";
+         "<p class=\"shown\">FLIP error of each pixel. <span class=\"hint\">Zoomed views follow the pointer on the "
+         "map, or "
+         "its arrow keys.</span></p>\n</div>\n</div>\n";
 }
 
 }  // namespace speculum

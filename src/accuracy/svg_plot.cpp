@@ -302,35 +302,38 @@ class PlotWriter {
         occupied_.push_back({at->x - 6.0, at->y - 6.0, at->x + 6.0, at->y + 6.0});
       }
     }
-    for (const PlotMark& mark : plot_.marks) {
-      const std::optional<Place> at = placeOf(mark.at);
-      if (!at || mark.label.empty()) {
-        continue;
+    for (auto mark = plot_.marks.rbegin(); mark != plot_.marks.rend(); ++mark) {
+      const std::optional<Place> at = placeOf(mark->at);
+      if (at && !mark->label.empty()) {
+        writeLabel(mark->label, *at);
       }
-      const double width = textWidth(mark.label);
-      const double right = at->x + 9.0;
-      const double left = at->x - 9.0 - width;
-      const double centre = at->x - 0.5 * width;
-      const double middle = at->y - 0.5 * labelHeight;
-      const double above = at->y - 7.0 - labelHeight;
-      const double below = at->y + 7.0;
-      const std::array<Place, 8> corners{{{right, middle},
-                                          {right - 4.0, above},
-                                          {centre, above},
-                                          {right - 4.0, below},
-                                          {left, middle},
-                                          {left + 4.0, below},
-                                          {centre, below},
-                                          {left + 4.0, above}}};
-      const auto free = std::find_if(corners.begin(), corners.end(), [&](const Place& corner) {
-        const Box box{corner.x, corner.y, corner.x + width, corner.y + labelHeight};
-        return box.within(frame_) &&
-               std::none_of(occupied_.begin(), occupied_.end(), [&](const Box& other) { return box.overlaps(other); });
-      });
-      if (free != corners.end()) {
-        occupied_.push_back({free->x, free->y, free->x + width, free->y + labelHeight});
-        svg_ += textElement("text label", {free->x, free->y + 10.0}, mark.label) + "\n";
-      }
+    }
+  }
+
+  void writeLabel(const std::string& label, Place at) {
+    const double width = textWidth(label);
+    const double right = at.x + 9.0;
+    const double left = at.x - 9.0 - width;
+    const double centre = at.x - 0.5 * width;
+    const double middle = at.y - 0.5 * labelHeight;
+    const double above = at.y - 7.0 - labelHeight;
+    const double below = at.y + 7.0;
+    const std::array<Place, 8> corners{{{right, middle},
+                                        {right - 4.0, above},
+                                        {centre, above},
+                                        {right - 4.0, below},
+                                        {left, middle},
+                                        {left + 4.0, below},
+                                        {centre, below},
+                                        {left + 4.0, above}}};
+    const auto free = std::find_if(corners.begin(), corners.end(), [&](const Place& corner) {
+      const Box box{corner.x, corner.y, corner.x + width, corner.y + labelHeight};
+      return box.within(frame_) &&
+             std::none_of(occupied_.begin(), occupied_.end(), [&](const Box& other) { return box.overlaps(other); });
+    });
+    if (free != corners.end()) {
+      occupied_.push_back({free->x, free->y, free->x + width, free->y + labelHeight});
+      svg_ += textElement("text label", {free->x, free->y + 10.0}, label) + "\n";
     }
   }
 
