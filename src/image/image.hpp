@@ -41,6 +41,10 @@ double srgbDecode(double encoded);
 // exposure, tone curve, sRGB curve, 8 bit rounded (to nearest); the shader display.frag does the same.
 Image8 toDisplay(const LinearImage& image, double exposure, ToneMap toneMap);
 
+// Baseline JPEG without alpha; quality 1 .. 100, chroma at half the resolution up to 90. Throws std::runtime_error for
+// a picture without pixels, one of more than 65535 in a direction, and another quality.
+std::vector<uint8_t> encodeJpeg(const Image8& image, int quality);
+
 // All throw std::runtime_error with the file's name, what is wrong and what would be right.
 Image8 readImage8(const std::filesystem::path& file);  // PNG, JPEG
 void writePng(const std::filesystem::path& file, const Image8& image);
