@@ -149,7 +149,7 @@ std::string metricTerms() {
          term("FLIP",
               "visible difference as the eye sees it when two pictures alternate, 0 to 1, mean over pixels "
               "(Andersson et al. 2020), at 67 pixels a degree") +
-         term("RMSE", "root mean square over pixels and channels of linear light, clamped to 0 to 1") +
+         term("RMSE", "root mean square over pixels and channels of the display picture’s linear light, 0 to 1") +
          term("Relative RMSE", "RMSE divided by the root mean square of the reference") +
          term("PSNR", "peak signal to noise ratio of display values, dB; ∞ for equal pictures") +
          term("SSIM", "structural similarity of display values, 1 for equal pictures (Wang et al. 2004)") +
@@ -169,10 +169,10 @@ std::string timeText(const SweepResults& results) {
   return "<p><strong>Times.</strong> Medians of repeated frames (" + many +
          "), taken in rounds that go through all configurations in turn, so that a machine that warms up or slows down "
          "does so for all of them alike, and after frames of warm-up that do not count. " +
-         (timedOnGpu(results) ? "GPU times come from the device’s timestamps; CPU times are what recording and "
-                                "submitting a frame took."
-                              : "The device has no timestamps, so the time of the whole frame stands in for the "
-                                "GPU’s.") +
+         (timedOnGpu(results)
+              ? "GPU times come from the device’s timestamps; CPU times are the processor’s share of a frame."
+              : "The device has no timestamps, so the time of the whole frame stands in for the "
+                "GPU’s.") +
          "</p>\n";
 }
 
@@ -186,7 +186,7 @@ std::string readingSection(const SweepResults& results) {
          "pixel, depth 64. The floor is the error of that against a 9 × 9 grid. Errors near it or below say nothing: "
          "they are the reference’s own.</p>\n" +
          timeText(results) +
-         "<p><strong>Metrics.</strong> Against the ground truth, on the display picture with the tone curve clamp; "
+         "<p><strong>Metrics.</strong> Against the ground truth, on the display picture; "
          "where "
          "mirrors are updated every so many frames, means over the phases.</p>\n" +
          metricTerms() +

@@ -301,7 +301,7 @@ std::string frontFigures(const SweepResults& results) {
       figure("main", "Visible error against time", "Mean FLIP of the whole picture. Lower left is better.",
              "<div class=\"wide\">" + plotSvg(resized(main, 900, 480)) + "</div>\n<div class=\"narrow\">" +
                  plotSvg(main) + "</div>\n");
-  html += figure("half", "Linear error against time", "Root mean square error of linear radiance, whole picture.",
+  html += figure("half", "Linear error against time", "Root mean square error of linear light, whole picture.",
                  plotSvg(frontPlot(results, rmse, frontOf(results, rmse))));
   if (std::any_of(results.points.begin(), results.points.end(), [](const SweepPoint& p) { return !!p.mirrors; })) {
     html += figure("half", "Linear error in the mirrors", "The same, over the pixels that show a mirror’s front.",
