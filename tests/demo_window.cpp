@@ -1,130 +1,13 @@
 // The window as a person uses it: real X events under a window manager, pictures compared.
-#include <gtest/gtest.h>
-
-#include <chrono>
 #include <random>
 
-#include "app/demo.hpp"
 #include "core/handle.hpp"
-#include "core/platform.hpp"
-#include "picture_support.hpp"
-#include "virtual_display.hpp"
+#include "demo_window_support.hpp"
 
 namespace speculum {
 namespace {
 
 using namespace testing_support;
-using Clock = std::chrono::steady_clock;
-
-constexpr int width = 900;
-constexpr int height = 700;
-
-const std::string scene = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0.9, 1, 0]
-[[light]]
-position = [0, 3, 3]
-intensity = 10
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [5, 3]
-)";
-
-class DemoWindow : public testing::Test {
- protected:
-  DemoWindow() : configHome_(environment("XDG_CONFIG_HOME")) {
-    // A layout that somebody saved must not move the widgets.
-    setEnvironment("XDG_CONFIG_HOME", config_.path().string());
-    Options options;
-    options.scene = writeScene("demo_window", scene).string();
-    options.size = {width, height};
-    options.validation = true;
-    options.presentMode = PresentMode::immediate;
-    demo_ = std::make_unique<Demo>(options);
-    demo_->setCapture(true);
-    run(10);
-  }
-  ~DemoWindow() override {
-    demo_.reset();
-    setEnvironment("XDG_CONFIG_HOME", configHome_);
-  }
-
-  void run(int frames) {
-    const int last = demo_->framesDrawn() + frames;
-    const auto end = Clock::now() + std::chrono::seconds(20);
-    while (demo_->framesDrawn() < last && Clock::now() < end) {
-      ASSERT_TRUE(demo_->step());
-    }
-  }
-
-  Pixels picture() { return demo_->renderer().readback(); }
-
-  // A pixel of the background, right of the panel and above the mirror.
-  std::array<int, 3> background() {
-    const Pixels pixels = picture();
-    const uint8_t* p = &pixels.rgba[4 * (static_cast<size_t>(20) * pixels.extent.width + pixels.extent.width - 20)];
-    return {p[0], p[1], p[2]};
-  }
-
-  void xdotool(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "xdotool");
-    const ProcessResult result = runProcess(arguments);
-    ASSERT_EQ(result.exitCode, 0) << result.output;
-  }
-
-  std::string windowId() {
-    const ProcessResult found = runProcess({"xdotool", "search", "--name", "^Speculum$"});
-    return found.output.substr(0, found.output.find('\n'));
-  }
-
-  void moveTo(int x, int y) {
-    xdotool({"mousemove", "--window", windowId(), std::to_string(x), std::to_string(y)});
-    run(3);
-  }
-
-  PixelRect widget(const std::string& key) {
-    for (const auto& [name, rect] : demo_->model().widgets) {
-      if (name == key) {
-        return rect;
-      }
-    }
-    ADD_FAILURE() << "the panel has no widget for " << key;
-    return {};
-  }
-
-  // Presses at a part of the widget's width, moves by `dx` pixels, releases.
-  void drag(const std::string& key, double part, int dx) {
-    const PixelRect rect = widget(key);
-    const int x = rect.x + static_cast<int>(rect.width * part);
-    const int y = rect.y + rect.height / 2;
-    moveTo(x, y);
-    xdotool({"mousedown", "1"});
-    run(3);
-    for (int i = 1; i <= 4; ++i) {
-      moveTo(x + dx * i / 4, y);
-    }
-    xdotool({"mouseup", "1"});
-    run(3);
-  }
-
-  void expectQuiet() { EXPECT_EQ(demo_->device().validationMessages(), 0); }
-
-  test::VirtualDisplay display_{1280, 900};
-  TemporaryDirectory config_;
-  std::string configHome_;
-  std::unique_ptr<Demo> demo_;
-};
 
 TEST_F(DemoWindow, DrawsTwoHundredFrames) {
   run(200);

@@ -253,6 +253,25 @@ void SweepPlanner::series(PlannedSeries planned, const std::vector<std::string>&
   }
 }
 
+SweepPlan viewSweep(const SweepContext& context) {
+  SweepPlanner planner("view", context);
+  for (const std::string& count : {texts(context.sampleCounts).front(), texts(context.sampleCounts).back()}) {
+    if (!context.mirrors) {
+      planner.add({{"view.samples", count}});
+      continue;
+    }
+    planner.grid({{"reflection.scale", {"0.5", "1"}},
+                  {"reflection.max_depth", {"1", "2", "4"}},
+                  {"reflection.samples", {count}},
+                  {"view.samples", {count}}});
+  }
+  if (context.mirrors) {
+    planner.add(joined({{"reflection.scale", "0.25"}, {"reflection.max_depth", "1"}}, samples("1")));
+    planner.add(joined(best(context), {{"reflection.scale", "2"}}));
+  }
+  return std::move(planner.plan);
+}
+
 SweepPlan sweepPlan(const std::string& wanted, const SweepContext& context) {
   return wanted == "quick" || wanted == "full" ? builtIn(wanted, context) : readSweepPlan(wanted, context);
 }

@@ -58,6 +58,8 @@ struct SweepContext {
 //
 // Configurations with equal settings are one. Throws InputError with FILE:LINE.
 SweepPlan sweepPlan(const std::string& wanted, const SweepContext& context);
+// A dozen configurations for the front of one view, without series.
+SweepPlan viewSweep(const SweepContext& context);
 SweepPlan readSweepPlan(const std::filesystem::path& file, const SweepContext& context);
 
 // Collects configurations, each once.

@@ -1,79 +1,17 @@
 #include <cstdio>
-#include <ctime>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "accuracy/fingerprint.hpp"
 #include "accuracy/report.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/session_subject.hpp"
 #include "app/stats.hpp"
-#include "app/version.hpp"
+#include "app/sweep_description.hpp"
 #include "core/platform.hpp"
 
 namespace speculum {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-void addFile(Fingerprint& fingerprint, const fs::path& file) {
-  if (const std::optional<std::vector<uint8_t>> bytes = readFile(file)) {
-    fingerprint.add(std::as_bytes(std::span(*bytes)));
-  }
-}
-
-// Another build, other shaders, another driver: everything is measured again.
-std::string identity(Session& session, double time) {
-  Fingerprint fingerprint;
-  addFile(fingerprint, executablePath());
-  std::vector<fs::path> shaders;
-  for (const auto& entry : fs::directory_iterator(dataDirectory("shaders"))) {
-    shaders.push_back(entry.path());
-  }
-  std::sort(shaders.begin(), shaders.end());
-  for (const fs::path& shader : shaders) {
-    addFile(fingerprint, shader);
-  }
-  addScene(fingerprint, session.scene());
-  const Device& device = session.device();
-  for (const std::string& text : {device.info().name, device.info().driver, machineDescription(),
-                                  std::string(renderPathName(device.renderPath()))}) {
-    fingerprint.add(text);
-  }
-  fingerprint.add(session.size().width);
-  fingerprint.add(session.size().height);
-  fingerprint.add(time);
-  return fingerprint.hex();
-}
-
-std::string utcNow() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-  return text;
-}
-
-SweepResults describe(const Options& options, Session& session) {
-  const Device& device = session.device();
-  SweepResults results{.scene = session.scene().file.filename().string(),
-                       .title = session.scene().title,
-                       .time = options.time,
-                       .device = device.info().name,
-                       .driver = device.info().driver,
-                       .renderPath = std::string(renderPathName(device.renderPath())),
-                       .machine = machineDescription(),
-                       .version = versionString,
-                       .date = utcNow()};
-  for (const SettingInfo& info : settingInfos()) {
-    const std::string value = settingValue(session.settings(), info.key);
-    if (!value.empty()) {
-      results.base.push_back({std::string(info.key), value});
-    }
-  }
-  return results;
-}
 
 // A bar for each stage, one after the other.
 class StageProgress {
@@ -119,10 +57,7 @@ void printFront(const SweepResults& results) {
 int runAccuracy(const Options& options) {
   Session session(options);
   const SceneState state = evaluate(session.scene(), options.time);
-  const SweepContext context{.base = session.settings(),
-                             .sampleCounts = sampleCountsOf(session.device()),
-                             .mirrors = !session.scene().mirrors.empty(),
-                             .animated = moves(session.scene())};
+  const SweepContext context = sweepContext(session);
   const SweepPlan plan = sweepPlan(options.sweep, context);
   const std::string folder = "measurements";
   SweepStore store(options.out / folder);
@@ -131,9 +66,8 @@ int runAccuracy(const Options& options) {
                          .state = state,
                          .width = options.size.width,
                          .height = options.size.height,
-                         .identity = identity(session, options.time)};
-  SweepResults results = describe(options, session);
-  results.sweep = plan.name;
+                         .identity = sweepIdentity(session, options.time)};
+  SweepResults results = describeSweep(session, plan, options.time);
   installInterruptHandler();
   StageProgress progress;
   if (!runSweep(plan, context.base, scene, subject, store, results, std::ref(progress))) {

@@ -24,7 +24,8 @@ Demo::Demo(const Options& options)
       device_(deviceOptions(options, &window_)),
       renderer_(device_, rendererOptions(options, &window_)),
       sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, loaded_->scene)),
-      planner_(device_) {
+      planner_(device_),
+      accuracy_(options, loaded_->settings, model_) {
   applyDebugSettings(loaded_->settings, device_);
   installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
@@ -33,6 +34,7 @@ Demo::Demo(const Options& options)
   model_.device = device_.info().name;
   model_.driver = device_.info().driver;
   model_.renderPath = "render path: " + std::string(renderPathName(device_.renderPath()));
+  model_.accuracy.choice = loaded_->quality ? loaded_->quality->why : "";
   camera_.reset(loaded_->scene.camera);
   last_ = Clock::now();
 }
@@ -97,6 +99,7 @@ void Demo::chooseScene(int index) {
   shownScene_ = index;
   try {
     auto next = std::make_unique<LoadedScene>(loadSceneWithSettings(sceneFiles_[index], options_));
+    accuracy_.forgetScene(model_);
     sceneRenderer_.reset();
     loaded_ = std::move(next);
     sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
@@ -131,6 +134,19 @@ void Demo::applyModel() {
   if (model_.scene != shownScene_) {
     chooseScene(model_.scene);
   }
+  accuracy_.apply(model_, [this] { return sweepRequest(); });
+}
+
+SweepRequest Demo::sweepRequest() {
+  SweepRequest request{.options = options_,
+                       .base = model_.settings,
+                       .camera = camera_.pose(evaluate(loaded_->scene, time_).camera),
+                       .time = time_};
+  request.options.scene = loaded_->scene.file.string();
+  request.options.gpu = std::to_string(device_.info().index);
+  const VkExtent2D extent = renderer_.displayExtent();
+  request.options.size = {static_cast<int>(extent.width), static_cast<int>(extent.height)};
+  return request;
 }
 
 void Demo::drawFrame(double seconds) {
@@ -165,6 +181,8 @@ void Demo::drawFrame(double seconds) {
   renderer_.endFrame(*frame);
   ++framesDrawn_;
   fillModel(plan);
+  accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, renderer_,
+                   *sceneRenderer_);
 }
 
 void Demo::fillModel(const FramePlan& plan) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "app/accuracy_controller.hpp"
 #include "app/camera_controller.hpp"
 #include "app/options.hpp"
 #include "app/session.hpp"
@@ -35,6 +36,7 @@ class Demo {
   void drawFrame(double seconds);
   void fillModel(const FramePlan& plan);
   void applyModel();
+  SweepRequest sweepRequest();
   void handleKey(const KeyEvent& event);
 
   Options options_;
@@ -47,6 +49,7 @@ class Demo {
   std::unique_ptr<SimpleUI> ui_;
   CameraController camera_;
   UiModel model_;
+  AccuracyController accuracy_;
   std::vector<std::filesystem::path> sceneFiles_;
   int shownScene_ = 0;
   std::string sceneError_;

@@ -285,6 +285,8 @@ void SceneRenderer::setCover(const Image8& picture) {
     }
     texels[i] = glm::packHalf4x16(linear);
   }
+  // Validation layer 1.3.239 forgets the fences of frames in flight when an upload's is waited for.
+  renderer_.waitIdle();
   const VkExtent2D extent{static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height)};
   cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extent, colorFormat, false, "cover");
   if (!coverSampler_) {

@@ -1,0 +1,84 @@
+#include "app/sweep_description.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+#include "accuracy/fingerprint.hpp"
+#include "app/session_subject.hpp"
+#include "app/version.hpp"
+#include "core/platform.hpp"
+
+namespace speculum {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void addFile(Fingerprint& fingerprint, const fs::path& file) {
+  if (const std::optional<std::vector<uint8_t>> bytes = readFile(file)) {
+    fingerprint.add(std::as_bytes(std::span(*bytes)));
+  }
+}
+
+std::string utcNow() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
+
+}  // namespace
+
+SweepContext sweepContext(Session& session) {
+  return {.base = session.settings(),
+          .sampleCounts = sampleCountsOf(session.device()),
+          .mirrors = !session.scene().mirrors.empty(),
+          .animated = moves(session.scene())};
+}
+
+// Another build, other shaders, another driver: everything is measured again.
+std::string sweepIdentity(Session& session, double time) {
+  Fingerprint fingerprint;
+  addFile(fingerprint, executablePath());
+  std::vector<fs::path> shaders;
+  for (const auto& entry : fs::directory_iterator(dataDirectory("shaders"))) {
+    shaders.push_back(entry.path());
+  }
+  std::sort(shaders.begin(), shaders.end());
+  for (const fs::path& shader : shaders) {
+    addFile(fingerprint, shader);
+  }
+  addScene(fingerprint, session.scene());
+  const Device& device = session.device();
+  for (const std::string& text : {device.info().name, device.info().driver, machineDescription(),
+                                  std::string(renderPathName(device.renderPath()))}) {
+    fingerprint.add(text);
+  }
+  fingerprint.add(session.size().width);
+  fingerprint.add(session.size().height);
+  fingerprint.add(time);
+  return fingerprint.hex();
+}
+
+SweepResults describeSweep(Session& session, const SweepPlan& plan, double time) {
+  const Device& device = session.device();
+  SweepResults results{.scene = session.scene().file.filename().string(),
+                       .title = session.scene().title,
+                       .sweep = plan.name,
+                       .time = time,
+                       .device = device.info().name,
+                       .driver = device.info().driver,
+                       .renderPath = std::string(renderPathName(device.renderPath())),
+                       .machine = machineDescription(),
+                       .version = versionString,
+                       .date = utcNow()};
+  for (const SettingInfo& info : settingInfos()) {
+    const std::string value = settingValue(session.settings(), info.key);
+    if (!value.empty()) {
+      results.base.push_back({std::string(info.key), value});
+    }
+  }
+  return results;
+}
+
+}  // namespace speculum

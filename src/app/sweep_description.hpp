@@ -1,0 +1,18 @@
+#pragma once
+
+#include "accuracy/sweep_plan.hpp"
+#include "app/session.hpp"
+
+namespace speculum {
+
+// What a sweep over the session's scene can vary.
+SweepContext sweepContext(Session& session);
+
+// Results with all that is known before anything is measured: scene, machine, device, date, base settings.
+SweepResults describeSweep(Session& session, const SweepPlan& plan, double time);
+
+// Of everything but the settings that pictures and times depend on: this build with its shaders, scene, device,
+// machine, size, time.
+std::string sweepIdentity(Session& session, double time);
+
+}  // namespace speculum
