@@ -149,7 +149,9 @@ void plot(UiModel& model) {
       accuracy.apply = hovered;
     }
   }
-  ImGui::TextDisabled("mean FLIP (up) against GPU ms, both logarithmic; click a point to use it");
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("mean FLIP (up) against GPU ms, both logarithmic; click a point to use it");
+  ImGui::PopStyleColor();
 }
 
 void frontSlider(UiModel& model) {
