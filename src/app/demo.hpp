@@ -33,7 +33,9 @@ class Demo {
   void chooseScene(int index);
   void moveCamera(double seconds);
   void drawFrame(double seconds);
-  void fillModel(const FramePlan& plan);
+  std::optional<DebugView> debugView(const FramePlan& plan);
+  void fillModel(const FramePlan& plan, int updateInterval);
+  void fillPasses(int updateInterval);
   void applyModel();
   void handleKey(const KeyEvent& event);
 
@@ -49,6 +51,7 @@ class Demo {
   UiModel model_;
   std::vector<std::filesystem::path> sceneFiles_;
   int shownScene_ = 0;
+  std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
   std::string sceneError_;
   bool dragging_ = false;
   double cursorX_ = 0.0;
