@@ -80,38 +80,64 @@ float disparityNow(Reprojection r, float then) {
   return ahead > 1e-6 ? clamp(then * r.direction.z / ahead, 0.0, r.nearest) : r.nearest;
 }
 
-// Which of the image's points lies on this fragment's ray is not known beforehand: the point found at a guess makes the
-// next guess.
-float foundDisparity(Reprojection r, ivec2 last, float start) {
-  float disparity = start;
-  for (int i = 0; i < 4; ++i) {
-    ivec2 texel = clamp(ivec2(floor(texelAt(r, disparity))), ivec2(0), last);
-    disparity = disparityNow(r, valueAt(texel).a);
+// The point found at a guess makes the next guess.
+float refined(Reprojection r, ivec2 last, float disparity) {
+  for (int i = 0; i < 3; ++i) {
+    disparity = disparityNow(r, valueAt(clamp(ivec2(floor(texelAt(r, disparity))), ivec2(0), last)).a);
   }
   return disparity;
 }
 
-// Bilinear, but every value counts by how far off the ray its own point is: the far ones beside a silhouette have moved
-// by another length than the near ones and would leave an outline behind.
+// Which of the image's points lies on this fragment's ray is not known beforehand. All that may are on a line in the
+// image, from where the mirror itself was to where infinity was; the first one that is there is seen. Where none is,
+// something hid what is seen now, and the farthest point found takes its place.
+float foundDisparity(Reprojection r, ivec2 last) {
+  float span = distance(texelAt(r, r.nearest), texelAt(r, 0.0));
+  int steps = int(clamp(ceil(span), 1.0, 32.0));
+  float reach = max(span / float(steps), 1.0);
+  float farthest = r.nearest;
+  float guess = r.nearest;
+  float filling = 0.0;
+  for (int i = 0; i <= steps; ++i) {
+    guess = r.nearest * (1.0 - float(i) / float(steps));
+    ivec2 texel = clamp(ivec2(floor(texelAt(r, guess))), ivec2(0), last);
+    float found = disparityNow(r, valueAt(texel).a);
+    vec2 off = abs(texelAt(r, found) - valuePosition() - vec2(texel));
+    if (max(off.x, off.y) < reach) {
+      return reach > 1.0 ? refined(r, last, found) : found;
+    }
+    if (found < farthest) {
+      farthest = found;
+      filling = guess;
+    }
+  }
+  return filling;
+}
+
+// A box as wide as a pixel and at least as a texel, which makes it bilinear at the screen's resolution. But every value
+// counts by how far off the ray its own point is: the far ones beside a silhouette have moved by another length than the
+// near ones and would leave an outline behind. Where none counts, the farthest fills the gap.
 vec4 reprojected(MirrorData mirror, float nearest) {
   ivec2 last = mirror.image.xy - 1;
   Reprojection r = reprojection(mirror, nearest);
-  vec2 position = texelAt(r, foundDisparity(r, last, nearest)) - valuePosition();
-  ivec2 corner = ivec2(floor(clamp(position, vec2(0.0), vec2(last))));
-  vec4 matching = vec4(0.0);
-  vec4 all = vec4(0.0);
-  float matchingWeight = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    ivec2 texel = min(corner + ivec2(i & 1, i >> 1), last);
-    vec4 value = valueAt(texel);
-    vec2 own = texelAt(r, disparityNow(r, value.a)) - valuePosition();
-    vec2 near = max(1.0 - abs(own - vec2(texel)), 0.0);
-    vec2 plain = max(1.0 - abs(clamp(position, vec2(0.0), vec2(last)) - vec2(texel)), 0.0);
-    matching += near.x * near.y * value;
-    matchingWeight += near.x * near.y;
-    all += plain.x * plain.y * value;
+  vec2 position = texelAt(r, foundDisparity(r, last)) - valuePosition();
+  vec2 reach = 0.5 * max(mirror.lookup.xy, vec2(1.0)) + 0.5;
+  ivec2 low = clamp(ivec2(ceil(position - reach)), ivec2(0), last);
+  ivec2 high = clamp(ivec2(floor(position + reach)), ivec2(0), last);
+  vec4 sum = vec4(0.0);
+  float weights = 0.0;
+  vec4 farthest = vec4(0.0, 0.0, 0.0, halfMax);
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      vec4 value = valueAt(ivec2(x, y));
+      vec2 own = texelAt(r, disparityNow(r, value.a)) - valuePosition();
+      vec2 near = clamp(reach - abs(own - vec2(x, y)), 0.0, 1.0);
+      sum += near.x * near.y * value;
+      weights += near.x * near.y;
+      farthest = value.a <= farthest.a ? value : farthest;
+    }
   }
-  return matchingWeight > 0.05 ? matching / matchingWeight : all;
+  return weights > 0.05 ? sum / weights : farthest;
 }
 
 // F of docs/picture.md; `inward` is the ray's component along the normal, below zero.

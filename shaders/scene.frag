@@ -52,5 +52,7 @@ void main() {
   surface.specular = specular.w > 0.0 ? specular.rgb : material.specular.rgb;
   surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
   surface.emission = material.emission.rgb;
-  color = storable(surfaceRadiance(views[draw.viewIndex], surface), gl_FragCoord.w);
+  // Not gl_FragCoord.w: at the pixel's centre, off the triangle, it is far from that of a steep one.
+  float w = (views[draw.viewIndex].clipFromRelative * vec4(relativePosition, 1.0)).w;
+  color = storable(surfaceRadiance(views[draw.viewIndex], surface), 1.0 / max(w, 1e-30));
 }

@@ -50,6 +50,5 @@ vec3 backgroundRadiance(ViewData view, vec3 direction) {
 }
 
 // The target is half float: past its range some drivers store infinity, and one such sample spoils a resolve.
-// `disparity` is 1 / w of clip space in 1/m, 0 at infinity: by it an image is reprojected when it is shown again. At
-// the edge of a triangle it is extrapolated and may fall below 0.
+// `disparity` is 1 / w of clip space in 1/m, 0 at infinity: by it an image is reprojected when it is shown again.
 vec4 storable(vec3 radiance, float disparity) { return clamp(vec4(radiance, disparity), 0.0, halfMax); }

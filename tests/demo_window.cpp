@@ -102,6 +102,35 @@ TEST_F(DemoWindow, TwoHundredRandomResizesLeakNothing) {
   expectQuiet();
 }
 
+TEST_F(DemoWindow, ImagesAreHeldWhileTheCameraMovesAndTheWindowIsResized) {
+  drag("reflection.update_interval", 0.05, 200);
+  ASSERT_GT(demo_->model().settings.reflection.updateInterval, 1);
+  const auto heldMirrors = [&] {
+    const auto& skipped = demo_->model().skipped;
+    return std::count_if(skipped.begin(), skipped.end(), [](const UiSkipped& s) { return s.reason == "unchanged"; });
+  };
+  int held = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    ASSERT_TRUE(demo_->step());
+    held += heldMirrors() > 0 ? 1 : 0;
+    ASSERT_EQ(demo_->model().passes.size(), 3u) << "a held mirror's pass stays in the list";
+  }
+  EXPECT_GE(held, 4);
+  moveTo(width - 100, 80);
+  xdotool({"mousedown", "1"});
+  for (int i = 1; i <= 5; ++i) {
+    moveTo(width - 100 - 8 * i, 80 + 2 * i);
+  }
+  xdotool({"mouseup", "1"});
+  for (int i = 0; i < 12; ++i) {
+    demo_->window().resize(width - 30 * i, height - 20 * (i % 5));
+    for (int frame = 0; frame < 3; ++frame) {
+      ASSERT_TRUE(demo_->step());
+    }
+  }
+  expectQuiet();
+}
+
 TEST_F(DemoWindow, IconifiedDrawsNoFrameAndComesBack) {
   demo_->window().iconify();
   auto end = Clock::now() + std::chrono::seconds(5);

@@ -1,1 +1,2 @@
-speculum_test(frame_tests SOURCES frame_settings.cpp frame_plan.cpp frame_view.cpp frame_memory.cpp LIBRARIES frame ext::rapidcheck)
+speculum_test(frame_tests SOURCES frame_settings.cpp frame_plan.cpp frame_held.cpp frame_view.cpp frame_memory.cpp
+              LIBRARIES frame ext::rapidcheck)

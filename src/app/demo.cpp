@@ -105,6 +105,7 @@ void Demo::chooseScene(int index) {
     sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
     model_.settings = loaded_->settings;
     model_.debugPass = -1;
+    model_.passes.clear();
     camera_.reset(loaded_->scene.camera);
     time_ = 0.0;
     sceneError_.clear();
@@ -162,16 +163,15 @@ void Demo::drawFrame(double seconds) {
   }
   SceneState state = evaluate(loaded_->scene, time_);
   state.camera = camera_.pose(state.camera);
-  const FittedPlan fitted = planner_.plan(loaded_->scene, state, model_.settings, static_cast<int>(frame->extent.width),
+  Settings settings = model_.settings;
+  watched_ = model_.debugPass >= 0 ? model_.passes[model_.debugPass].path : std::vector<int>();
+  if (!watched_.empty()) {
+    settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame
+  }
+  const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
                                           static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
   const FramePlan& plan = fitted.plan;
-  std::optional<DebugView> debug;
-  if (model_.debugPass >= static_cast<int>(plan.passes.size())) {
-    model_.debugPass = -1;
-  } else if (model_.debugPass >= 0 && model_.debugArea) {
-    debug = DebugView{model_.debugPass, *model_.debugArea};
-  }
-  sceneRenderer_->record(*frame, state, fitted.settings, plan, debug);
+  sceneRenderer_->record(*frame, state, fitted.settings, plan, debugView(plan));
   {
     const PassScope scope = renderer_.beginOverlay(*frame);
     ui_->record(scope);
@@ -180,14 +180,60 @@ void Demo::drawFrame(double seconds) {
   frame->capture = capture_;
   renderer_.endFrame(*frame);
   ++framesDrawn_;
-  fillModel(plan);
+  fillModel(plan, fitted.settings.reflection.updateInterval);
   accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, renderer_,
                    *sceneRenderer_);
 }
 
-void Demo::fillModel(const FramePlan& plan) {
+std::optional<DebugView> Demo::debugView(const FramePlan& plan) {
+  const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
+                                 [&](const PlannedPass& p) { return p.view.path == watched_; });
+  if (pass == plan.passes.end()) {
+    watched_.clear();
+  }
+  if (watched_.empty() || !model_.debugArea) {
+    return std::nullopt;
+  }
+  return DebugView{static_cast<int>(pass - plan.passes.begin()), *model_.debugArea};
+}
+
+// With images that are held, the passes of as many frames as it takes to render each: a list that changed from frame to
+// frame could not be read.
+void Demo::fillPasses(int updateInterval) {
   const FrameTimings& timings = renderer_.timings();
-  const std::vector<RecordedPass>& recorded = sceneRenderer_->passes();
+  std::vector<UiPass> rows;
+  if (updateInterval > 1) {
+    rows = std::move(model_.passes);
+  }
+  for (UiPass& row : rows) {
+    ++row.framesAgo;
+  }
+  std::ptrdiff_t place = 0;
+  for (const RecordedPass& pass : sceneRenderer_->passes()) {
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const UiPass& r) {
+      return r.framesAgo > 0 && r.name == pass.name && r.path == pass.path;
+    });
+    if (row == rows.end()) {
+      row = rows.insert(rows.begin() + place, UiPass{pass.name, pass.path, pass.depth});
+    }
+    // The times are of an earlier frame, whose plan may have differed.
+    const auto timing = std::find_if(timings.passes.begin(), timings.passes.end(),
+                                     [&](const PassTiming& t) { return t.name == pass.name; });
+    row->gpuMs = timing != timings.passes.end() ? timing->gpuMs : row->gpuMs;
+    row->areaPx = pass.areaPx;
+    row->draws = pass.draws;
+    row->framesAgo = 0;
+    place = row - rows.begin() + 1;
+  }
+  std::erase_if(rows, [&](const UiPass& row) { return row.framesAgo >= updateInterval; });
+  model_.passes = std::move(rows);
+  const auto shown = std::find_if(model_.passes.begin(), model_.passes.end(),
+                                  [&](const UiPass& row) { return !watched_.empty() && row.path == watched_; });
+  model_.debugPass = shown != model_.passes.end() ? static_cast<int>(shown - model_.passes.begin()) : -1;
+}
+
+void Demo::fillModel(const FramePlan& plan, int updateInterval) {
+  const FrameTimings& timings = renderer_.timings();
   model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
   model_.gpuMs = timings.gpuMs;
   model_.deviceBytes = device_.allocatedBytes();
@@ -197,15 +243,7 @@ void Demo::fillModel(const FramePlan& plan) {
     model_.message = planner_.message();
   }
   model_.time = time_;
-  model_.passes.clear();
-  for (const RecordedPass& pass : recorded) {
-    UiPass shown{pass.name, pass.depth, 0.0, pass.areaPx, pass.draws};
-    // The times are of an earlier frame, whose plan may have differed.
-    const auto timing = std::find_if(timings.passes.begin(), timings.passes.end(),
-                                     [&](const PassTiming& t) { return t.name == pass.name; });
-    shown.gpuMs = timing != timings.passes.end() ? timing->gpuMs : 0.0;
-    model_.passes.push_back(std::move(shown));
-  }
+  fillPasses(updateInterval);
   model_.skipped.clear();
   for (const SkippedMirror& skip : plan.skipped) {
     model_.skipped.push_back(

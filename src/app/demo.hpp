@@ -34,7 +34,9 @@ class Demo {
   void chooseScene(int index);
   void moveCamera(double seconds);
   void drawFrame(double seconds);
-  void fillModel(const FramePlan& plan);
+  std::optional<DebugView> debugView(const FramePlan& plan);
+  void fillModel(const FramePlan& plan, int updateInterval);
+  void fillPasses(int updateInterval);
   void applyModel();
   SweepRequest sweepRequest();
   void handleKey(const KeyEvent& event);
@@ -52,6 +54,7 @@ class Demo {
   AccuracyController accuracy_;
   std::vector<std::filesystem::path> sceneFiles_;
   int shownScene_ = 0;
+  std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
   std::string sceneError_;
   bool dragging_ = false;
   double cursorX_ = 0.0;

@@ -236,8 +236,8 @@ void Planner::hold(Node& node, const Candidate& candidate) const {
   const auto before = std::find_if(heldBefore_.begin(), heldBefore_.end(),
                                    [&](const HeldImage& image) { return image.mirror == view.path.back(); });
   const bool exists = before != heldBefore_.end();
-  const bool old = exists && before->age >= std::min(before->due, interval);
-  if (exists && !old && serves(*before, node, candidate.visible)) {
+  const int left = exists ? std::min(before->due, interval) - before->age : 0;  // frames
+  if (left > 0 && serves(*before, node, candidate.visible)) {
     node.held = *before;
     ++node.held->age;
     node.held->pass = -1;
@@ -245,12 +245,10 @@ void Planner::hold(Node& node, const Candidate& candidate) const {
     node.moved = !unmoved(*before, view, plan_.projection, candidate.visible);
     return;
   }
-  // Images that are rendered out of turn, such as all of the first frame, come due in different frames.
-  const int due = old ? interval : interval - candidate.order % interval;
+  // New images, such as all of the first frame, take turns from then on; what is rendered out of turn keeps its own.
+  const int due = left > 0 ? left : exists ? interval : interval - candidate.order % interval;
   if (const int pixels = exists ? margin(*before, node, candidate.visible, due) : 0; pixels > 0) {
-    view.rect = {view.rect.x - pixels, view.rect.y - pixels, view.rect.width + 2 * pixels,
-                 view.rect.height + 2 * pixels};
-    view.cone = coneOf(view, plan_.projection, view.rect);
+    widen(view, plan_.projection, pixels);
   }
   node.held = HeldImage{.mirror = view.path.back(),
                         .view = view,

@@ -37,23 +37,28 @@ View mainView(const CameraPose& camera, const Projection& projection, int width,
   view.worldToView = camera.worldToView;
   view.rect = {0, 0, width, height};
   view.pictureSize = glm::dvec2(width, height);
-  view.cone = coneOf(view, projection, view.rect);
+  const double fx = projection.focal / projection.aspect;
+  const double fy = projection.focal;
+  const glm::dmat3 viewToWorld = glm::transpose(camera.worldToView);
+  // w + x, w - x, w + y, w - y >= 0 with w = -z.
+  for (const glm::dvec3& n :
+       {glm::dvec3(fx, 0, -1), glm::dvec3(-fx, 0, -1), glm::dvec3(0, fy, -1), glm::dvec3(0, -fy, -1)}) {
+    view.cone.push_back(viewToWorld * glm::normalize(n));
+  }
   return view;
 }
 
-std::vector<glm::dvec3> coneOf(const View& view, const Projection& projection, const PixelRect& rect) {
-  const double fx = projection.focal / projection.aspect;
-  const double fy = projection.focal;
-  const glm::dvec2 low = glm::dvec2(rect.x, rect.y) * 2.0 / view.pictureSize - 1.0;
-  const glm::dvec2 high = glm::dvec2(rect.x + rect.width, rect.y + rect.height) * 2.0 / view.pictureSize - 1.0;
-  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
-  std::vector<glm::dvec3> cone;
-  // x - low.x w, high.x w - x, high.y w - y, y - low.y w >= 0 with w = -z.
-  for (const glm::dvec3& n :
-       {glm::dvec3(fx, 0, low.x), glm::dvec3(-fx, 0, -high.x), glm::dvec3(0, fy, -high.y), glm::dvec3(0, -fy, low.y)}) {
-    cone.push_back(viewToWorld * glm::normalize(n));
+// A plane's line on the screen is nx / fx x - ny / fy y - nz = 0 in device coordinates; it moves by its gradient's
+// length for each pixel.
+void widen(View& view, const Projection& projection, int pixels) {
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  for (glm::dvec3& normal : view.cone) {
+    glm::dvec3 n = view.worldToView * normal;
+    const glm::dvec2 gradient = step * glm::dvec2(n.x * projection.aspect / projection.focal, n.y / projection.focal);
+    n.z -= pixels * glm::length(gradient);
+    normal = glm::transpose(view.worldToView) * glm::normalize(n);
   }
-  return cone;
+  view.rect = {view.rect.x - pixels, view.rect.y - pixels, view.rect.width + 2 * pixels, view.rect.height + 2 * pixels};
 }
 
 glm::dvec2 overscan(const View& view) {

@@ -29,8 +29,8 @@ struct View {
 // The camera's view of a picture of `width` x `height` pixels.
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height);
 
-// Inward unit normals (world) of planes through the eye that bound what `rect` of the picture shows.
-std::vector<glm::dvec3> coneOf(const View& view, const Projection& projection, const PixelRect& rect);
+// Moves the rectangle's sides and the cone's planes outwards on the screen.
+void widen(View& view, const Projection& projection, int pixels);
 
 // The part of the plane of projection that must be drawn, in widths and heights of the picture, centred: 1 where
 // `view.rect` lies within the picture, more where an image has a margin beyond its border.

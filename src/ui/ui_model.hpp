@@ -12,7 +12,9 @@ namespace speculum {
 
 struct UiPass {
   std::string name;
-  int depth = -1;  // -1: not a mirror's
+  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
+  int depth = -1;         // -1: not a mirror's
+  int framesAgo = 0;      // since it ran
   double gpuMs = 0.0;
   double areaPx = 0.0;
   uint32_t draws = 0;
@@ -72,7 +74,7 @@ struct UiModel {
   double gpuMs = 0.0;
   uint64_t deviceBytes = 0;
   int validationMessages = -1;  // -1: the layer is off
-  std::vector<UiPass> passes;   // in the order of recording
+  std::vector<UiPass> passes;   // in the order of recording; with reflection.update_interval, of that many frames
   std::vector<UiSkipped> skipped;
   std::vector<std::pair<std::string, PixelRect>> widgets;  // where each setting's widget stands, by key
   int debugPass = -1;                  // index into passes of the image to show; -1: none. Changed by the person.

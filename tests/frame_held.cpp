@@ -1,0 +1,318 @@
+// What is held, and when it is rendered anew: the planner alone, frame after frame.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "frame/frame_plan.hpp"
+#include "frame/memory_fit.hpp"
+#include "optics/affine.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr int width = 640;
+constexpr int height = 360;
+
+Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size) {
+  Mirror mirror;
+  mirror.position = position;
+  mirror.rotation = {0, yaw, 0};
+  mirror.size = size;
+  return mirror;
+}
+
+// Six mirrors in a row before the camera, which stands at the origin and looks along -z.
+Scene row() {
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  for (int i = 0; i < 6; ++i) {
+    scene.mirrors.push_back(wall({i - 2.5, 0, -5}, 0, {0.8, 1.5}));
+  }
+  return scene;
+}
+
+// Two walls that face each other, the camera between them.
+Scene corridor() {
+  Scene scene;
+  scene.camera.position = {0.3, 0.2, 0};
+  scene.camera.target = {0.3, 0.2, -1};
+  scene.mirrors = {wall({0, 0, -5}, 0, {4, 4}), wall({0, 0, 5}, 180, {4, 4})};
+  return scene;
+}
+
+// Plans frame after frame, each with what the one before held.
+class Sequence {
+ public:
+  explicit Sequence(Scene scene, int interval) : scene(std::move(scene)) {
+    settings.reflection.updateInterval = interval;
+  }
+  const FramePlan& next() {
+    plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, plan.held);
+    return plan;
+  }
+  void moveCamera(const glm::dvec3& by) {
+    scene.camera.position += by;
+    scene.camera.target += by;
+  }
+
+  Scene scene;
+  Settings settings;
+  FramePlan plan;
+};
+
+int count(const FramePlan& plan, SkipReason reason) {
+  return static_cast<int>(
+      std::count_if(plan.skipped.begin(), plan.skipped.end(), [&](const auto& s) { return s.reason == reason; }));
+}
+
+std::string firstUnchanged(const FramePlan& plan) {
+  const auto it = std::find_if(plan.skipped.begin(), plan.skipped.end(),
+                               [](const SkippedMirror& s) { return s.reason == SkipReason::unchanged; });
+  return it == plan.skipped.end() ? "" : it->detail;
+}
+
+TEST(HeldImages, IntervalOneHoldsNothing) {
+  Sequence sequence(row(), 1);
+  for (int frame = 0; frame < 3; ++frame) {
+    EXPECT_EQ(sequence.next().passes.size(), 6u);
+    EXPECT_TRUE(sequence.plan.held.empty());
+    EXPECT_EQ(count(sequence.plan, SkipReason::unchanged), 0);
+  }
+}
+
+TEST(HeldImages, FirstFrameIsFreshThenEachMirrorEveryNthAndTheLoadIsSpread) {
+  for (const double step : {0.0, 0.002}) {
+    Sequence sequence(row(), 3);
+    std::map<int, std::vector<int>> frames;  // of each mirror's passes
+    for (int frame = 0; frame < 15; ++frame) {
+      sequence.next();
+      ASSERT_EQ(sequence.plan.held.size(), 6u);
+      EXPECT_EQ(sequence.plan.passes.size() + count(sequence.plan, SkipReason::unchanged), 6u);
+      if (frame == 0) {
+        EXPECT_EQ(sequence.plan.passes.size(), 6u);
+      } else if (frame > 1) {
+        EXPECT_EQ(sequence.plan.passes.size(), 2u) << "frame " << frame << ", step " << step;
+      }
+      for (const PlannedPass& pass : sequence.plan.passes) {
+        frames[pass.view.path[0]].push_back(frame);
+      }
+      sequence.moveCamera({step, 0, 0});
+    }
+    for (const auto& [mirror, fresh] : frames) {
+      for (size_t i = 1; i < fresh.size(); ++i) {
+        if (fresh[i - 1] >= 3) {
+          EXPECT_EQ(fresh[i] - fresh[i - 1], 3) << "mirror " << mirror << ", step " << step;
+        }
+      }
+    }
+  }
+}
+
+TEST(HeldImages, AHeldMirrorIsSkippedWithItsAgeAndSaysHowItIsShown) {
+  Sequence sequence(row(), 4);
+  sequence.next();
+  sequence.next();
+  ASSERT_EQ(count(sequence.plan, SkipReason::unchanged), 5) << "the fourth mirror comes due after one frame";
+  EXPECT_EQ(firstUnchanged(sequence.plan), "image of the last frame");
+  for (const MirrorDraw& draw : sequence.plan.main.mirrors) {
+    EXPECT_NE(draw.held.has_value(), draw.pass >= 0);
+    EXPECT_FALSE(draw.held && draw.held->moved) << "nothing moved";
+  }
+  sequence.moveCamera({0.001, 0, 0});
+  sequence.next();  // nothing had a margin
+  EXPECT_EQ(sequence.plan.passes.size(), 6u);
+  sequence.moveCamera({0.001, 0, 0});
+  sequence.next();
+  ASSERT_GT(count(sequence.plan, SkipReason::unchanged), 0);
+  EXPECT_EQ(firstUnchanged(sequence.plan), "image of the last frame, reprojected");
+  for (const MirrorDraw& draw : sequence.plan.main.mirrors) {
+    if (draw.held) {
+      EXPECT_TRUE(draw.held->moved);
+      EXPECT_EQ(sequence.plan.held[static_cast<size_t>(draw.held->image)].mirror, draw.mirror);
+    }
+  }
+}
+
+TEST(HeldImages, ASubtreeIsRenderedAndHeldWithItsMirror) {
+  Sequence sequence(corridor(), 3);
+  const size_t whole = sequence.next().passes.size();
+  EXPECT_EQ(whole, 4u);
+  EXPECT_EQ(sequence.plan.held.size(), 1u) << "mirrors in mirrors are not held";
+  const int deeper = count(sequence.plan, SkipReason::maxDepth);
+  EXPECT_GT(deeper, 0);
+  for (int frame = 1; frame < 7; ++frame) {
+    sequence.next();
+    EXPECT_EQ(sequence.plan.passes.size(), frame % 3 == 0 ? whole : 0u) << "frame " << frame;
+    EXPECT_EQ(count(sequence.plan, SkipReason::unchanged), frame % 3 == 0 ? 0 : 1);
+    EXPECT_EQ(count(sequence.plan, SkipReason::maxDepth), frame % 3 == 0 ? deeper : 0)
+        << "what is seen in a held image is not listed";
+  }
+}
+
+TEST(HeldImages, TheBudgetIsSharedAsIfAllWereFresh) {
+  Scene scene = corridor();
+  scene.mirrors.push_back(wall({1.9, 0, -2}, -90, {3, 3}));
+  Sequence sequence(scene, 2);
+  sequence.settings.reflection.maxPasses = 5;
+  std::map<std::vector<int>, int> inFirst;
+  for (const PlannedPass& pass : sequence.next().passes) {
+    ++inFirst[pass.view.path];
+  }
+  ASSERT_EQ(inFirst.size(), 5u);
+  for (int frame = 0; frame < 4; ++frame) {
+    for (const PlannedPass& pass : sequence.next().passes) {
+      EXPECT_TRUE(inFirst.count(pass.view.path)) << "a pass that frame 0 had no budget for";
+    }
+  }
+}
+
+TEST(HeldImages, ChangedSettingsAndSizesMakeFresh) {
+  const auto freshAfter = [](auto change) {
+    Sequence sequence(row(), 100);
+    sequence.next();
+    change(sequence.settings);
+    return sequence.next().passes.size();
+  };
+  EXPECT_EQ(freshAfter([](Settings&) {}), 0u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.view.exposure = 2.0; }), 0u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.view.toneMap = ToneMap::aces; }), 0u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.view.samples = 1; }), 0u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.scale = 0.5; }), 6u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.samples = 1; }), 6u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.maxDepth = 2; }), 6u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.clip = ClipMethod::oblique; }), 6u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.view.clearColor = glm::dvec3(0.5); }), 6u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.view.wireframe = true; }), 6u);
+  EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.updateInterval = 1; }), 6u);
+
+  Sequence sequence(row(), 100);
+  sequence.next();
+  const FramePlan larger = planFrame(sequence.scene, evaluate(sequence.scene, 0.0), sequence.settings, width + 1,
+                                     height, sequence.plan.held);
+  EXPECT_EQ(larger.passes.size(), 6u);
+}
+
+TEST(HeldImages, ACutMakesFreshAndAMirrorOutOfSightIsForgotten) {
+  Sequence sequence(row(), 100);
+  sequence.next();
+  sequence.next();
+  sequence.moveCamera({0.5, 0, 0});
+  sequence.next();
+  EXPECT_EQ(count(sequence.plan, SkipReason::unchanged), 0);
+  sequence.moveCamera({50, 0, 0});
+  EXPECT_TRUE(sequence.next().held.empty());
+  sequence.moveCamera({-50, 0, 0});
+  sequence.next();
+  EXPECT_EQ(sequence.plan.passes.size(), 6u);
+  EXPECT_EQ(sequence.plan.held.size(), 6u);
+}
+
+// Follows the definition: a shown image has rendered, for every ray through the mirror, whatever may be on it.
+TEST(HeldImages, WhatIsShownWasRendered) {
+  int reprojected = 0;
+  for (int seed = 0; seed < 40; ++seed) {
+    Sequence sequence(row(), 5);
+    for (int frame = 0; frame < 12; ++frame) {
+      const double t = 0.01 * frame * (1 + seed % 7);
+      sequence.scene.camera.position = {std::sin(seed + t), 0.3 * std::sin(2.0 * seed + t), -t};
+      sequence.scene.camera.target = sequence.scene.camera.position + glm::dvec3(0.3 * std::sin(t), 0, -1);
+      const FramePlan& plan = sequence.next();
+      for (const MirrorDraw& draw : plan.main.mirrors) {
+        ASSERT_TRUE(draw.held || draw.pass >= 0 || count(plan, SkipReason::minPixels) > 0);
+        if (!draw.held || !draw.held->moved) {
+          continue;
+        }
+        ++reprojected;
+        const HeldImage& image = plan.held[static_cast<size_t>(draw.held->image)];
+        for (const glm::dvec3& corner : visiblePart(plan.main.view, draw.polygon)) {
+          const glm::dvec4 clip = plan.projection.clip(plan.main.view.worldToView * (corner - plan.main.view.eye));
+          const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * plan.main.view.pictureSize;
+          for (const double part : {0.0, 0.01, 0.1, 0.5, 1.0}) {
+            const glm::dvec3 texel =
+                draw.held->texelFromPixel * glm::dvec3(pixel, 1.0) + draw.held->texelFromDisparity * (part / clip.w);
+            ASSERT_GT(texel.z, 0.0);
+            const glm::dvec2 place = glm::dvec2(texel) / texel.z;
+            EXPECT_GE(std::min(place.x, place.y), 0.4999);
+            EXPECT_LE(place.x, image.view.rect.width - 0.4999);
+            EXPECT_LE(place.y, image.view.rect.height - 0.4999);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(reprojected, 200) << "too few to judge by";
+}
+
+// A point is where the lookup says it is, whatever moved: camera, mirror, both.
+TEST(HeldImages, LookupFindsThePointInTheEarlierView) {
+  const Projection projection(1.0, 1.5, 0.001);
+  const auto mirrorView = [&](const glm::dvec3& eye, const glm::dvec3& target, double yaw, View& parent) {
+    parent = mainView(lookAt(eye, target, {0, 1, 0}, 57.3, 0.001), projection, 600, 400);
+    const Plane plane{{1e6, 0, -3}, rotationFromDegrees({3, yaw, 0})[2]};
+    return reflectedView(parent, 0, plane, {}, {-20, 30, 500, 300}, {300, 200});
+  };
+  View parentThen;
+  View parentNow;
+  const View then = mirrorView({1e6, 1, 2}, {1e6, 0, -3}, 5.0, parentThen);
+  const View now = mirrorView({1e6 + 0.1, 1.05, 2.1}, {1e6 + 0.2, 0, -3}, 6.0, parentNow);
+  const HeldLookup lookup = heldLookup({.view = then, .projection = projection}, parentNow, now, projection);
+  for (const glm::dvec3& point : {glm::dvec3(1e6, 0.5, 4), glm::dvec3(1e6 + 2, 1, 0), glm::dvec3(1e6 - 50, 9, 200)}) {
+    const glm::dvec4 clipNow = projection.clip(now.worldToView * (point - now.eye));
+    const glm::dvec4 clipThen = projection.clip(then.worldToView * (point - then.eye));
+    const glm::dvec2 pixel = (glm::dvec2(clipNow) / clipNow.w * 0.5 + 0.5) * parentNow.pictureSize;
+    const glm::dvec2 expected =
+        (glm::dvec2(clipThen) / clipThen.w * 0.5 + 0.5) * then.pictureSize - glm::dvec2(then.rect.x, then.rect.y);
+    const glm::dvec3 texel =
+        lookup.texelFromPixel * glm::dvec3(pixel, 1.0) + lookup.texelFromDisparity * (1.0 / clipNow.w);
+    EXPECT_NEAR(texel.x / texel.z, expected.x, 1e-6);
+    EXPECT_NEAR(texel.y / texel.z, expected.y, 1e-6);
+    EXPECT_NEAR(texel.z, clipThen.w / clipNow.w, 1e-9);
+  }
+}
+
+TEST(HeldImages, MarginIsAsWideAsTheMotionAndNoneWhenStill) {
+  Sequence sequence(corridor(), 6);
+  const PixelRect plain = sequence.next().passes.back().view.rect;
+  sequence.moveCamera({0.01, 0, 0});
+  const PixelRect slow = sequence.next().passes.back().view.rect;
+  EXPECT_GT(slow.width, plain.width + 2);
+  EXPECT_LT(slow.width, plain.width + 60);
+  EXPECT_LE(slow.height, plain.height + 2 * largestMargin * height + 2);
+  for (int frame = 0; frame < 12; ++frame) {
+    sequence.next();
+  }
+  EXPECT_EQ(sequence.plan.held[0].view.rect.height, plain.height) << "two turns after the motion there is none";
+}
+
+TEST(HeldImages, MemoryCountsThem) {
+  Sequence sequence(corridor(), 3);
+  sequence.next();
+  const uint64_t image = static_cast<uint64_t>(sequence.plan.held[0].view.rect.area()) * 4 * 8;
+  const FramePlan held = sequence.next();
+  ASSERT_TRUE(held.passes.empty());
+  FramePlan without = held;
+  without.held.clear();
+  EXPECT_EQ(targetBytes(held, sequence.settings), targetBytes(without, sequence.settings) + image);
+}
+
+TEST(HeldImages, MarginsStayWithinTheLargestSide) {
+  Scene scene = corridor();
+  Settings settings;
+  settings.reflection.updateInterval = 4;
+  std::vector<HeldImage> held;
+  for (int frame = 0; frame < 8; ++frame) {
+    const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = width}, scene, evaluate(scene, 0.0),
+                                         settings, width, height, held);
+    for (const PlannedPass& pass : fitted.plan.passes) {
+      EXPECT_LE((overscan(pass.view) * pass.view.pictureSize).x, width);
+      EXPECT_LE(pass.view.rect.width, width);
+    }
+    held = fitted.plan.held;
+    scene.camera.position.z -= 0.3;
+  }
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,372 @@
+// Pictures with reflection.update_interval above 1: exact while nothing moves, close to fresh ones when the camera
+// does.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/stats.hpp"
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{320, 180};
+constexpr double frameSeconds = 1.0 / 30.0;
+
+// Nothing is seen but a mirror that is larger than the view; what it shows stands behind the camera, which turns about
+// the mirror's middle. Large and without fine textures, so that the error is of place, not of one more filtering.
+// `mirror` are further keys of the mirror.
+std::filesystem::path wallScene(const std::string& name, const std::string& mirror = "") {
+  return writeScene(name, R"(
+[environment]
+sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
+ambient = [0.2, 0.2, 0.2]
+[camera]
+position = [0, 1, 3]
+target = [0, 1, -2]
+orbit_speed = 20
+[[object]]
+model = "MODELS/torus_knot.obj"
+position = [-1.6, 1.2, 5]
+scale = 4
+color = [0.8, 0.5, 0.1]
+[[object]]
+model = "MODELS/teapot.obj"
+position = [1.8, 0.2, 6.5]
+scale = 3
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.6, 3.4, 9]
+scale = 2.5
+color = [0.1, 0.5, 0.2]
+[[light]]
+position = [2, 5, 2]
+intensity = 40
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [60, 60]
+reflectance = [0.9, 0.9, 0.9]
+)" + mirror);
+}
+
+// A mirror with a layer of its own, a mirror in it, and one that turns.
+std::filesystem::path roomScene() {
+  return writeScene("held_room", R"(
+[environment]
+background = [0.3, 0.4, 0.5]
+ambient = [0.2, 0.2, 0.2]
+[camera]
+position = [0.5, 1.4, 4]
+target = [0, 0.8, 0]
+orbit_speed = 5
+[[object]]
+model = "MODELS/torus_knot.obj"
+position = [0, 0.7, 0.5]
+[[object]]
+model = "MODELS/queen.obj"
+position = [1.2, 0, -0.6]
+[[light]]
+position = [1, 3, 3]
+intensity = 20
+[[mirror]]
+name = "floor"
+polygon = [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]]
+reflectance = [0.4, 0.4, 0.4]
+base_color = [0.3, 0.2, 0.1]
+fresnel = "schlick"
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [3, 2]
+[[mirror]]
+name = "side"
+position = [-2, 1, 0]
+rotation = [0, 70, 0]
+spin = [0, 8, 0]
+size = [1.5, 1.5]
+two_sided = true
+)");
+}
+
+Options held(const std::filesystem::path& scene, int interval, PictureSize pictureSize = size) {
+  Options options = headless(scene, pictureSize);
+  options.settings = {{"reflection.update_interval", std::to_string(interval)}};
+  return options;
+}
+
+Image8 picture(Session& session, double time) {
+  session.draw(time, true);
+  session.finish();
+  return session.picture();
+}
+
+LinearImage radiance(Session& session, double time) {
+  session.draw(time, false);
+  session.finish();
+  return session.radiance();
+}
+
+double rmse(const LinearImage& a, const LinearImage& b) {
+  double sum = 0.0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    const glm::dvec3 d = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]);
+    sum += glm::dot(d, d) / 3.0;
+  }
+  return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+}
+
+int mirrorPasses(Session& session) {
+  int passes = 0;
+  for (const RecordedPass& pass : session.sceneRenderer().passes()) {
+    passes += pass.depth >= 0 ? 1 : 0;
+  }
+  return passes;
+}
+
+void expectQuiet(Session& session) {
+  EXPECT_EQ(session.device().validationMessages(), 0);
+}
+
+class StillScene : public testing::TestWithParam<std::tuple<std::string, int, std::string>> {};
+
+TEST_P(StillScene, IsTheSameByteForByteWithAnyInterval) {
+  const auto& [name, interval, scale] = GetParam();
+  Options options = held(sourceFile("scenes/" + name + ".toml"), 1, {160, 90});
+  options.settings.emplace_back("reflection.scale", scale);
+  const Image8 expected = draw(options, 1.0);
+  options.settings[0].second = std::to_string(interval);
+  Session session(options);
+  int skipped = 0;
+  for (int frame = 0; frame < interval + 2; ++frame) {
+    ASSERT_EQ(picture(session, 1.0).rgba, expected.rgba) << "frame " << frame;
+    for (const SkippedMirror& skip : session.lastFrame().plan.skipped) {
+      skipped += skip.reason == SkipReason::unchanged ? 1 : 0;
+    }
+  }
+  EXPECT_GT(skipped, 0);
+  expectQuiet(session);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, StillScene,
+                         testing::Combine(testing::Values("gallery", "many_mirrors", "facing_mirrors"),
+                                          testing::Values(2, 5), testing::Values("1", "0.5")));
+
+struct Lookup {
+  const char* name;
+  const char* samples;
+  const char* viewSamples;
+  const char* scale;
+  const char* mirror;
+};
+std::ostream& operator<<(std::ostream& out, const Lookup& lookup) {
+  return out << lookup.name;
+}
+
+class MovingCamera : public testing::TestWithParam<Lookup> {
+ protected:
+  std::vector<std::pair<std::string, std::string>> settings(int interval) const {
+    return {{"reflection.update_interval", std::to_string(interval)},
+            {"reflection.samples", GetParam().samples},
+            {"view.samples", GetParam().viewSamples},
+            {"reflection.scale", GetParam().scale}};
+  }
+};
+
+// Measured with lavapipe: 0.25 of the stale picture's error (own sample, layers), 0.27 (average, double), 0.33
+// (single), 0.40 (half), over all frames. Right after a fresh image it is more, because then little has moved, and
+// filtering the image once more costs as much as ever.
+TEST_P(MovingCamera, ReprojectedImagesAreMuchCloserToFreshOnesThanStaleOnes) {
+  Options options = headless(wallScene(std::string("moving_") + GetParam().name, GetParam().mirror), size);
+  options.settings = settings(4);
+  Session session(options);
+  options.settings = settings(1);
+  Session fresh(options);
+  LinearImage stale;  // the whole picture is the mirror: without reprojection it would stay as it is
+  int reprojected = 0;
+  double error = 0.0;
+  double staleError = 0.0;
+  for (int frame = 0; frame < 10; ++frame) {
+    const LinearImage drawn = radiance(session, frame * frameSeconds);
+    const LinearImage expected = radiance(fresh, frame * frameSeconds);
+    if (mirrorPasses(session) > 0) {
+      // With a margin, and beyond the border of the picture.
+      EXPECT_LT(rmse(drawn, expected), 0.001) << "frame " << frame;
+      stale = expected;
+      continue;
+    }
+    ++reprojected;
+    error += rmse(drawn, expected);
+    staleError += rmse(stale, expected);
+    EXPECT_LT(rmse(drawn, expected), 0.65 * rmse(stale, expected)) << "frame " << frame;
+  }
+  EXPECT_EQ(reprojected, 6);
+  EXPECT_LT(error, 0.45 * staleError);
+  expectQuiet(session);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lookups, MovingCamera,
+                         testing::Values(Lookup{"own_sample", "4", "4", "1", ""}, Lookup{"single", "1", "1", "1", ""},
+                                         Lookup{"average", "4", "1", "1", ""}, Lookup{"half", "4", "4", "0.5", ""},
+                                         Lookup{"double", "1", "4", "2", ""},
+                                         Lookup{"layers", "4", "4", "1", "base_color = [0.2, 0.1, 0.1]"}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(HeldPictures, ACutShowsNothingOld) {
+  Session session(held(roomScene(), 8));
+  for (int frame = 0; frame < 3; ++frame) {
+    session.draw(frame * frameSeconds, false);
+  }
+  EXPECT_EQ(picture(session, 20.0).rgba, draw(held(roomScene(), 1), 20.0).rgba);
+  expectQuiet(session);
+}
+
+int directPasses(Session& session) {
+  const std::vector<RecordedPass>& passes = session.sceneRenderer().passes();
+  return static_cast<int>(
+      std::count_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.depth == 0; }));
+}
+
+// What is seen within them may differ by what margins show of it.
+TEST(HeldPictures, TwelveFramesHaveAQuarterOfThePassesAndTheFirst) {
+  for (const double step : {0.0, 0.002}) {
+    Session session(held(sourceFile("scenes/many_mirrors.toml"), 4, {160, 90}));
+    session.draw(0.0, false);
+    const int all = directPasses(session);
+    ASSERT_GE(all, 12);
+    session.draw(step, false);
+    EXPECT_EQ(directPasses(session), step == 0.0 ? all / 4 : all) << "nothing has a margin before it moved";
+    int passes = 0;
+    for (int frame = 2; frame < 14; ++frame) {
+      session.draw(frame * step, false);
+      passes += directPasses(session);
+      EXPECT_NEAR(directPasses(session), all / 4.0, 1.0) << "the load is spread";
+      EXPECT_LT(mirrorPasses(session), 32);
+    }
+    EXPECT_EQ(passes, 3 * all) << "step " << step;
+    expectQuiet(session);
+  }
+}
+
+std::vector<Image8> sequence(Session& session) {
+  std::vector<Image8> pictures;
+  for (int frame = 0; frame < 7; ++frame) {
+    pictures.push_back(picture(session, frame * frameSeconds));
+  }
+  return pictures;
+}
+
+void expectSame(const std::vector<Image8>& a, const std::vector<Image8>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].rgba, b[i].rgba) << "picture " << i;
+  }
+}
+
+TEST(HeldPictures, ARestartedSequenceIsTheSameByteForByte) {
+  for (const char* scale : {"1", "0.5"}) {
+    Options options = held(roomScene(), 3);
+    options.settings.emplace_back("reflection.scale", scale);
+    Session session(options);
+    const Settings settings = session.settings();
+    const std::vector<Image8> first = sequence(session);
+    session.restart();
+    expectSame(sequence(session), first);
+    // Something else in between, with targets of other sizes.
+    Settings other = settings;
+    other.reflection.scale = 1.5;
+    other.reflection.samples = 1;
+    session.setSettings(other);
+    sequence(session);
+    session.setSettings(settings);
+    session.restart();
+    expectSame(sequence(session), first);
+    expectQuiet(session);
+  }
+}
+
+TEST(HeldPictures, BothRenderPathsDrawTheSameBytes) {
+  Options options = held(roomScene(), 3);
+  Session dynamic(options);
+  options.renderPath = RenderPath::renderPass;
+  Session passes(options);
+  ASSERT_NE(dynamic.device().renderPath(), passes.device().renderPath());
+  expectSame(sequence(dynamic), sequence(passes));
+  expectQuiet(dynamic);
+  expectQuiet(passes);
+}
+
+TEST(HeldPictures, ChangedSettingsShowAtOnce) {
+  Session session(held(roomScene(), 50));
+  for (int frame = 0; frame < 3; ++frame) {
+    session.draw(0.0, false);
+  }
+  const auto expectFresh = [&](const char* key, const char* value) {
+    Settings settings = session.settings();
+    ASSERT_FALSE(setSetting(settings, key, value));
+    session.setSettings(settings);
+    const Image8 drawn = picture(session, 0.0);
+    Session other(held(roomScene(), 1));
+    settings.reflection.updateInterval = 1;
+    other.setSettings(settings);
+    EXPECT_EQ(drawn.rgba, picture(other, 0.0).rgba) << key;
+    EXPECT_EQ(picture(session, 0.0).rgba, drawn.rgba) << key;
+  };
+  expectFresh("view.clear_color", "0.9,0.1,0.1");
+  expectFresh("reflection.samples", "1");
+  expectFresh("reflection.max_depth", "1");
+  expectFresh("view.samples", "1");
+  expectFresh("view.exposure", "1.5");
+  expectFresh("reflection.max_depth", "0");
+  expectFresh("reflection.max_depth", "2");
+  expectFresh("reflection.update_interval", "1");
+  expectFresh("reflection.update_interval", "2");
+  expectQuiet(session);
+}
+
+TEST(HeldPictures, TimeMayPauseAndRunBackwards) {
+  Session session(held(roomScene(), 4));
+  Session fresh(held(roomScene(), 1));
+  for (const int frame : {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -1, 0, 1}) {
+    const LinearImage drawn = radiance(session, frame * frameSeconds);
+    EXPECT_LT(rmse(drawn, radiance(fresh, frame * frameSeconds)), 0.02) << "at frame " << frame;
+  }
+  expectQuiet(session);
+}
+
+TEST(HeldPictures, StatsNameHeldMirrorsAndMergeThePassesThatRan) {
+  Session session(held(roomScene(), 4));
+  std::vector<nlohmann::ordered_json> frames;
+  size_t ran = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    session.draw(0.0, false);
+    session.finish();
+    frames.push_back(frameStats(session, session.renderer().timings()));
+    ran += frames.back()["passes"].size();
+  }
+  int unchanged = 0;
+  for (const auto& skip : frames.back()["skipped"]) {
+    unchanged += skip["reason"] == "unchanged" ? 1 : 0;
+  }
+  EXPECT_GE(unchanged, 1);
+  const nlohmann::ordered_json merged = mergeStats(frames);
+  size_t counted = 0;
+  for (const auto& pass : merged["passes"]) {
+    counted += pass.value("frames", frames.size());
+    EXPECT_TRUE(pass["gpu_ms"].contains("median")) << pass["name"];
+    if (pass["depth"].is_null()) {
+      EXPECT_FALSE(pass.contains("frames")) << pass["name"];
+    } else {
+      EXPECT_EQ(pass["frames"], pass["path"][0] == "floor" ? 2 : 3) << pass["path"];
+    }
+  }
+  EXPECT_EQ(counted, ran) << "every pass that ran is in one row";
+  EXPECT_EQ(merged["passes"].size(), frames[0]["passes"].size());
+  EXPECT_EQ(merged["passes"].back()["name"], "display");
+}
+
+}  // namespace
+}  // namespace speculum
