@@ -76,7 +76,7 @@ class Sweep {
   bool time();
   void measureErrors(size_t index);
   bool report(const char* stage, double fraction) const { return !progress_ || progress_({stage, fraction}); }
-  void fit(SweepSeries& series, PlannedSeries::Theory theory, const SweepResults& results) const;
+  void fit(SweepSeries& series, const PlannedSeries& planned, const SweepResults& results) const;
 
   const SweepPlan& plan_;
   const Settings& base_;
@@ -169,15 +169,15 @@ bool Sweep::time() {
 
 // In natural logarithms, over the points that stand clear of the noise floor. What is left at the greatest depth of
 // recursion is the error of everything else; independent errors add as squares, so it is taken off as a square.
-void Sweep::fit(SweepSeries& series, PlannedSeries::Theory theory, const SweepResults& results) const {
-  const bool depths = theory == PlannedSeries::Theory::depth;
+void Sweep::fit(SweepSeries& series, const PlannedSeries& planned, const SweepResults& results) const {
+  const bool depths = planned.theory == PlannedSeries::Theory::depth;
   const double floor = results.floorMirrors ? results.floorMirrors->rmse : results.floorWhole.rmse;
   const double rest = depths ? seriesError(results.points[series.points.back()]) : 0.0;
   std::vector<Sample2d> samples;
   std::vector<Sample2d> expected;
   for (size_t i = 0; i < series.points.size(); ++i) {
     const double error = seriesError(results.points[series.points[i]]);
-    if (!(error > floorsAbove * floor && error > restsAbove * rest)) {
+    if (!(error > floorsAbove * floor && error > restsAbove * rest && series.x[i] <= planned.fitUpTo)) {
       continue;
     }
     const double x = series.axis == SweepSeries::Axis::linear ? series.x[i] : std::log(series.x[i]);
@@ -220,7 +220,7 @@ void Sweep::fill(SweepResults& results) {
   results.series.clear();
   for (const PlannedSeries& planned : plan_.series) {
     results.series.push_back(planned.series);
-    fit(results.series.back(), planned.theory, results);
+    fit(results.series.back(), planned, results);
   }
   const Image8 shown = toDisplay(truth_.image, base_.view.exposure, base_.view.toneMap);
   results.truthPicture = store_.keepPicture("truth.png", shown);

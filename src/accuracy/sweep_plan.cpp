@@ -12,6 +12,7 @@ using Changes = SweepPlanner::Changes;
 using Theory = PlannedSeries::Theory;
 
 constexpr size_t mostConfigurations = 1000;
+constexpr const char* greatestDepth = "32";
 
 std::string shortName(const Changes& changes) {
   std::string name;
@@ -45,9 +46,9 @@ Changes joined(Changes first, const Changes& second) {
 }
 
 // The picture's own sampling would hide what a coarse mirror image does: everything but the setting looked at is at its
-// best. Depth 8 leaves less than the noise floor in any shipped scene.
+// best.
 Changes best(const SweepContext& context) {
-  return joined(samples(std::to_string(context.sampleCounts.back())), {{"reflection.max_depth", "8"}});
+  return joined(samples(std::to_string(context.sampleCounts.back())), {{"reflection.max_depth", greatestDepth}});
 }
 
 void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
@@ -74,7 +75,7 @@ void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool ful
                  fine,
                  {{"reflection.samples", "1"},
                   {"view.samples", std::to_string(context.sampleCounts.back())},
-                  {"reflection.max_depth", "8"}});
+                  {"reflection.max_depth", greatestDepth}});
 }
 
 void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
@@ -86,7 +87,7 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
                      .theory = Theory::fixed};
   std::vector<Changes> each;
   for (const std::string& count : counts) {
-    each.push_back(context.mirrors ? joined(samples(count), {{"reflection.max_depth", "8"}})
+    each.push_back(context.mirrors ? joined(samples(count), {{"reflection.max_depth", greatestDepth}})
                                    : Changes{{"view.samples", count}});
   }
   planner.series(std::move(msaa), counts, each);
@@ -94,16 +95,18 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
     return;
   }
   addScaleSeries(planner, context, full);
-  std::vector<std::string> depths = {"0", "1", "2", "3", "4", "6"};
+  std::vector<std::string> depths = {"0", "1", "2", "3", "4", "8", greatestDepth};
   if (full) {
-    depths = {"0", "1", "2", "3", "4", "5", "6", "8", "12", "16"};
+    depths = {"0", "1", "2", "3", "4", "5", "6", "8", "12", "16", greatestDepth};
   }
-  planner.series({.series = {.key = "reflection.max_depth",
-                             .name = "Depth of mirrors in mirrors",
-                             .axis = SweepSeries::Axis::linear,
-                             .note = "Root mean square throughput of the light beyond, from the mirrors in view"},
-                  .theory = Theory::depth},
-                 depths, samples(std::to_string(context.sampleCounts.back())));
+  planner.series(
+      {.series = {.key = "reflection.max_depth",
+                  .name = "Depth of mirrors in mirrors",
+                  .axis = SweepSeries::Axis::linear,
+                  .note = "Root mean square throughput of the light beyond, from the mirrors in view; what is left at "
+                          "the greatest depth is taken off as a square"},
+       .theory = Theory::depth},
+      depths, samples(std::to_string(context.sampleCounts.back())));
 }
 
 void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {

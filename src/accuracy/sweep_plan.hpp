@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct PlannedSeries {
 
   SweepSeries series;  // key, name, axis, x, points (indices into SweepPlan::configurations), note, theorySlope
   Theory theory = Theory::none;
+  double fitUpTo = std::numeric_limits<double>::infinity();  // x; what lies beyond follows another law
 };
 
 struct SweepPlan {
