@@ -1,0 +1,8 @@
+function(hard_case_test name)
+  speculum_test(${name} ${ARGN})
+  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+endfunction()
+set(hard ${CMAKE_CURRENT_LIST_DIR}/hard_cases)
+
+hard_case_test(hard_cases_transforms SOURCES ${hard}/transforms.cpp ${hard}/planes.cpp ${hard}/transform_support.cpp
+               LIBRARIES systems LABELS hard_cases)
