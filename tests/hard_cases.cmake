@@ -6,3 +6,5 @@ set(hard ${CMAKE_CURRENT_LIST_DIR}/hard_cases)
 
 hard_case_test(hard_cases_transforms SOURCES ${hard}/transforms.cpp ${hard}/planes.cpp ${hard}/transform_support.cpp
                LIBRARIES systems LABELS hard_cases)
+hard_case_test(hard_cases_depth SOURCES ${hard}/depth_pictures.cpp ${hard}/scene_text.cpp truth_support.cpp
+               picture_support.cpp LIBRARIES app LABELS hard_cases pictures)

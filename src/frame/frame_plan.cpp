@@ -153,7 +153,7 @@ void Planner::consider(int node, int mirror) {
   const double height = heightAbove(geometry, view.eye);
   MirrorDraw draw{.mirror = mirror, .plane = {geometry.origin, geometry.normal}};
   draw.back = height <= 0.0 && !(material.twoSided && height < 0.0);
-  draw.polygon = clippedPart(view, geometry.polygon);
+  draw.polygon = drawnPart(view, geometry.polygon);
   const std::vector<glm::dvec3> visible = visiblePart(view, geometry.polygon);
   if (height < 0.0) {
     draw.plane.normal = -draw.plane.normal;

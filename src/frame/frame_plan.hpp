@@ -27,7 +27,7 @@ struct MirrorDraw {
   int mirror = 0;                   // index into Scene::mirrors
   bool back = false;                // its painted back is seen
   int pass = -1;                    // index into FramePlan::passes of its image; -1: it shows the background
-  std::vector<glm::dvec3> polygon;  // world, cut by the view's clip plane, counter-clockwise for the view's eye
+  std::vector<glm::dvec3> polygon;  // world, cut to what the view shows, counter-clockwise for the view's eye
   Plane plane;                      // world; facing the view's eye
 };
 
