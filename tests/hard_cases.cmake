@@ -10,3 +10,8 @@ hard_case_test(hard_cases_depth SOURCES ${hard}/depth_pictures.cpp ${hard}/scene
                picture_support.cpp LIBRARIES app LABELS hard_cases pictures)
 hard_case_test(hard_cases_scenes SOURCES ${hard}/scene_pictures.cpp ${hard}/scene_text.cpp truth_support.cpp
                picture_support.cpp LIBRARIES app LABELS hard_cases pictures)
+hard_case_test(hard_cases_inputs SOURCES ${hard}/inputs.cpp ${hard}/scene_text.cpp picture_support.cpp
+               LIBRARIES app ext::spdlog LABELS hard_cases)
+add_dependencies(hard_cases_inputs speculum)
+hard_case_test(hard_cases_finite SOURCES ${hard}/finite_pictures.cpp ${hard}/scene_text.cpp truth_support.cpp
+               picture_support.cpp virtual_display.cpp LIBRARIES app LABELS hard_cases pictures window)
