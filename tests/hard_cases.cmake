@@ -15,3 +15,5 @@ hard_case_test(hard_cases_inputs SOURCES ${hard}/inputs.cpp ${hard}/scene_text.c
 add_dependencies(hard_cases_inputs speculum)
 hard_case_test(hard_cases_finite SOURCES ${hard}/finite_pictures.cpp ${hard}/scene_text.cpp truth_support.cpp
                picture_support.cpp virtual_display.cpp LIBRARIES app LABELS hard_cases pictures window)
+hard_case_test(hard_cases_properties SOURCES ${hard}/properties.cpp ${hard}/transform_support.cpp
+               LIBRARIES systems ext::rapidcheck LABELS hard_cases)

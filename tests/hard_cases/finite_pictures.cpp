@@ -51,7 +51,7 @@ radius = 1e-20
 glow = 0
 [[light]]
 position = [0.6, -0.6, 1e-3]
-intensity = 1e30
+intensity = 1e36
 radius = 1e-22
 glow = 0
 [[light]]
