@@ -4,7 +4,8 @@ function(hard_case_test name)
 endfunction()
 set(hard ${CMAKE_CURRENT_LIST_DIR}/hard_cases)
 
-hard_case_test(hard_cases_transforms SOURCES ${hard}/transforms.cpp ${hard}/planes.cpp ${hard}/transform_support.cpp
+hard_case_test(hard_cases_transforms SOURCES ${hard}/transforms.cpp ${hard}/planes.cpp ${hard}/time_steps.cpp
+               ${hard}/transform_support.cpp
                LIBRARIES systems LABELS hard_cases)
 hard_case_test(hard_cases_depth SOURCES ${hard}/depth_pictures.cpp ${hard}/scene_text.cpp truth_support.cpp
                picture_support.cpp LIBRARIES app LABELS hard_cases pictures)
@@ -17,3 +18,5 @@ hard_case_test(hard_cases_finite SOURCES ${hard}/finite_pictures.cpp ${hard}/sce
                picture_support.cpp virtual_display.cpp LIBRARIES app LABELS hard_cases pictures window)
 hard_case_test(hard_cases_properties SOURCES ${hard}/properties.cpp ${hard}/transform_support.cpp
                LIBRARIES systems ext::rapidcheck LABELS hard_cases)
+hard_case_test(hard_cases_random SOURCES ${hard}/random_scenes.cpp ${hard}/scene_text.cpp truth_support.cpp
+               picture_support.cpp LIBRARIES app LABELS hard_cases pictures)

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
+#include <thread>
 
 #include "app/demo.hpp"
 #include "scene_text.hpp"
@@ -164,21 +164,41 @@ TEST(AnySizeOfView, ProjectionOfNoHeightIsNotANumber) {
   EXPECT_FALSE(std::isfinite(1.0 / projection.matrix()[0][0])) << "the naive way should fail";
 }
 
-TEST(AnySizeOfWindow, OnePixelRunsAndNoneAtAllPauses) {
-  const test::VirtualDisplay display(1280, 900);
+// Runs the window until a condition holds.
+template <typename Condition>
+bool runUntil(Demo& demo, const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!condition() && std::chrono::steady_clock::now() < end) {
+    demo.step();
+  }
+  return condition();
+}
+
+Options windowOptions() {
   Options options;
   options.scene = sourceFile("scenes/single_plane.toml").string();
   options.size = {64, 48};
   options.validation = true;
   options.presentMode = PresentMode::immediate;
-  Demo demo(options);
-  const auto until = [&](const auto& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!condition() && std::chrono::steady_clock::now() < end) {
-      demo.step();
-    }
-    return condition();
-  };
+  return options;
+}
+
+TEST(TimeSteps, PauseOfTheProgramIsNoneOfTheAnimations) {
+  const test::VirtualDisplay display(1280, 900);
+  Demo demo(windowOptions());
+  ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > 2; }));
+  const double before = demo.model().time;
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const int drawn = demo.framesDrawn();
+  ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > drawn; }));
+  EXPECT_GE(demo.model().time, before);
+  EXPECT_LT(demo.model().time - before, 0.5);
+}
+
+TEST(AnySizeOfWindow, OnePixelRunsAndNoneAtAllPauses) {
+  const test::VirtualDisplay display(1280, 900);
+  Demo demo(windowOptions());
+  const auto until = [&](const auto& condition) { return runUntil(demo, condition); };
   ASSERT_TRUE(until([&] { return demo.framesDrawn() > 2; }));
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 300), std::pair(64, 48)}) {
     demo.window().resize(width, height);
