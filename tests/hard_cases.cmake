@@ -20,3 +20,7 @@ hard_case_test(hard_cases_properties SOURCES ${hard}/properties.cpp ${hard}/tran
                LIBRARIES systems ext::rapidcheck LABELS hard_cases)
 hard_case_test(hard_cases_random SOURCES ${hard}/random_scenes.cpp ${hard}/scene_text.cpp truth_support.cpp
                picture_support.cpp LIBRARIES app LABELS hard_cases pictures)
+
+# The patches that scripts/check-hard-cases tries must keep up with the sources.
+add_test(NAME hard_case_mutations_apply COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-hard-cases --applies)
+set_tests_properties(hard_case_mutations_apply PROPERTIES LABELS hard_cases)
