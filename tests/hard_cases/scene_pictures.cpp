@@ -107,9 +107,10 @@ position = [0.6, 1.3, 2.2]
 target = [-0.3, 1, -2]
 [[object]]
 model = "body.obj"
-position = [0, 1, 0]
+position = [-0.5, 0.8, -1.3]
 rotation = [20, 40, 10]
 color = [0.8, 0.7, 0.6]
+copies = { count = 2, step = [0.6, 0.7, 2.9] }
 scale = )" +
          text(scale) +
          R"(
