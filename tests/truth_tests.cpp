@@ -25,6 +25,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SceneTruth,
                                          "no_mirror", "outdoors"),
                          [](const auto& info) { return std::string(info.param); });
 
+INSTANTIATE_TEST_SUITE_P(HardScenes, SceneTruth,
+                         testing::Values("hard/far_from_origin", "hard/eye_at_the_mirror", "hard/across_the_mirror",
+                                         "hard/inside_out", "hard/corner", "hard/depth_32"),
+                         [](const auto& info) { return std::string(info.param).substr(5); });
+
 std::string randomObject(Random& random, unsigned seed) {
   static constexpr std::array<const char*, 6> models = {"teapot", "torus_knot", "sphere", "vase", "queen", "gem"};
   const std::string model = random.chance(0.4) ? writeRandomMesh(seed) : "MODELS/" + random.pick(models) + ".obj";

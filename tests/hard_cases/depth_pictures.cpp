@@ -54,7 +54,7 @@ Count countColors(const Image8& picture) {
 
 Image8 drawWith(const std::string& name, const std::string& scene, const std::string& clip = "clip_distance") {
   writeQuad();
-  Options options = truthOptions(writeScene(name, scene), size, 1);
+  Options options = truthOptions(sceneFile(name, scene), size, 1);
   options.settings.emplace_back("reflection.clip", clip);
   return draw(options);
 }
@@ -158,7 +158,7 @@ std::string nearPlaneScene(double near, double distance, const std::string& mirr
 TEST(EyeNearerThanTheNearPlane, MirrorCoversTheView) {
   for (const auto& [near, distance] : {std::pair(0.1, 0.01), std::pair(10.0, 0.01), std::pair(0.1, 1e-5)}) {
     const Image8 black = draw(
-        truthOptions(writeScene("near_plane", nearPlaneScene(near, distance, "reflectance = [0, 0, 0]\n")), size, 4));
+        truthOptions(sceneFile("near_plane", nearPlaneScene(near, distance, "reflectance = [0, 0, 0]\n")), size, 4));
     EXPECT_EQ(countColors(black).red, 0) << "a hole: near " << near << ", " << distance << " m from the mirror";
   }
 }
@@ -174,7 +174,7 @@ TEST(EyeNearerThanTheNearPlane, CuttingAtNearLeavesAHole) {
 }
 
 TEST(EyeNearerThanTheNearPlane, ReflectionIsRight) {
-  const std::filesystem::path file = writeScene("near_plane_truth", nearPlaneScene(0.1, 0.01, R"(
+  const std::filesystem::path file = sceneFile("near_plane_truth", nearPlaneScene(0.1, 0.01, R"(
 [[object]]
 model = "MODELS/torus_knot.obj"
 position = [0.3, 1, 2]
@@ -202,7 +202,7 @@ std::string plateScene(double side, const std::string& mirror) {
 
 Image8 drawPlate(const std::string& name, const std::string& scene, const std::string& clip) {
   writeQuad();
-  Options options = truthOptions(writeScene(name, scene), tileSize, 1);
+  Options options = truthOptions(sceneFile(name, scene), tileSize, 1);
   options.settings.emplace_back("reflection.clip", clip);
   return draw(options);
 }
@@ -222,7 +222,7 @@ double distanceFromSeam(int x, int y) {
 // The image that the mirror looks up, also where something stands before the mirror.
 Image8 plateInMirror(const std::string& clip) {
   writeQuad();
-  Options options = truthOptions(writeScene("plate_mirrored", plateScene(1, "reflectance = [1, 1, 1]\n")), tileSize, 1);
+  Options options = truthOptions(sceneFile("plate_mirrored", plateScene(1, "reflectance = [1, 1, 1]\n")), tileSize, 1);
   options.settings.emplace_back("reflection.clip", clip);
   Session session(options);
   const DrawnFrame first = session.draw(0.0, false);

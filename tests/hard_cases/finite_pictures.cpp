@@ -82,7 +82,7 @@ std::filesystem::path writeLitScene() {
   writeModel("cancelling.obj",
              "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nvn 0 0 -1\nvn 1 0 0\nvn -1 0 0\n"
              "f 1//1 2//2 3//1\nf 1//3 3//4 4//3\n");
-  return writeScene("lit", litScene);
+  return sceneFile("lit", litScene);
 }
 
 int notStorable(const LinearImage& image) {
@@ -137,7 +137,7 @@ class AnySize : public testing::TestWithParam<PictureSize> {};
 
 // A mirror over all of the view shows the sky; a body would have edges, and a pixel here is metres wide.
 TEST_P(AnySize, PictureIsTheTracers) {
-  const std::filesystem::path file = writeScene("any_size", R"([environment]
+  const std::filesystem::path file = sceneFile("any_size", R"([environment]
 sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
 [camera]
 position = [0, 1, 2]

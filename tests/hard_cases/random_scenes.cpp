@@ -142,7 +142,7 @@ HardScene hardScene(unsigned seed) {
                              random.uniform(0.5, 4), random.uniform(0.5, 4)),
                       false);
   }
-  return {writeScene("hard_" + std::to_string(seed), out.str()), deep ? 32 : 4};
+  return {sceneFile("hard_" + std::to_string(seed), out.str()), deep ? 32 : 4};
 }
 
 void expectHardTruth(unsigned seed) {
