@@ -28,7 +28,9 @@ vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
     float lobe = clamp(dot(surface.normal, safeNormalize(l + toViewer)), 0.0, 1.0);
     brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe, 1e-6), surface.shininess));
   }
-  return light.irradiance.rgb * (cosine / max(distance2, light.position.w * light.position.w)) * brdf;
+  // Neither infinite nor divided by an underflow: a black channel of the surface times infinity is not a number.
+  float falloff = cosine / max(max(distance2, light.position.w * light.position.w), 1e-30);
+  return min(light.irradiance.rgb * falloff, 1e30) * brdf;
 }
 
 vec3 surfaceRadiance(ViewData view, Surface surface) {

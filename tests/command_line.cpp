@@ -112,6 +112,8 @@ TEST_F(CommandLine, InfoAndScenesList) {
   for (const char* name : {"gallery", "single_plane", "facing_mirrors", "many_mirrors", "mirror_maze", "no_mirror"}) {
     EXPECT_NE(scenes.output.find(name), std::string::npos) << name;
   }
+  EXPECT_NE(scenes.output.find("\nhard/corner "), std::string::npos) << "by the name that --scene takes";
+  EXPECT_EQ(findScene("hard/corner"), sourceFile("scenes/hard/corner.toml"));
 }
 
 TEST_F(CommandLine, BrokenSceneNamesFileAndLine) {

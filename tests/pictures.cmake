@@ -5,7 +5,8 @@ speculum_test(demo_window_tests SOURCES demo_window.cpp demo_accuracy.cpp pictur
               LABELS window TIMEOUT 300)
 speculum_test(command_line_tests SOURCES command_line.cpp picture_support.cpp LIBRARIES app LABELS command_line)
 add_dependencies(command_line_tests speculum)
-speculum_test(truth_tests SOURCES truth_tests.cpp picture_support.cpp LIBRARIES app LABELS pictures TIMEOUT 300)
+speculum_test(truth_tests SOURCES truth_tests.cpp truth_support.cpp picture_support.cpp LIBRARIES app LABELS pictures
+              TIMEOUT 300)
 speculum_test(accuracy_command_tests SOURCES accuracy_command.cpp picture_support.cpp LIBRARIES app LABELS command_line
               TIMEOUT 300)
 add_dependencies(accuracy_command_tests speculum)

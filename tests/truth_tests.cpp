@@ -3,53 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <random>
 #include <sstream>
 
-#include "picture_support.hpp"
-#include "reference/ray_tracer.hpp"
+#include "truth_support.hpp"
 
 namespace speculum {
 namespace {
 
 using namespace testing_support;
-
-constexpr int tolerance = 2;  // in 1/255
-
-struct Truth {
-  Image8 picture;
-  TraceResult traced;
-};
-
-Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth) {
-  const Scene scene = loadScene(file);
-  const Settings settings = settingsOf(scene);
-  const RayTracer tracer(scene, evaluate(scene, 0.0));
-  Truth truth;
-  truth.traced = *tracer.render({.width = size.width,
-                                 .height = size.height,
-                                 .samples = 1,
-                                 .maxDepth = maxDepth,
-                                 .minThroughput = settings.reflection.minThroughput,
-                                 .clearColor = settings.view.clearColor});
-  truth.picture = toDisplay(truth.traced.image, settings.view.exposure, settings.view.toneMap);
-  return truth;
-}
-
-void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDepth, const Truth& truth) {
-  Options options = headless(file, size);
-  options.settings = {{"view.samples", "1"},
-                      {"reflection.samples", "1"},
-                      {"reflection.max_depth", std::to_string(maxDepth)},
-                      {"reflection.max_passes", "100000"},
-                      {"reflection.min_pixels", "0"}};
-  std::vector<bool> counts;
-  for (const uint8_t background : truth.traced.backgroundMask) {
-    counts.push_back(background == 0);
-  }
-  expectAlike(draw(options), truth.picture, tolerance, "truth_" + file.stem().string(), counts);
-}
 
 class SceneTruth : public testing::TestWithParam<const char*> {};
 
@@ -64,60 +25,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SceneTruth,
                                          "no_mirror", "outdoors"),
                          [](const auto& info) { return std::string(info.param); });
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-  template <size_t n>
-  std::string pick(const std::array<const char*, n>& names) {
-    return names[static_cast<size_t>(uniform(0.0, n - 1e-9))];
-  }
-  std::string vec(double low, double high) {
-    std::ostringstream out;
-    out << "[" << uniform(low, high) << ", " << uniform(low, high) << ", " << uniform(low, high) << "]";
-    return out.str();
-  }
-
- private:
-  std::mt19937 engine_;
-};
-
-// A lumpy sphere; without normals in every other file, so that flat shading is met as well.
-std::string writeRandomMesh(unsigned seed) {
-  Random random(seed + 1000);
-  const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "speculum_scenes";
-  std::filesystem::create_directories(directory);
-  const std::filesystem::path file = directory / ("lump_" + std::to_string(seed) + ".obj");
-  std::ofstream out(file);
-  out << "# no material library\n";
-  constexpr int rings = 14;
-  constexpr int sectors = 20;
-  const double waves = std::floor(random.uniform(1, 6));
-  const double depth = random.uniform(0.05, 0.35);
-  for (int i = 0; i <= rings; ++i) {
-    for (int j = 0; j < sectors; ++j) {
-      const double theta = 3.14159265358979 * i / rings;
-      const double phi = 2.0 * 3.14159265358979 * j / sectors;
-      const double r = 0.5 + depth * std::sin(waves * theta) * std::cos(waves * phi);
-      out << "v " << r * std::sin(theta) * std::cos(phi) << ' ' << r * std::cos(theta) << ' '
-          << r * std::sin(theta) * std::sin(phi) << '\n';
-      out << "vn " << std::sin(theta) * std::cos(phi) << ' ' << std::cos(theta) << ' '
-          << std::sin(theta) * std::sin(phi) << '\n';
-    }
-  }
-  const auto corner = [&](int i, int j) {
-    const std::string index = std::to_string(i * sectors + j % sectors + 1);
-    return seed % 2 == 0 ? index + "//" + index : index;
-  };
-  for (int i = 0; i < rings; ++i) {
-    for (int j = 0; j < sectors; ++j) {
-      out << "f " << corner(i, j) << ' ' << corner(i, j + 1) << ' ' << corner(i + 1, j + 1) << ' ' << corner(i + 1, j)
-          << '\n';
-    }
-  }
-  return file.string();
-}
+INSTANTIATE_TEST_SUITE_P(HardScenes, SceneTruth,
+                         testing::Values("hard/far_from_origin", "hard/eye_at_the_mirror", "hard/across_the_mirror",
+                                         "hard/inside_out", "hard/corner", "hard/depth_32"),
+                         [](const auto& info) { return std::string(info.param).substr(5); });
 
 std::string randomObject(Random& random, unsigned seed) {
   static constexpr std::array<const char*, 6> models = {"teapot", "torus_knot", "sphere", "vase", "queen", "gem"};
@@ -177,11 +88,6 @@ std::filesystem::path randomScene(unsigned seed) {
   out << randomMirror(random, random.uniform(-2, 2), random.uniform(0, 2), random.uniform(-2.5, 0),
                       random.uniform(-60, 60), random.uniform(0.5, 1.5));
   return writeScene("random_" + std::to_string(seed), out.str());
-}
-
-double share(const std::vector<uint8_t>& values, int atLeast) {
-  const auto count = std::count_if(values.begin(), values.end(), [&](uint8_t v) { return v >= atLeast; });
-  return static_cast<double>(count) / static_cast<double>(values.size());
 }
 
 constexpr PictureSize randomSize{320, 180};

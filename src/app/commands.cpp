@@ -47,7 +47,9 @@ int runScenes() {
     }
   }
   for (const auto& [file, title] : titles) {
-    std::printf("%-16s %s\n                 %s\n", std::filesystem::path(file).stem().c_str(), title.c_str(),
+    // What --scene takes: hard/corner for a scene in a folder.
+    const std::filesystem::path name = std::filesystem::path(file).lexically_relative(dataDirectory("scenes"));
+    std::printf("%-24s %s\n%25s%s\n", std::filesystem::path(name).replace_extension().c_str(), title.c_str(), "",
                 file.c_str());
   }
   return 0;

@@ -54,11 +54,11 @@ glm::dvec3 reflectanceBound(const Mirror& mirror, const Plane& plane, const glm:
   return mirror.reflectance + (1.0 - mirror.reflectance) * std::pow(1.0 - cosine, 5.0);
 }
 
-// Distance of the eye from the mirror's plane; exactly 0 where rounding leaves no side to be on.
+// Distance of the eye from the mirror's plane; exactly 0 where rounding leaves no side to be on. What is rounded are
+// the coordinates themselves, so that it grows with their distance from the origin.
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
-  const glm::dvec3 offset = eye - mirror.origin;
-  const double height = glm::dot(mirror.normal, offset);
-  return std::abs(height) > 1e-15 * glm::length(offset) ? height : 0.0;
+  const double height = glm::dot(mirror.normal, eye - mirror.origin);
+  return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
 }
 
 std::string number(double value) {
@@ -164,7 +164,7 @@ void Planner::consider(int node, int mirror) {
   const double height = heightAbove(geometry, view.eye);
   MirrorDraw draw{.mirror = mirror, .plane = {geometry.origin, geometry.normal}};
   draw.back = height <= 0.0 && !(material.twoSided && height < 0.0);
-  draw.polygon = clippedPart(view, geometry.polygon);
+  draw.polygon = drawnPart(view, geometry.polygon);
   const std::vector<glm::dvec3> visible = visiblePart(view, geometry.polygon);
   if (height < 0.0) {
     draw.plane.normal = -draw.plane.normal;

@@ -29,7 +29,7 @@ struct MirrorDraw {
   bool back = false;                // its painted back is seen
   int pass = -1;                    // index into FramePlan::passes of its image; -1: it has none of this frame
   std::optional<HeldLookup> held;   // of its image of an earlier frame; with neither it shows the background
-  std::vector<glm::dvec3> polygon;  // world, cut by the view's clip plane, counter-clockwise for the view's eye
+  std::vector<glm::dvec3> polygon;  // world, cut to what the view shows, counter-clockwise for the view's eye
   Plane plane;                      // world; facing the view's eye
 };
 

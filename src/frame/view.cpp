@@ -29,6 +29,37 @@ std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::
   return cone;
 }
 
+// The polygon cut by the clip plane alone.
+std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
+  if (!view.clip) {
+    return {polygon.begin(), polygon.end()};
+  }
+  double reach = 0.0;
+  double highest = -1e300;
+  for (const glm::dvec3& p : polygon) {
+    reach = std::max({reach, glm::length(p - view.clip->point), glm::length(p - polygon[0])});
+    highest = std::max(highest, view.clip->distance(p));
+  }
+  // A mirror in the plane of the one it would be seen in shows nothing; rounding must not lift it off.
+  if (highest <= 1e-12 * reach) {
+    return {};
+  }
+  return clipPolygon(polygon, *view.clip);
+}
+
+// `slack` turns the cone's planes outwards: a point of depth w may lie that many w beyond them.
+std::vector<glm::dvec3> partInCone(const View& view, std::span<const glm::dvec3> polygon, double slack) {
+  const glm::dvec3 forward = glm::transpose(view.worldToView) * glm::dvec3(0.0, 0.0, -1.0);
+  std::vector<glm::dvec3> part = clippedPart(view, polygon);
+  for (const glm::dvec3& normal : view.cone) {
+    if (part.size() < 3) {
+      return {};
+    }
+    part = clipPolygon(part, Plane{view.eye, normal + slack * forward});
+  }
+  return part.size() < 3 ? std::vector<glm::dvec3>() : part;
+}
+
 }  // namespace
 
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height) {
@@ -83,32 +114,12 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
   return view;
 }
 
-std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
-  if (!view.clip) {
-    return {polygon.begin(), polygon.end()};
-  }
-  double reach = 0.0;
-  double highest = -1e300;
-  for (const glm::dvec3& p : polygon) {
-    reach = std::max({reach, glm::length(p - view.clip->point), glm::length(p - polygon[0])});
-    highest = std::max(highest, view.clip->distance(p));
-  }
-  // A mirror in the plane of the one it would be seen in shows nothing; rounding must not lift it off.
-  if (highest <= 1e-12 * reach) {
-    return {};
-  }
-  return clipPolygon(polygon, *view.clip);
+std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
+  return partInCone(view, polygon, 0.0);
 }
 
-std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
-  std::vector<glm::dvec3> part = clippedPart(view, polygon);
-  for (const glm::dvec3& normal : view.cone) {
-    if (part.size() < 3) {
-      return {};
-    }
-    part = clipPolygon(part, Plane{view.eye, normal});
-  }
-  return part.size() < 3 ? std::vector<glm::dvec3>() : part;
+std::vector<glm::dvec3> drawnPart(const View& view, std::span<const glm::dvec3> polygon) {
+  return partInCone(view, polygon, 0.05);
 }
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {

@@ -44,8 +44,9 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
 // The part of a convex polygon (world) that the view can see: cut by its clip plane and by its cone.
 std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon);
 
-// The polygon cut by the clip plane alone; vertices within rounding of the plane count as on it.
-std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3> polygon);
+// What to draw of it: a little more, so that no edge is added where pixels count. A float cannot tell how near the eye
+// is to a polygon with vertices far outside the view; one cut in double keeps the pixels that it covers.
+std::vector<glm::dvec3> drawnPart(const View& view, std::span<const glm::dvec3> polygon);
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 

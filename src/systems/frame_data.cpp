@@ -50,6 +50,8 @@ glm::vec4 replacement(const std::optional<glm::dvec3>& value) {
   return value ? glm::vec4(glm::vec3(*value), 1.0f) : glm::vec4(0.0f);
 }
 
+}  // namespace
+
 InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
                           const glm::dmat4& clipFromRelative) {
   const glm::dmat3& linear = instance.worldFromMesh.linear;
@@ -76,6 +78,8 @@ InstanceData instanceData(const InstanceState& instance, const Object& object, c
   data.shininess = glm::vec4(static_cast<float>(object.shininess.value_or(0.0)));
   return data;
 }
+
+namespace {
 
 Lookup lookupFor(const glm::dvec2& ratio) {
   if (ratio == glm::dvec2(1.0)) {

@@ -81,6 +81,11 @@ class FrameData {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
+// What the shaders read of an instance seen in a view. `clipFromRelative` takes world space minus the view's eye to
+// clip space.
+InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
+                          const glm::dmat4& clipFromRelative);
+
 // The projection of a view under reflection.clip: the common one, or its oblique variant for a mirror's view. To clip
 // space whose unit square is `overscan(view)` times the picture.
 glm::dmat4 viewProjection(const FramePlan& plan, const View& view, ClipMethod clip);

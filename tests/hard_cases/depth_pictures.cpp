@@ -1,0 +1,274 @@
+// Hard cases of depth and clipping, drawn: which of two surfaces is in front, where a mirror cuts what it shows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "optics/affine.hpp"
+#include "optics/reflection.hpp"
+#include "scene_text.hpp"
+#include "truth_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace hard_cases;
+using namespace testing_support;
+
+constexpr PictureSize size{641, 361};  // odd: the middle of a pixel looks at the target
+
+std::string environment(const glm::dvec3& background) {
+  return "[environment]\nbackground = " + text(background) + "\nambient = [1, 1, 1]\n";
+}
+
+std::string camera(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up = {0, 1, 0}) {
+  return "[camera]\nposition = " + text(eye) + "\ntarget = " + text(target) + "\nup = " + text(up) + "\n";
+}
+
+// A square of that half side about a point; the rotation turns it from facing +z.
+std::string quad(const glm::dvec3& center, const glm::dvec3& rotation, double half, const glm::dvec3& color) {
+  return "[[object]]\nmodel = \"quad.obj\"\nposition = " + text(center) + "\nrotation = " + text(rotation) +
+         "\nscale = " + text(half) + "\ncolor = " + text(color) + "\n";
+}
+
+const glm::dvec3 red(1, 0, 0);
+const glm::dvec3 green(0, 1, 0);
+const glm::dvec3 blue(0, 0, 1);
+
+struct Count {
+  int red = 0;
+  int green = 0;
+  int blue = 0;
+  int all = 0;
+};
+
+Count countColors(const Image8& picture) {
+  Count count;
+  for (size_t i = 0; i < picture.rgba.size(); i += 4) {
+    count.red += picture.rgba[i] > 0;
+    count.green += picture.rgba[i + 1] > 0;
+    count.blue += picture.rgba[i + 2] > 0;
+    ++count.all;
+  }
+  return count;
+}
+
+Image8 drawWith(const std::string& name, const std::string& scene, const std::string& clip = "clip_distance") {
+  writeQuad();
+  Options options = truthOptions(sceneFile(name, scene), size, 1);
+  options.settings.emplace_back("reflection.clip", clip);
+  return draw(options);
+}
+
+// A red square before a green one of the same shape, a gap apart along the line of sight, as `prefix` sees them.
+// Both orders of drawing: with equal depths the one that is drawn first stays.
+Count orderOf(const std::string& name, const std::string& prefix, const std::string& redQuad,
+              const std::string& greenQuad, const std::string& clip = "clip_distance") {
+  const Count a = countColors(drawWith(name, prefix + redQuad + greenQuad, clip));
+  const Count b = countColors(drawWith(name, prefix + greenQuad + redQuad, clip));
+  return {std::min(a.red, b.red), std::max(a.green, b.green), std::max(a.blue, b.blue), a.all};
+}
+
+// A mirror in the plane z = 0 that covers the view of an eye `h` before it, and the pair of squares 50 m behind the eye
+// where the reflected line of sight leads.
+struct NearMirror {
+  std::string prefix;
+  glm::dvec3 eye;
+  glm::dvec3 toPair;
+  glm::dvec3 rotation;
+};
+
+NearMirror nearMirror(double h, double angleDegrees) {
+  const double a = glm::radians(angleDegrees);
+  NearMirror view;
+  view.eye = {0, 0, h};
+  view.toPair = {std::sin(a), 0.0, std::cos(a)};
+  view.rotation = {0, 180 + angleDegrees, 0};
+  view.prefix = environment({0, 0, 0}) + camera(view.eye, view.eye + glm::dvec3(std::sin(a), 0.0, -std::cos(a))) +
+                "[[mirror]]\nposition = [0, 0, 0]\nsize = [1e4, 1e4]\nreflectance = [1, 1, 1]\n";
+  return view;
+}
+
+Count orderInMirror(double h, double angle, double gap, const std::string& clip = "clip_distance") {
+  const NearMirror view = nearMirror(h, angle);
+  const glm::dvec3 image(view.eye.x, view.eye.y, -h);
+  return orderOf("near_mirror", view.prefix, quad(image + 50.0 * view.toPair, view.rotation, 40, red),
+                 quad(image + (50.0 + gap) * view.toPair, view.rotation, 40, green), clip);
+}
+
+TEST(EyeAMicrometreFromTheMirror, OrderIsKeptFiftyMetresAway) {
+  for (const double angle : {0.0, 45.0}) {
+    const Count count = orderInMirror(1e-6, angle, 5e-5);
+    EXPECT_GT(count.red, count.all / 3) << "too little to judge by";
+    EXPECT_EQ(count.green, 0) << "the farther square shows, view at " << angle << " degrees";
+  }
+}
+
+TEST(EyeAMicrometreFromTheMirror, ObliqueDepthLosesIt) {
+  EXPECT_EQ(orderInMirror(1.0, 45.0, 5e-3, "oblique").green, 0) << "an ordinary distance is no problem";
+  const Count count = orderInMirror(1e-6, 45.0, 5e-5, "oblique");
+  EXPECT_GT(count.green, count.all / 10) << "the naive way should fail";
+  EXPECT_GT(orderInMirror(1e-6, 45.0, 4.0, "oblique").green, 0) << "even metres apart";
+}
+
+// Two parallel squares, their normal turned by `angle` from the line of sight, a gap apart along that line.
+Count orderAtAngle(double angle, double relativeGap) {
+  const glm::dvec3 rotation(-angle, 0, 0);
+  const double half = angle < 70 ? 20.0 : 40.0;
+  const std::string prefix = environment({0, 0, 0}) + camera({0, 0, 0}, {0, 0, -50});
+  return orderOf("grazing", prefix, quad({0, 0, -50}, rotation, half, red),
+                 quad({0, 0, -50.0 * (1.0 + relativeGap)}, rotation, half, green));
+}
+
+struct GrazingCase {
+  double angle;  // degrees from facing
+  double gap;    // relative to the distance
+};
+constexpr std::array<GrazingCase, 3> grazing = {{{60.0, 1e-6}, {89.0, 1e-5}, {89.9, 1e-4}}};
+
+TEST(SurfacesAtGrazingAngles, OrderIsKeptFiftyMetresAway) {
+  for (const auto& [angle, gap] : grazing) {
+    const Count count = orderAtAngle(angle, gap);
+    EXPECT_GT(count.red, 1000) << "too little to judge by";
+    EXPECT_EQ(count.green, 0) << "at " << angle << " degrees from facing";
+  }
+}
+
+// Standard depth in a float, with the same near plane: 1 - near / distance, whose resolution is spent on the first
+// metres.
+TEST(SurfacesAtGrazingAngles, StandardDepthFights) {
+  constexpr double near = 0.001;
+  constexpr double far = 1000.0;
+  const auto depth = [](double w) { return static_cast<float>(far / (far - near) * (1.0 - near / w)); };
+  for (const auto& [angle, gap] : grazing) {
+    int inOrder = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const double w = 45.0 + 0.01 * i;
+      inOrder += depth(w) < depth(w * (1.0 + gap));
+    }
+    EXPECT_LT(inOrder, 500) << "the naive way should fail at " << angle << " degrees from facing";
+  }
+}
+
+std::string nearPlaneScene(double near, double distance, const std::string& mirror) {
+  return environment(red) + "[camera]\nposition = [0, 1, " + text(distance) +
+         "]\ntarget = [0.05, 1.02, -1]\nnear = " + text(near) +
+         "\n[[mirror]]\nposition = [0, 1, 0]\nsize = [20, 20]\n" + mirror;
+}
+
+TEST(EyeNearerThanTheNearPlane, MirrorCoversTheView) {
+  for (const auto& [near, distance] : {std::pair(0.1, 0.01), std::pair(10.0, 0.01), std::pair(0.1, 1e-5)}) {
+    const Image8 black = draw(
+        truthOptions(sceneFile("near_plane", nearPlaneScene(near, distance, "reflectance = [0, 0, 0]\n")), size, 4));
+    EXPECT_EQ(countColors(black).red, 0) << "a hole: near " << near << ", " << distance << " m from the mirror";
+  }
+}
+
+TEST(EyeNearerThanTheNearPlane, CuttingAtNearLeavesAHole) {
+  const Projection projection(glm::radians(60.0), 16.0 / 9.0, 0.1);
+  int cut = 0;
+  for (int i = 0; i < 100; ++i) {
+    const glm::dvec4 clip = projection.clip({0.0001 * (i - 50), 0.0, -0.01});
+    cut += clip.z > clip.w;
+  }
+  EXPECT_EQ(cut, 100) << "the naive way should fail";
+}
+
+TEST(EyeNearerThanTheNearPlane, ReflectionIsRight) {
+  const std::filesystem::path file = sceneFile("near_plane_truth", nearPlaneScene(0.1, 0.01, R"(
+[[object]]
+model = "MODELS/torus_knot.obj"
+position = [0.3, 1, 2]
+[[object]]
+model = "MODELS/teapot.obj"
+position = [-1.2, 0.6, 4]
+[[light]]
+position = [0, 3, 1]
+intensity = 20
+)"));
+  expectTruth(file, size, 2, trace(file, size, 2));
+}
+
+// A plate through a mirror's plane. Seen from behind the mirror, without it, one ray meets the plate once: this side of
+// the plane, where the mirror does not hide it, or beyond it, where the mirror's image shows it.
+constexpr PictureSize tileSize{640, 360};  // even: turned left to right, pixel centres meet
+const glm::dvec3 plateAngles(-70, 25, 10);
+
+std::string plateScene(double side, const std::string& mirror) {
+  return environment(blue) + camera({side * 1.6, 0.5, 0.3}, {-side, 0.12, 0.05}) +
+         quad({0.02, -0.3, 0.1}, plateAngles, 3, red) +
+         (mirror.empty() ? ""
+                         : "[[mirror]]\npolygon = [[0, -99, 99], [0, -99, -99], [0, 99, -99], [0, 99, 99]]\n" + mirror);
+}
+
+Image8 drawPlate(const std::string& name, const std::string& scene, const std::string& clip) {
+  writeQuad();
+  Options options = truthOptions(sceneFile(name, scene), tileSize, 1);
+  options.settings.emplace_back("reflection.clip", clip);
+  return draw(options);
+}
+
+// How far from the mirror's plane, relative to its distance from the eye, the plate is met through a pixel.
+double distanceFromSeam(int x, int y) {
+  const CameraPose pose = lookAt({-1.6, 0.5, 0.3}, {1, 0.12, 0.05}, {0, 1, 0}, 60.0, 0.001);
+  const Projection f(pose.verticalFov, 16.0 / 9.0, 0.001);
+  const glm::dvec3 view((2.0 * (x + 0.5) / tileSize.width - 1.0) * f.aspect / f.focal,
+                        (1.0 - 2.0 * (y + 0.5) / tileSize.height) / f.focal, -1.0);
+  const glm::dvec3 ray = glm::transpose(pose.worldToView) * view;
+  const glm::dvec3 n = rotationFromDegrees(plateAngles)[2];
+  const double t = glm::dot(n, glm::dvec3(0.02, -0.3, 0.1) - pose.eye) / glm::dot(n, ray);
+  return std::abs(pose.eye.x + t * ray.x) / (t * glm::length(ray));
+}
+
+// The image that the mirror looks up, also where something stands before the mirror.
+Image8 plateInMirror(const std::string& clip) {
+  writeQuad();
+  Options options = truthOptions(sceneFile("plate_mirrored", plateScene(1, "reflectance = [1, 1, 1]\n")), tileSize, 1);
+  options.settings.emplace_back("reflection.clip", clip);
+  Session session(options);
+  const DrawnFrame first = session.draw(0.0, false);
+  EXPECT_EQ(first.plan.passes.at(0).view.rect, (PixelRect{0, 0, tileSize.width, tileSize.height}));
+  Frame frame = session.renderer().beginFrame().value();
+  frame.capture = true;
+  const DebugView debug{.pass = 0, .area = {0, 0, tileSize.width, tileSize.height}};
+  session.sceneRenderer().record(frame, first.state, session.settings(), first.plan, debug);
+  session.renderer().endFrame(frame);
+  return session.picture();
+}
+
+struct Tiling {
+  int beyond = 0;  // pixels that show the plate in the mirror's image
+  int before = 0;  // on this side of the mirror
+  int wrong = 0;   // in both or in neither
+};
+
+Tiling tilingWith(const std::string& clip) {
+  const Image8 mirrored = plateInMirror(clip);
+  const Image8 behind = drawPlate("plate_behind", plateScene(-1, "back_color = [0, 0, 0]\n"), clip);
+  const Image8 whole = drawPlate("plate_whole", plateScene(-1, ""), clip);
+  const auto isRed = [](const Image8& image, int x, int y) {
+    return image.rgba[4 * (static_cast<size_t>(y) * image.width + x)] > 0;
+  };
+  Tiling tiling;
+  for (int y = 0; y < tileSize.height; ++y) {
+    for (int x = 0; x < tileSize.width; ++x) {
+      const int turned = tileSize.width - 1 - x;
+      const bool beyond = isRed(mirrored, x, y);
+      const bool before = isRed(behind, turned, y);
+      tiling.beyond += beyond;
+      tiling.before += before;
+      tiling.wrong += beyond + before != isRed(whole, turned, y) && distanceFromSeam(turned, y) > 1e-6;
+    }
+  }
+  return tiling;
+}
+
+TEST(ObjectAcrossTheMirrorPlane, CutAndComplementTileThePicture) {
+  const Tiling tiling = tilingWith("clip_distance");
+  EXPECT_GT(tiling.beyond, 5000);
+  EXPECT_GT(tiling.before, 5000);
+  EXPECT_EQ(tiling.wrong, 0);
+  EXPECT_GT(tilingWith("none").wrong, 1000) << "the naive way, no cut, should leak";
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,227 @@
+// Hard cases of shading and of sizes: nothing that is drawn is infinite or not a number, whatever the size.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "app/demo.hpp"
+#include "scene_text.hpp"
+#include "truth_support.hpp"
+#include "virtual_display.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace hard_cases;
+using namespace testing_support;
+
+constexpr PictureSize size{321, 181};  // odd: the middle of a pixel looks at the target
+
+// Lights that lie on a surface, and one so small and bright that its irradiance leaves the range of a float; normals
+// that cancel halfway across a face; highlights seen from the mirror direction.
+const std::string litScene = R"([environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.1, 0.1, 0.1]
+[camera]
+position = [0, 0, 3]
+target = [0, 0, 0]
+[[object]]
+model = "quad.obj"
+color = [0.8, 0, 0]
+specular = [0, 0.5, 0]
+shininess = 1000
+[[object]]
+model = "cancelling.obj"
+position = [0, 0, 0.5]
+scale = 0.1
+color = [0.3, 0.6, 0]
+specular = [0.5, 0, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [-0.9, 0.5, 0.6]
+scale = 0.5
+specular = [0.6, 0.6, 0.6]
+shininess = 20000
+[[light]]
+position = [0.6, 0, 0]
+intensity = 5
+radius = 1e-20
+glow = 0
+[[light]]
+position = [0.6, -0.6, 1e-3]
+intensity = 1e36
+radius = 1e-22
+glow = 0
+[[light]]
+position = [-0.6, -0.6, 1e-12]
+intensity = 1e4
+radius = 1e-3
+color = [0, 0, 1]
+glow = 1e9
+[[light]]
+position = [0, 0, 3]
+intensity = 10
+glow = 0
+[[mirror]]
+position = [0, 0, -2]
+size = [6, 4]
+reflectance = [1, 1, 1]
+base_color = [0.3, 0, 0]
+[[mirror]]
+position = [0, 0, 6]
+rotation = [0, 180, 0]
+size = [9, 6]
+reflectance = [1, 1, 0.5]
+fresnel = "schlick"
+)";
+
+std::filesystem::path writeLitScene() {
+  writeQuad();
+  writeModel("cancelling.obj",
+             "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nvn 0 0 -1\nvn 1 0 0\nvn -1 0 0\n"
+             "f 1//1 2//2 3//1\nf 1//3 3//4 4//3\n");
+  return sceneFile("lit", litScene);
+}
+
+int notStorable(const LinearImage& image) {
+  return static_cast<int>(std::count_if(image.pixels.begin(), image.pixels.end(), [](const glm::vec3& p) {
+    return !(p.r >= 0.0f && p.g >= 0.0f && p.b >= 0.0f && p.r <= 65504.0f && p.g <= 65504.0f && p.b <= 65504.0f);
+  }));
+}
+
+TEST(LightOnASurface, EveryPixelIsFinite) {
+  for (const char* samples : {"1", "4"}) {
+    Options options = headless(writeLitScene(), size);
+    options.settings = {{"view.samples", samples}, {"reflection.samples", samples}};
+    Session session(options);
+    session.draw(0.0, true);
+    const LinearImage radiance = session.radiance();
+    EXPECT_EQ(notStorable(radiance), 0) << samples << " samples";
+    const auto brightest = std::max_element(radiance.pixels.begin(), radiance.pixels.end(),
+                                            [](const glm::vec3& a, const glm::vec3& b) { return a.b < b.b; });
+    EXPECT_EQ(brightest->b, 65504.0f) << "the glyph should be as bright as can be stored";
+    EXPECT_EQ(session.device().validationMessages(), 0);
+  }
+}
+
+TEST(LightOnASurface, PictureIsTheTracers) {
+  const std::filesystem::path file = writeLitScene();
+  expectTruth(file, size, 3, trace(file, size, 3));
+}
+
+// lightRadiance of shading.glsl without its floors and bounds, in float.
+float naiveRadiance(const glm::vec3& n, const glm::vec3& toLight, const glm::vec3& toViewer, float irradiance,
+                    float specular, float shininess) {
+  const glm::vec3 l = glm::normalize(toLight);
+  const glm::vec3 h = glm::normalize(l + toViewer);
+  const float brdf = 0.3f + specular * std::pow(glm::dot(n, h), shininess);
+  return irradiance * glm::dot(n, l) / glm::dot(toLight, toLight) * brdf;
+}
+
+TEST(LightOnASurface, ShadingWithoutFloorsIsNot) {
+  const glm::vec3 n(0, 0, 1);
+  const glm::vec3 up(0, 0, 1);
+  EXPECT_FALSE(std::isfinite(naiveRadiance(n, glm::vec3(0.0f), up, 5.0f, 0.0f, 1.0f))) << "light on the surface";
+  EXPECT_FALSE(std::isfinite(naiveRadiance(n, {0, 0, 1e-19f}, up, 1e4f, 0.0f, 1.0f))) << "light beside the surface";
+  EXPECT_FALSE(std::isfinite(naiveRadiance(glm::normalize(glm::vec3(0.0f)), {0, 0, 1}, up, 1.0f, 0.0f, 1.0f)))
+      << "zero normal";
+  // A cosine above 1 by rounding, to a high power; and one below 0.
+  const glm::vec3 longer(0.0f, 0.0f, 1.0001f);
+  EXPECT_GT(naiveRadiance(longer, {0, 0, 1}, up, 1.0f, 1.0f, 20000.0f), 2.0f) << "n.h > 1";
+  EXPECT_FALSE(std::isfinite(naiveRadiance(n, {0, 0, -1}, {0.1f, 0, 0.5f}, 1.0f, 1.0f, 0.5f))) << "n.h < 0";
+}
+
+class AnySize : public testing::TestWithParam<PictureSize> {};
+
+// A mirror over all of the view shows the sky; a body would have edges, and a pixel here is metres wide.
+TEST_P(AnySize, PictureIsTheTracers) {
+  const std::filesystem::path file = sceneFile("any_size", R"([environment]
+sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
+[camera]
+position = [0, 1, 2]
+target = [0.1, 0.3, -2]
+[[mirror]]
+position = [0, 0, -1]
+rotation = [-30, 10, 0]
+size = [1e6, 1e6]
+)");
+  const Truth truth = trace(file, GetParam(), 3);
+  EXPECT_GT(share(truth.traced.mirrorMask, 1), 0.2);
+  const Image8 picture = draw(truthOptions(file, GetParam(), 3));
+  ASSERT_EQ(picture.width, GetParam().width);
+  ASSERT_EQ(picture.height, GetParam().height);
+  EXPECT_EQ(difference(picture, truth.picture, 2).over, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, AnySize, testing::Values(PictureSize{1, 1}, PictureSize{2, 1}, PictureSize{1, 720}, PictureSize{8192, 1}),
+    [](const auto& info) { return std::to_string(info.param.width) + "x" + std::to_string(info.param.height); });
+
+TEST(AnySizeOfView, ProjectionOfNoHeightIsNotANumber) {
+  const Projection projection(1.0, 640.0 / 0.0, 0.001);
+  EXPECT_FALSE(std::isfinite(1.0 / projection.matrix()[0][0])) << "the naive way should fail";
+}
+
+// Runs the window until a condition holds.
+template <typename Condition>
+bool runUntil(Demo& demo, const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!condition() && std::chrono::steady_clock::now() < end) {
+    demo.step();
+  }
+  return condition();
+}
+
+Options windowOptions() {
+  Options options;
+  options.scene = sourceFile("scenes/single_plane.toml").string();
+  options.size = {64, 48};
+  options.validation = true;
+  options.presentMode = PresentMode::immediate;
+  return options;
+}
+
+TEST(TimeSteps, PauseOfTheProgramIsNoneOfTheAnimations) {
+  const test::VirtualDisplay display(1280, 900);
+  Demo demo(windowOptions());
+  ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > 2; }));
+  const double before = demo.model().time;
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const int drawn = demo.framesDrawn();
+  ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > drawn; }));
+  EXPECT_GE(demo.model().time, before);
+  EXPECT_LT(demo.model().time - before, 0.5);
+}
+
+TEST(AnySizeOfWindow, OnePixelRunsAndNoneAtAllPauses) {
+  const test::VirtualDisplay display(1280, 900);
+  Demo demo(windowOptions());
+  const auto until = [&](const auto& condition) { return runUntil(demo, condition); };
+  ASSERT_TRUE(until([&] { return demo.framesDrawn() > 2; }));
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(1, 300), std::pair(64, 48)}) {
+    demo.window().resize(width, height);
+    const VkExtent2D wanted{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+    EXPECT_TRUE(until([&] {
+      const VkExtent2D extent = demo.renderer().displayExtent();
+      return extent.width == wanted.width && extent.height == wanted.height;
+    })) << width
+        << "x" << height;
+    const int drawn = demo.framesDrawn();
+    EXPECT_TRUE(until([&] { return demo.framesDrawn() > drawn + 3; }));
+  }
+  demo.window().iconify();
+  ASSERT_TRUE(until([&] { return demo.window().paused(); }));
+  const int drawn = demo.framesDrawn();
+  for (int i = 0; i < 5; ++i) {
+    demo.step();
+  }
+  EXPECT_EQ(demo.framesDrawn(), drawn);
+  demo.window().restore();
+  EXPECT_TRUE(until([&] { return demo.framesDrawn() > drawn + 3; }));
+  EXPECT_EQ(demo.device().validationMessages(), 0);
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,278 @@
+// Hard cases of planes, rectangles and what is left out: against rays cast at the polygon itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "optics/reflection.hpp"
+#include "transform_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace hard_cases;
+
+constexpr int width = 48;
+constexpr int height = 27;
+
+FramePlan planOf(const Scene& scene, int maxDepth = 1) {
+  Settings settings;
+  settings.reflection.maxDepth = maxDepth;
+  settings.reflection.minPixels = 0.0;
+  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
+}
+
+// I - 2 n n^T, right only for a normal of unit length.
+glm::dmat3 naiveReflection(const glm::dvec3& n) {
+  return glm::dmat3(1.0) - 2.0 * glm::outerProduct(n, n);
+}
+
+double largestDifference(const glm::dmat3& a, const glm::dmat3& b) {
+  double largest = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      largest = std::max(largest, std::abs(a[c][r] - b[c][r]));
+    }
+  }
+  return largest;
+}
+
+glm::dvec3 withFourDecimals(const glm::dvec3& v) {
+  return glm::round(v * 1e4) / 1e4;
+}
+
+TEST(NormalNotOfUnitLength, ReflectionIsUnaffected) {
+  Random random(1);
+  double naiveScaled = 0.0;
+  double naiveRounded = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const glm::dvec3 n = random.direction();
+    const glm::dvec3 rounded = withFourDecimals(n);
+    const glm::dvec3 point = random.inBox(5.0);
+    const glm::dvec3 p = random.inBox(5.0);
+    const glm::dmat3 exact = reflectionLinear(n);
+    EXPECT_LE(largestDifference(reflectionLinear(10.0 * n), exact), 1e-6);
+    EXPECT_LE(glm::length(reflectPoint(p, {point, 10.0 * n}) - reflectPoint(p, {point, n})), 1e-6);
+    // Rounding turns the plane by up to 1e-4 rad; within it, lengths are kept.
+    const glm::dmat3 turned = reflectionLinear(glm::normalize(rounded));
+    EXPECT_LE(largestDifference(reflectionLinear(rounded), turned), 1e-6);
+    EXPECT_LE(largestDifference(reflectionLinear(rounded) * reflectionLinear(rounded), glm::dmat3(1.0)), 1e-6);
+    naiveScaled = std::max(naiveScaled, largestDifference(naiveReflection(10.0 * n), exact));
+    naiveRounded = std::max(naiveRounded, largestDifference(naiveReflection(rounded), turned));
+  }
+  EXPECT_GT(naiveScaled, 1.0) << "the naive way should fail";
+  EXPECT_GT(naiveRounded, 1e-5) << "the naive way should fail";
+}
+
+TEST(NormalNotOfUnitLength, ViewInTheMirrorIsUnaffected) {
+  const View parent = mainView(lookAt({1, 2, 3}, {0, 0, 0}, {0, 1, 0}, 60, 0.001), Projection(1.0, 1.5, 0.001), 48, 32);
+  const std::vector<glm::dvec3> polygon = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  const View unit = reflectedView(parent, 0, {{0, 0, 0}, {0, 0, 1}}, polygon, {0, 0, 48, 32}, {48, 32});
+  const View scaled = reflectedView(parent, 0, {{0, 0, 0}, {0, 0, 10}}, polygon, {0, 0, 48, 32}, {48, 32});
+  EXPECT_LE(glm::length(unit.eye - scaled.eye), 1e-6);
+  EXPECT_LE(largestDifference(unit.worldToView, scaled.worldToView), 1e-6);
+}
+
+// The oblique projection by its formula alone, without asking whether it exists.
+glm::dmat4 naiveOblique(const Projection& projection, const glm::dvec4& plane) {
+  glm::dmat4 m = projection.matrix();
+  const auto sign = [](double x) { return x < 0.0 ? -1.0 : 1.0; };
+  const glm::dvec4 corner(sign(plane.x) / m[0][0], sign(plane.y / m[1][1]) / m[1][1], -1.0, 0.0);
+  const double a = 1.0 / glm::dot(plane, corner);
+  for (int column = 0; column < 4; ++column) {
+    m[column][2] = m[column][3] - a * plane[column];
+  }
+  return m;
+}
+
+double depthAt(const glm::dmat4& projection, const glm::dvec3& view) {
+  const glm::dvec4 clip = projection * glm::dvec4(view, 1.0);
+  return clip.z / clip.w;
+}
+
+const Projection usual(glm::radians(60.0), 16.0 / 9.0, 0.001);
+
+TEST(EyeOnOrBehindTheMirrorPlane, ObliqueDepthDoesNotExist) {
+  const glm::dvec3 n = glm::normalize(glm::dvec3(0.3, 0.2, -1.0));
+  const glm::dvec3 ray(0.1, -0.2, -1.0);
+  const double ordinary =
+      depthAt(naiveOblique(usual, {n, -0.5}), 3.0 * ray) - depthAt(naiveOblique(usual, {n, -0.5}), 2.0 * ray);
+  EXPECT_LT(ordinary, 0.0) << "depth falls with distance";
+  const glm::dmat4 on = naiveOblique(usual, {n, 0.0});
+  EXPECT_NEAR(depthAt(on, 2.0 * ray), depthAt(on, 3.0 * ray), 1e-15) << "the naive depth should be flat";
+  const glm::dmat4 behind = naiveOblique(usual, {n, 0.5});
+  EXPECT_GT(depthAt(behind, 3.0 * ray), depthAt(behind, 2.0 * ray)) << "the naive depth should be inverted";
+  EXPECT_FALSE(obliqueProjection(usual, {n, 0.0}));
+  EXPECT_FALSE(obliqueProjection(usual, {n, 0.5}));
+}
+
+// A mirror in any orientation and an eye at height `h` above its plane, beside the mirror or over it, that looks along
+// the plane and a little towards it.
+Scene eyeAtHeight(Random& random, double h, const glm::dvec3& offset) {
+  Scene scene;
+  Mirror mirror{.position = offset + random.inBox(3.0), .rotation = random.inBox(170.0), .size = {2, 2}};
+  const glm::dmat3 frame = rotationFromDegrees(mirror.rotation);
+  const glm::dvec3 along = glm::normalize(random.uniform(-1, 1) * frame[0] + random.uniform(-1, 1) * frame[1]);
+  scene.camera.position = mirror.position - random.uniform(0.5, 3.0) * along + h * frame[2];
+  scene.camera.target = scene.camera.position + along - 0.2 * frame[2];
+  scene.camera.up = frame[2];
+  scene.mirrors.push_back(mirror);
+  return scene;
+}
+
+TEST(EyeOnOrBehindTheMirrorPlane, PassIsSkippedAndTheBackDrawn) {
+  Random random(2);
+  for (int i = 0; i < 2000; ++i) {
+    for (const double far : {0.0, 1e3, 1e7}) {
+      const glm::dvec3 offset = far * random.direction();
+      const FramePlan on = planOf(eyeAtHeight(random, 0.0, offset));
+      ASSERT_TRUE(on.passes.empty()) << "in the plane, case " << i << ", " << far << " m out";
+      ASSERT_TRUE(on.main.mirrors.empty()) << "in the plane, case " << i << ", " << far << " m out";
+      const double back = -std::pow(10.0, random.uniform(far > 1e6 ? -6 : -9, 0));
+      const Scene behind = eyeAtHeight(random, back, offset);
+      const FramePlan plan = planOf(behind);
+      ASSERT_TRUE(plan.passes.empty()) << "behind the plane, case " << i;
+      for (const MirrorDraw& draw : plan.main.mirrors) {
+        ASSERT_TRUE(draw.back) << "behind the plane, case " << i;
+      }
+      const FramePlan front = planOf(eyeAtHeight(random, -back, offset));
+      ASSERT_EQ(front.passes.size(), 1u) << "before the plane, case " << i << ", height " << -back;
+    }
+  }
+}
+
+TEST(MirrorOutsideTheView, ObliqueCoefficientIsNegativeOrInfinite) {
+  // Planes that no ray of the frustum meets on the far side: beside it, and parallel to its edge.
+  for (const glm::dvec3& n : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(0.2, 0.1, 1.0))}) {
+    const glm::dmat4 m = naiveOblique(usual, {n, -0.5});
+    const double a = -(m[2][2] + 1.0) / n.z;
+    EXPECT_TRUE(!(a > 0.0) || std::isinf(a)) << a;
+    EXPECT_FALSE(obliqueProjection(usual, {n, -0.5}));
+  }
+  // Looking along the edge of the view exactly: the corner's distance is zero.
+  const glm::dvec3 edge = glm::normalize(glm::dvec3(1.0, 0.0, usual.aspect / usual.focal));
+  EXPECT_FALSE(obliqueProjection(usual, {edge, -0.5}));
+}
+
+bool insidePolygon(const MirrorState& mirror, const glm::dvec3& p) {
+  for (size_t i = 0; i < mirror.polygon.size(); ++i) {
+    const glm::dvec3& a = mirror.polygon[i];
+    const glm::dvec3& b = mirror.polygon[(i + 1) % mirror.polygon.size()];
+    if (glm::dot(glm::cross(b - a, p - a), mirror.normal) < 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Pixels whose centre's ray meets the only mirror.
+std::vector<glm::ivec2> hitPixels(const SceneState& state, const Projection& f) {
+  const MirrorState& mirror = state.mirrors[0];
+  const double height0 = glm::dot(mirror.normal, mirror.origin - state.camera.eye);
+  std::vector<glm::ivec2> hits;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec2 p = glm::dvec2(x, y) + 0.5;
+      const glm::dvec3 view((2.0 * p.x / width - 1.0) * f.aspect / f.focal, (1.0 - 2.0 * p.y / height) / f.focal, -1.0);
+      const glm::dvec3 ray = glm::transpose(state.camera.worldToView) * view;
+      const double t = height0 / glm::dot(mirror.normal, ray);
+      if (t > 0.0 && std::isfinite(t) && insidePolygon(mirror, state.camera.eye + t * ray)) {
+        hits.emplace_back(x, y);
+      }
+    }
+  }
+  return hits;
+}
+
+// Divides every vertex by its w, whatever that is.
+PixelRect naiveRectangle(const SceneState& state, const FramePlan& plan) {
+  glm::dvec2 low(1e300);
+  glm::dvec2 high(-1e300);
+  for (const glm::dvec4& clip : toClip(plan.main.view, plan.projection, state.mirrors[0].polygon)) {
+    const glm::dvec2 p = toPixel(clip, width, height);
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const auto limit = [](double v, double end) { return static_cast<int>(std::clamp(v, 0.0, end)); };
+  const int x = limit(std::floor(low.x) - 1, width);
+  const int y = limit(std::floor(low.y) - 1, height);
+  return {x, y, limit(std::ceil(high.x) + 1, width) - x, limit(std::ceil(high.y) + 1, height) - y};
+}
+
+// The eye close to a large mirror, which reaches behind it, in directions that show some of it.
+Scene acrossTheEyePlane(Random& random) {
+  Scene scene;
+  Mirror mirror{.position = random.inBox(1.0), .rotation = random.inBox(170.0)};
+  mirror.size = {random.uniform(2, 20), random.uniform(2, 20)};
+  const glm::dmat3 frame = rotationFromDegrees(mirror.rotation);
+  scene.camera.position = mirror.position + random.uniform(-0.5, 0.5) * mirror.size.x * frame[0] +
+                          random.uniform(-0.5, 0.5) * mirror.size.y * frame[1] +
+                          std::pow(10.0, random.uniform(-6, 0.5)) * frame[2];
+  scene.camera.target = scene.camera.position + random.direction();
+  scene.camera.up = random.direction();
+  scene.camera.verticalFov = random.uniform(20, 120);
+  scene.mirrors.push_back(mirror);
+  return scene;
+}
+
+TEST(MirrorCrossesTheEyePlane, RectangleHoldsEveryHitPixel) {
+  Random random(4);
+  int views = 0;
+  int misses = 0;
+  int naiveMisses = 0;
+  while (views < 1500) {
+    const Scene scene = acrossTheEyePlane(random);
+    const SceneState state = evaluate(scene, 0.0);
+    const FramePlan plan = planOf(scene);
+    const std::vector<glm::ivec2> hits = hitPixels(state, plan.projection);
+    const std::vector<glm::dvec4> clip = toClip(plan.main.view, plan.projection, state.mirrors[0].polygon);
+    const bool crosses = std::any_of(clip.begin(), clip.end(), [](const glm::dvec4& v) { return v.w <= 0.0; });
+    if (!crosses || hits.empty()) {
+      continue;
+    }
+    ++views;
+    ASSERT_EQ(plan.passes.size(), 1u);
+    const PixelRect naive = naiveRectangle(state, plan);
+    bool naiveMissed = false;
+    for (const glm::ivec2& p : hits) {
+      misses += !plan.passes[0].view.rect.contains(p.x, p.y);
+      naiveMissed = naiveMissed || !naive.contains(p.x, p.y);
+    }
+    naiveMisses += naiveMissed;
+  }
+  EXPECT_EQ(misses, 0);
+  EXPECT_GT(naiveMisses, views / 20) << "the naive way should fail";
+  std::printf("%d views: %d missed pixels; the naive rectangle misses some in %d views\n", views, misses, naiveMisses);
+}
+
+// Moved just past one of the planes that bound the view.
+void moveOutside(Random& random, Scene& scene) {
+  const SceneState state = evaluate(scene, 0.0);
+  const Projection projection(state.camera.verticalFov, static_cast<double>(width) / height, 0.001);
+  const View view = mainView(state.camera, projection, width, height);
+  const glm::dvec3 inward = view.cone[static_cast<size_t>(random.uniform(0.0, 3.999))];
+  double reach = -1e300;
+  for (const glm::dvec3& p : state.mirrors[0].polygon) {
+    reach = std::max(reach, glm::dot(inward, p - view.eye));
+  }
+  scene.mirrors[0].position -= (reach + std::pow(10.0, random.uniform(-9, 0))) * inward;
+  scene.mirrors[0].twoSided = true;
+}
+
+TEST(MirrorOutsideTheView, HasNoPassAtAll) {
+  Random random(5);
+  int naivePasses = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Scene scene = acrossTheEyePlane(random);
+    moveOutside(random, scene);
+    const SceneState state = evaluate(scene, 0.0);
+    const FramePlan plan = planOf(scene);
+    ASSERT_TRUE(plan.passes.empty()) << "view " << i;
+    ASSERT_EQ(plan.skipped.size(), 1u);
+    naivePasses += !naiveRectangle(state, plan).empty();
+  }
+  EXPECT_GT(naivePasses, 150) << "the naive way should fail";
+  std::printf("the naive rectangle has pixels in %d of 3000 views\n", naivePasses);
+}
+
+}  // namespace
+}  // namespace speculum

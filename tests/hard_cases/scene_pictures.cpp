@@ -1,0 +1,278 @@
+// Hard cases of whole pictures: far from the origin, turned inside out, mirrors in mirrors, seams, lights on surfaces.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "scene_text.hpp"
+#include "truth_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace hard_cases;
+using namespace testing_support;
+
+constexpr PictureSize size{320, 180};
+
+// Everything that a scene can hold, `at` from the origin: turning objects with textures and highlights, copies, a model
+// whose own vertices are 1e7 m away, an orbiting camera and light, mirrors in mirrors, one of them a polygon.
+std::string fullScene(const glm::dvec3& at) {
+  std::string obj;
+  for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
+    const glm::dvec3 v = p + glm::dvec3(1e7, 2e7, -1e7);
+    obj += "v " + text(v.x) + " " + text(v.y) + " " + text(v.z) + "\n";
+  }
+  writeModel("far_tetrahedron.obj", obj + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto p = [&](double x, double y, double z) { return text(at + glm::dvec3(x, y, z)); };
+  return R"([environment]
+sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
+ambient = [0.1, 0.1, 0.1]
+[camera]
+position = )" +
+         p(0.2, 1.4, 4) + "\ntarget = " + p(0, 1, -1) + R"(
+orbit_speed = 4
+[[object]]
+model = "MODELS/chequer.obj"
+scale = [2, 1, 2]
+position = )" +
+         p(0, 0, 0) + R"(
+[[object]]
+model = "MODELS/teapot.obj"
+spin = [0, 35, 0]
+specular = [0.5, 0.5, 0.5]
+shininess = 200
+position = )" +
+         p(-1, 0.5, 0.3) + R"(
+[[object]]
+model = "MODELS/box.obj"
+scale = 0.4
+copies = { count = 3, step = [0.6, 0.1, -0.35] }
+position = )" +
+         p(0.4, 0.5, 0.5) + R"(
+[[object]]
+model = "far_tetrahedron.obj"
+color = [0.9, 0.4, 0.1]
+position = )" +
+         p(0.5 - 1e7, 1.5 - 2e7, 1e7) + R"(
+[[light]]
+intensity = 12
+orbit = { center = )" +
+         p(0, 2, 0) + R"(, axis = [0.3, 1, 0], speed = 50 }
+position = )" +
+         p(1, 2.5, 1) + R"(
+[[mirror]]
+name = "back"
+size = [4, 3]
+rotation = [2, 8, 0]
+reflectance = [0.9, 0.95, 0.9]
+base_color = [0.1, 0, 0]
+position = )" +
+         p(0, 1.5, -2) + R"(
+[[mirror]]
+name = "turning"
+size = [1, 1.5]
+spin = [0, 20, 0]
+two_sided = true
+position = )" +
+         p(1.4, 1.2, -0.5) + R"(
+[[mirror]]
+name = "behind the eye"
+polygon = [)" +
+         p(-3, 0, 5) + ", " + p(-3, 3, 5) + ", " + p(3, 3, 5.5) + ", " + p(3, 0, 5.5) + "]\n";
+}
+
+TEST(SceneMovedFar, PictureIsTheSameAsAtTheOrigin) {
+  constexpr double time = 3.7;
+  const Image8 near = draw(headless(sceneFile("at_origin", fullScene(glm::dvec3(0.0))), size), time);
+  for (const glm::dvec3& at : {glm::dvec3(1e3, -2e3, 1e3), 1e7 * glm::dvec3(1.0, -0.7, 0.9)}) {
+    const Image8 far = draw(headless(sceneFile("far_away", fullScene(at)), size), time);
+    const PictureAgreement d = difference(far, near, 1);
+    EXPECT_EQ(d.over, 0) << "largest difference " << d.largest << "/255, " << at.x << " m away";
+    expectAlike(far, near, 1, "moved_far");
+  }
+}
+
+TEST(SceneMovedFar, PictureIsTheTracers) {
+  const std::filesystem::path file = sceneFile("far_truth", fullScene(1e7 * glm::dvec3(-0.6, 1.0, 0.3)));
+  expectTruth(file, size, 4, trace(file, size, 4));
+}
+
+// Two facing mirrors, and a body with flat faces whose outside only the winding tells.
+std::string turnedBody(const glm::dvec3& scale) {
+  return R"([environment]
+background = [0.1, 0.2, 0.3]
+[camera]
+position = [0.6, 1.3, 2.2]
+target = [-0.3, 1, -2]
+[[object]]
+model = "body.obj"
+position = [-0.7, 0.7, -1.3]
+rotation = [20, 40, 10]
+color = [0.8, 0.7, 0.6]
+copies = { count = 2, step = [0.3, 0.9, 0.2] }
+scale = )" +
+         text(scale) +
+         R"(
+[[light]]
+position = [0.5, 2, 2]
+intensity = 12
+[[light]]
+position = [-1, 1.5, -2]
+intensity = 8
+color = [0.3, 1, 0.5]
+[[mirror]]
+position = [0, 1, -2.5]
+size = [6, 4]
+[[mirror]]
+position = [0, 1, 2.5]
+rotation = [0, 180, 0]
+size = [6, 4]
+)";
+}
+
+TEST(NegativeScaleAndBounces, PictureIsTheTracers) {
+  writeModel(
+      "body.obj",
+      "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 5 6 7 8\n"
+      "f 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n");
+  for (const glm::dvec3& scale :
+       {glm::dvec3(0.3), glm::dvec3(-0.3, 0.3, 0.4), glm::dvec3(0.3, -0.4, -0.3), glm::dvec3(-0.3)}) {
+    const std::filesystem::path file = sceneFile("turned_body", turnedBody(scale));
+    const Truth truth = trace(file, size, 4);
+    EXPECT_GT(share(truth.traced.mirrorDepth, 3), 0.01) << "too few bounces in view";
+    expectTruth(file, size, 4, truth);
+  }
+}
+
+const std::string nestedPrefix = R"([environment]
+sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
+ambient = [0.2, 0.2, 0.2]
+[camera]
+position = [0.5, 1.2, 2.6]
+target = [-0.2, 1, -2]
+[settings]
+"reflection.max_depth" = 5
+"reflection.max_passes" = 2000
+"reflection.min_pixels" = 0
+[[light]]
+position = [0, 3, 1]
+intensity = 15
+[[object]]
+model = "MODELS/torus_knot.obj"
+position = [-0.4, 1, -1.9]
+[[object]]
+model = "MODELS/queen.obj"
+position = [1.5, 0.4, 0.3]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [-1.9, 1, 0.5]
+[[object]]
+model = "MODELS/vase.obj"
+position = [0.2, 0.2, 2.9]
+)";
+
+// A triangle of mirrors around the scene and one inside it; bodies stand across the planes of all of them.
+const std::array<std::string, 4> nestedMirrors = {
+    "[[mirror]]\nname = \"a\"\nposition = [0, 1, -2]\nsize = [5, 3]\n",
+    "[[mirror]]\nname = \"b\"\nposition = [-2, 1, 0.5]\nrotation = [0, 70, 3]\nsize = [5, 3]\nreflectance = [0.9, 0.8, "
+    "0.7]\n",
+    "[[mirror]]\nname = \"c\"\nposition = [2, 1, 0.5]\nrotation = [-4, -65, 0]\nsize = [5, 3]\n",
+    "[[mirror]]\nname = \"d\"\nposition = [0, 1, 3.2]\nrotation = [0, 180, 0]\nsize = [3, 3]\ntwo_sided = true\n"};
+
+std::filesystem::path nestedScene(const std::string& name, const std::array<int, 4>& order) {
+  std::string scene = nestedPrefix;
+  for (const int i : order) {
+    scene += nestedMirrors[i];
+  }
+  return sceneFile(name, scene);
+}
+
+// A clip plane or a winding left over from another pass would depend on which pass came before.
+TEST(NestedMirrors, OrderOfPassesLeavesNoTrace) {
+  const Image8 expected = draw(headless(nestedScene("nested", {0, 1, 2, 3}), size));
+  for (const std::array<int, 4>& order : {std::array{3, 2, 1, 0}, std::array{1, 3, 0, 2}}) {
+    EXPECT_EQ(difference(draw(headless(nestedScene("nested_other", order), size)), expected, 0).largest, 0);
+  }
+}
+
+TEST(NestedMirrors, PictureIsTheTracers) {
+  const std::filesystem::path file = nestedScene("nested_truth", {0, 1, 2, 3});
+  const Truth truth = trace(file, size, 5);
+  EXPECT_GT(share(truth.traced.mirrorDepth, 4), 0.02) << "too few nested mirrors in view";
+  expectTruth(file, size, 5, truth);
+}
+
+TEST(FacingMirrorsAtDepth32, PictureIsTheTracers) {
+  for (const char* scene : {"scenes/facing_mirrors.toml", "scenes/hard/depth_32.toml"}) {
+    const std::filesystem::path file = sourceFile(scene);
+    const Truth truth = trace(file, size, 32);
+    EXPECT_GE(*std::max_element(truth.traced.mirrorDepth.begin(), truth.traced.mirrorDepth.end()), 25);
+    expectTruth(file, size, 32, truth);
+  }
+}
+
+// A white room lit by ambient light alone, of which two walls are mirrors that meet at an edge. The floor, the other
+// walls and a block touch them. Black background lies behind: any gap shows it.
+std::filesystem::path seamScene(unsigned seed) {
+  writeModel("touching.obj",
+             "v -1.5 0 -1\nv 30 0 -1\nv 30 0 30\nv -1.5 0 30\nv -1.5 20 -1\nv 30 20 -1\nv 30 20 30\nv -1.5 20 30\n"
+             "v 0.5 0 -1\nv 1 0 -1\nv 1 0 -0.5\nv 0.5 0 -0.5\nv 0.5 0.5 -1\nv 1 0.5 -1\nv 1 0.5 -0.5\nv 0.5 0.5 -0.5\n"
+             "f 1 4 3 2\nf 5 6 7 8\nf 2 3 7 6\nf 3 4 8 7\n"
+             "f 13 16 15 14\nf 9 13 14 10\nf 12 11 15 16\nf 9 12 16 13\nf 10 14 15 11\n");
+  Random random(seed);
+  const auto between = [&](double low, double high) { return random.uniform(low, high); };
+  const glm::dvec3 eye(between(0.5, 3.5), between(0.3, 2.5), between(0.5, 3.5));
+  const glm::dvec3 target(between(-1.0, 0.5), between(0.0, 0.7), between(-1.0, 0.5));
+  return sceneFile("seams", "[environment]\nambient = [1, 1, 1]\n[camera]\nposition = " + text(eye) +
+                                "\ntarget = " + text(target) + R"(
+up = [0.05, 1, 0]
+[settings]
+"reflection.max_depth" = 6
+"reflection.max_passes" = 5000
+"reflection.min_pixels" = 0
+[[object]]
+model = "touching.obj"
+color = [1, 1, 1]
+[[mirror]]
+name = "wall"
+polygon = [[-1.5, 0, -1], [30, 0, -1], [30, 20, -1], [-1.5, 20, -1]]
+reflectance = [1, 1, 1]
+[[mirror]]
+name = "side"
+polygon = [[-1.5, 0, 30], [-1.5, 0, -1], [-1.5, 20, -1], [-1.5, 20, 30]]
+reflectance = [1, 1, 1]
+)");
+}
+
+// Pixels that hold some of the background.
+int darkPixels(unsigned seed, const std::string& samples, const std::string& imageSamples) {
+  Options options = headless(seamScene(seed), {640, 360});
+  options.settings = {{"view.samples", samples}, {"reflection.samples", imageSamples}};
+  Session session(options);
+  session.draw(0.0, true);
+  int dark = 0;
+  for (const glm::vec3& pixel : session.radiance().pixels) {
+    dark += pixel.r < 0.999f;
+  }
+  EXPECT_EQ(session.device().validationMessages(), 0);
+  return dark;
+}
+
+TEST(SeamsOfMirrorsAndBodies, NoPixelShowsTheBackground) {
+  for (unsigned view = 0; view < 5; ++view) {
+    for (const char* samples : {"1", "4"}) {
+      EXPECT_EQ(darkPixels(view, samples, samples), 0) << samples << " samples, view " << view;
+    }
+  }
+}
+
+TEST(SeamsOfMirrorsAndBodies, AveragedImagesShowIt) {
+  const int dark = darkPixels(0, "4", "1");
+  EXPECT_GT(dark, 20) << "the naive way, samples that have no counterpart, should fail";
+  std::printf("%d pixels\n", dark);
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <random>
+#include <vector>
+
+#include "frame/frame_plan.hpp"
+#include "systems/frame_data.hpp"
+
+// What the vertex shader makes of a frame's data, and the same from the scene's own numbers in extended precision.
+namespace speculum::hard_cases {
+
+using LongVec3 = glm::vec<3, long double, glm::highp>;
+using LongMat3 = glm::mat<3, 3, long double, glm::highp>;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  glm::dvec3 inBox(double side);
+  glm::dvec3 direction();
+  // Log-uniform over 10^low .. 10^high, either sign.
+  double magnitude(double low, double high);
+
+ private:
+  std::mt19937 engine_;
+};
+
+// Points in the box [-1, 1]^3, as a mesh of which nothing but its vertices matters.
+Mesh pointCloud(int count, unsigned seed);
+
+// scene.vert's gl_Position, in float.
+glm::vec4 shaderClip(const InstanceData& data, const Vertex& vertex);
+
+// From clip space to pixels, y down.
+glm::dvec2 toPixel(const glm::dvec4& clip, int width, int height);
+
+// Everything that has a place, moved.
+Scene moved(Scene scene, const glm::dvec3& offset);
+
+// Instance data of `instance` in a pass's view, as the renderer computes it.
+InstanceData dataIn(const FramePlan& plan, const View& view, const InstanceState& instance);
+
+// R = Ry Rx Rz of angles in degrees.
+LongMat3 longRotation(const glm::dvec3& pitchYawRoll);
+
+// Rows: right, up, back.
+LongMat3 longWorldToView(const CameraSpec& camera);
+
+// Of a point given relative to the eye.
+glm::dvec2 longPixel(const LongMat3& worldToView, const LongVec3& relative, double verticalFovDegrees, int width,
+                     int height);
+
+}  // namespace speculum::hard_cases
