@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/demo.hpp"
+#include "naive_arithmetic.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 #include "virtual_display.hpp"
@@ -114,10 +115,10 @@ TEST(LightOnASurface, PictureIsTheTracers) {
 // lightRadiance of shading.glsl without its floors and bounds, in float.
 float naiveRadiance(const glm::vec3& n, const glm::vec3& toLight, const glm::vec3& toViewer, float irradiance,
                     float specular, float shininess) {
-  const glm::vec3 l = glm::normalize(toLight);
-  const glm::vec3 h = glm::normalize(l + toViewer);
+  const glm::vec3 l = naiveNormalize(toLight);
+  const glm::vec3 h = naiveNormalize(l + toViewer);
   const float brdf = 0.3f + specular * std::pow(glm::dot(n, h), shininess);
-  return irradiance * glm::dot(n, l) / glm::dot(toLight, toLight) * brdf;
+  return quotient(irradiance * glm::dot(n, l), glm::dot(toLight, toLight)) * brdf;
 }
 
 TEST(LightOnASurface, ShadingWithoutFloorsIsNot) {
@@ -125,7 +126,7 @@ TEST(LightOnASurface, ShadingWithoutFloorsIsNot) {
   const glm::vec3 up(0, 0, 1);
   EXPECT_FALSE(std::isfinite(naiveRadiance(n, glm::vec3(0.0f), up, 5.0f, 0.0f, 1.0f))) << "light on the surface";
   EXPECT_FALSE(std::isfinite(naiveRadiance(n, {0, 0, 1e-19f}, up, 1e4f, 0.0f, 1.0f))) << "light beside the surface";
-  EXPECT_FALSE(std::isfinite(naiveRadiance(glm::normalize(glm::vec3(0.0f)), {0, 0, 1}, up, 1.0f, 0.0f, 1.0f)))
+  EXPECT_FALSE(std::isfinite(naiveRadiance(naiveNormalize(glm::vec3(0.0f)), {0, 0, 1}, up, 1.0f, 0.0f, 1.0f)))
       << "zero normal";
   // A cosine above 1 by rounding, to a high power; and one below 0.
   const glm::vec3 longer(0.0f, 0.0f, 1.0001f);
@@ -160,8 +161,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::to_string(info.param.width) + "x" + std::to_string(info.param.height); });
 
 TEST(AnySizeOfView, ProjectionOfNoHeightIsNotANumber) {
-  const Projection projection(1.0, 640.0 / 0.0, 0.001);
-  EXPECT_FALSE(std::isfinite(1.0 / projection.matrix()[0][0])) << "the naive way should fail";
+  const Projection projection(1.0, quotient(640.0, 0.0), 0.001);
+  EXPECT_FALSE(std::isfinite(quotient(1.0, projection.matrix()[0][0]))) << "the naive way should fail";
 }
 
 // Runs the window until a condition holds.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/platform.hpp"
+#include "naive_arithmetic.hpp"
 #include "optics/affine.hpp"
 #include "optics/polygon.hpp"
 #include "scene_support.hpp"
@@ -49,7 +50,7 @@ TEST_F(RejectedShapes, ZeroScaleIsNamed) {
   EXPECT_EQ(message(object + "[1, -1e-20, 1e13]\n"), "no InputError was thrown");
   // Such a scale has no inverse: normals carried by it are not numbers.
   const glm::dmat3 flat(1, 0, 0, 0, 0, 0, 0, 0, 1);
-  EXPECT_FALSE(std::isfinite((glm::transpose(glm::inverse(flat)) * glm::dvec3(0, 1, 1)).y))
+  EXPECT_FALSE(std::isfinite((hard_cases::naiveInverseTranspose(flat) * glm::dvec3(0, 1, 1)).y))
       << "the naive way should fail";
 }
 
@@ -58,7 +59,7 @@ TEST_F(RejectedShapes, MirrorsWithoutAreaAreNamed) {
   expectRejected("[[mirror]]\nsize = [1, 1e-9]\n", "size: has no area");
   EXPECT_NE(mirrorMessage({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}).find("polygon: has no area"), std::string::npos);
   EXPECT_NE(mirrorMessage({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}).find("polygon: has no area"), std::string::npos);
-  const glm::dvec3 naive = glm::normalize(newellVector(Polygon{{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}));
+  const glm::dvec3 naive = hard_cases::naiveNormalize(newellVector(Polygon{{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}));
   EXPECT_TRUE(std::isnan(naive.x)) << "the naive way should fail";
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "naive_arithmetic.hpp"
 #include "optics/reflection.hpp"
 #include "transform_support.hpp"
 
@@ -306,7 +307,7 @@ NormalErrors normalErrors(const glm::dvec3& scale) {
   const InstanceState instance{.worldFromMesh = {glm::dmat3(r[0] * scale.x, r[1] * scale.y, r[2] * scale.z), {}}};
   const InstanceData data = instanceData(instance, Object{}, View{}, glm::dmat4(1.0));
   const glm::mat3 model(instance.worldFromMesh.linear);
-  const glm::mat3 inverse = glm::transpose(glm::inverse(model));
+  const glm::mat3 inverse = naiveInverseTranspose(model);
   NormalErrors errors;
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
@@ -319,7 +320,7 @@ NormalErrors normalErrors(const glm::dvec3& scale) {
     const glm::vec3 unit = shaded * (1.0f / std::sqrt(std::max(glm::dot(shaded, shaded), 1e-30f)));
     errors.production = std::max(errors.production, degreesOff(glm::dvec3(unit), exact));
     errors.byModelMatrix = std::max(errors.byModelMatrix, degreesOff(glm::dvec3(model * n), exact));
-    errors.byFloatInverse = std::max(errors.byFloatInverse, degreesOff(glm::dvec3(glm::normalize(inverse * n)), exact));
+    errors.byFloatInverse = std::max(errors.byFloatInverse, degreesOff(glm::dvec3(naiveNormalize(inverse * n)), exact));
   }
   return errors;
 }
