@@ -56,9 +56,13 @@ TEST(ParetoFront, CheaperMeansBeyondTheSpread) {
   EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.4), candidate(0.2, 3, 0.4)}), (std::vector{1, 0}));
 }
 
-TEST(ParetoFront, EqualPicturesLeaveTheCheapest) {
-  EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0), candidate(0.1, 3, 0), candidate(0.1, 3, 0)}),
+TEST(ParetoFront, OfEqualPicturesTheFirstStaysUnlessAnotherIsClearlyCheaper) {
+  EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.1), candidate(0.1, 3, 0.1), candidate(0.1, 2.9, 0.1)}),
             (std::vector{1}));
+  EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.6), candidate(0.1, 3, 0.6)}), (std::vector{0}));
+  EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.6), candidate(0.1, 3, 0.6), candidate(0.2, 3.2, 0.1)}),
+            (std::vector{2, 0}))
+      << "what chance makes cheaper does not keep others out";
 }
 
 SweepPoint point(const std::string& name, double flip, double ms) {

@@ -32,23 +32,30 @@ std::string described(const SweepPoint& point) {
   return "'" + point.name + "', mean FLIP " + figure(point.whole.flip) + " at " + figure(costMs(point)) + " ms";
 }
 
+// Of candidates with equal errors the first, unless a later one is cheaper beyond the spread. By ascending error.
+std::vector<int> onePerError(const std::vector<FrontCandidate>& candidates) {
+  std::vector<int> order(candidates.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return candidates[a].error < candidates[b].error; });
+  std::vector<int> chosen;
+  for (const int index : order) {
+    const FrontCandidate& candidate = candidates[index];
+    if (chosen.empty() || candidates[chosen.back()].error != candidate.error) {
+      chosen.push_back(index);
+    } else if (candidate.cost.upperQuartile < candidates[chosen.back()].cost.lowerQuartile) {
+      chosen.back() = index;
+    }
+  }
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates) {
-  std::vector<int> order(candidates.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const FrontCandidate& ca = candidates[a];
-    const FrontCandidate& cb = candidates[b];
-    if (ca.error != cb.error) {
-      return ca.error < cb.error;
-    }
-    return ca.cost.median != cb.cost.median ? ca.cost.median < cb.cost.median : a < b;
-  });
   std::vector<int> front;
   double cheapestMedian = std::numeric_limits<double>::infinity();
   double cheapestQuartile = std::numeric_limits<double>::infinity();
-  for (const int index : order) {
+  for (const int index : onePerError(candidates)) {
     const Spread& spread = candidates[index].cost;
     if (spread.median < cheapestMedian && spread.upperQuartile < cheapestQuartile) {
       front.push_back(index);

@@ -15,7 +15,8 @@ struct FrontCandidate {
 
 // The candidates that are worth their price: no other is at least as accurate and at most as expensive, by medians, and
 // each is cheaper than every more accurate one of the front by more than the spread, its upper quartile below their
-// lower ones. Indices, cheapest first.
+// lower ones. Of equally accurate ones, which are mostly equal pictures, the first given stands for all, unless another
+// is cheaper by more than the spread. Indices, cheapest first.
 std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates);
 
 // Mean FLIP of the whole picture against GPU milliseconds: indices of points, cheapest first. Where the device has no

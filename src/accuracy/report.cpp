@@ -125,9 +125,10 @@ std::string seriesSection(const SweepResults& results) {
     return {};
   }
   return "<section aria-labelledby=\"series\">\n<h2 id=\"series\">How the error falls</h2>\n"
-         "<p>One setting changes, all others stay at the base. The fit takes the filled marks, those above the floor "
-         "of "
-         "what else is wrong; the theory’s line starts at the first of them and shows its slope only.</p>\n"
+         "<p>One setting changes; the names of the points say what the others are. The fit takes the filled marks, "
+         "those "
+         "above the floor of what else is wrong; the theory’s line starts at the first of them and shows its slope "
+         "only.</p>\n"
          "<div class=\"figures\">\n" +
          figures + "</div>\n</section>\n";
 }
@@ -157,7 +158,9 @@ std::string metricTerms() {
               "largest difference of any channel, in 1/255: of all pixels, and what 99 % of the pixels do "
               "not exceed") +
          term("Over 2/255", "share of the pixels that differ by more in any channel") +
-         term("RMSE, mirrors", "the same RMSE over pixels that show a mirror’s reflecting side") + "</dl>\n";
+         term("RMSE, mirrors",
+              "the same RMSE over the inside of mirrors: pixels that show a reflecting side, and whose neighbours do") +
+         "</dl>\n";
 }
 
 std::string timeText(const SweepResults& results) {

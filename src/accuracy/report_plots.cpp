@@ -218,7 +218,7 @@ void addSlopes(Plot& plot, const SweepSeries& series, const std::vector<Sample2d
   if (series.theorySlope != 0.0 && std::isfinite(series.theorySlope) && std::isfinite(along(anchor.x))) {
     plot.lines.push_back(
         line("theory", {series.theorySlope, std::log(anchor.y) - series.theorySlope * along(anchor.x)}));
-    plot.legend.push_back({"theory, slope " + withMinusSign(exactText(series.theorySlope)), "theory", std::nullopt});
+    plot.legend.push_back({"theory, slope " + withMinusSign(numberText(series.theorySlope)), "theory", std::nullopt});
   }
   if (series.fit && std::isfinite(series.fit->slope) && std::isfinite(series.fit->offset)) {
     plot.lines.push_back(line("fit", *series.fit));
