@@ -182,6 +182,11 @@ TEST(SweepPlans, BuiltInOnesAreWhatTheDeviceAndTheSceneAllow) {
     }
   }
   EXPECT_TRUE(interval);
+  const auto coarse = std::find_if(full.series.begin(), full.series.end(), [](const PlannedSeries& planned) {
+    return planned.series.key == "reflection.scale" && planned.series.x.front() < 1.0;
+  });
+  ASSERT_NE(coarse, full.series.end());
+  EXPECT_LT(coarse->fitUpTo, 1.0) << "at scale 1 nothing is resampled";
   for (const PlannedSeries& planned : full.series) {
     for (size_t i = 0; i < planned.series.x.size(); ++i) {
       const Settings settings = settingsWith(context.base, full.configurations[planned.series.points[i]].changes);

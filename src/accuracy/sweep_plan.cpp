@@ -59,9 +59,11 @@ void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool ful
   planner.series(
       {.series = {.key = "reflection.scale",
                   .name = "Resolution of mirror images, up to the screen's",
-                  .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale",
+                  .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale. At 1 "
+                          "nothing is resampled, which is another law",
                   .theorySlope = -0.5},
-       .theory = Theory::fixed},
+       .theory = Theory::fixed,
+       .fitUpTo = 0.99},
       coarse, best(context));
   std::vector<std::string> fine = {"1", "1.5", "2"};
   if (full) {
