@@ -1,9 +1,8 @@
 #include "app/background_sweep.hpp"
 
-#include <tbb/task_arena.h>
+#include <utility>
 
-#include <algorithm>
-
+#include "app/background_threads.hpp"
 #include "app/session_subject.hpp"
 #include "app/sweep_description.hpp"
 
@@ -13,11 +12,6 @@ namespace {
 
 // Enough for errors to be told apart, and done in a fraction of the time of a report's 64.
 constexpr int truthSamples = 16;
-
-// Half of the processor stays with the window.
-int backgroundThreads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2);
-}
 
 SweepResults measure(const SweepRequest& request, const SweepProgress& progress) {
   Session session(request.options);
@@ -34,9 +28,8 @@ SweepResults measure(const SweepRequest& request, const SweepProgress& progress)
                          .height = request.options.size.height,
                          .truthSamples = truthSamples};
   SweepResults results = describeSweep(session, plan, request.time);
-  tbb::task_arena arena(backgroundThreads());
   const bool finished =
-      arena.execute([&] { return runSweep(plan, request.base, scene, subject, store, results, progress); });
+      inBackground([&] { return runSweep(plan, request.base, scene, subject, store, results, progress); });
   if (finished && session.device().validationMessages() > 0) {
     throw std::runtime_error("the measurement made validation messages");
   }

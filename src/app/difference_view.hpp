@@ -4,8 +4,10 @@
 #include <chrono>
 #include <functional>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "accuracy/ground_truth.hpp"
 
@@ -36,12 +38,13 @@ class DifferenceView {
   // For people: what is shown or waited for.
   std::string status() const;
 
- private:
-  using Clock = std::chrono::steady_clock;
   struct Compared {
     Image8 heatMap;
     ImageMetrics metrics;
   };
+
+ private:
+  using Clock = std::chrono::steady_clock;
   void startTracing(const Look& look);
   bool collect();
 
@@ -49,10 +52,12 @@ class DifferenceView {
   std::string shown_;  // settings of the picture compared last
   Clock::time_point still_;
   std::atomic<bool> cancelled_ = false;
-  std::atomic<double> traced_ = 0.0;  // fraction
+  std::atomic<double> progress_ = 0.0;  // of the reference being traced, 0 .. 1
+  size_t traced_ = 0;                   // references finished
   std::future<std::optional<GroundTruth>> tracing_;
   std::future<Compared> comparing_;
-  std::optional<GroundTruth> truth_;
+  std::vector<std::future<Compared>> abandoned_;  // of views that are gone; waiting for them would hold up the window
+  std::shared_ptr<const GroundTruth> truth_;      // also of comparisons
   Image8 heatMap_;
   ImageMetrics metrics_;
 };

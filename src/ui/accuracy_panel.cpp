@@ -66,7 +66,7 @@ void forTicks(double low, double high, const Draw& draw) {
 
 std::string figure(double value) {
   char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
+  std::snprintf(text, sizeof(text), value < 1000.0 ? "%.3g" : "%.0f", value);
   return text;
 }
 
@@ -79,7 +79,9 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   });
   forTicks(plot.lowError, plot.highError, [&](double error) {
     list.AddLine({plot.corner.x, plot.y(error)}, {end.x, plot.y(error)}, gridColor);
-    list.AddText({plot.corner.x + 2.0f, plot.y(error)}, textColor, figure(error).c_str());
+    if (plot.y(error) < end.y - 2.0f * ImGui::GetFontSize()) {
+      list.AddText({plot.corner.x + 2.0f, plot.y(error)}, textColor, figure(error).c_str());
+    }
   });
   if (noiseFloor > 0.0) {
     const float y = plot.y(noiseFloor);
