@@ -126,13 +126,20 @@ int legendHeight(int width) {
   return margin + barHeight + margin + glyphHeight * textScale(width) + margin;
 }
 
-Image8 heatMap(const Plane2d& map, double top) {
-  Image8 image(map.width, map.height + legendHeight(map.width));
+Image8 heatColors(const Plane2d& map, double top) {
+  Image8 image(map.width, map.height);
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       setPixel(image, x, y, heatColor(map.at(x, y) / top));
     }
   }
+  return image;
+}
+
+Image8 heatMap(const Plane2d& map, double top) {
+  Image8 image(map.width, map.height + legendHeight(map.width));
+  const Image8 colors = heatColors(map, top);
+  std::copy(colors.rgba.begin(), colors.rgba.end(), image.rgba.begin());
   drawLegend(image, map.height, top);
   return image;
 }

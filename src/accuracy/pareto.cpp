@@ -15,10 +15,6 @@ std::string figure(double value) {
   return text;
 }
 
-const Spread& cost(const SweepPoint& point) {
-  return point.gpuMs.median > 0.0 ? point.gpuMs : point.frameMs;
-}
-
 // What the chosen point differs in from the most accurate one that was measured.
 std::string givenUp(const SweepPoint& chosen, const SweepPoint& best) {
   if (&chosen == &best) {
@@ -68,15 +64,27 @@ std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates) {
 }
 
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points) {
+  std::vector<int> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return points[a].changes.size() < points[b].changes.size(); });
   std::vector<FrontCandidate> candidates;
-  for (const SweepPoint& point : points) {
-    candidates.push_back({point.whole.flip, cost(point)});
+  for (const int index : order) {
+    candidates.push_back({points[index].whole.flip, costSpread(points[index])});
   }
-  return paretoFront(candidates);
+  std::vector<int> front = paretoFront(candidates);
+  for (int& index : front) {
+    index = order[index];
+  }
+  return front;
+}
+
+const Spread& costSpread(const SweepPoint& point) {
+  return point.gpuMs.repeats > 0 ? point.gpuMs : point.frameMs;
 }
 
 double costMs(const SweepPoint& point) {
-  return cost(point).median;
+  return costSpread(point).median;
 }
 
 std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget) {
@@ -100,7 +108,7 @@ std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const Q
   choice.met = affordable(choice.point) && exact(choice.point);
   choice.why = described(points[choice.point]) + "; " + givenUp(points[choice.point], best);
   if (!affordable(choice.point)) {
-    choice.why += "; no measured point fits " + figure(budget.ms) + " ms";
+    choice.why += "; no point of the front fits " + figure(budget.ms) + " ms";
   }
   if (!exact(choice.point)) {
     choice.why += "; the error bound " + figure(budget.error) + " is not met";

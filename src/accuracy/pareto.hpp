@@ -13,16 +13,19 @@ struct FrontCandidate {
   Spread cost;
 };
 
-// The candidates that are worth their price: no other is at least as accurate and at most as expensive, by medians, and
-// each is cheaper than every more accurate one of the front by more than the spread, its upper quartile below their
-// lower ones. Of equally accurate ones, which are mostly equal pictures, the first given stands for all, unless another
-// is cheaper by more than the spread. Indices, cheapest first.
+// The candidates that are worth their price. Of equally accurate ones, which are mostly equal pictures, the first given
+// stands for all, unless another is cheaper by more than the spread. Each on the front is cheaper than all more
+// accurate ones that stand for their error, by the median, and than those on the front by more than the spread: its
+// upper quartile is below their lower ones. Indices, cheapest first.
 std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates);
 
-// Mean FLIP of the whole picture against GPU milliseconds: indices of points, cheapest first. Where the device has no
-// timestamps the frame's milliseconds stand in.
+// GPU milliseconds a frame; of a device without timestamps, whose gpuMs have no repeats, those of the whole frame.
+const Spread& costSpread(const SweepPoint& point);
+double costMs(const SweepPoint& point);  // its median
+
+// Mean FLIP of the whole picture against costSpread: indices of points, cheapest first. Of equally accurate points
+// those with fewer changes come first.
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points);
-double costMs(const SweepPoint& point);
 
 // The point of the front that a budget picks, and what it gives up.
 struct BudgetChoice {

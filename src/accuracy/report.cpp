@@ -181,13 +181,15 @@ std::string timeText(const SweepResults& results) {
 
 std::string readingSection(const SweepResults& results) {
   return "<section aria-labelledby=\"reading\">\n<h2 id=\"reading\">How to read this</h2>\n"
-         "<p><strong>The front.</strong> A configuration is on the front if nothing else is at least as accurate at no "
-         "more cost, and if it is cheaper than every more accurate one of the front by more than the repeats spread: "
-         "its upper quartile lies below their lower ones. What is not on the front is dominated: for its price "
-         "something better exists, or the difference in time cannot be told from chance.</p>\n"
-         "<p><strong>The noise floor.</strong> The ground truth is ray traced in double precision on an 8 × 8 grid a "
-         "pixel, depth 64. The floor is the error of that against a 9 × 9 grid. Errors near it or below say nothing: "
-         "they are the reference’s own.</p>\n" +
+         "<p><strong>The front.</strong> A configuration is on the front if it is cheaper than every more accurate "
+         "one: by its median, and than those on the front by more than the repeats spread, its upper quartile below "
+         "their lower ones. Of equal pictures the one with the fewest changes stands for all, unless another is "
+         "clearly cheaper. What is not on the front is dominated: for its price something better exists, or the "
+         "difference in time cannot be told from chance.</p>\n"
+         "<p><strong>The noise floor.</strong> The ground truth is ray traced in double precision with " +
+         counted(static_cast<size_t>(std::max(0, results.truthSamples)), "sample") +
+         " a pixel on a regular grid, depth 64. The floor is the error of that against a grid with one more a side. "
+         "Errors near it or below say nothing: they are the reference’s own.</p>\n" +
          timeText(results) +
          "<p><strong>Metrics.</strong> Against the ground truth, on the display picture; "
          "where "

@@ -188,10 +188,6 @@ Plot resized(Plot plot, int width, int height) {
   return plot;
 }
 
-double seriesError(const SweepPoint& point, bool mirrors) {
-  return mirrors && point.mirrors ? point.mirrors->rmse : point.whole.rmse;
-}
-
 // The two lines of a series, over the points that the fit takes.
 void addSlopes(Plot& plot, const SweepSeries& series, const std::vector<Sample2d>& samples) {
   std::vector<Sample2d> fitted;
@@ -218,7 +214,7 @@ void addSlopes(Plot& plot, const SweepSeries& series, const std::vector<Sample2d
   if (series.theorySlope != 0.0 && std::isfinite(series.theorySlope) && std::isfinite(along(anchor.x))) {
     plot.lines.push_back(
         line("theory", {series.theorySlope, std::log(anchor.y) - series.theorySlope * along(anchor.x)}));
-    plot.legend.push_back({"theory, slope " + withMinusSign(numberText(series.theorySlope)), "theory", std::nullopt});
+    plot.legend.push_back({"theory, slope " + numberText(series.theorySlope), "theory", std::nullopt});
   }
   if (series.fit && std::isfinite(series.fit->slope) && std::isfinite(series.fit->offset)) {
     plot.lines.push_back(line("fit", *series.fit));
@@ -226,13 +222,13 @@ void addSlopes(Plot& plot, const SweepSeries& series, const std::vector<Sample2d
   }
 }
 
-std::vector<Sample2d> samplesOf(const SweepResults& results, const SweepSeries& series, bool mirrors) {
+std::vector<Sample2d> samplesOf(const SweepResults& results, const SweepSeries& series) {
   std::vector<Sample2d> samples;
   for (size_t i = 0; i < std::min(series.x.size(), series.points.size()); ++i) {
     const int point = series.points[i];
     const bool known = point >= 0 && point < static_cast<int>(results.points.size());
     samples.push_back(
-        {series.x[i], known ? seriesError(results.points[point], mirrors) : std::numeric_limits<double>::quiet_NaN()});
+        {series.x[i], known ? seriesError(results.points[point]) : std::numeric_limits<double>::quiet_NaN()});
   }
   return samples;
 }
@@ -245,7 +241,7 @@ bool seriesHasMirrors(const SweepResults& results, const SweepSeries& series) {
 
 Plot seriesPlot(const SweepResults& results, const SweepSeries& series) {
   const bool mirrors = seriesHasMirrors(results, series);
-  const std::vector<Sample2d> samples = samplesOf(results, series, mirrors);
+  const std::vector<Sample2d> samples = samplesOf(results, series);
   Plot plot;
   plot.width = 440;
   plot.height = 330;
@@ -276,10 +272,6 @@ Plot seriesPlot(const SweepResults& results, const SweepSeries& series) {
 }
 
 }  // namespace
-
-const Spread& costSpread(const SweepPoint& point) {
-  return point.gpuMs.repeats > 0 ? point.gpuMs : point.frameMs;
-}
 
 bool timedOnGpu(const SweepResults& results) {
   return std::all_of(results.points.begin(), results.points.end(),

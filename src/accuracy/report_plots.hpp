@@ -12,8 +12,6 @@ std::string frontFigures(const SweepResults& results);
 // A figure per series, of its error against its setting; empty without series.
 std::string seriesFigures(const SweepResults& results);
 
-// Of the time that the report takes as a point's price: the GPU's, or the frame's where there are no timestamps.
-const Spread& costSpread(const SweepPoint& point);
 bool timedOnGpu(const SweepResults& results);
 
 }  // namespace speculum

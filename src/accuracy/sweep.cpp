@@ -15,10 +15,6 @@ namespace {
 constexpr double floorsAbove = 2.0;
 constexpr double restsAbove = 1.02;  // likewise of what is left at the greatest depth: noise in a difference of squares
 
-double seriesError(const SweepPoint& point) {
-  return point.mirrors ? point.mirrors->rmse : point.whole.rmse;
-}
-
 std::string keyOf(std::initializer_list<std::string_view> parts) {
   Fingerprint fingerprint;
   for (const std::string_view part : parts) {
@@ -27,12 +23,11 @@ std::string keyOf(std::initializer_list<std::string_view> parts) {
   return fingerprint.hex();
 }
 
-std::string settingsKey(const Settings& settings) {
-  std::string text;
-  for (const SettingInfo& info : settingInfos()) {
-    text += std::string(info.key) + "=" + settingValue(settings, info.key) + "\n";
-  }
-  return text;
+// Of all that the ground truth and its noise floor depend on.
+std::string truthKey(const SweepScene& scene, const Settings& settings) {
+  return keyOf({scene.identity, settingValue(settings, "view.clear_color"), settingValue(settings, "view.exposure"),
+                settingValue(settings, "view.tone_map"), std::to_string(scene.truthSamples),
+                scene.noiseFloor ? "floor" : "", "truth"});
 }
 
 // Over the phases of an update interval: squares where the figure is a root of a mean of squares, means of the rest.
@@ -91,7 +86,7 @@ class Sweep {
 
 bool Sweep::trace() {
   const char* stage = "ground truth";
-  const std::string key = keyOf({scene_.identity, settingsKey(base_), "truth"});
+  const std::string key = truthKey(scene_, base_);
   std::optional<GroundTruth> truth = store_.truth(key);
   if (!truth) {
     const TruthRequest request{.width = scene_.width,
@@ -184,7 +179,7 @@ void Sweep::fit(SweepSeries& series, const PlannedSeries& planned, const SweepRe
     series.fitted.push_back(static_cast<int>(i));
     samples.push_back({x, 0.5 * std::log(error * error - rest * rest)});
     const auto depth = static_cast<size_t>(series.x[i]);
-    if (depths && depth < truth_.throughputBeyond.size()) {
+    if (depths && depth < truth_.throughputBeyond.size() && truth_.throughputBeyond[depth] > 0.0) {
       expected.push_back({x, std::log(truth_.throughputBeyond[depth])});
     }
   }
@@ -199,6 +194,7 @@ void Sweep::fill(SweepResults& results) {
   results.height = scene_.height;
   results.truthMs = truth_.ms;
   results.truthThreads = truth_.threads;
+  results.truthSamples = scene_.truthSamples;
   results.floorWhole = truth_.floor.whole;
   results.floorMirrors = truth_.floor.mirrors;
   results.points.clear();
@@ -213,6 +209,13 @@ void Sweep::fill(SweepResults& results) {
                               .frameMs = spreadOf(measurement.frameMs),
                               .picture = measurement.picture,
                               .heatMap = measurement.heatMap});
+  }
+  const bool stamped = std::all_of(results.points.begin(), results.points.end(),
+                                   [](const SweepPoint& point) { return point.gpuMs.median > 0.0; });
+  if (!stamped) {
+    for (SweepPoint& point : results.points) {
+      point.gpuMs = {};
+    }
   }
   for (const int index : paretoFront(results.points)) {
     results.points[index].onFront = true;

@@ -29,10 +29,25 @@ class JsonReader {
       fail(key);
     }
   }
-  // JSON has no infinity: null stands for it.
+  // Finite, not negative, and no more than any figure of a sweep can be.
   double number(const char* key) const {
-    const nlohmann::ordered_json& value = member(key);
-    return value.is_null() ? std::numeric_limits<double>::infinity() : get<double>(key);
+    const auto value = get<double>(key);
+    if (!(value >= 0.0 && value <= largestFigure)) {
+      fail(key);
+    }
+    return value;
+  }
+  // JSON has no infinity: null stands for it.
+  double numberOrInfinity(const char* key) const {
+    return member(key).is_null() ? std::numeric_limits<double>::infinity() : get<double>(key);
+  }
+  int integer(const char* key) const { return integerOf(member(key), key); }
+  std::vector<int> integers(const char* key) const {
+    std::vector<int> values;
+    for (const nlohmann::ordered_json& value : get<nlohmann::ordered_json>(key)) {
+      values.push_back(integerOf(value, key));
+    }
+    return values;
   }
   JsonReader at(const char* key) const { return {file_, member(key), place_ + key + "."}; }
   std::vector<JsonReader> items(const char* key) const {
@@ -54,6 +69,12 @@ class JsonReader {
   }
 
  private:
+  static constexpr double largestFigure = 1e12;
+
+  int integerOf(const nlohmann::ordered_json& value, const char* key) const {
+    const bool whole = value.is_number_integer() && value >= 0 && value <= std::numeric_limits<int>::max();
+    return whole ? value.get<int>() : (fail(key), 0);
+  }
   const nlohmann::ordered_json& member(const char* key) const {
     if (!json_.is_object() || !json_.contains(key)) {
       fail(key);

@@ -12,6 +12,7 @@ using Changes = SweepPlanner::Changes;
 using Theory = PlannedSeries::Theory;
 
 constexpr size_t mostConfigurations = 1000;
+constexpr int longestInterval = 16;  // it takes 1.5 times its square of frames to see every age of every image
 constexpr const char* greatestDepth = "32";
 
 std::string shortName(const Changes& changes) {
@@ -182,7 +183,9 @@ SweepPlanner::SweepPlanner(std::string name, const SweepContext& context) : base
 
 int SweepPlanner::add(const Changes& changes, const std::string& name) {
   for (const SettingChange& change : changes) {
-    if (change.key.starts_with("quality.") || change.key.starts_with("debug.")) {
+    // The last two change what is shown, not how well.
+    if (change.key.starts_with("quality.") || change.key.starts_with("debug.") || change.key == "view.clear_color" ||
+        change.key == "view.wireframe") {
       throw std::invalid_argument(change.key + ": cannot be swept");
     }
   }
@@ -190,6 +193,10 @@ int SweepPlanner::add(const Changes& changes, const std::string& name) {
     throw std::invalid_argument("more than " + std::to_string(mostConfigurations) + " configurations");
   }
   const Settings settings = settingsWith(base_, changes);
+  if (settings.reflection.updateInterval > longestInterval) {
+    throw std::invalid_argument("reflection.update_interval: a sweep takes intervals up to " +
+                                std::to_string(longestInterval));
+  }
   SweepConfiguration configuration{.name = name};
   for (const SettingInfo& info : settingInfos()) {
     const std::string value = settingValue(settings, info.key);

@@ -93,7 +93,11 @@ void readSeries(const TableReader& table, SweepPlanner& planner) {
     }
     last = value;
   }
+  const size_t before = planner.plan.series.size();
   planner.series(std::move(planned), texts, readChanges(table));
+  if (planner.plan.series.size() == before) {
+    table.fail("values", "makes no two different configurations", "at least two are needed");
+  }
 }
 
 // What setSetting says of a bad key or value, with the table it stands in.

@@ -96,6 +96,10 @@ std::string settingsText(const std::vector<SettingChange>& changes) {
   return text;
 }
 
+double seriesError(const SweepPoint& point) {
+  return point.mirrors ? point.mirrors->rmse : point.whole.rmse;
+}
+
 ordered_json sweepJson(const SweepResults& r) {
   ordered_json json = {{"scene", r.scene},
                        {"title", r.title},
@@ -110,7 +114,8 @@ ordered_json sweepJson(const SweepResults& r) {
                        {"date", r.date},
                        {"settings", changesJson(r.base)},
                        {"ground_truth",
-                        {{"ms", r.truthMs},
+                        {{"samples", r.truthSamples},
+                         {"ms", r.truthMs},
                          {"threads", r.truthThreads},
                          {"noise_floor", errorsJson(r.floorWhole, r.floorMirrors)},
                          {"picture", r.truthPicture}}}};

@@ -51,6 +51,9 @@ struct SweepSeries {
   std::vector<int> fitted;     // places in `points` that the fit takes: above the floor of what else is wrong
 };
 
+// The error that series are about.
+double seriesError(const SweepPoint& point);
+
 // A sweep over one scene, one size, one time, one machine.
 struct SweepResults {
   std::string scene;  // file name
@@ -67,10 +70,11 @@ struct SweepResults {
   std::string date;                 // UTC, ISO 8601
   std::vector<SettingChange> base;  // every setting that a point's changes are relative to
 
-  // The ground truth: traced on an 8x8 grid a pixel, depth 64, throughput 0.
+  // The ground truth: traced on a square grid of samples a pixel, depth 64, throughput 0.
+  int truthSamples = 64;
   double truthMs = 0.0;  // wall clock
   int truthThreads = 0;
-  ImageMetrics floorWhole;  // of references on a 9x9 against those on an 8x8 grid: errors below say nothing
+  ImageMetrics floorWhole;  // of a reference with one more sample a side of the grid: errors below say nothing
   std::optional<ImageMetrics> floorMirrors;
   std::string truthPicture;  // PNG, relative to the results' folder; empty if it was not kept
 

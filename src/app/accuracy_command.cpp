@@ -66,7 +66,7 @@ int runAccuracy(const Options& options) {
                          .state = state,
                          .width = options.size.width,
                          .height = options.size.height,
-                         .identity = sweepIdentity(session, options.time)};
+                         .identity = sweepIdentity(session, options)};
   SweepResults results = describeSweep(session, plan, options.time);
   installInterruptHandler();
   StageProgress progress;

@@ -1,6 +1,7 @@
 #include "app/accuracy_controller.hpp"
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <utility>
 
 #include "accuracy/heat_map.hpp"
 #include "app/quality.hpp"
@@ -11,19 +12,10 @@ namespace {
 
 constexpr int heatBarSteps = 32;
 
-Image8 drawnPicture(Renderer& renderer, SceneRenderer& sceneRenderer, const DifferenceView::Look& look) {
-  renderer.waitIdle();
-  const std::vector<float> texels = renderer.uploader().readFloats(sceneRenderer.mainTarget().color());
-  LinearImage image(look.width, look.height);
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
-  }
-  return toDisplay(image, look.settings.view.exposure, look.settings.view.toneMap);
-}
-
 std::string aboutText(const SweepResults& results) {
   return results.scene + " at " + std::to_string(results.width) + "x" + std::to_string(results.height) + ", " +
-         std::to_string(results.points.size()) + " configurations, " + results.device;
+         std::to_string(results.points.size()) + " configurations, reference of " +
+         std::to_string(results.truthSamples) + " samples, " + results.device;
 }
 
 }  // namespace
@@ -39,6 +31,7 @@ AccuracyController::AccuracyController(const Options& options, const Settings& s
       applyPoint(results_, static_cast<int>(i), {}, scratch);  // so that none fails later
     }
     showResults(model);
+    model.accuracy.about = aboutText(results_);
     budget_ = {settings.quality.budgetMs, settings.quality.maxError};
   }
 }
@@ -46,15 +39,19 @@ AccuracyController::AccuracyController(const Options& options, const Settings& s
 void AccuracyController::showResults(UiModel& model) {
   UiAccuracy& accuracy = model.accuracy;
   accuracy.points.clear();
-  for (const SweepPoint& point : results_.points) {
-    const Spread& spread = point.gpuMs.median > 0.0 ? point.gpuMs : point.frameMs;
+  pointSettings_.clear();
+  for (size_t i = 0; i < results_.points.size(); ++i) {
+    const SweepPoint& point = results_.points[i];
+    const Spread& spread = costSpread(point);
     accuracy.points.push_back(
         {point.name, point.whole.flip, spread.median, spread.lowerQuartile, spread.upperQuartile});
+    pointSettings_.push_back(settingsOfPoint(results_, static_cast<int>(i)));
   }
   accuracy.front = paretoFront(results_.points);
   accuracy.noiseFloor = results_.floorWhole.flip;
-  accuracy.about = aboutText(results_);
+  accuracy.about.clear();
   budget_ = {};
+  chosen_ = -1;
   settings_.clear();
 }
 
@@ -68,6 +65,7 @@ void AccuracyController::applyBudget(UiModel& model) {
   if (choice) {
     applyPoint(results_, choice->point, {}, model.settings);
     model.accuracy.choice = choice->why;
+    chosen_ = choice->point;
   } else {
     const bool bounded = budget_.ms > 0.0 || budget_.error > 0.0;
     model.accuracy.choice = bounded ? "measure this view, or start with --sweep-results, to choose from" : "";
@@ -85,6 +83,7 @@ void AccuracyController::apply(UiModel& model, const std::function<SweepRequest(
   if (std::optional<SweepResults> results = sweep_.take()) {
     results_ = std::move(*results);
     showResults(model);
+    accuracy.about = aboutText(results_) + "; times taken while the window was drawing";
   }
   if (accuracy.apply >= 0 && accuracy.apply < static_cast<int>(results_.points.size())) {
     applyPoint(results_, accuracy.apply, {}, model.settings);
@@ -93,33 +92,35 @@ void AccuracyController::apply(UiModel& model, const std::function<SweepRequest(
 }
 
 void AccuracyController::findCurrentPoint(UiModel& model) {
-  const std::string settings = settingsJson(model.settings).dump();
+  std::string settings = settingsKey(model.settings);
   if (settings == settings_) {
     return;
   }
-  settings_ = settings;
-  model.accuracy.current = -1;
-  for (int i = 0; i < static_cast<int>(results_.points.size()) && model.accuracy.current < 0; ++i) {
-    Settings atPoint = model.settings;
-    applyPoint(results_, i, {}, atPoint);
-    model.accuracy.current = settingsJson(atPoint).dump() == settings ? i : -1;
+  settings_ = std::move(settings);
+  const auto at = std::find_if(pointSettings_.begin(), pointSettings_.end(),
+                               [&](const auto& point) { return isAtPoint(model.settings, point); });
+  UiAccuracy& accuracy = model.accuracy;
+  accuracy.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
+  if (accuracy.current != chosen_) {
+    accuracy.choice.clear();
+    chosen_ = -1;
   }
 }
 
-void AccuracyController::update(UiModel& model, const DifferenceView::Look& look, Renderer& renderer,
-                                SceneRenderer& sceneRenderer) {
+void AccuracyController::update(UiModel& model, const DifferenceView::Look& look, SceneRenderer& sceneRenderer) {
   UiAccuracy& accuracy = model.accuracy;
   const std::optional<SweepStatus> status = sweep_.status();
   accuracy.stage = status ? status->stage : "";
   accuracy.progress = status ? status->fraction : 0.0;
-  const std::string failed = sweep_.error();
-  if (!failed.empty()) {
-    accuracy.about = failed;
+  if (const std::optional<std::string> error = sweep_.takeError()) {
+    accuracy.about = *error;
   }
   findCurrentPoint(model);
-  const bool changed = accuracy.showDifference
-                           ? difference_.update(look, [&] { return drawnPicture(renderer, sceneRenderer, look); })
-                           : difference_.reset();
+  const auto picture = [&] {
+    return toDisplay(sceneRenderer.radiance(), look.settings.view.exposure, look.settings.view.toneMap);
+  };
+  const bool changed =
+      accuracy.open && accuracy.showDifference ? difference_.update(look, picture) : difference_.reset();
   if (changed) {
     sceneRenderer.setCover(difference_.heatMap());
   }
@@ -128,16 +129,10 @@ void AccuracyController::update(UiModel& model, const DifferenceView::Look& look
 
 void AccuracyController::forgetScene(UiModel& model) {
   sweep_.cancel();
-  sweep_.take();
-  difference_.reset();
+  difference_.end();
   results_ = {};
-  UiAccuracy& accuracy = model.accuracy;
-  accuracy.points.clear();
-  accuracy.front.clear();
-  accuracy.current = -1;
-  accuracy.about.clear();
-  accuracy.choice.clear();
-  budget_ = {};
+  showResults(model);
+  model.accuracy.choice.clear();
 }
 
 }  // namespace speculum

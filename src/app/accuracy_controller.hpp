@@ -23,7 +23,7 @@ class AccuracyController {
   // measurement would measure.
   void apply(UiModel& model, const std::function<SweepRequest()>& view);
   // After the frame is drawn: fills the panel's figures and keeps the renderer's cover up to date.
-  void update(UiModel& model, const DifferenceView::Look& look, Renderer& renderer, SceneRenderer& sceneRenderer);
+  void update(UiModel& model, const DifferenceView::Look& look, SceneRenderer& sceneRenderer);
   // Before the scene goes away.
   void forgetScene(UiModel& model);
 
@@ -35,8 +35,10 @@ class AccuracyController {
   BackgroundSweep sweep_;
   DifferenceView difference_;
   SweepResults results_;
-  std::string settings_;  // that the current point was looked for with
-  QualityBudget budget_;  // that was applied last
+  std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
+  std::string settings_;                                   // that the current point was looked for with
+  int chosen_ = -1;                                        // point of the budget's choice that is shown
+  QualityBudget budget_;                                   // that was applied last
 };
 
 }  // namespace speculum

@@ -13,8 +13,12 @@ namespace {
 // Enough for errors to be told apart, and done in a fraction of the time of a report's 64.
 constexpr int truthSamples = 16;
 
+// Without points if cancelled.
 SweepResults measure(const SweepRequest& request, const SweepProgress& progress) {
   Session session(request.options);
+  if (!progress({"starting", 1.0})) {
+    return {};
+  }
   session.setCamera(request.camera);
   session.setSettings(request.base);
   SceneState state = evaluate(session.scene(), request.time);
@@ -38,58 +42,76 @@ SweepResults measure(const SweepRequest& request, const SweepProgress& progress)
 
 }  // namespace
 
+BackgroundSweep::Job::~Job() {
+  cancelled = true;
+  if (thread.joinable()) {
+    thread.join();
+  }
+}
+
+void BackgroundSweep::Job::run() {
+  try {
+    SweepResults measured = measure(request, [this](const SweepStatus& now) {
+      const std::lock_guard lock(mutex);
+      status = now;
+      return !cancelled;
+    });
+    const std::lock_guard lock(mutex);
+    if (!measured.points.empty()) {
+      results = std::move(measured);
+    }
+  } catch (const std::exception& problem) {
+    const std::lock_guard lock(mutex);
+    error = problem.what();
+  }
+  ended = true;
+}
+
+BackgroundSweep::~BackgroundSweep() {
+  cancel();
+}
+
 void BackgroundSweep::start(SweepRequest request) {
   cancel();
-  cancelled_ = false;
-  error_.clear();
-  status_ = SweepStatus{"starting", 0.0};
   request.base.quality = {};
   request.base.reflection.updateInterval = 1;  // the view stands still
   request.options.settings.clear();
   request.options.sweepResults.clear();
-  thread_ = std::thread([this, request = std::move(request)] { run(request); });
+  job_ = std::make_unique<Job>();
+  job_->request = std::move(request);
+  job_->thread = std::thread([job = job_.get()] { job->run(); });
 }
 
 void BackgroundSweep::cancel() {
-  cancelled_ = true;
-  if (thread_.joinable()) {
-    thread_.join();
-  }
-}
-
-void BackgroundSweep::run(const SweepRequest& request) {
-  std::string error;
-  SweepResults results;
-  try {
-    results = measure(request, [this](const SweepStatus& status) {
-      const std::lock_guard lock(mutex_);
-      status_ = status;
-      return !cancelled_;
-    });
-  } catch (const std::exception& problem) {
-    error = problem.what();
-  }
-  const std::lock_guard lock(mutex_);
-  status_.reset();
-  error_ = error;
-  if (!results.points.empty()) {
-    results_ = std::move(results);
+  std::erase_if(cancelled_, [](const std::unique_ptr<Job>& job) { return job->ended.load(); });
+  if (job_) {
+    job_->cancelled = true;
+    cancelled_.push_back(std::move(job_));
   }
 }
 
 std::optional<SweepStatus> BackgroundSweep::status() {
-  const std::lock_guard lock(mutex_);
-  return status_;
+  if (!job_ || job_->ended) {
+    return std::nullopt;
+  }
+  const std::lock_guard lock(job_->mutex);
+  return job_->status;
 }
 
 std::optional<SweepResults> BackgroundSweep::take() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(results_, std::nullopt);
+  if (!job_) {
+    return std::nullopt;
+  }
+  const std::lock_guard lock(job_->mutex);
+  return std::exchange(job_->results, std::nullopt);
 }
 
-std::string BackgroundSweep::error() {
-  const std::lock_guard lock(mutex_);
-  return error_;
+std::optional<std::string> BackgroundSweep::takeError() {
+  if (!job_) {
+    return std::nullopt;
+  }
+  const std::lock_guard lock(job_->mutex);
+  return std::exchange(job_->error, std::nullopt);
 }
 
 }  // namespace speculum

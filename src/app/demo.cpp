@@ -98,7 +98,9 @@ void Demo::findScenes() {
 void Demo::chooseScene(int index) {
   shownScene_ = index;
   try {
-    auto next = std::make_unique<LoadedScene>(loadSceneWithSettings(sceneFiles_[index], options_));
+    Options options = options_;
+    options.sweepResults.clear();  // of the scene that the window began with
+    auto next = std::make_unique<LoadedScene>(loadSceneWithSettings(sceneFiles_[index], options));
     accuracy_.forgetScene(model_);
     sceneRenderer_.reset();
     loaded_ = std::move(next);
@@ -181,8 +183,7 @@ void Demo::drawFrame(double seconds) {
   renderer_.endFrame(*frame);
   ++framesDrawn_;
   fillModel(plan, fitted.settings.reflection.updateInterval);
-  accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, renderer_,
-                   *sceneRenderer_);
+  accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, *sceneRenderer_);
 }
 
 std::optional<DebugView> Demo::debugView(const FramePlan& plan) {

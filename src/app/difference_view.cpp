@@ -1,7 +1,6 @@
 #include "app/difference_view.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -13,8 +12,8 @@ namespace speculum {
 
 namespace {
 
-constexpr std::chrono::milliseconds stillFor{400};  // before tracing begins
-constexpr std::array references = {4, 16, 64};      // samples a pixel: soon something to see, then better
+constexpr std::chrono::milliseconds stillFor{400};      // before tracing begins
+constexpr std::array<int, 3> references = {4, 16, 64};  // samples a pixel: soon something to see, then better
 
 void addVector(Fingerprint& fingerprint, const glm::dvec3& v) {
   for (int i = 0; i < 3; ++i) {
@@ -40,80 +39,89 @@ std::string viewKey(const DifferenceView::Look& look) {
   return fingerprint.hex();
 }
 
-std::string settingsKey(const Settings& settings) {
-  std::string key;
-  for (const SettingInfo& info : settingInfos()) {
-    key += settingValue(settings, info.key) + "\n";
-  }
-  return key;
-}
-
-DifferenceView::Compared compared(const GroundTruth& truth, const Image8& drawn, const Settings& settings) {
-  Plane2d map;
-  const ErrorFigures errors = errorsAgainst(truth, drawn, settings, &map);
-  Image8 heat(map.width, map.height);
-  for (size_t i = 0; i < map.values.size(); ++i) {
-    const glm::dvec3 color = heatColor(map.values[i]);
-    for (int channel = 0; channel < 3; ++channel) {
-      heat.rgba[4 * i + channel] = static_cast<uint8_t>(std::lround(255.0 * color[channel]));
-    }
-  }
-  return {std::move(heat), errors.whole};
-}
-
 template <typename T>
 bool ready(const std::future<T>& future) {
   return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
+// A future of std::async waits when it is destroyed.
+template <typename T>
+void abandon(std::future<T>& future, std::vector<std::future<T>>& abandoned) {
+  std::erase_if(abandoned, ready<T>);
+  if (future.valid()) {
+    abandoned.push_back(std::move(future));
+  }
+}
+
 }  // namespace
 
 bool DifferenceView::reset() {
-  cancelled_ = true;
-  if (tracing_.valid()) {
-    tracing_.wait();
-    tracing_ = {};
+  if (control_) {
+    control_->cancelled = true;
   }
-  if (comparing_.valid()) {
-    abandoned_.push_back(std::move(comparing_));
-  }
+  abandon(tracing_, abandonedTraces_);
+  abandon(comparing_, abandonedComparisons_);
+  control_.reset();
   truth_.reset();
   traced_ = 0;
   view_.clear();
   shown_.clear();
+  problem_.clear();
   return std::exchange(heatMap_, Image8()).width > 0;
 }
 
-void DifferenceView::startTracing(const Look& look) {
-  cancelled_ = false;
-  progress_ = 0.0;
-  TruthRequest request{.width = look.width, .height = look.height, .samples = references[traced_], .noiseFloor = false};
-  request.settings = look.settings;
-  tracing_ = std::async(std::launch::async, [this, &scene = look.scene, state = look.state, request] {
-    const auto progress = [this](double fraction) {
-      progress_ = fraction;
-      return !cancelled_;
-    };
-    return inBackground([&] { return traceGroundTruth(scene, state, request, progress); });
-  });
+void DifferenceView::end() {
+  reset();
+  abandonedTraces_.clear();
+  abandonedComparisons_.clear();
 }
 
-// True for a new heat map.
+void DifferenceView::startTracing(const Look& look) {
+  TruthRequest request{.width = look.width, .height = look.height, .samples = references[traced_], .noiseFloor = false};
+  request.settings = look.settings;
+  control_ = std::make_shared<Control>();
+  const auto trace = [control = control_, &scene = look.scene, state = look.state, request] {
+    const auto progress = [&](double fraction) {
+      control->progress = fraction;
+      return !control->cancelled;
+    };
+    std::optional<GroundTruth> truth = inBackground([&] { return traceGroundTruth(scene, state, request, progress); });
+    return truth ? std::make_shared<const GroundTruth>(std::move(*truth)) : nullptr;
+  };
+  tracing_ = std::async(std::launch::async, trace);
+}
+
+void DifferenceView::startComparing(const Look& look, Image8 picture) {
+  const auto compare = [truth = truth_, drawn = std::move(picture), settings = look.settings] {
+    Plane2d map;
+    const ErrorFigures errors = inBackground([&] { return errorsAgainst(*truth, drawn, settings, &map); });
+    return Compared{settingsKey(settings), heatColors(map), errors.whole};
+  };
+  comparing_ = std::async(std::launch::async, compare);
+}
+
+// True for a new heat map. One of settings that have changed meanwhile is dropped.
 bool DifferenceView::collect() {
-  std::erase_if(abandoned_, [](const std::future<Compared>& future) { return ready(future); });
-  const bool done = ready(comparing_);
-  if (done) {
-    Compared result = comparing_.get();
-    heatMap_ = std::move(result.heatMap);
-    metrics_ = result.metrics;
+  bool fresh = false;
+  try {
+    if (ready(comparing_)) {
+      Compared result = comparing_.get();
+      if (result.settings == shown_) {
+        heatMap_ = std::move(result.heatMap);
+        metrics_ = result.metrics;
+        fresh = true;
+      }
+    }
+    // Not while the one before is being compared with.
+    if (ready(tracing_) && !comparing_.valid()) {
+      truth_ = tracing_.get();
+      ++traced_;
+      shown_.clear();
+    }
+  } catch (const std::exception& problem) {
+    problem_ = problem.what();
   }
-  // Not while the one before is being compared with.
-  if (ready(tracing_) && !comparing_.valid()) {
-    truth_ = std::make_shared<const GroundTruth>(tracing_.get().value());
-    ++traced_;
-    shown_.clear();
-  }
-  return done;
+  return fresh;
 }
 
 bool DifferenceView::update(const Look& look, const std::function<Image8()>& picture) {
@@ -125,23 +133,24 @@ bool DifferenceView::update(const Look& look, const std::function<Image8()>& pic
     return cleared;
   }
   const bool fresh = collect();
+  if (!problem_.empty()) {
+    return fresh;
+  }
   if (traced_ < references.size() && !tracing_.valid() && Clock::now() - still_ > stillFor) {
     startTracing(look);
   }
-  if (!truth_) {
-    return fresh;
-  }
   const std::string settings = settingsKey(look.settings);
-  if (settings != shown_ && !comparing_.valid()) {
+  if (truth_ && settings != shown_ && !comparing_.valid()) {
     shown_ = settings;
-    comparing_ = std::async(std::launch::async, [truth = truth_, drawn = picture(), current = look.settings] {
-      return inBackground([&] { return compared(*truth, drawn, current); });
-    });
+    startComparing(look, picture());
   }
   return fresh;
 }
 
 std::string DifferenceView::status() const {
+  if (!problem_.empty()) {
+    return problem_;
+  }
   char text[160];
   if (heatMap_.width > 0) {
     std::snprintf(text, sizeof(text), "mean FLIP %.4f, RMSE %.4f, largest difference %.0f/255%s", metrics_.flip,
@@ -149,14 +158,11 @@ std::string DifferenceView::status() const {
                   tracing_.valid() || comparing_.valid() ? " (a finer reference is on its way)" : "");
     return text;
   }
-  if (truth_) {
-    return "comparing";
-  }
-  if (tracing_.valid()) {
-    std::snprintf(text, sizeof(text), "tracing the reference: %.0f %%", 100.0 * progress_);
+  if (tracing_.valid() && !truth_) {
+    std::snprintf(text, sizeof(text), "tracing the reference: %.0f %%", 100.0 * control_->progress);
     return text;
   }
-  return "waiting for the view to stand still (pause the animation)";
+  return truth_ ? "comparing" : "waiting for the view to stand still (pause the animation)";
 }
 
 }  // namespace speculum

@@ -11,6 +11,7 @@ namespace speculum {
 namespace {
 
 constexpr double quietSeconds = 1.0;
+constexpr double atOnce = 0.2;  // seconds
 constexpr double plainInterval = 5.0;
 constexpr double barInterval = 0.1;
 
@@ -21,7 +22,12 @@ double seconds(std::chrono::steady_clock::duration duration) {
 }  // namespace
 
 Progress::Progress(std::string what, double total)
-    : what_(std::move(what)), total_(total), terminal_(isTerminal(2)), start_(Clock::now()), last_(start_) {}
+    : what_(std::move(what)),
+      total_(total),
+      terminal_(isTerminal(2)),
+      created_(Clock::now()),
+      start_(created_),
+      last_(start_) {}
 
 Progress::~Progress() {
   if (shown_ && terminal_) {
@@ -32,14 +38,19 @@ Progress::~Progress() {
 void Progress::set(double done) {
   done_ = done;
   const Clock::time_point now = Clock::now();
+  // What is there at once was done before, and says nothing of the pace.
+  if (seconds(now - created_) < atOnce) {
+    before_ = done;
+    start_ = now;
+  }
   const double elapsed = seconds(now - start_);
   const bool due = seconds(now - last_) >= (terminal_ ? barInterval : plainInterval) || (shown_ && done >= total_);
-  if (elapsed < quietSeconds || !due || done <= 0.0) {
+  if (elapsed < quietSeconds || !due || done <= before_) {
     return;
   }
   last_ = now;
   shown_ = true;
-  print(elapsed / done * (total_ - done));
+  print(elapsed / (done - before_) * (total_ - done));
 }
 
 void Progress::print(double secondsLeft) {

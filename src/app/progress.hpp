@@ -25,9 +25,11 @@ class Progress {
   std::string what_;
   double total_;
   double done_ = 0.0;
+  double before_ = 0.0;  // done when the pace began to be taken
   bool terminal_;
   bool shown_ = false;
-  Clock::time_point start_;
+  Clock::time_point created_;
+  Clock::time_point start_;  // of the pace
   Clock::time_point last_;
 };
 

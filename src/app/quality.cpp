@@ -4,19 +4,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <set>
+#include <map>
 
 #include "scene/scene_loader.hpp"
 
 namespace speculum {
 
 namespace {
-
-void set(Settings& settings, const SettingChange& change) {
-  if (const auto problem = setSetting(settings, change.key, change.value)) {
-    throw InputError("--sweep-results: " + *problem);
-  }
-}
 
 std::vector<std::string> keysOf(const Options& options) {
   std::vector<std::string> keys;
@@ -30,34 +24,63 @@ bool contains(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+// Of what a sweep measures. The others say what is shown, or are no settings of the picture.
+bool isQuality(const std::string& key) {
+  return key != "view.exposure" && key != "view.tone_map" && key != "view.clear_color" && key != "view.wireframe" &&
+         !key.starts_with("quality.") && !key.starts_with("debug.");
+}
+
+void warnOfDifferences(const SweepResults& results, const Options& options, const std::filesystem::path& scene) {
+  if (results.scene != scene.filename()) {
+    spdlog::warn("the sweep is of {}: its figures need not hold for {}", results.scene, scene.filename().string());
+  }
+  if (results.width != options.size.width || results.height != options.size.height) {
+    spdlog::warn("the sweep is of {}x{} pixels: its milliseconds are not those of {}x{}", results.width, results.height,
+                 options.size.width, options.size.height);
+  }
+}
+
 bool bounded(const Settings& settings) {
   return settings.quality.budgetMs > 0.0 || settings.quality.maxError > 0.0;
 }
 
 }  // namespace
 
+std::vector<SettingChange> settingsOfPoint(const SweepResults& results, int point) {
+  std::map<std::string, std::string> values;
+  for (const std::vector<SettingChange>& changes : {results.base, results.points[point].changes}) {
+    for (const SettingChange& change : changes) {
+      values[change.key] = change.value;
+    }
+  }
+  std::vector<SettingChange> settings;
+  for (const auto& [key, value] : values) {
+    if (isQuality(key)) {
+      settings.push_back({key, value});
+    }
+  }
+  return settings;
+}
+
+bool isAtPoint(const Settings& settings, const std::vector<SettingChange>& point) {
+  return std::all_of(point.begin(), point.end(),
+                     [&](const SettingChange& change) { return settingValue(settings, change.key) == change.value; });
+}
+
 void applyPoint(const SweepResults& results, int point, const std::vector<std::string>& kept, Settings& settings) {
-  std::set<std::string> swept;
-  for (const SweepPoint& other : results.points) {
-    for (const SettingChange& change : other.changes) {
-      swept.insert(change.key);
-    }
-  }
-  for (const SettingChange& change : results.base) {
-    if (swept.contains(change.key) && !contains(kept, change.key)) {
-      set(settings, change);
-    }
-  }
-  for (const SettingChange& change : results.points[point].changes) {
-    if (!contains(kept, change.key)) {
-      set(settings, change);
-    } else {
-      spdlog::warn("{} is set by hand: the sweep's figures do not hold for it", change.key);
+  for (const SettingChange& change : settingsOfPoint(results, point)) {
+    if (contains(kept, change.key)) {
+      if (settingValue(settings, change.key) != change.value) {
+        spdlog::warn("{} is set by hand: the sweep's figures do not hold for it", change.key);
+      }
+    } else if (const auto problem = setSetting(settings, change.key, change.value)) {
+      throw InputError("--sweep-results: " + results.points[point].name + ": " + *problem);
     }
   }
 }
 
-std::optional<QualityChoice> chooseQuality(const Options& options, Settings& settings) {
+std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
+                                           Settings& settings) {
   if (!bounded(settings)) {
     return std::nullopt;
   }
@@ -78,6 +101,7 @@ std::optional<QualityChoice> chooseQuality(const Options& options, Settings& set
   if (!choice) {
     throw InputError(options.sweepResults.string() + ": points: none (a sweep with at least one point is needed)");
   }
+  warnOfDifferences(results, options, scene);
   applyPoint(results, choice->point, kept, settings);
   std::fprintf(stderr, "quality: %s (measured on %s, %s at %dx%d)\n", choice->why.c_str(), results.device.c_str(),
                results.scene.c_str(), results.width, results.height);

@@ -17,12 +17,18 @@ struct QualityChoice {
 };
 
 // Chooses from the file of --sweep-results for quality.budget_ms and quality.max_error, brings `settings` to the chosen
-// point, except for what --set says itself, and tells on stderr what was chosen and given up. Nothing without bounds.
-// Throws UsageError for bounds of --set without a sweep, InputError for a file that is none.
-std::optional<QualityChoice> chooseQuality(const Options& options, Settings& settings);
+// point, except for what --set says itself, and tells on stderr what was chosen and given up; warns where the sweep is
+// of another scene or size. Nothing without bounds. Throws UsageError for bounds of --set without a sweep, InputError
+// for a file that is none.
+std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
+                                           Settings& settings);
 
-// Brings settings to a point: every key that some point of the sweep changes gets the point's value. Keys listed in
-// `kept` stay. Throws InputError with what setSetting says.
+// Every setting that a point's figures depend on, with its value at the point.
+std::vector<SettingChange> settingsOfPoint(const SweepResults& results, int point);
+bool isAtPoint(const Settings& settings, const std::vector<SettingChange>& point);
+
+// Brings settings to a point. Keys listed in `kept` stay, with a warning where they differ. Throws InputError with what
+// setSetting says.
 void applyPoint(const SweepResults& results, int point, const std::vector<std::string>& kept, Settings& settings);
 
 }  // namespace speculum

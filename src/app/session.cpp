@@ -49,7 +49,7 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
       throw UsageError("--set: " + *problem);
     }
   }
-  loaded.quality = chooseQuality(options, loaded.settings);
+  loaded.quality = chooseQuality(options, file, loaded.settings);
   for (const std::string& line : ignoredEffects(loaded.scene)) {
     spdlog::warn("{}", line);
   }
@@ -150,16 +150,6 @@ Image8 Session::picture() {
   image.rgba = std::move(pixels.rgba);
   for (size_t i = 3; i < image.rgba.size(); i += 4) {
     image.rgba[i] = 255;
-  }
-  return image;
-}
-
-LinearImage Session::radiance() {
-  renderer_.waitIdle();
-  const std::vector<float> texels = renderer_.uploader().readFloats(sceneRenderer_.mainTarget().color());
-  LinearImage image(size_.width, size_.height);
-  for (size_t i = 0; i < image.pixels.size(); ++i) {
-    image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
   }
   return image;
 }

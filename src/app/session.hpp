@@ -17,8 +17,7 @@ namespace speculum {
 std::filesystem::path findScene(const std::string& wanted);
 
 // The scene with the settings that hold for it: defaults, [settings], --set, and what a sweep has for the bounds of
-// quality.*. Warns of
-// keys that are not drawn.
+// quality.*. Warns of keys that are not drawn.
 struct LoadedScene {
   Scene scene;
   Settings settings;
@@ -70,8 +69,8 @@ class Session {
   void setSettings(const Settings& settings);
   // Waits for the GPU. Afterwards frameMs covers the whole frame, and the renderer's timings are this frame's.
   void finish();
-  Image8 picture();        // of the last frame drawn with `capture`
-  LinearImage radiance();  // of the last frame, before the display pass
+  Image8 picture();                                             // of the last frame drawn with `capture`
+  LinearImage radiance() { return sceneRenderer_.radiance(); }  // of the last frame, before the display pass
 
   const Scene& scene() const { return loaded_.scene; }
   const Settings& settings() const { return loaded_.settings; }

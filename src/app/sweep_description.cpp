@@ -20,6 +20,17 @@ void addFile(Fingerprint& fingerprint, const fs::path& file) {
   }
 }
 
+void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    addFile(fingerprint, file);
+  }
+}
+
 std::string utcNow() {
   const std::time_t now = std::time(nullptr);
   char text[32];
@@ -37,17 +48,14 @@ SweepContext sweepContext(Session& session) {
 }
 
 // Another build, other shaders, another driver: everything is measured again.
-std::string sweepIdentity(Session& session, double time) {
+std::string sweepIdentity(Session& session, const Options& options) {
   Fingerprint fingerprint;
   addFile(fingerprint, executablePath());
-  std::vector<fs::path> shaders;
-  for (const auto& entry : fs::directory_iterator(dataDirectory("shaders"))) {
-    shaders.push_back(entry.path());
+  addFolder(fingerprint, dataDirectory("shaders"));
+  if (!options.shaderDir.empty()) {
+    addFolder(fingerprint, options.shaderDir);
   }
-  std::sort(shaders.begin(), shaders.end());
-  for (const fs::path& shader : shaders) {
-    addFile(fingerprint, shader);
-  }
+  fingerprint.add(options.validation);
   addScene(fingerprint, session.scene());
   const Device& device = session.device();
   for (const std::string& text : {device.info().name, device.info().driver, machineDescription(),
@@ -56,7 +64,7 @@ std::string sweepIdentity(Session& session, double time) {
   }
   fingerprint.add(session.size().width);
   fingerprint.add(session.size().height);
-  fingerprint.add(time);
+  fingerprint.add(options.time);
   return fingerprint.hex();
 }
 

@@ -12,7 +12,7 @@ SweepContext sweepContext(Session& session);
 SweepResults describeSweep(Session& session, const SweepPlan& plan, double time);
 
 // Of everything but the settings that pictures and times depend on: this build with its shaders, scene, device,
-// machine, size, time.
-std::string sweepIdentity(Session& session, double time);
+// machine, size, time, validation.
+std::string sweepIdentity(Session& session, const Options& options);
 
 }  // namespace speculum

@@ -280,6 +280,14 @@ std::string settingValue(const Settings& settings, std::string_view key) {
   return value.is_string() ? value.get<std::string>() : value.is_null() ? std::string() : value.dump();
 }
 
+std::string settingsKey(const Settings& settings) {
+  std::string text;
+  for (const Setting& setting : table()) {
+    text += std::string(setting.info.key) + "=" + setting.get(settings).dump() + "\n";
+  }
+  return text;
+}
+
 Settings settingsOf(const Scene& scene) {
   Settings settings;
   for (const SettingEntry& entry : scene.settings) {

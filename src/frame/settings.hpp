@@ -69,6 +69,8 @@ std::span<const SettingInfo> settingInfos();
 // Returns what is wrong and what would be right, or nothing.
 std::optional<std::string> setSetting(Settings& settings, std::string_view key, std::string_view value);
 std::string settingValue(const Settings& settings, std::string_view key);
+// "key=value" of every key, a line each: equal for equal settings.
+std::string settingsKey(const Settings& settings);
 
 // Defaults, then the scene's [settings]. Throws InputError with FILE:LINE.
 Settings settingsOf(const Scene& scene);

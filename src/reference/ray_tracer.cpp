@@ -110,7 +110,7 @@ struct RayTracer::Impl {
         const PathTracer center(world, environment, options, time, MicrofacetSampler(0, 0));
         const MirrorChain chain = center.followMirrors(cameraRay(options.width, options.height, x + 0.5, y + 0.5));
         result.mirrorDepth[i] = static_cast<uint8_t>(chain.count);
-        result.mirrorThroughput[i] = static_cast<float>(chain.throughput);
+        result.mirrorThroughput[i] = chain.throughput;
         result.mirrorMask[i] = chain.count > 0;
         result.backgroundMask[i] = chain.background;
       }
@@ -134,7 +134,7 @@ std::optional<TraceResult> RayTracer::render(const TraceOptions& options, const 
   const Environment environment = environmentOf(impl_->world.scene(), options);
   const size_t pixels = static_cast<size_t>(options.width) * options.height;
   TraceResult result{LinearImage(options.width, options.height), std::vector<uint8_t>(pixels),
-                     std::vector<uint8_t>(pixels), std::vector<uint8_t>(pixels), std::vector<float>(pixels)};
+                     std::vector<uint8_t>(pixels), std::vector<uint8_t>(pixels), std::vector<double>(pixels)};
   const int columns = (options.width + tileSize - 1) / tileSize;
   const int tiles = columns * ((options.height + tileSize - 1) / tileSize);
   std::atomic<bool> cancelled = false;

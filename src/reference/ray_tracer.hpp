@@ -25,10 +25,10 @@ struct TraceOptions {
 struct TraceResult {
   LinearImage image;
   // By pixel, row 0 at the top; what the ray through the pixel's centre meets.
-  std::vector<uint8_t> mirrorMask;      // 1: first of all the reflecting side of a mirror
-  std::vector<uint8_t> backgroundMask;  // 1: nothing
-  std::vector<uint8_t> mirrorDepth;     // reflecting sides in a row, at most maxDepth + 1; roughness is ignored
-  std::vector<float> mirrorThroughput;  // product of their reflectances, mean of the channels; 1 without any
+  std::vector<uint8_t> mirrorMask;       // 1: first of all the reflecting side of a mirror
+  std::vector<uint8_t> backgroundMask;   // 1: nothing
+  std::vector<uint8_t> mirrorDepth;      // reflecting sides in a row, at most maxDepth + 1; roughness is ignored
+  std::vector<double> mirrorThroughput;  // product of their reflectances, mean of the channels; 1 without any
 };
 
 // What the ray through a point of the picture meets first.

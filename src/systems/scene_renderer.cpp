@@ -269,6 +269,17 @@ void SceneRenderer::recordDisplayPass(Frame& frame, const Settings& settings) {
                 glm::vec4(1.0f, 1.0f, 0.0f, 0.0f), settings);
 }
 
+LinearImage SceneRenderer::radiance() {
+  renderer_.waitIdle();
+  const std::vector<float> texels = renderer_.uploader().readFloats(main_->color());
+  const VkExtent2D extent = main_->color().extent();
+  LinearImage image(static_cast<int>(extent.width), static_cast<int>(extent.height));
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
+  }
+  return image;
+}
+
 void SceneRenderer::setCover(const Image8& picture) {
   if (cover_) {
     renderer_.retired().retire(std::move(cover_));

@@ -57,6 +57,7 @@ class SceneRenderer {
   const std::vector<RecordedPass>& passes() const { return recorded_; }
   size_t pipelineCount() const;
   OffScreen& mainTarget() { return *main_; }  // linear radiance of the main view, of the last recorded frame
+  LinearImage radiance();                     // the same, read back; waits for the GPU
 
  private:
   struct DisplayVariant {

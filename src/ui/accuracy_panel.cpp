@@ -42,7 +42,7 @@ Plot plotOf(const UiAccuracy& accuracy, const ImVec2& corner, const ImVec2& size
     plot.lowError = std::min(plot.lowError, std::max(point.error, leastError));
     plot.highError = std::max(plot.highError, std::max(point.error, leastError));
   }
-  if (accuracy.noiseFloor > 0.0) {
+  if (accuracy.noiseFloor > leastError) {
     plot.lowError = std::min(plot.lowError, accuracy.noiseFloor);
   }
   plot.lowMs = std::max(plot.lowMs, 1e-4) / 1.15;
@@ -55,10 +55,12 @@ Plot plotOf(const UiAccuracy& accuracy, const ImVec2& corner, const ImVec2& size
 // 1, 2 and 5 times powers of ten.
 template <typename Draw>
 void forTicks(double low, double high, const Draw& draw) {
-  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
+  const int last = static_cast<int>(std::floor(std::log10(high)));
+  for (int exponent = static_cast<int>(std::floor(std::log10(low))); exponent <= last; ++exponent) {
     for (const double digit : {1.0, 2.0, 5.0}) {
-      if (decade * digit >= low && decade * digit <= high) {
-        draw(decade * digit);
+      const double value = digit * std::pow(10.0, exponent);
+      if (value >= low && value <= high) {
+        draw(value);
       }
     }
   }

@@ -157,6 +157,7 @@ void SimpleUI::buildPanel(UiModel& model) {
 }
 
 void SimpleUI::buildAccuracy(UiModel& model) {
+  model.accuracy.open = showAccuracy_;
   if (!showAccuracy_) {
     return;
   }

@@ -50,6 +50,7 @@ struct UiAccuracy {
   bool measure = false;            // set by the panel: measure the current view
   bool cancel = false;             // set by the panel
   int apply = -1;                  // set by the panel: bring the settings to this point
+  bool open = false;               // the panel is; set by it
   bool showDifference = false;     // changed by the person
 };
 
