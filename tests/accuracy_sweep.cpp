@@ -201,6 +201,14 @@ TEST(SweepPlans, BuiltInOnesAreWhatTheDeviceAndTheSceneAllow) {
   }
 }
 
+TEST(SweepPlans, TheWindowsTakesADozenConfigurations) {
+  const SweepPlan plan = viewSweep(contextOf(true, true));
+  EXPECT_GE(plan.configurations.size(), 10u);
+  EXPECT_LE(plan.configurations.size(), 16u);
+  EXPECT_TRUE(plan.series.empty());
+  EXPECT_EQ(viewSweep(contextOf(false, false)).configurations.size(), 2u);
+}
+
 // Two facing mirrors beside a lit ball, 48x27: depth matters.
 class SmallSweep : public SweepFiles {
  protected:

@@ -10,7 +10,7 @@ using namespace testing_support;
 
 class AccuracyPanel : public DemoWindow {
  protected:
-  AccuracyPanel() {
+  explicit AccuracyPanel(const std::string& toml = windowScene) : DemoWindow(toml) {
     click("accuracy");
     demo_->setCapture(true);
   }
@@ -30,15 +30,21 @@ class AccuracyPanel : public DemoWindow {
     ASSERT_FALSE(accuracy().stage.empty());
     const int before = demo_->framesDrawn();
     ASSERT_TRUE(waitFor([&] { return accuracy().stage.empty() && !accuracy().points.empty(); }));
-    EXPECT_GT(demo_->framesDrawn(), before + 20) << "the window goes on meanwhile";
+    EXPECT_GT(demo_->framesDrawn(), before + 5) << "the window goes on meanwhile";
     run(3);
   }
 };
 
-TEST_F(AccuracyPanel, MeasuresTheViewAndAppliesWhatIsClicked) {
+// Without a mirror there is little to vary, and the measurement is soon done.
+class AccuracyPanelWithoutMirror : public AccuracyPanel {
+ protected:
+  AccuracyPanelWithoutMirror() : AccuracyPanel(windowScene.substr(0, windowScene.find("[[mirror]]"))) {}
+};
+
+TEST_F(AccuracyPanelWithoutMirror, MeasuresTheViewAndAppliesWhatIsClicked) {
   measure();
   const UiAccuracy& measured = accuracy();
-  ASSERT_GE(measured.points.size(), 8u);
+  ASSERT_EQ(measured.points.size(), 2u) << "one sample and four";
   ASSERT_FALSE(measured.front.empty());
   EXPECT_GT(measured.noiseFloor, 0.0);
   for (const UiAccuracyPoint& point : measured.points) {
@@ -54,10 +60,12 @@ TEST_F(AccuracyPanel, MeasuresTheViewAndAppliesWhatIsClicked) {
   run(2);
   drag("accuracy.slider", 0.3, -static_cast<int>(widget("accuracy.slider").width * 0.4));
   EXPECT_EQ(measured.current, measured.front.front());
+  ASSERT_GE(measured.current, 0);
 
   click("quality.max_error");
   run(3);
   EXPECT_NE(measured.choice.find("mean FLIP"), std::string::npos) << measured.choice;
+  ASSERT_GE(measured.current, 0);
   EXPECT_LE(measured.points[measured.current].error,
             std::max(demo_->model().settings.quality.maxError, measured.points[best].error));
   expectQuiet();
