@@ -61,8 +61,11 @@ DepthErrors errorsOf(const DepthView& view, const DepthSurface& surface, const g
 
 std::optional<double> gap(const Ray& ray, double error) {
   const double left = ray.change - 2.0 * error * ray.distance;
+  if (!(left > 0.0)) {
+    return std::nullopt;
+  }
   const double s = 2.0 * error * ray.distance * ray.distance / left;
-  return left > 0.0 && std::isfinite(s) ? std::optional(s) : std::nullopt;
+  return std::isfinite(s) ? std::optional(s) : std::nullopt;
 }
 
 // The row of a matrix that gives clip z, or nothing without such a projection.

@@ -164,7 +164,8 @@ void depthResolution(const UiPass& pass, ClipMethod inUse) {
   if (!pass.resolution || !ImGui::IsItemHovered()) {
     return;
   }
-  std::string text = "metres between surfaces that depth keeps in order\nwhere the pass sees farthest, " +
+  std::string text = "metres between surfaces seen at " + std::to_string(static_cast<int>(readoutAngle)) +
+                     " degrees that depth keeps in order\nwhere the pass sees farthest, " +
                      metres(pass.resolution->distance) + " m from its eye";
   for (const auto& [clip, name] : {std::pair(ClipMethod::clipDistance, "clip distance"),
                                    std::pair(ClipMethod::oblique, "oblique"), std::pair(ClipMethod::none, "none")}) {
@@ -187,10 +188,11 @@ void passes(UiModel& model) {
     return;
   }
   const float figure = 4.0f * ImGui::GetFontSize();
-  ImGui::TableSetupColumn("pass (click: its image)", ImGuiTableColumnFlags_WidthStretch);
-  for (const char* name : {"GPU ms", "draws", "pixels", "depth m"}) {
-    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, figure);
-  }
+  ImGui::TableSetupColumn("pass (click it)", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableSetupColumn("draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * figure);
+  ImGui::TableSetupColumn("pixels", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableSetupColumn("depth m", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
     const UiPass& pass = model.passes[i];

@@ -152,13 +152,13 @@ class DepthReadoutOf : public testing::Test {
     return stated;
   }
 
-  // At a hundredth of it; the number of methods that lose the order.
-  int losing(const Case& c) {
+  // At a part of it; the number of methods that lose the order.
+  int losing(const Case& c, double part) {
     const DepthReadout readout = readoutOf(c);
     int lost = 0;
     for (const char* method : methods) {
       const std::optional<double> gap = gapWith(readout, methodOf(method));
-      lost += gap && orderOf(c, 0.01 * *gap, method).farther > 0;
+      lost += gap && orderOf(c, part * *gap, method).farther > 0;
     }
     return lost;
   }
@@ -193,10 +193,12 @@ TEST_F(DepthReadoutOf, AMirrorInAMirrorHolds) {
   EXPECT_EQ(expectInOrder({.h = 0.01, .distance = 45.0, .nested = true, .near = "grid.obj", .far = "quad.obj"}), 3);
 }
 
+// What the bound leaves: snapping that this rasteriser does not pass on to depth, and errors that seldom meet.
 TEST_F(DepthReadoutOf, AHundredthOfTheGapFails) {
   int lost = 0;
   for (const auto& [near, far] : meshes) {
-    lost += losing({.near = near, .far = far});
+    lost += losing({.near = near, .far = far}, 1.0 / 100.0);
+    EXPECT_EQ(losing({.near = near, .far = far}, 1.0 / 400.0), 3) << near << " before " << far;
   }
   EXPECT_GE(lost, 1);
 }
