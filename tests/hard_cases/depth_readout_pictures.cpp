@@ -43,6 +43,8 @@ struct Case {
   double h = 1.0;          // metres
   double distance = 50.0;  // metres along the path
   bool nested = false;
+  double half =
+      0.24;  // half the side of the squares, in distances; a fifth of it in a nested case, whose view is narrow
   const char* near = "quad.obj";
   const char* far = "grid.obj";
 };
@@ -68,7 +70,7 @@ std::string square(const Case& c, double distance, double scale, const char* mod
   const double s = std::sqrt(0.5);
   const glm::dvec3 direction(s, 0, c.nested ? -s : s);  // where the line of sight leads after its mirrors
   const glm::dvec3 image(0, 0, c.nested ? 2 * wallDistance + c.h : -c.h);
-  const double half = (c.nested ? 0.05 : 0.24) * c.distance * scale;
+  const double half = (c.nested ? 0.2 : 1.0) * c.half * c.distance * scale;
   // Facing the eye's image, then turned by 45 degrees about x.
   return std::string("[[object]]\nmodel = \"") + model + "\"\nposition = " + text(image + distance * direction) +
          "\nrotation = " + text(glm::dvec3(45, c.nested ? -45 : 225, 0)) + "\nscale = " + text(half) +
@@ -97,24 +99,26 @@ DepthReadout readoutOf(const Case& c) {
 }
 
 struct Count {
-  int nearer = 0;
-  int farther = 0;
+  int nearer = 0;   // pixels that the nearer square covers
+  int farther = 0;  // of those, with the farther one before it
 };
 
-// Both orders of drawing: with equal depths the one that is drawn first stays. The farther square is a little smaller,
-// so that it shows only where the order is wrong.
+// Both orders of drawing: with equal depths the one that is drawn first stays. What the nearer square covers is drawn
+// by itself: the mirror's plane cuts the two along lines a gap apart.
 Count orderOf(const Case& c, double gap, const std::string& clip) {
   const std::string nearer = square(c, c.distance, 1.0, c.near, "[1, 0, 0]");
   const std::string farther = square(c, c.distance + gap, 0.96, c.far, "[0, 1, 0]");
+  const Image8 alone = draw(optionsOf(c, nearer, clip));
   Count count;
   for (const std::string& squares : {nearer + farther, farther + nearer}) {
     const Image8 picture = draw(optionsOf(c, squares, clip));
     Count one;
     for (size_t i = 0; i < picture.rgba.size(); i += 4) {
-      one.nearer += picture.rgba[i] > 0;
-      one.farther += picture.rgba[i + 1] > 0;
+      const bool covered = alone.rgba[i] > 0;
+      one.nearer += covered;
+      one.farther += covered && picture.rgba[i + 1] > 0;
     }
-    count = {std::max(count.nearer, one.nearer), std::max(count.farther, one.farther)};
+    count = {one.nearer, std::max(count.farther, one.farther)};
   }
   return count;
 }
@@ -180,6 +184,12 @@ TEST_F(DepthReadoutOf, AMirrorAMetreAwayHoldsForMeshesOfAnyKind) {
 TEST_F(DepthReadoutOf, AMirrorAMetreAwayHoldsAtEveryDistance) {
   EXPECT_EQ(expectInOrder({.distance = 5.0}), 3);
   EXPECT_EQ(expectInOrder({.distance = 500.0}), 3);
+}
+
+TEST_F(DepthReadoutOf, AMirrorHoldsForSurfacesThatTheViewAndTheMirrorCut) {
+  for (const auto& [near, far] : meshes) {
+    EXPECT_EQ(expectInOrder({.half = 1.0, .near = near, .far = far}), 3);
+  }
 }
 
 TEST_F(DepthReadoutOf, ANearMirrorHolds) {
