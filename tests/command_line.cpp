@@ -145,6 +145,14 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
   EXPECT_GT(mirror["triangles"], 0);
   EXPECT_GT(mirror["fragments"], 0);
   EXPECT_GT(mirror["area_px"], 100.0);
+  const nlohmann::json& resolution = mirror["depth_resolution"];
+  EXPECT_GT(resolution["distance_m"], 0.0);
+  EXPECT_GT(resolution["clip_distance_m"], 1e-7 * resolution["distance_m"].get<double>());
+  EXPECT_LT(resolution["clip_distance_m"], 1e-3 * resolution["distance_m"].get<double>());
+  EXPECT_GE(resolution["oblique_m"], resolution["clip_distance_m"]);
+  EXPECT_EQ(resolution["none_m"], resolution["clip_distance_m"]);
+  EXPECT_EQ(resolution["in_use_m"], resolution["clip_distance_m"]);
+  EXPECT_TRUE(stats["passes"][1]["depth_resolution"].is_null());
   EXPECT_TRUE(stats["passes"][1]["mirror"].is_null());
   EXPECT_TRUE(stats["passes"][1]["depth"].is_null());
   ASSERT_EQ(stats["skipped"].size(), 2u);

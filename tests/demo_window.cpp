@@ -32,6 +32,16 @@ TEST_F(DemoWindow, ClearColorEditedInThePanelReachesPictureAndReflections) {
   expectQuiet();
 }
 
+TEST_F(DemoWindow, PassesSayWhatDepthResolves) {
+  const auto passes = [&] { return demo_->model().passes; };
+  ASSERT_EQ(passes().size(), 3u);
+  ASSERT_TRUE(passes()[0].resolution);
+  EXPECT_GT(passes()[0].resolution->distance, 6.0) << "the light, seen in the mirror";
+  EXPECT_GT(passes()[0].resolution->clipDistance, 0.0);
+  EXPECT_FALSE(passes()[1].resolution) << "not a mirror's";
+  expectQuiet();
+}
+
 TEST_F(DemoWindow, SettingsEditedInThePanelChangeThePicture) {
   ASSERT_GT(demo_->model().passes.size(), 2u);
   const int grip = static_cast<int>(widget("reflection.max_depth").width * 0.3);

@@ -9,6 +9,8 @@ hard_case_test(hard_cases_transforms SOURCES ${hard}/transforms.cpp ${hard}/plan
                LIBRARIES systems LABELS hard_cases)
 hard_case_test(hard_cases_depth SOURCES ${hard}/depth_pictures.cpp ${hard}/scene_text.cpp truth_support.cpp
                picture_support.cpp LIBRARIES app LABELS hard_cases pictures)
+hard_case_test(hard_cases_readout SOURCES ${hard}/depth_readout_pictures.cpp ${hard}/scene_text.cpp truth_support.cpp
+               picture_support.cpp LIBRARIES app LABELS hard_cases pictures TIMEOUT 300)
 hard_case_test(hard_cases_scenes SOURCES ${hard}/scene_pictures.cpp ${hard}/scene_text.cpp truth_support.cpp
                picture_support.cpp LIBRARIES app LABELS hard_cases pictures)
 hard_case_test(hard_cases_inputs SOURCES ${hard}/inputs.cpp ${hard}/scene_text.cpp picture_support.cpp

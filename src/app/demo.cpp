@@ -182,7 +182,7 @@ void Demo::drawFrame(double seconds) {
   frame->capture = capture_;
   renderer_.endFrame(*frame);
   ++framesDrawn_;
-  fillModel(plan, fitted.settings.reflection.updateInterval);
+  fillModel(plan, state, fitted.settings.reflection.updateInterval);
   accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, *sceneRenderer_);
 }
 
@@ -200,7 +200,7 @@ std::optional<DebugView> Demo::debugView(const FramePlan& plan) {
 
 // With images that are held, the passes of as many frames as it takes to render each: a list that changed from frame to
 // frame could not be read.
-void Demo::fillPasses(int updateInterval) {
+void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval) {
   const FrameTimings& timings = renderer_.timings();
   std::vector<UiPass> rows;
   if (updateInterval > 1) {
@@ -223,6 +223,10 @@ void Demo::fillPasses(int updateInterval) {
     row->gpuMs = timing != timings.passes.end() ? timing->gpuMs : row->gpuMs;
     row->areaPx = pass.areaPx;
     row->draws = pass.draws;
+    const auto planned = std::find_if(plan.passes.begin(), plan.passes.end(),
+                                      [&](const PlannedPass& p) { return p.view.path == pass.path; });
+    row->resolution =
+        planned != plan.passes.end() ? depthReadout(*planned, plan.projection, loaded_->scene, state) : std::nullopt;
     row->framesAgo = 0;
     place = row - rows.begin() + 1;
   }
@@ -233,7 +237,7 @@ void Demo::fillPasses(int updateInterval) {
   model_.debugPass = shown != model_.passes.end() ? static_cast<int>(shown - model_.passes.begin()) : -1;
 }
 
-void Demo::fillModel(const FramePlan& plan, int updateInterval) {
+void Demo::fillModel(const FramePlan& plan, const SceneState& state, int updateInterval) {
   const FrameTimings& timings = renderer_.timings();
   model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
   model_.gpuMs = timings.gpuMs;
@@ -244,7 +248,7 @@ void Demo::fillModel(const FramePlan& plan, int updateInterval) {
     model_.message = planner_.message();
   }
   model_.time = time_;
-  fillPasses(updateInterval);
+  fillPasses(plan, state, updateInterval);
   model_.skipped.clear();
   for (const SkippedMirror& skip : plan.skipped) {
     model_.skipped.push_back(

@@ -35,8 +35,8 @@ class Demo {
   void moveCamera(double seconds);
   void drawFrame(double seconds);
   std::optional<DebugView> debugView(const FramePlan& plan);
-  void fillModel(const FramePlan& plan, int updateInterval);
-  void fillPasses(int updateInterval);
+  void fillModel(const FramePlan& plan, const SceneState& state, int updateInterval);
+  void fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval);
   void applyModel();
   SweepRequest sweepRequest();
   void handleKey(const KeyEvent& event);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/platform.hpp"
+#include "frame/depth_readout.hpp"
 
 namespace speculum {
 
@@ -25,6 +26,29 @@ ordered_json pathJson(const Scene& scene, const std::vector<int>& path) {
   return json;
 }
 
+ordered_json metres(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+// Of the mirror pass with that path; null for other passes and where only the background is seen.
+ordered_json depthJson(const Session& session, const std::vector<int>& path) {
+  const DrawnFrame& frame = session.lastFrame();
+  const auto pass = std::find_if(frame.plan.passes.begin(), frame.plan.passes.end(),
+                                 [&](const PlannedPass& planned) { return planned.view.path == path; });
+  if (pass == frame.plan.passes.end()) {
+    return nullptr;
+  }
+  const auto readout = depthReadout(*pass, frame.plan.projection, session.scene(), frame.state);
+  if (!readout) {
+    return nullptr;
+  }
+  return {{"distance_m", readout->distance},
+          {"in_use_m", metres(gapWith(*readout, frame.settings.reflection.clip))},
+          {"clip_distance_m", metres(readout->clipDistance)},
+          {"oblique_m", metres(readout->oblique)},
+          {"none_m", metres(readout->none)}};
+}
+
 ordered_json passesJson(Session& session, const FrameTimings& timings) {
   ordered_json passes = ordered_json::array();
   const std::vector<RecordedPass>& recorded = session.sceneRenderer().passes();
@@ -40,7 +64,8 @@ ordered_json passesJson(Session& session, const FrameTimings& timings) {
                       {"draws", pass.draws},
                       {"triangles", timing.hasStatistics ? ordered_json(timing.triangles) : ordered_json(nullptr)},
                       {"fragments", timing.hasStatistics ? ordered_json(timing.fragments) : ordered_json(nullptr)},
-                      {"area_px", pass.areaPx}});
+                      {"area_px", pass.areaPx},
+                      {"depth_resolution", depthJson(session, pass.path)}});
   }
   return passes;
 }

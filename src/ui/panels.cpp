@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "image/image.hpp"
 
@@ -147,6 +148,35 @@ void settings(UiModel& model) {
   model.resetSettings = ImGui::Button("settings of the scene");
 }
 
+namespace {
+
+std::string metres(const std::optional<double>& value) {
+  if (!value) {
+    return "never";
+  }
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", *value);
+  return text.data();
+}
+
+void depthResolution(const UiPass& pass, ClipMethod inUse) {
+  ImGui::TextUnformatted(pass.resolution ? metres(gapWith(*pass.resolution, inUse)).c_str() : "");
+  if (!pass.resolution || !ImGui::IsItemHovered()) {
+    return;
+  }
+  std::string text = "metres between surfaces seen at " + std::to_string(static_cast<int>(readoutAngle)) +
+                     " degrees that depth keeps in order\nwhere the pass sees farthest, " +
+                     metres(pass.resolution->distance) + " m from its eye";
+  for (const auto& [clip, name] : {std::pair(ClipMethod::clipDistance, "clip distance"),
+                                   std::pair(ClipMethod::oblique, "oblique"), std::pair(ClipMethod::none, "none")}) {
+    text +=
+        std::string("\n") + name + ": " + metres(gapWith(*pass.resolution, clip)) + (clip == inUse ? "  (in use)" : "");
+  }
+  ImGui::SetTooltip("%s", text.c_str());
+}
+
+}  // namespace
+
 void passes(UiModel& model) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
@@ -154,14 +184,15 @@ void passes(UiModel& model) {
   ImGui::TextWrapped("CPU %.2f ms   GPU %.2f ms   %.1f MiB of device memory", model.cpuMs, model.gpuMs,
                      static_cast<double>(model.deviceBytes) / (1024.0 * 1024.0));
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
-  if (!ImGui::BeginTable("passes", 4, flags)) {
+  if (!ImGui::BeginTable("passes", 5, flags)) {
     return;
   }
   const float figure = 4.0f * ImGui::GetFontSize();
-  ImGui::TableSetupColumn("pass (click: its image)", ImGuiTableColumnFlags_WidthStretch);
-  for (const char* name : {"GPU ms", "draws", "pixels"}) {
-    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, figure);
-  }
+  ImGui::TableSetupColumn("pass (click it)", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableSetupColumn("draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * figure);
+  ImGui::TableSetupColumn("pixels", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableSetupColumn("depth m", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
     const UiPass& pass = model.passes[i];
@@ -179,6 +210,8 @@ void passes(UiModel& model) {
     ImGui::Text("%u", pass.draws);
     ImGui::TableNextColumn();
     ImGui::Text("%.0f", pass.areaPx);
+    ImGui::TableNextColumn();
+    depthResolution(pass, model.settings.reflection.clip);
   }
   ImGui::EndTable();
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/depth_readout.hpp"
 #include "frame/settings.hpp"
 #include "optics/projection.hpp"
 
@@ -18,6 +19,7 @@ struct UiPass {
   double gpuMs = 0.0;
   double areaPx = 0.0;
   uint32_t draws = 0;
+  std::optional<DepthReadout> resolution;  // a mirror's, if it sees anything but the background
 };
 
 struct UiSkipped {
