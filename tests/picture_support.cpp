@@ -53,14 +53,26 @@ Options headless(const std::filesystem::path& scene, PictureSize size) {
   options.scene = scene.string();
   options.size = size;
   options.validation = true;
+  options.settings = {{"debug.check_finite", "true"}};
   return options;
+}
+
+void set(Options& options, const std::vector<std::pair<std::string, std::string>>& settings) {
+  options.settings.insert(options.settings.end(), settings.begin(), settings.end());
+}
+
+void expectQuiet(Session& session) {
+  session.finish();
+  EXPECT_EQ(session.device().validationMessages(), 0) << session.scene().file;
+  const FiniteWatch& watch = session.sceneRenderer().finiteWatch();
+  EXPECT_EQ(watch.count(), 0u) << session.scene().file << ": " << describe(watch.findings().front());
 }
 
 Image8 draw(const Options& options, double time) {
   Session session(options);
   session.draw(time, true);
   Image8 picture = session.picture();
-  EXPECT_EQ(session.device().validationMessages(), 0) << options.scene;
+  expectQuiet(session);
   return picture;
 }
 

@@ -52,6 +52,7 @@ void BackgroundSweep::start(SweepRequest request) {
   status_ = SweepStatus{"starting", 0.0};
   request.base.quality = {};
   request.base.reflection.updateInterval = 1;  // the view stands still
+  request.base.debug.checkFinite = false;      // its time is not the settings'
   request.options.settings.clear();
   request.options.sweepResults.clear();
   thread_ = std::thread([this, request = std::move(request)] { run(request); });
