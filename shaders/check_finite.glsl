@@ -9,8 +9,6 @@ layout(push_constant) uniform CheckConstants {
   uvec2 size;  // pixels of the part that is in use
 };
 
-const uint none = 0xffffffffu;
-
 int sampleCount(sampler2D image) { return 1; }
 int sampleCount(sampler2DMS image) { return textureSamples(image); }
 vec4 valueOf(sampler2D image, ivec2 texel, int i) { return texelFetch(image, texel, 0); }
@@ -29,6 +27,7 @@ bool storable(vec4 value) {
 layout(set = 0, binding = 1, std430) readonly buffer Search {
   uint pixel;
   uint count;
+  uint any;
 }
 search;
 
@@ -39,11 +38,10 @@ layout(set = 0, binding = 2, std430) writeonly buffer Found {
 found;
 
 void main() {
-  uint pixel = search.pixel;
-  if (gl_LocalInvocationIndex != 0 || pixel == none) {
+  if (gl_LocalInvocationIndex != 0 || search.any == 0) {
     return;
   }
-  ivec2 texel = ivec2(pixel % size.x, pixel / size.x);
+  ivec2 texel = ivec2(search.pixel % size.x, search.pixel / size.x);
   int i = 0;
   while (i + 1 < sampleCount(checkedImage) && storable(valueOf(checkedImage, texel, i))) {
     ++i;
@@ -53,8 +51,9 @@ void main() {
 }
 #else
 layout(set = 0, binding = 1, std430) buffer Search {
-  uint pixel;  // y * width + x of the first; none
+  uint pixel;  // y * width + x of the first; at the start all bits
   uint count;  // samples
+  uint any;    // 1 if there are some. Stored plainly: the validation layer of 2023 does not take atomics for writes.
 }
 search;
 
@@ -70,6 +69,7 @@ void main() {
   if (count > 0) {
     atomicMin(search.pixel, at.y * size.x + at.x);
     atomicAdd(search.count, count);
+    search.any = 1;
   }
 }
 #endif

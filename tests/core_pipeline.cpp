@@ -156,8 +156,10 @@ TEST_F(HotReload, ComputePipelinesSpecialiseAndAreRebuilt) {
                                                                       .setLayouts = {layout.get()},
                                                                       .pushConstantBytes = sizeof(uint32_t)});
   const std::vector<uint32_t> values = {7, 10, 13, 16, 19, 22, 25, 28};
-  EXPECT_EQ(filled(*renderer_, pipeline, layout.get()), values);
-  const auto objects = liveObjects();
+  for (uint32_t frame = 0; frame < framesInFlight; ++frame) {
+    EXPECT_EQ(filled(*renderer_, pipeline, layout.get()), values);
+  }
+  const auto objects = liveObjects();  // after both frames in flight have made what they keep
   edit("fill.comp", "offset + ", "1000 + ");
   EXPECT_TRUE(renderer_->reloadShaders());
   EXPECT_EQ(filled(*renderer_, pipeline, layout.get()).back(), 1021u);

@@ -8,7 +8,6 @@ namespace speculum {
 
 namespace {
 
-constexpr uint32_t nothing = ~0u;
 // Results start where a descriptor may: no device asks for more than 256 bytes.
 constexpr VkDeviceSize place = 256;
 constexpr VkDeviceSize targetBytes = 2 * place;
@@ -61,7 +60,7 @@ void FiniteWatch::begin(const Frame& frame, size_t targets) {
                           "check finite " + std::to_string(frame.index));
   }
   for (size_t i = 0; i < targets; ++i) {
-    slot.results.writeObject(CheckSearch{.pixel = nothing}, searchOf(slot.results, i).offset);
+    slot.results.writeObject(CheckSearch{.pixel = ~0u}, searchOf(slot.results, i).offset);
   }
   slot.targets.clear();
   slot.frame = frame.number;
@@ -147,7 +146,7 @@ void FiniteWatch::read(Slot& slot) {
   std::vector<NonFinite> found;
   for (size_t i = 0; i < slot.targets.size(); ++i) {
     const auto search = readAt<CheckSearch>(slot.results, searchOf(slot.results, i));
-    if (search.pixel != nothing) {
+    if (search.any != 0) {
       const auto value = readAt<CheckFound>(slot.results, foundOf(slot.results, i));
       const Target& target = slot.targets[i];
       found.push_back({.pass = target.pass,

@@ -83,6 +83,7 @@ struct DisplayConstants {
 struct CheckSearch {
   uint32_t pixel;
   uint32_t count;
+  uint32_t any;
 };
 
 struct CheckFound {
