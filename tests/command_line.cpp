@@ -165,20 +165,9 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
   EXPECT_EQ(stats["totals"]["non_finite"], 0);
 }
 
-// Shaders under which every body's radiance is negative.
-void writeBrokenShaders(const fs::path& directory) {
-  for (const auto& entry : fs::directory_iterator(sourceFile("shaders"))) {
-    fs::copy_file(entry.path(), directory / entry.path().filename());
-  }
-  const std::vector<uint8_t> content = *readFile(directory / "scene.frag");
-  std::string text(content.begin(), content.end());
-  text.insert(text.rfind('}'), "  color.r = -1.0;\n");
-  std::ofstream(directory / "scene.frag") << text;
-}
-
 TEST_F(CommandLine, RadianceThatIsNegativeIsNamedAndExitsOne) {
   const TemporaryDirectory shaders;
-  writeBrokenShaders(shaders.path());
+  writeShaders(shaders.path(), "scene.frag", "  color.r = -1.0;\n");
   const auto run = [&](std::vector<std::string> arguments, const std::string& checked) {
     for (const std::string& more :
          {std::string("--shader-dir"), shaders.path().string(), std::string("--scene"), scene_, std::string("--size"),

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
-#include <fstream>
 #include <glm/gtc/packing.hpp>
 
 #include "core/platform.hpp"
@@ -140,17 +139,10 @@ const std::string hall = wall + rear;
 class BrokenSky {
  public:
   BrokenSky(int pass, int x, int y, int sample, const std::string& value) {
-    for (const auto& entry : fs::directory_iterator(sourceFile("shaders"))) {
-      fs::copy_file(entry.path(), directory_.path() / entry.path().filename());
-    }
-    const fs::path file = directory_.path() / "sky.frag";
-    const std::vector<uint8_t> content = *readFile(file);
-    std::string text(content.begin(), content.end());
-    text.insert(text.rfind('}'), "  if (draw.viewIndex == " + std::to_string(pass) +
-                                     " && ivec2(gl_FragCoord.xy) == ivec2(" + std::to_string(x) + ", " +
-                                     std::to_string(y) + ") && gl_SampleID == " + std::to_string(sample) +
-                                     ") color.g = " + value + ";\n");
-    std::ofstream(file) << text;
+    writeShaders(directory_.path(), "sky.frag",
+                 "  if (draw.viewIndex == " + std::to_string(pass) + " && ivec2(gl_FragCoord.xy) == ivec2(" +
+                     std::to_string(x) + ", " + std::to_string(y) + ") && gl_SampleID == " + std::to_string(sample) +
+                     ") color.g = " + value + ";\n");
   }
   fs::path path() const { return directory_.path(); }
 

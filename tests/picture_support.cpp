@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "core/platform.hpp"
+
 namespace speculum::testing_support {
 
 namespace {
@@ -87,6 +89,16 @@ std::filesystem::path writeScene(const std::string& name, const std::string& tom
   }
   std::ofstream(file) << text;
   return file;
+}
+
+void writeShaders(const std::filesystem::path& directory, const std::string& shader, const std::string& code) {
+  for (const auto& entry : std::filesystem::directory_iterator(sourceFile("shaders"))) {
+    std::filesystem::copy_file(entry.path(), directory / entry.path().filename());
+  }
+  const std::vector<uint8_t> content = *readFile(directory / shader);
+  std::string text(content.begin(), content.end());
+  text.insert(text.rfind('}'), code);
+  std::ofstream(directory / shader) << text;
 }
 
 }  // namespace speculum::testing_support

@@ -33,6 +33,9 @@ Image8 draw(const Options& options, double time = 0.0);
 // Writes a scene file into the test's temporary directory; model paths in it are relative to the project's models/.
 std::filesystem::path writeScene(const std::string& name, const std::string& toml);
 
+// The program's shaders, one of them with `code` at the end of its main(), for Options::shaderDir.
+void writeShaders(const std::filesystem::path& directory, const std::string& shader, const std::string& code);
+
 std::filesystem::path sourceFile(const std::string& relative);
 
 }  // namespace speculum::testing_support
