@@ -70,8 +70,9 @@ class AccuracyCommand : public testing::Test {
   AccuracyCommand() { std::ofstream(out("sweep.toml")) << sweep; }
   std::string out(const std::string& name) const { return (out_.path() / name).string(); }
   ProcessResult measure(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {"accuracy", "--scene", scene_,    "--out",           out("report"),
-                                          "--size",   "64x36",   "--sweep", out("sweep.toml"), "--validation"};
+    std::vector<std::string> arguments = {"accuracy",        "--scene",      scene_,  "--out",
+                                          out("report"),     "--size",       "64x36", "--sweep",
+                                          out("sweep.toml"), "--validation", "--set", "debug.check_finite=true"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return speculum(arguments);
   }

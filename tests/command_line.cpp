@@ -15,7 +15,11 @@ namespace {
 using namespace testing_support;
 namespace fs = std::filesystem;
 
+// What draws, draws with debug.check_finite.
 ProcessResult speculum(std::vector<std::string> arguments) {
+  if (arguments.front() == "render" || arguments.front() == "bench") {
+    arguments.insert(arguments.begin() + 1, {"--set", "debug.check_finite=true"});
+  }
   arguments.insert(arguments.begin(), std::string(SPECULUM_BINARY_DIR) + "/speculum");
   return runProcess(arguments);
 }
@@ -166,6 +170,30 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
     EXPECT_GT(stats["totals"][key], 0) << key;
   }
   EXPECT_EQ(stats["totals"]["validation_messages"], 0);
+  EXPECT_EQ(stats["totals"]["non_finite"], 0);
+}
+
+TEST_F(CommandLine, RadianceThatIsNegativeIsNamedAndExitsOne) {
+  const TemporaryDirectory shaders;
+  writeShaders(shaders.path(), "scene.frag", "  color.r = -1.0;\n");
+  const auto run = [&](std::vector<std::string> arguments, const std::string& checked) {
+    for (const std::string& more :
+         {std::string("--shader-dir"), shaders.path().string(), std::string("--scene"), scene_, std::string("--size"),
+          std::string("64x36"), std::string("--set"), "debug.check_finite=" + checked}) {
+      arguments.push_back(more);
+    }
+    return speculum(arguments);
+  };
+  const ProcessResult render = run({"render", "--out", out("n.png"), "--stats", out("n.json")}, "true");
+  EXPECT_EQ(render.exitCode, 1);
+  EXPECT_EQ(render.output.rfind("error: debug.check_finite: mirror wall: pixel ", 0), 0u) << render.output;
+  EXPECT_NE(render.output.find(" samples of radiance that are not finite"), std::string::npos) << render.output;
+  EXPECT_EQ(std::count(render.output.begin(), render.output.end(), '\n'), 2) << render.output;
+  EXPECT_GT(readJson(out("n.json"))["totals"]["non_finite"], 100);
+  EXPECT_EQ(run({"bench", "--frames", "1", "--warmup", "0"}, "true").exitCode, 1);
+
+  EXPECT_EQ(run({"render", "--out", out("n.png"), "--stats", out("n.json")}, "false").exitCode, 0);
+  EXPECT_FALSE(readJson(out("n.json"))["totals"].contains("non_finite"));
 }
 
 TEST_F(CommandLine, BenchSummarisesTimes) {

@@ -1,6 +1,6 @@
 # Shaders of these tests, built as those of the program are.
 file(GLOB test_shader_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/shaders/*.vert
-     ${CMAKE_CURRENT_LIST_DIR}/shaders/*.frag)
+     ${CMAKE_CURRENT_LIST_DIR}/shaders/*.frag ${CMAKE_CURRENT_LIST_DIR}/shaders/*.comp)
 speculum_shaders(test_shaders OUTPUT ${PROJECT_BINARY_DIR}/tests/core_shaders SOURCES ${test_shader_sources})
 
 foreach(name core_platform core_device core_render core_barriers core_pipeline)

@@ -1,5 +1,6 @@
 #include <array>
 #include <bit>
+#include <cstring>
 #include <fstream>
 #include <functional>
 
@@ -121,6 +122,48 @@ TEST_F(HotReload, EditedShaderChangesThePictureAndLeaksNothing) {
   edit("copy.frag", ".bgra", " * vec4(2.0, 1.0, 1.0, 1.0)");
   EXPECT_TRUE(renderer_->reloadShaders());
   EXPECT_EQ(cornerColor(), (std::array<int, 3>{255, 32, 191}));
+  EXPECT_EQ(liveObjects(), objects);
+  EXPECT_EQ(device_.validationMessages(), 0) << messagesOf(device_);
+}
+
+// What fill.comp writes.
+std::vector<uint32_t> filled(Renderer& renderer, const Pipeline& pipeline, VkDescriptorSetLayout layout) {
+  constexpr uint32_t offset = 7;
+  const Buffer buffer(renderer.device(), 8 * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
+                      "filled");
+  Frame frame = renderer.beginFrame().value();
+  const VkDescriptorSet set = frame.descriptors->allocate(layout);
+  DescriptorWriter().buffer(0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer.descriptor()).update(renderer.device(), set);
+  pipeline.bind(frame.commands);
+  pipeline.bindSet(frame.commands, 0, set);
+  pipeline.push(frame.commands, offset);
+  vkCmdDispatch(frame.commands, 1, 1, 1);
+  renderer.device().barriers().checkToHost(frame.commands);
+  renderer.endFrame(frame);
+  renderer.waitIdle();
+  std::vector<uint32_t> values(8);
+  std::memcpy(values.data(), buffer.mapped(), buffer.bytes());
+  return values;
+}
+
+TEST_F(HotReload, ComputePipelinesSpecialiseAndAreRebuilt) {
+  const DescriptorBinding binding{
+      .binding = 0, .type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, .stages = VK_SHADER_STAGE_COMPUTE_BIT};
+  const DescriptorSetLayoutHandle layout = createDescriptorSetLayout(device_, std::span(&binding, 1), "filled");
+  const Pipeline pipeline(renderer_->pipelines(), ComputePipelineDesc{.name = "fill",
+                                                                      .comp = "fill.comp",
+                                                                      .constants = {3},
+                                                                      .setLayouts = {layout.get()},
+                                                                      .pushConstantBytes = sizeof(uint32_t)});
+  const std::vector<uint32_t> values = {7, 10, 13, 16, 19, 22, 25, 28};
+  for (uint32_t frame = 0; frame < framesInFlight; ++frame) {
+    EXPECT_EQ(filled(*renderer_, pipeline, layout.get()), values);
+  }
+  const auto objects = liveObjects();  // after both frames in flight have made what they keep
+  edit("fill.comp", "offset + ", "1000 + ");
+  EXPECT_TRUE(renderer_->reloadShaders());
+  EXPECT_EQ(filled(*renderer_, pipeline, layout.get()).back(), 1021u);
+  EXPECT_EQ(filled(*renderer_, pipeline, layout.get()).back(), 1021u);
   EXPECT_EQ(liveObjects(), objects);
   EXPECT_EQ(device_.validationMessages(), 0) << messagesOf(device_);
 }

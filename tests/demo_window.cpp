@@ -163,6 +163,37 @@ TEST_F(DemoWindow, IconifiedDrawsNoFrameAndComesBack) {
   expectQuiet();
 }
 
+struct NegativeLight {
+  NegativeLight() { writeShaders(shaders.path(), "scene.frag", "  color.b = -1.0;\n"); }
+  Options options() const {
+    Options options;
+    options.shaderDir = shaders.path();
+    return options;
+  }
+  TemporaryDirectory shaders;
+};
+
+class DemoWindowWithNegativeLight : protected NegativeLight, public DemoWindow {
+ protected:
+  DemoWindowWithNegativeLight() : DemoWindow(options()) {}
+};
+
+TEST_F(DemoWindowWithNegativeLight, SaysWhereItIsUntilItIsGone) {
+  EXPECT_EQ(demo_->model().message.rfind("mirror wall: pixel ", 0), 0u) << demo_->model().message;
+  EXPECT_GT(demo_->nonFinite(), 0u);
+  const std::filesystem::path shader = shaders.path() / "scene.frag";
+  const auto written = std::filesystem::last_write_time(shader);
+  std::filesystem::copy_file(sourceFile("shaders/scene.frag"), shader,
+                             std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::last_write_time(shader, written + std::chrono::seconds(1));
+  run(6);
+  EXPECT_EQ(demo_->model().message, "");
+  const uint64_t found = demo_->nonFinite();
+  run(3);
+  EXPECT_EQ(demo_->nonFinite(), found);
+  EXPECT_EQ(demo_->device().validationMessages(), 0);
+}
+
 TEST_F(DemoWindow, CloseButtonCloses) {
   const ProcessResult closed = runProcess({"wmctrl", "-c", "Speculum"});
   ASSERT_EQ(closed.exitCode, 0) << closed.output;

@@ -49,6 +49,7 @@ class DemoWindow : public testing::Test {
     options.size = {width, height};
     options.validation = true;
     options.presentMode = PresentMode::immediate;
+    options.settings.emplace_back("debug.check_finite", "true");
     demo_ = std::make_unique<Demo>(options);
     demo_->setCapture(true);
     run(10);
@@ -125,7 +126,10 @@ class DemoWindow : public testing::Test {
     run(3);
   }
 
-  void expectQuiet() { EXPECT_EQ(demo_->device().validationMessages(), 0); }
+  void expectQuiet() {
+    EXPECT_EQ(demo_->device().validationMessages(), 0);
+    EXPECT_EQ(demo_->nonFinite(), 0u);
+  }
 
   test::VirtualDisplay display_{1280, 900};
   TemporaryDirectory config_;

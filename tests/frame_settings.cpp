@@ -24,6 +24,7 @@ TEST(Settings, EveryKeyHasItsDefault) {
   EXPECT_TRUE(json["view.clear_color"].is_null());
   EXPECT_EQ(json["view.texture_filter"], "bilinear");
   EXPECT_EQ(json["view.wireframe"], false);
+  EXPECT_EQ(json["debug.check_finite"], false);
 }
 
 TEST(Settings, EveryKeyTakesItsOwnValueBack) {

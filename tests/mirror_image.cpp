@@ -170,7 +170,7 @@ TEST(MirrorImages, EveryClippingMethodCutsAlikeAtModerateDistance) {
   const std::filesystem::path scene = writeScene("clips", toml(randomWorld(3), "[1, 1, 1]"));
   Options options = headless(scene, size);
   const Image8 expected = draw(options);
-  options.settings = {{"reflection.clip", "oblique"}};
+  set(options, {{"reflection.clip", "oblique"}});
   expectAlike(draw(options), expected, 1, "clip_oblique");
 }
 

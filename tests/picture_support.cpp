@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "core/platform.hpp"
+
 namespace speculum::testing_support {
 
 namespace {
@@ -53,14 +55,26 @@ Options headless(const std::filesystem::path& scene, PictureSize size) {
   options.scene = scene.string();
   options.size = size;
   options.validation = true;
+  options.settings = {{"debug.check_finite", "true"}};
   return options;
+}
+
+void set(Options& options, const std::vector<std::pair<std::string, std::string>>& settings) {
+  options.settings.insert(options.settings.end(), settings.begin(), settings.end());
+}
+
+void expectQuiet(Session& session) {
+  session.finish();
+  EXPECT_EQ(session.device().validationMessages(), 0) << session.scene().file;
+  const FiniteWatch& watch = session.sceneRenderer().finiteWatch();
+  EXPECT_EQ(watch.count(), 0u) << session.scene().file << ": " << describe(watch.findings().front());
 }
 
 Image8 draw(const Options& options, double time) {
   Session session(options);
   session.draw(time, true);
   Image8 picture = session.picture();
-  EXPECT_EQ(session.device().validationMessages(), 0) << options.scene;
+  expectQuiet(session);
   return picture;
 }
 
@@ -75,6 +89,16 @@ std::filesystem::path writeScene(const std::string& name, const std::string& tom
   }
   std::ofstream(file) << text;
   return file;
+}
+
+void writeShaders(const std::filesystem::path& directory, const std::string& shader, const std::string& code) {
+  for (const auto& entry : std::filesystem::directory_iterator(sourceFile("shaders"))) {
+    std::filesystem::copy_file(entry.path(), directory / entry.path().filename());
+  }
+  const std::vector<uint8_t> content = *readFile(directory / shader);
+  std::string text(content.begin(), content.end());
+  text.insert(text.rfind('}'), code);
+  std::ofstream(directory / shader) << text;
 }
 
 }  // namespace speculum::testing_support

@@ -18,14 +18,23 @@ PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, con
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts = {});
 
-// Options for a headless picture with validation on.
+// Options for a headless picture with validation and debug.check_finite on. Tests add to its settings.
 Options headless(const std::filesystem::path& scene, PictureSize size = {640, 360});
 
-// Draws one picture; a validation message is a failure.
+// Adds to the settings.
+void set(Options& options, const std::vector<std::pair<std::string, std::string>>& settings);
+
+// Fails for a validation message and for a value in a target that is not finite or out of range.
+void expectQuiet(Session& session);
+
+// Draws one picture that is quiet.
 Image8 draw(const Options& options, double time = 0.0);
 
 // Writes a scene file into the test's temporary directory; model paths in it are relative to the project's models/.
 std::filesystem::path writeScene(const std::string& name, const std::string& toml);
+
+// The program's shaders, one of them with `code` at the end of its main(), for Options::shaderDir.
+void writeShaders(const std::filesystem::path& directory, const std::string& shader, const std::string& code);
 
 std::filesystem::path sourceFile(const std::string& relative);
 

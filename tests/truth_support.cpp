@@ -32,11 +32,11 @@ Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, d
 
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth) {
   Options options = headless(file, size);
-  options.settings = {{"view.samples", "1"},
-                      {"reflection.samples", "1"},
-                      {"reflection.max_depth", std::to_string(maxDepth)},
-                      {"reflection.max_passes", "100000"},
-                      {"reflection.min_pixels", "0"}};
+  set(options, {{"view.samples", "1"},
+                {"reflection.samples", "1"},
+                {"reflection.max_depth", std::to_string(maxDepth)},
+                {"reflection.max_passes", "100000"},
+                {"reflection.min_pixels", "0"}});
   return options;
 }
 

@@ -77,11 +77,8 @@ int runAccuracy(const Options& options) {
   writeReport(options, results, folder);
   printFront(results);
   std::printf("%s\n", (options.out / "index.html").c_str());
-  const int messages = session.device().validationMessages();
-  if (messages > 0) {
-    std::fprintf(stderr, "%d validation messages\n", messages);
-  }
-  return messages > 0 ? 1 : 0;
+  session.finish();
+  return session.exitCode();
 }
 
 }  // namespace speculum

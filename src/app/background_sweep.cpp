@@ -75,6 +75,7 @@ void BackgroundSweep::start(SweepRequest request) {
   cancel();
   request.base.quality = {};
   request.base.reflection.updateInterval = 1;  // the view stands still
+  request.base.debug.checkFinite = false;      // its time is not the settings'
   request.options.settings.clear();
   request.options.sweepResults.clear();
   job_ = std::make_unique<Job>();

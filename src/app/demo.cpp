@@ -102,6 +102,8 @@ void Demo::chooseScene(int index) {
     options.sweepResults.clear();  // of the scene that the window began with
     auto next = std::make_unique<LoadedScene>(loadSceneWithSettings(sceneFiles_[index], options));
     accuracy_.forgetScene(model_);
+    renderer_.waitIdle();
+    nonFinite_ = nonFinite();
     sceneRenderer_.reset();
     loaded_ = std::move(next);
     sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
@@ -244,6 +246,10 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, int updateI
   model_.deviceBytes = device_.allocatedBytes();
   model_.validationMessages = device_.validation() ? device_.validationMessages() : -1;
   model_.message = sceneError_.empty() ? renderer_.pipelines().errors() : sceneError_;
+  const FiniteWatch& watch = sceneRenderer_->finiteWatch();
+  if (model_.message.empty() && watch.findingsFrame() > 0 && watch.findingsFrame() == timings.frame) {
+    model_.message = describe(watch.findings().front());
+  }
   if (model_.message.empty()) {
     model_.message = planner_.message();
   }
@@ -277,11 +283,7 @@ int runDemo(const Options& options) {
   }
   demo.renderer().waitIdle();
   spdlog::info("{} frames", demo.framesDrawn());
-  const int messages = demo.device().validationMessages();
-  if (messages > 0) {
-    std::fprintf(stderr, "%d validation messages\n", messages);
-  }
-  return messages > 0 ? 1 : 0;
+  return exitCodeOfChecks(demo.device().validationMessages(), demo.nonFinite());
 }
 
 }  // namespace speculum

@@ -22,6 +22,8 @@ class Demo {
   Device& device() { return device_; }
   Renderer& renderer() { return renderer_; }
   const UiModel& model() const { return model_; }
+  // Samples that debug.check_finite found in the frames that have finished, of every scene that was shown.
+  uint64_t nonFinite() { return nonFinite_ + sceneRenderer_->finiteWatch().count(); }
   int framesDrawn() const { return framesDrawn_; }
   // Makes frames from now on readable by Renderer::readback, panel included.
   void setCapture(bool capture) { capture_ = capture; }
@@ -56,6 +58,7 @@ class Demo {
   int shownScene_ = 0;
   std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
   std::string sceneError_;
+  uint64_t nonFinite_ = 0;  // of scenes shown before
   bool dragging_ = false;
   double cursorX_ = 0.0;
   double cursorY_ = 0.0;
@@ -65,7 +68,8 @@ class Demo {
   int framesDrawn_ = 0;
 };
 
-// The window until it is closed or --frames are drawn. Exit code 1 if the validation layer had anything to say.
+// The window until it is closed or --frames are drawn. Exit code 1 if the validation layer or debug.check_finite had
+// anything to say.
 int runDemo(const Options& options);
 
 }  // namespace speculum

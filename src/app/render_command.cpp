@@ -22,14 +22,6 @@ void savePicture(Session& session, const std::filesystem::path& file) {
   }
 }
 
-int failOnMessages(const Device& device) {
-  const int count = device.validationMessages();
-  if (count > 0) {
-    std::fprintf(stderr, "%d validation messages\n", count);
-  }
-  return count > 0 ? 1 : 0;
-}
-
 }  // namespace
 
 int runRender(const Options& options) {
@@ -50,7 +42,7 @@ int runRender(const Options& options) {
   if (!options.stats.empty()) {
     writeJson(options.stats, frameStats(session, session.renderer().timings()));
   }
-  return failOnMessages(session.device());
+  return session.exitCode();
 }
 
 namespace {
@@ -117,7 +109,7 @@ int runBench(const Options& options) {
     const auto& total = merged["totals"][key];
     std::printf("%-40s %6d %10.3f %10.3f\n", key, measured, total["median"].get<double>(), total["p95"].get<double>());
   }
-  return failOnMessages(session.device());
+  return session.exitCode();
 }
 
 }  // namespace speculum

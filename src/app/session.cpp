@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/platform.hpp"
 #include "scene/scene_effects.hpp"
@@ -78,6 +79,17 @@ void applyDebugSettings(const Settings& settings, Device& device) {
     throw UsageError("--set: debug.omit_barrier: there is no barrier '" + name + "' (" + names + ")");
   }
   device.barriers().omit(kind);
+}
+
+int exitCodeOfChecks(int validationMessages, uint64_t nonFinite) {
+  if (validationMessages > 0) {
+    std::fprintf(stderr, "%d validation messages\n", validationMessages);
+  }
+  if (nonFinite > 0) {
+    std::fprintf(stderr, "%llu samples of radiance that are not finite or not within 0 .. 65504\n",
+                 static_cast<unsigned long long>(nonFinite));
+  }
+  return validationMessages > 0 || nonFinite > 0 ? 1 : 0;
 }
 
 BudgetPlanner::BudgetPlanner(const Device& device) {

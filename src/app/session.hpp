@@ -32,6 +32,10 @@ RendererOptions rendererOptions(const Options& options, Window* window);
 // debug.omit_barrier. Throws UsageError with the names for one that does not exist.
 void applyDebugSettings(const Settings& settings, Device& device);
 
+// The exit code of a run: 1 if the validation layer or debug.check_finite had anything to say, and then a line on
+// stderr for each that says how much.
+int exitCodeOfChecks(int validationMessages, uint64_t nonFinite);
+
 // planWithin for what the device has; says in the log when it begins to lower settings.
 class BudgetPlanner {
  public:
@@ -71,6 +75,8 @@ class Session {
   void finish();
   Image8 picture();                                             // of the last frame drawn with `capture`
   LinearImage radiance() { return sceneRenderer_.radiance(); }  // of the last frame, before the display pass
+  // exitCodeOfChecks for the frames that have finished.
+  int exitCode() { return exitCodeOfChecks(device_.validationMessages(), sceneRenderer_.finiteWatch().count()); }
 
   const Scene& scene() const { return loaded_.scene; }
   const Settings& settings() const { return loaded_.settings; }

@@ -194,6 +194,9 @@ ordered_json frameStats(Session& session, const FrameTimings& timings) {
                     {"peak_rss_bytes", peakResidentBytes()},
                     {"pipelines", session.sceneRenderer().pipelineCount()},
                     {"validation_messages", device.validationMessages()}};
+  if (frame.settings.debug.checkFinite) {
+    json["totals"]["non_finite"] = session.sceneRenderer().finiteWatch().count();
+  }
   return json;
 }
 

@@ -16,6 +16,9 @@ constexpr std::array<std::string_view, barrierKindCount> names = {"offscreenBefo
                                                                   "mainSamplesBeforeWrite",
                                                                   "mainDepthBeforeWrite",
                                                                   "mainToSample",
+                                                                  "targetToCheck",
+                                                                  "checkToLookUp",
+                                                                  "checkToWrite",
                                                                   "swapchainBeforeWrite",
                                                                   "swapchainBeforeOverlay",
                                                                   "swapchainToPresent",
@@ -40,6 +43,7 @@ constexpr VkPipelineStageFlags depthStages =
 constexpr VkAccessFlags depthAccess =
     VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 constexpr VkPipelineStageFlags sampleStage = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+constexpr VkPipelineStageFlags checkStage = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
 constexpr VkPipelineStageFlags transferStage = VK_PIPELINE_STAGE_TRANSFER_BIT;
 constexpr VkPipelineStageFlags readStages =
     VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
@@ -131,6 +135,38 @@ void Barriers::colorToSample(VkCommandBuffer commands, TargetRole role, Image& i
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenToSample, BarrierKind::mainToSample);
   record(commands, kind, image, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
          {sampleStage, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+void Barriers::targetToCheck(VkCommandBuffer commands, Image& image) const {
+  // The stage at which colorToSample has left the image, and for samples, which it does not touch, the one that wrote.
+  record(commands, BarrierKind::targetToCheck, image, {colorStage | sampleStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
+         {checkStage, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+void Barriers::checkToLookUp(VkCommandBuffer commands, const VkDescriptorBufferInfo& results) const {
+  if (omitted_ == BarrierKind::checkToLookUp) {
+    return;
+  }
+  const VkBufferMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
+                                      .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
+                                      .dstAccessMask = VK_ACCESS_SHADER_READ_BIT,
+                                      .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                      .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                      .buffer = results.buffer,
+                                      .offset = results.offset,
+                                      .size = results.range};
+  vkCmdPipelineBarrier(commands, checkStage, checkStage, 0, 0, nullptr, 1, &barrier, 0, nullptr);
+}
+
+void Barriers::checkToWrite(VkCommandBuffer commands, Image& image) const {
+  record(commands, BarrierKind::checkToWrite, image, {checkStage, 0}, {colorStage | sampleStage, 0}, image.layout());
+}
+
+void Barriers::checkToHost(VkCommandBuffer commands) const {
+  const VkMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
+                                .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
+  vkCmdPipelineBarrier(commands, checkStage, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 void Barriers::swapchainBeforeOverlay(VkCommandBuffer commands, Image& image) const {

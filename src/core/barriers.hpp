@@ -22,6 +22,9 @@ enum class BarrierKind {
   mainSamplesBeforeWrite,
   mainDepthBeforeWrite,
   mainToSample,
+  targetToCheck,           // attachment -> compute shader, also where fragment shaders sample it
+  checkToLookUp,           // results of a check -> the dispatch that looks up what was found
+  checkToWrite,            // compute shader -> what attachments wait for before they are written again
   swapchainBeforeWrite,    // acquired image (or the last read back) -> attachment
   swapchainBeforeOverlay,  // attachment of the pass before -> attachment that loads it
   swapchainToPresent,
@@ -54,6 +57,11 @@ class Barriers {
   void samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
   void depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
   void colorToSample(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  // Of a pass's output or its samples, which become readable in compute shaders.
+  void targetToCheck(VkCommandBuffer commands, Image& image) const;
+  void checkToLookUp(VkCommandBuffer commands, const VkDescriptorBufferInfo& results) const;
+  void checkToWrite(VkCommandBuffer commands, Image& image) const;
+  void checkToHost(VkCommandBuffer commands) const;
   // Into GENERAL, the layout of the overlay's pass: see overlayLayout.
   void swapchainBeforeOverlay(VkCommandBuffer commands, Image& image) const;
   void swapchainToPresent(VkCommandBuffer commands, Image& image) const;

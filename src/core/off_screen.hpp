@@ -37,6 +37,7 @@ struct OffScreenDesc {
   VkFormat format = colorFormat;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool keepSamples = false;  // the output is the multisampled colour, read sample by sample; else it is resolved
+  bool readSamples = false;  // the samples that are resolved can be read as well, if the pass stores them
   bool depth = true;
   VkFilter filter = VK_FILTER_LINEAR;
   TargetRole role = TargetRole::offscreen;
@@ -59,6 +60,9 @@ class OffScreen {
   VkSampleCountFlagBits samples() const { return desc_.samples; }
   uint64_t bytes() const;  // without shared depth
   Image& color() { return color_; }
+  // What is resolved to color(): null unless there is such an image. Its descriptor is for shaders that read samples.
+  Image* samplesImage() { return samples_ ? &samples_ : nullptr; }
+  VkDescriptorImageInfo samplesDescriptor() const { return samples_.descriptor(sampler_.get()); }
   PassTargets targets();
   VkDescriptorImageInfo descriptor() const { return color_.descriptor(sampler_.get()); }
 

@@ -46,7 +46,7 @@ struct PassDesc {
   bool loadColor = false;   // else cleared
   bool loadDepth = false;
   bool storeDepth = false;
-  bool storeSamples = false;       // multisampled colour is kept for a later pass that loads it
+  bool storeSamples = false;       // multisampled colour is kept for those who load or read it
   bool sampledAfterwards = true;   // the output becomes readable in fragment shaders; ignored for the swapchain
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
 };

@@ -215,13 +215,15 @@ std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
 }
 
 uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface) {
+  // Where there is a queue that draws, there is one that does both.
+  constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(device.handle);
   for (uint32_t i = 0; i < families.size(); ++i) {
     VkBool32 presents = VK_TRUE;
     if (surface != VK_NULL_HANDLE) {
       check(vkGetPhysicalDeviceSurfaceSupportKHR(device.handle, i, surface, &presents), "query presentation");
     }
-    if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) && presents) {
+    if ((families[i].queueFlags & wanted) == wanted && presents) {
       return i;
     }
   }

@@ -9,7 +9,14 @@ namespace speculum {
 
 namespace {
 
-constexpr VkShaderStageFlags pushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+VkShaderStageFlags pushStages(const PipelineDesc& desc) {
+  return std::holds_alternative<ComputePipelineDesc>(desc) ? VK_SHADER_STAGE_COMPUTE_BIT
+                                                           : VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+}
+
+const std::string& nameOf(const PipelineDesc& desc) {
+  return std::visit([](const auto& d) -> const std::string& { return d.name; }, desc);
+}
 
 // One shader stage with constants 0, 1, ... taken from a list; keeps what the create info points to.
 class Stage {
@@ -86,24 +93,31 @@ VkPipelineColorBlendAttachmentState blending(Blend blend) {
                             VK_COLOR_COMPONENT_A_BIT};
 }
 
-PipelineLayoutHandle createLayout(Device& device, const GraphicsPipelineDesc& desc) {
-  const VkPushConstantRange range{pushStages, 0, desc.pushConstantBytes};
+PipelineLayoutHandle createLayout(Device& device, const PipelineDesc& desc) {
+  const uint32_t pushBytes = std::visit([](const auto& d) { return d.pushConstantBytes; }, desc);
+  const std::vector<VkDescriptorSetLayout>& sets =
+      std::visit([](const auto& d) -> const std::vector<VkDescriptorSetLayout>& { return d.setLayouts; }, desc);
+  const VkPushConstantRange range{pushStages(desc), 0, pushBytes};
   const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                        .setLayoutCount = static_cast<uint32_t>(desc.setLayouts.size()),
-                                        .pSetLayouts = desc.setLayouts.data(),
-                                        .pushConstantRangeCount = desc.pushConstantBytes > 0 ? 1u : 0u,
+                                        .setLayoutCount = static_cast<uint32_t>(sets.size()),
+                                        .pSetLayouts = sets.data(),
+                                        .pushConstantRangeCount = pushBytes > 0 ? 1u : 0u,
                                         .pPushConstantRanges = &range};
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout), "create the layout of pipeline " + desc.name);
-  device.setName(layout, desc.name);
+  check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout), "create the layout of pipeline " + nameOf(desc));
+  device.setName(layout, nameOf(desc));
   return {device.get(), layout};
 }
 
-bool uses(const GraphicsPipelineDesc& desc, const std::vector<std::string>& shaders) {
+bool uses(const PipelineDesc& desc, const std::vector<std::string>& shaders) {
   const auto listed = [&](const std::string& name) {
     return std::find(shaders.begin(), shaders.end(), name) != shaders.end();
   };
-  return listed(desc.vert) || listed(desc.frag);
+  if (const auto* compute = std::get_if<ComputePipelineDesc>(&desc)) {
+    return listed(compute->comp);
+  }
+  const auto& graphics = std::get<GraphicsPipelineDesc>(desc);
+  return listed(graphics.vert) || listed(graphics.frag);
 }
 
 }  // namespace
@@ -116,16 +130,34 @@ bool PipelineFactory::reload() {
   const ShaderChange change = shaders_.poll();
   bool rebuilt = false;
   for (Pipeline* pipeline : pipelines_) {
-    if (uses(pipeline->desc(), change.changed)) {
+    if (uses(pipeline->desc_, change.changed)) {
       retired_.retire(std::exchange(pipeline->pipeline_, build(pipeline->desc_, pipeline->layout_.get())));
-      spdlog::info("pipeline {} was rebuilt", pipeline->desc_.name);
+      spdlog::info("pipeline {} was rebuilt", nameOf(pipeline->desc_));
       rebuilt = true;
     }
   }
   return rebuilt;
 }
 
-PipelineHandle PipelineFactory::build(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
+PipelineHandle PipelineFactory::build(const PipelineDesc& desc, VkPipelineLayout layout) {
+  if (const auto* compute = std::get_if<ComputePipelineDesc>(&desc)) {
+    return buildCompute(*compute, layout);
+  }
+  return buildGraphics(std::get<GraphicsPipelineDesc>(desc), layout);
+}
+
+PipelineHandle PipelineFactory::buildCompute(const ComputePipelineDesc& desc, VkPipelineLayout layout) {
+  const Stage comp(VK_SHADER_STAGE_COMPUTE_BIT, shaders_.module(desc.comp), desc.constants);
+  const VkComputePipelineCreateInfo info{
+      .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = comp.info(), .layout = layout};
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  check(vkCreateComputePipelines(device_.get(), cache_.get(), 1, &info, nullptr, &pipeline),
+        "create pipeline " + desc.name);
+  device_.setName(pipeline, desc.name);
+  return {device_.get(), pipeline};
+}
+
+PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
   const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.vertConstants);
   const Stage frag(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(desc.frag), desc.fragConstants);
   const std::array stages = {vert.info(), frag.info()};
@@ -176,7 +208,7 @@ PipelineHandle PipelineFactory::create(const GraphicsPipelineDesc& desc, VkGraph
   return {device_.get(), pipeline};
 }
 
-Pipeline::Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc)
+Pipeline::Pipeline(PipelineFactory& factory, PipelineDesc desc)
     : factory_(factory),
       desc_(std::move(desc)),
       layout_(createLayout(factory.device_, desc_)),
@@ -184,22 +216,33 @@ Pipeline::Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc)
   factory_.pipelines_.push_back(this);
 }
 
+Pipeline::Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc)
+    : Pipeline(factory, PipelineDesc(std::move(desc))) {}
+
+Pipeline::Pipeline(PipelineFactory& factory, ComputePipelineDesc desc)
+    : Pipeline(factory, PipelineDesc(std::move(desc))) {}
+
 Pipeline::~Pipeline() {
   std::erase(factory_.pipelines_, this);
   factory_.retired_.retire(std::move(pipeline_));
   factory_.retired_.retire(std::move(layout_));
 }
 
+VkPipelineBindPoint Pipeline::bindPoint() const {
+  return std::holds_alternative<ComputePipelineDesc>(desc_) ? VK_PIPELINE_BIND_POINT_COMPUTE
+                                                            : VK_PIPELINE_BIND_POINT_GRAPHICS;
+}
+
 void Pipeline::bind(VkCommandBuffer commands) const {
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+  vkCmdBindPipeline(commands, bindPoint(), pipeline_.get());
 }
 
 void Pipeline::bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const {
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), index, 1, &set, 0, nullptr);
+  vkCmdBindDescriptorSets(commands, bindPoint(), layout_.get(), index, 1, &set, 0, nullptr);
 }
 
 void Pipeline::pushBytes(VkCommandBuffer commands, const void* data, uint32_t bytes) const {
-  vkCmdPushConstants(commands, layout_.get(), pushStages, 0, bytes, data);
+  vkCmdPushConstants(commands, layout_.get(), pushStages(desc_), 0, bytes, data);
 }
 
 }  // namespace speculum

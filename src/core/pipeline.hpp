@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/render_pass_cache.hpp"
@@ -43,6 +44,16 @@ struct GraphicsPipelineDesc {
   std::vector<VkVertexInputAttributeDescription> vertexAttributes;
 };
 
+struct ComputePipelineDesc {
+  std::string name;
+  std::string comp;                               // e.g. "check_finite.comp"
+  std::vector<uint32_t> constants;                // specialisation constants 0, 1, ...
+  std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
+  uint32_t pushConstantBytes = 0;                 // offset 0
+};
+
+using PipelineDesc = std::variant<GraphicsPipelineDesc, ComputePipelineDesc>;
+
 // The driver's compiled pipelines on disk, one file per GPU and driver. Damaged and foreign files are ignored.
 class PipelineCache {
  public:
@@ -79,7 +90,9 @@ class PipelineFactory {
 
  private:
   friend class Pipeline;
-  PipelineHandle build(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
+  PipelineHandle build(const PipelineDesc& desc, VkPipelineLayout layout);
+  PipelineHandle buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
+  PipelineHandle buildCompute(const ComputePipelineDesc& desc, VkPipelineLayout layout);
   PipelineHandle create(const GraphicsPipelineDesc& desc, VkGraphicsPipelineCreateInfo info);
 
   Device& device_;
@@ -90,11 +103,12 @@ class PipelineFactory {
   std::vector<Pipeline*> pipelines_;
 };
 
-// A graphics pipeline and its layout. Stays where it was made (hot reload knows its address); hold it by unique_ptr
-// or std::optional. The factory outlives it.
+// A graphics or compute pipeline and its layout. Stays where it was made (hot reload knows its address); hold it by
+// unique_ptr or std::optional. The factory outlives it.
 class Pipeline {
  public:
   Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc);
+  Pipeline(PipelineFactory& factory, ComputePipelineDesc desc);
   ~Pipeline();  // the Vulkan objects go to the retire queue
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
@@ -102,7 +116,6 @@ class Pipeline {
   void bind(VkCommandBuffer commands) const;
   VkPipeline get() const { return pipeline_.get(); }
   VkPipelineLayout layout() const { return layout_.get(); }
-  const GraphicsPipelineDesc& desc() const { return desc_; }
   void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const;
   template <typename T>
   void push(VkCommandBuffer commands, const T& constants) const {
@@ -111,10 +124,12 @@ class Pipeline {
 
  private:
   friend class PipelineFactory;
+  Pipeline(PipelineFactory& factory, PipelineDesc desc);
+  VkPipelineBindPoint bindPoint() const;
   void pushBytes(VkCommandBuffer commands, const void* data, uint32_t bytes) const;
 
   PipelineFactory& factory_;
-  GraphicsPipelineDesc desc_;
+  PipelineDesc desc_;
   PipelineLayoutHandle layout_;
   PipelineHandle pipeline_;
 };

@@ -91,16 +91,17 @@ Setting choice(SettingInfo info, Group Settings::*group, Enum Group::*member,
           }};
 }
 
-Setting boolean(SettingInfo info, bool ViewSettings::*member) {
+template <typename Group>
+Setting boolean(SettingInfo info, Group Settings::*group, bool Group::*member) {
   return {info,
           [=](Settings& s, std::string_view text) -> Problem {
             if (text != "true" && text != "false") {
               return quoted(text) + " is not a choice (true | false)";
             }
-            s.view.*member = text == "true";
+            (s.*group).*member = text == "true";
             return std::nullopt;
           },
-          [=](const Settings& s) -> ordered_json { return s.view.*member; }};
+          [=](const Settings& s) -> ordered_json { return (s.*group).*member; }};
 }
 
 std::optional<glm::dvec3> parseColor(std::string_view text) {
@@ -190,7 +191,7 @@ std::vector<Setting> viewTable() {
       choice<V, TextureFilter>({"view.texture_filter", "bilinear | trilinear", "lookup of textures"}, group,
                                &V::textureFilter,
                                {{"bilinear", TextureFilter::bilinear}, {"trilinear", TextureFilter::trilinear}}),
-      boolean({"view.wireframe", "true | false", "edges of triangles only"}, &V::wireframe),
+      boolean<V>({"view.wireframe", "true | false", "edges of triangles only"}, group, &V::wireframe),
   };
 }
 
@@ -205,14 +206,22 @@ std::vector<Setting> qualityTable() {
   };
 }
 
+std::vector<Setting> debugTable() {
+  return {
+      text({"debug.omit_barrier", "name of a barrier", "leaves one barrier out; validation must notice"},
+           &DebugSettings::omitBarrier),
+      boolean<DebugSettings>(
+          {"debug.check_finite", "true | false", "radiance that is NaN, infinite or negative is found"},
+          &Settings::debug, &DebugSettings::checkFinite),
+  };
+}
+
 const std::vector<Setting>& table() {
   static const std::vector<Setting> settings = [] {
     std::vector<Setting> all = reflectionTable();
-    for (std::vector<Setting>& more : std::array{viewTable(), qualityTable()}) {
+    for (std::vector<Setting>& more : std::array{viewTable(), qualityTable(), debugTable()}) {
       std::move(more.begin(), more.end(), std::back_inserter(all));
     }
-    all.push_back(text({"debug.omit_barrier", "name of a barrier", "leaves one barrier out; validation must notice"},
-                       &DebugSettings::omitBarrier));
     return all;
   }();
   return settings;

@@ -47,7 +47,8 @@ struct QualitySettings {
 };
 
 struct DebugSettings {
-  std::string omitBarrier;  // name of a barrier that is not recorded, to show that validation notices; empty: none
+  std::string omitBarrier;   // name of a barrier that is not recorded, to show that validation notices; empty: none
+  bool checkFinite = false;  // every render target of radiance is searched for values that are not finite or negative
 };
 
 struct Settings {

@@ -79,6 +79,25 @@ struct DisplayConstants {
   float exposure;
 };
 
+// Of check_finite.glsl.
+struct CheckSearch {
+  uint32_t pixel;
+  uint32_t count;
+  uint32_t any;
+};
+
+struct CheckFound {
+  glm::vec4 value;
+  uint32_t sample;
+  uint32_t pad[3];
+};
+static_assert(offsetof(CheckFound, sample) == 16 && sizeof(CheckFound) == 32);
+
+struct CheckConstants {
+  uint32_t width;
+  uint32_t height;
+};
+
 // Vertex buffer layout; locations 0, 1, 2 of scene.vert.
 struct GpuVertex {
   glm::vec3 position;

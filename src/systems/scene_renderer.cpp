@@ -57,7 +57,8 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       data_(device_),
       renderSystem_(renderer.pipelines(), data_.layout(), resources_.textureLayout()),
       pointLightSystem_(renderer.pipelines(), data_.layout()),
-      mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()) {
+      mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
+      watch_(renderer) {
   const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
   displayLayout_ = createDescriptorSetLayout(device_, {&binding, 1}, "display");
@@ -69,7 +70,12 @@ SceneRenderer::~SceneRenderer() {
 
 size_t SceneRenderer::pipelineCount() const {
   return renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() + mirrorSystem_.pipelineCount() +
-         displayPipelines_.size();
+         displayPipelines_.size() + watch_.pipelineCount();
+}
+
+const FiniteWatch& SceneRenderer::finiteWatch() {
+  watch_.collect();
+  return watch_;
 }
 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
@@ -83,10 +89,18 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   images_.assign(plan.passes.size(), {});
   recorded_.clear();
   const FrameInfo info{frame, scene_, settings, environment, plan, resources_, data_, images_, heldImages_};
+  if (settings.debug.checkFinite) {
+    watch_.begin(frame, plan.passes.size() + 2);  // the main view's samples and their mean
+  } else {
+    watch_.release();
+  }
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     recordMirrorPass(frame, info, i);
   }
   recordMainPass(frame, info);
+  if (settings.debug.checkFinite) {
+    watch_.end(frame);
+  }
   if (cover_) {
     recordCover(frame);
   } else {
@@ -162,11 +176,16 @@ void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& pl
   }
   const VkExtent2D extent{static_cast<uint32_t>(plan.width), static_cast<uint32_t>(plan.height)};
   const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
-  if (!main_ || main_->samples() != mainSamples) {
+  const bool readSamples = settings.debug.checkFinite && mainSamples != VK_SAMPLE_COUNT_1_BIT;
+  if (!main_ || main_->samples() != mainSamples || main_->desc().readSamples != readSamples) {
     if (main_) {
       main_->retire(retired);
     }
-    const OffScreenDesc desc{.name = "main view", .extent = extent, .samples = mainSamples, .role = TargetRole::main};
+    const OffScreenDesc desc{.name = "main view",
+                             .extent = extent,
+                             .samples = mainSamples,
+                             .readSamples = readSamples,
+                             .role = TargetRole::main};
     main_ = std::make_unique<OffScreen>(device_, desc, retired);
   }
   main_->resize(extent, retired);
@@ -178,6 +197,18 @@ uint32_t SceneRenderer::recordSystems(const PassScope& scope, const FrameInfo& i
   draws += pointLightSystem_.record(scope, info, pass, format);
   draws += renderSystem_.record(scope, info, pass, format);
   return draws;
+}
+
+// Of the pass recorded last. Samples before their mean: it hides what is negative in one of them.
+void SceneRenderer::checkTarget(Frame& frame, const FrameInfo& info, OffScreen& target, VkExtent2D used) {
+  if (!info.settings.debug.checkFinite) {
+    return;
+  }
+  const RecordedPass& pass = recorded_.back();
+  if (Image* samples = target.samplesImage()) {
+    watch_.check(frame, pass.name + " (samples)", pass.path, *samples, target.samplesDescriptor(), used);
+  }
+  watch_.check(frame, pass.name, pass.path, target.color(), target.descriptor(), used);
 }
 
 // Not those that are kept: for the debug view until the frame ends, for the next frames.
@@ -211,6 +242,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
     recorded.draws = recordSystems(scope, info, index, {.samples = target.samples(), .mirrorView = true});
   }
   recorded_.push_back(std::move(recorded));
+  checkTarget(frame, info, target, area.extent);
   targets_[index] = &target;
   images_[index] = {target.descriptor(), target.samples()};
   releaseImages(info.plan, pass);
@@ -221,12 +253,14 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
   desc.clearColor = clearColor(info.environment);
   desc.frontFace = frontFace(info.plan.main.view);
   desc.collectStatistics = true;
+  desc.storeSamples = main_->desc().readSamples;
   RecordedPass recorded{.name = desc.name, .areaPx = info.plan.main.areaPx};
   {
     const PassScope scope = renderer_.beginPass(frame, desc);
     recorded.draws = recordSystems(scope, info, info.plan.passes.size(), {.samples = main_->samples()});
   }
   recorded_.push_back(std::move(recorded));
+  checkTarget(frame, info, *main_, main_->extent());
   releaseImages(info.plan, info.plan.main);
 }
 

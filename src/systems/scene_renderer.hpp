@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "image/image.hpp"
+#include "systems/finite_watch.hpp"
 #include "systems/frame_info.hpp"
 #include "systems/image_pool.hpp"
 #include "systems/mirror_system.hpp"
@@ -55,6 +56,8 @@ class SceneRenderer {
   void setCover(const Image8& picture);
 
   const std::vector<RecordedPass>& passes() const { return recorded_; }
+  // What debug.check_finite found in the frames that have finished.
+  const FiniteWatch& finiteWatch();
   size_t pipelineCount() const;
   OffScreen& mainTarget() { return *main_; }  // linear radiance of the main view, of the last recorded frame
   LinearImage radiance();                     // the same, read back; waits for the GPU
@@ -75,6 +78,7 @@ class SceneRenderer {
   void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
   void recordDisplay(Frame& frame, const PassDesc& desc, const MirrorImage& radiance, const glm::vec4& lookup,
                      const Settings& settings);
+  void checkTarget(Frame& frame, const FrameInfo& info, OffScreen& target, VkExtent2D used);
   void releaseImages(const FramePlan& plan, const PlannedPass& pass);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   const Pipeline& displayPipeline(const DisplayVariant& variant);
@@ -88,6 +92,7 @@ class SceneRenderer {
   RenderSystem renderSystem_;
   PointLightSystem pointLightSystem_;
   MirrorSystem mirrorSystem_;
+  FiniteWatch watch_;
   DescriptorSetLayoutHandle displayLayout_;
   std::map<DisplayVariant, std::unique_ptr<Pipeline>> displayPipelines_;
   std::unique_ptr<SharedDepth> depth_;

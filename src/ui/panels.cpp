@@ -233,7 +233,7 @@ void skipped(const UiModel& model) {
   }
 }
 
-void device(const UiModel& model) {
+void device(UiModel& model) {
   if (!ImGui::CollapsingHeader("Device")) {
     return;
   }
@@ -241,6 +241,8 @@ void device(const UiModel& model) {
   if (model.validationMessages >= 0) {
     ImGui::Text("validation messages: %d", model.validationMessages);
   }
+  ImGui::Checkbox("check that radiance is finite", &model.settings.debug.checkFinite);
+  describe(model, "debug.check_finite");
 }
 
 }  // namespace speculum::panels

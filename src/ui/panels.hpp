@@ -10,7 +10,7 @@ void scene(UiModel& model);
 void settings(UiModel& model);
 void passes(UiModel& model);
 void skipped(const UiModel& model);
-void device(const UiModel& model);
+void device(UiModel& model);
 void accuracy(UiModel& model);
 
 // After a widget: notes its place under `key` in the model.

@@ -232,6 +232,7 @@ Image8 plateInMirror(const std::string& clip) {
   const DebugView debug{.pass = 0, .area = {0, 0, tileSize.width, tileSize.height}};
   session.sceneRenderer().record(frame, first.state, session.settings(), first.plan, debug);
   session.renderer().endFrame(frame);
+  expectQuiet(session);
   return session.picture();
 }
 

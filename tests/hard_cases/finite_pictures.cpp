@@ -95,7 +95,7 @@ int notStorable(const LinearImage& image) {
 TEST(LightOnASurface, EveryPixelIsFinite) {
   for (const char* samples : {"1", "4"}) {
     Options options = headless(writeLitScene(), size);
-    options.settings = {{"view.samples", samples}, {"reflection.samples", samples}};
+    set(options, {{"view.samples", samples}, {"reflection.samples", samples}});
     Session session(options);
     session.draw(0.0, true);
     const LinearImage radiance = session.radiance();
@@ -103,7 +103,7 @@ TEST(LightOnASurface, EveryPixelIsFinite) {
     const auto brightest = std::max_element(radiance.pixels.begin(), radiance.pixels.end(),
                                             [](const glm::vec3& a, const glm::vec3& b) { return a.b < b.b; });
     EXPECT_EQ(brightest->b, 65504.0f) << "the glyph should be as bright as can be stored";
-    EXPECT_EQ(session.device().validationMessages(), 0);
+    expectQuiet(session);
   }
 }
 
@@ -181,6 +181,7 @@ Options windowOptions() {
   options.size = {64, 48};
   options.validation = true;
   options.presentMode = PresentMode::immediate;
+  options.settings = {{"debug.check_finite", "true"}};
   return options;
 }
 
@@ -222,6 +223,7 @@ TEST(AnySizeOfWindow, OnePixelRunsAndNoneAtAllPauses) {
   demo.window().restore();
   EXPECT_TRUE(until([&] { return demo.framesDrawn() > drawn + 3; }));
   EXPECT_EQ(demo.device().validationMessages(), 0);
+  EXPECT_EQ(demo.nonFinite(), 0u);
 }
 
 }  // namespace

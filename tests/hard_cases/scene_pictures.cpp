@@ -249,14 +249,14 @@ reflectance = [1, 1, 1]
 // Pixels that hold some of the background.
 int darkPixels(unsigned seed, const std::string& samples, const std::string& imageSamples) {
   Options options = headless(seamScene(seed), {640, 360});
-  options.settings = {{"view.samples", samples}, {"reflection.samples", imageSamples}};
+  set(options, {{"view.samples", samples}, {"reflection.samples", imageSamples}});
   Session session(options);
   session.draw(0.0, true);
   int dark = 0;
   for (const glm::vec3& pixel : session.radiance().pixels) {
     dark += pixel.r < 0.999f;
   }
-  EXPECT_EQ(session.device().validationMessages(), 0);
+  expectQuiet(session);
   return dark;
 }
 

@@ -1,0 +1,75 @@
+// Searches an image of radiance and disparity for values that are not finite or not within 0 .. 65504. CHECKED_IMAGE is
+// the image's type. A first dispatch over all pixels finds the first one and counts. A second of one group, with
+// LOOK_UP, reads it: before all are through, none can say which the first is.
+layout(local_size_x = 16, local_size_y = 8) in;
+
+layout(set = 0, binding = 0) uniform CHECKED_IMAGE checkedImage;
+
+layout(push_constant) uniform CheckConstants {
+  uvec2 size;  // pixels of the part that is in use
+};
+
+int sampleCount(sampler2D image) { return 1; }
+int sampleCount(sampler2DMS image) { return textureSamples(image); }
+vec4 valueOf(sampler2D image, ivec2 texel, int i) { return texelFetch(image, texel, 0); }
+vec4 valueOf(sampler2DMS image, ivec2 texel, int i) { return texelFetch(image, texel, i); }
+
+// By their bits, which compilers leave alone: some take isnan() for false. As numbers, those of floats from 0 up are in
+// the floats' order; infinity, NaN and all that has the sign bit come after them. Only -0 is as good as 0.
+bool storable(vec4 value) {
+  uvec4 bits = floatBitsToUint(value);
+  bvec4 zero = equal(bits, uvec4(0x80000000u));
+  bvec4 inRange = lessThanEqual(bits, uvec4(floatBitsToUint(65504.0)));
+  return all(bvec4(zero.x || inRange.x, zero.y || inRange.y, zero.z || inRange.z, zero.w || inRange.w));
+}
+
+#ifdef LOOK_UP
+layout(set = 0, binding = 1, std430) readonly buffer Search {
+  uint pixel;
+  uint count;
+  uint any;
+}
+search;
+
+layout(set = 0, binding = 2, std430) writeonly buffer Found {
+  vec4 value;
+  uint sampleIndex;
+}
+found;
+
+void main() {
+  if (gl_LocalInvocationIndex != 0 || search.any == 0) {
+    return;
+  }
+  ivec2 texel = ivec2(search.pixel % size.x, search.pixel / size.x);
+  int i = 0;
+  while (i + 1 < sampleCount(checkedImage) && storable(valueOf(checkedImage, texel, i))) {
+    ++i;
+  }
+  found.value = valueOf(checkedImage, texel, i);
+  found.sampleIndex = i;
+}
+#else
+layout(set = 0, binding = 1, std430) buffer Search {
+  uint pixel;  // y * width + x of the first; at the start all bits
+  uint count;  // samples
+  uint any;    // 1 if there are some. Stored plainly: the validation layer of 2023 does not take atomics for writes.
+}
+search;
+
+void main() {
+  uvec2 at = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(at, size))) {
+    return;
+  }
+  uint count = 0;
+  for (int i = 0; i < sampleCount(checkedImage); ++i) {
+    count += storable(valueOf(checkedImage, ivec2(at), i)) ? 0 : 1;
+  }
+  if (count > 0) {
+    atomicMin(search.pixel, at.y * size.x + at.x);
+    atomicAdd(search.count, count);
+    search.any = 1;
+  }
+}
+#endif

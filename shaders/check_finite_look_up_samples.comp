@@ -1,0 +1,5 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define CHECKED_IMAGE sampler2DMS
+#define LOOK_UP
+#include "check_finite.glsl"

@@ -1,0 +1,4 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define CHECKED_IMAGE sampler2DMS
+#include "check_finite.glsl"

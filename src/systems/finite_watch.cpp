@@ -1,0 +1,173 @@
+#include "systems/finite_watch.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cstring>
+
+namespace speculum {
+
+namespace {
+
+// Results start where a descriptor may: no device asks for more than 256 bytes.
+constexpr VkDeviceSize place = 256;
+constexpr VkDeviceSize targetBytes = 2 * place;
+constexpr uint32_t groupWidth = 16;
+constexpr uint32_t groupHeight = 8;
+
+VkDescriptorBufferInfo searchOf(const Buffer& buffer, size_t target) {
+  return {buffer.get(), target * targetBytes, sizeof(CheckSearch)};
+}
+
+VkDescriptorBufferInfo foundOf(const Buffer& buffer, size_t target) {
+  return {buffer.get(), target * targetBytes + place, sizeof(CheckFound)};
+}
+
+template <typename T>
+T readAt(const Buffer& buffer, const VkDescriptorBufferInfo& info) {
+  T data{};
+  std::memcpy(&data, buffer.mapped() + info.offset, sizeof data);
+  return data;
+}
+
+uint32_t groups(uint32_t size, uint32_t group) {
+  return (size + group - 1) / group;
+}
+
+}  // namespace
+
+std::string describe(const NonFinite& found) {
+  return fmt::format(
+      "{}: pixel {}, {}, sample {}: radiance {}, {}, {} and disparity {} are not all finite and within 0 .. 65504 "
+      "({} such samples in this pass)",
+      found.pass, found.x, found.y, found.sample, found.value.r, found.value.g, found.value.b, found.value.a,
+      found.count);
+}
+
+FiniteWatch::FiniteWatch(Renderer& renderer) : renderer_(renderer), device_(renderer.device()) {}
+
+void FiniteWatch::begin(const Frame& frame, size_t targets) {
+  collect();
+  if (!layout_) {
+    constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT;
+    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
+                                 DescriptorBinding{1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages},
+                                 DescriptorBinding{2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages}};
+    layout_ = createDescriptorSetLayout(device_, bindings, "check finite");
+  }
+  Slot& slot = slots_[frame.index];
+  if (slot.results.bytes() < targets * targetBytes) {
+    slot.results = Buffer(device_, targets * targetBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
+                          "check finite " + std::to_string(frame.index));
+  }
+  for (size_t i = 0; i < targets; ++i) {
+    slot.results.writeObject(CheckSearch{.pixel = ~0u}, searchOf(slot.results, i).offset);
+  }
+  slot.targets.clear();
+  slot.frame = frame.number;
+}
+
+const FiniteWatch::Pipelines& FiniteWatch::pipelines(bool multisampled) {
+  Pipelines& pipelines = multisampled ? multisampled_ : single_;
+  if (!pipelines.search) {
+    const std::string ending = multisampled ? "_samples.comp" : ".comp";
+    const auto make = [&](const std::string& name, const std::string& shader) {
+      return std::make_unique<Pipeline>(renderer_.pipelines(),
+                                        ComputePipelineDesc{.name = name,
+                                                            .comp = shader + ending,
+                                                            .setLayouts = {layout_.get()},
+                                                            .pushConstantBytes = sizeof(CheckConstants)});
+    };
+    pipelines.search = make("check finite", "check_finite");
+    pipelines.lookUp = make("look up what is not finite", "check_finite_look_up");
+  }
+  return pipelines;
+}
+
+size_t FiniteWatch::pipelineCount() const {
+  return (single_.search ? 2u : 0u) + (multisampled_.search ? 2u : 0u);
+}
+
+void FiniteWatch::check(Frame& frame, const std::string& pass, const std::vector<int>& path, Image& image,
+                        const VkDescriptorImageInfo& descriptor, VkExtent2D used) {
+  Slot& slot = slots_[frame.index];
+  const VkDescriptorBufferInfo search = searchOf(slot.results, slot.targets.size());
+  const VkDescriptorBufferInfo found = foundOf(slot.results, slot.targets.size());
+  slot.targets.push_back({pass, path, used});
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  DescriptorWriter()
+      .image(0, descriptor)
+      .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, search)
+      .buffer(2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, found)
+      .update(device_, set);
+  const auto dispatch = [&](const Pipeline& pipeline, uint32_t x, uint32_t y) {
+    pipeline.bind(frame.commands);
+    pipeline.bindSet(frame.commands, 0, set);
+    pipeline.push(frame.commands, CheckConstants{used.width, used.height});
+    vkCmdDispatch(frame.commands, x, y, 1);
+  };
+  const Pipelines& with = pipelines(image.samples() != VK_SAMPLE_COUNT_1_BIT);
+  device_.beginLabel(frame.commands, "check " + pass);
+  device_.barriers().targetToCheck(frame.commands, image);
+  dispatch(*with.search, groups(used.width, groupWidth), groups(used.height, groupHeight));
+  device_.barriers().checkToLookUp(frame.commands, search);
+  dispatch(*with.lookUp, 1, 1);
+  device_.barriers().checkToWrite(frame.commands, image);
+  device_.endLabel(frame.commands);
+}
+
+void FiniteWatch::end(Frame& frame) {
+  device_.barriers().checkToHost(frame.commands);
+}
+
+void FiniteWatch::release() {
+  collect();
+  for (const Slot& slot : slots_) {
+    if (slot.frame != 0) {
+      return;
+    }
+  }
+  single_ = {};
+  multisampled_ = {};
+  layout_.reset();
+  slots_ = {};
+}
+
+void FiniteWatch::collect() {
+  // The slots' frames in their order.
+  const bool firstIsOlder = slots_[0].frame < slots_[1].frame;
+  read(slots_[firstIsOlder ? 0 : 1]);
+  read(slots_[firstIsOlder ? 1 : 0]);
+}
+
+void FiniteWatch::read(Slot& slot) {
+  if (slot.frame == 0 || slot.frame > renderer_.timings().frame) {
+    return;
+  }
+  std::vector<NonFinite> found;
+  for (size_t i = 0; i < slot.targets.size(); ++i) {
+    const auto search = readAt<CheckSearch>(slot.results, searchOf(slot.results, i));
+    if (search.any != 0) {
+      const auto value = readAt<CheckFound>(slot.results, foundOf(slot.results, i));
+      const Target& target = slot.targets[i];
+      found.push_back({.pass = target.pass,
+                       .path = target.path,
+                       .x = static_cast<int>(search.pixel % target.used.width),
+                       .y = static_cast<int>(search.pixel / target.used.width),
+                       .sample = static_cast<int>(value.sample),
+                       .value = value.value,
+                       .count = search.count});
+      count_ += search.count;
+    }
+  }
+  if (!found.empty()) {
+    // What follows in a frame mostly comes of the first.
+    if (reported_.insert(found.front().pass).second) {
+      spdlog::error("debug.check_finite: {}", describe(found.front()));
+    }
+    findings_ = std::move(found);
+    findingsFrame_ = slot.frame;
+  }
+  slot.frame = 0;
+}
+
+}  // namespace speculum

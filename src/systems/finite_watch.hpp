@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/renderer.hpp"
+#include "systems/gpu_types.hpp"
+
+namespace speculum {
+
+// What was found in a target of a pass: a value that is NaN, infinite, below 0 or above 65504, the largest half float.
+struct NonFinite {
+  std::string pass;
+  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for the main view
+  int x = 0;              // pixel of the pass's target, from its top left; the first one row by row
+  int y = 0;
+  int sample = 0;
+  glm::vec4 value{0.0f};  // radiance, and disparity in 1/m
+  uint64_t count = 0;     // samples of the target that are so
+};
+std::string describe(const NonFinite& found);  // one line
+
+// Searches targets of radiance on the GPU, as soon as their passes have drawn them: debug.check_finite. Nothing exists
+// on the GPU before begin() and after release().
+class FiniteWatch {
+ public:
+  explicit FiniteWatch(Renderer& renderer);
+
+  // A frame in which up to `targets` are checked.
+  void begin(const Frame& frame, size_t targets);
+  // After the pass that drew `image` has ended. Its upper left part of `used` pixels is checked; `descriptor` is the
+  // image's. The image is then in the layout for being sampled.
+  void check(Frame& frame, const std::string& pass, const std::vector<int>& path, Image& image,
+             const VkDescriptorImageInfo& descriptor, VkExtent2D used);
+  void end(Frame& frame);
+  // Gives the GPU's objects back as soon as the frames that were watched have finished.
+  void release();
+
+  // Takes in the frames that have finished. The first finding of a pass is an error in the log, once for each pass.
+  void collect();
+  // Of the last finished frame that had any: one for each target, in the order of recording.
+  const std::vector<NonFinite>& findings() const { return findings_; }
+  uint64_t findingsFrame() const { return findingsFrame_; }  // its number; 0: nothing was ever found
+  uint64_t count() const { return count_; }                  // samples found since the start
+  size_t pipelineCount() const;
+
+ private:
+  struct Target {
+    std::string pass;
+    std::vector<int> path;
+    VkExtent2D used{0, 0};
+  };
+  struct Slot {
+    Buffer results;
+    std::vector<Target> targets;
+    uint64_t frame = 0;  // number of the frame that is watched; 0: none
+  };
+  // One searches, one looks up what was found.
+  struct Pipelines {
+    std::unique_ptr<Pipeline> search;
+    std::unique_ptr<Pipeline> lookUp;
+  };
+  const Pipelines& pipelines(bool multisampled);
+  void read(Slot& slot);
+
+  Renderer& renderer_;
+  Device& device_;
+  DescriptorSetLayoutHandle layout_;
+  Pipelines single_;
+  Pipelines multisampled_;
+  std::array<Slot, framesInFlight> slots_;
+  std::vector<NonFinite> findings_;
+  uint64_t findingsFrame_ = 0;
+  uint64_t count_ = 0;
+  std::set<std::string> reported_;
+};
+
+}  // namespace speculum

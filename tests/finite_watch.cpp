@@ -1,0 +1,347 @@
+// debug.check_finite: it finds what is there, names it, and is not there itself when it is off.
+#include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+#include "core/platform.hpp"
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+namespace fs = std::filesystem;
+
+constexpr PictureSize size{64, 36};
+
+// What is found is an error in the log, which is wanted here and would drown the test's own words.
+class Watch : public testing::Test {
+ protected:
+  void SetUp() override { spdlog::set_level(spdlog::level::off); }
+  void TearDown() override { spdlog::set_level(spdlog::level::info); }
+};
+
+// Images made by hand, checked as targets are.
+class WatchedImages : public Watch {
+ protected:
+  using Texels = std::vector<std::array<uint16_t, 4>>;
+
+  // Each image in turn is the target of a pass with its number.
+  std::vector<NonFinite> check(const std::vector<Texels>& images, VkExtent2D extent, VkExtent2D used) {
+    std::vector<Image> targets;
+    for (const Texels& texels : images) {
+      targets.push_back(
+          renderer_.uploader().image(std::as_bytes(std::span(texels)), extent, colorFormat, false, "checked"));
+    }
+    FiniteWatch watch(renderer_);
+    Frame frame = renderer_.beginFrame().value();
+    watch.begin(frame, targets.size());
+    for (size_t i = 0; i < targets.size(); ++i) {
+      watch.check(frame, std::to_string(i), {static_cast<int>(i)}, targets[i], targets[i].descriptor(sampler_.get()),
+                  used);
+    }
+    watch.end(frame);
+    renderer_.endFrame(frame);
+    renderer_.waitIdle();
+    watch.collect();
+    uint64_t sum = 0;
+    for (const NonFinite& found : watch.findings()) {
+      sum += found.count;
+    }
+    EXPECT_EQ(watch.count(), sum);
+    EXPECT_EQ(device_.validationMessages(), 0);
+    return watch.findings();
+  }
+
+  Device device_{{.validation = true}};
+  Renderer renderer_{device_, {.extent = {1, 1}}};
+  SamplerHandle sampler_ = createSampler(device_, {}, "checked");
+};
+
+bool allowed(uint16_t half) {
+  const float value = glm::unpackHalf1x16(half);
+  return value >= 0.0f && value <= 65504.0f;
+}
+
+// All 65536 half floats, scattered over the image, in one channel after the other.
+TEST_F(WatchedImages, EveryHalfFloatIsJudgedInEveryChannel) {
+  constexpr VkExtent2D extent{256, 256};
+  std::vector<Texels> images(4, Texels(65536, {0, 0x3c00, 0x7bff, 0x8000}));
+  std::array<int, 4> first{-1, -1, -1, -1};
+  uint64_t count = 0;
+  for (int channel = 0; channel < 4; ++channel) {
+    count = 0;
+    for (int i = 0; i < 65536; ++i) {
+      const auto half = static_cast<uint16_t>(40503u * static_cast<uint32_t>(i) + 9u * channel + 100u);
+      images[channel][i][channel] = half;
+      count += allowed(half) ? 0 : 1;
+      first[channel] = first[channel] < 0 && !allowed(half) ? i : first[channel];
+    }
+  }
+  const std::vector<NonFinite> found = check(images, extent, extent);
+  ASSERT_EQ(found.size(), 4u);
+  for (int channel = 0; channel < 4; ++channel) {
+    EXPECT_EQ(found[channel].pass, std::to_string(channel));
+    EXPECT_EQ(found[channel].path, std::vector<int>{channel});
+    EXPECT_EQ(found[channel].count, count);
+    EXPECT_EQ(found[channel].y * 256 + found[channel].x, first[channel]);
+    const float expected = glm::unpackHalf1x16(images[channel][first[channel]][channel]);
+    EXPECT_TRUE(found[channel].value[channel] == expected ||
+                (std::isnan(expected) && std::isnan(found[channel].value[channel])));
+  }
+}
+
+TEST_F(WatchedImages, OnlyThePartInUseIsChecked) {
+  constexpr VkExtent2D extent{64, 32};
+  constexpr VkExtent2D used{37, 19};
+  constexpr std::array<uint16_t, 4> bad = {0, 0, 0x7e00, 0};
+  Texels texels(extent.width * extent.height, bad);
+  for (uint32_t i = 0; i < used.width * used.height; ++i) {
+    texels[i / used.width * extent.width + i % used.width] = {};
+  }
+  EXPECT_TRUE(check({texels}, extent, used).empty());
+  Texels corner = texels;
+  corner[(used.height - 1) * extent.width + used.width - 1] = bad;
+  const std::vector<NonFinite> found = check({texels, corner, texels}, extent, used);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].pass, "1");
+  EXPECT_EQ(found[0].x, 36);
+  EXPECT_EQ(found[0].y, 18);
+  EXPECT_EQ(found[0].sample, 0);
+  EXPECT_EQ(found[0].count, 1u);
+  EXPECT_TRUE(std::isnan(found[0].value.b));
+}
+
+// The eye before a mirror, and between two that face each other, under a sky that nothing hides.
+const std::string wall = R"([environment]
+sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
+[camera]
+position = [0, 1, 1]
+target = [0.2, 1, -2]
+[settings]
+"reflection.max_depth" = 2
+[[mirror]]
+name = "front"
+position = [0, 1, -2]
+size = [2, 2]
+)";
+const std::string rear = R"([[mirror]]
+name = "rear"
+position = [0, 1, 4]
+rotation = [0, 180, 0]
+size = [6, 6]
+)";
+const std::string hall = wall + rear;
+
+// The program's shaders, but the sky of one pass has one value that it should not have.
+class BrokenSky {
+ public:
+  BrokenSky(int pass, int x, int y, int sample, const std::string& value) {
+    writeShaders(directory_.path(), "sky.frag",
+                 "  if (draw.viewIndex == " + std::to_string(pass) + " && ivec2(gl_FragCoord.xy) == ivec2(" +
+                     std::to_string(x) + ", " + std::to_string(y) + ") && gl_SampleID == " + std::to_string(sample) +
+                     ") color.g = " + value + ";\n");
+  }
+  fs::path path() const { return directory_.path(); }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+Options watched(const std::string& scene, const std::string& name, const BrokenSky& sky, RenderPath path, int samples) {
+  Options options = headless(writeScene("watched_" + name, scene), size);
+  options.renderPath = path;
+  options.shaderDir = sky.path();
+  set(options, {{"view.samples", std::to_string(samples)}, {"reflection.samples", std::to_string(samples)}});
+  return options;
+}
+
+const FiniteWatch& drawWatched(Session& session, double time = 0.0) {
+  session.draw(time, false);
+  session.finish();
+  EXPECT_EQ(session.device().validationMessages(), 0);
+  return session.sceneRenderer().finiteWatch();
+}
+
+class BrokenPass : public Watch, public testing::WithParamInterface<std::tuple<RenderPath, int, bool>> {
+ protected:
+  RenderPath path() const { return std::get<0>(GetParam()); }
+  int samples() const { return std::get<1>(GetParam()); }
+  bool negative() const { return std::get<2>(GetParam()); }
+  int sample() const { return samples() - 1; }
+  std::string value() const { return negative() ? "-0.25" : "uintBitsToFloat(0x7fc00000u)"; }
+  std::string name() const {
+    return std::string(renderPathName(path())) + std::to_string(samples()) + (negative() ? "negative" : "nan");
+  }
+  void expectValue(const NonFinite& found) const {
+    EXPECT_TRUE(negative() ? found.value.g == -0.25f : std::isnan(found.value.g)) << found.value.g;
+    EXPECT_GE(found.value.r, 0.0f);
+  }
+};
+
+TEST_P(BrokenPass, IsNamedWithItsMirrorsAndPixel) {
+  // Passes are recorded in the order of views: the rear mirror's in the front one's, the front one's, the main view.
+  const BrokenSky sky(0, 5, 3, sample(), value());
+  Session session(watched(hall, "nested_" + name(), sky, path(), samples()));
+  const FiniteWatch& watch = drawWatched(session);
+  ASSERT_EQ(session.lastFrame().plan.passes.size(), 2u);
+  ASSERT_FALSE(watch.findings().empty());
+  const NonFinite& found = watch.findings().front();
+  EXPECT_EQ(found.pass, "mirror front > rear");
+  EXPECT_EQ(found.path, (std::vector<int>{0, 1}));
+  EXPECT_EQ(found.x, 5);
+  EXPECT_EQ(found.y, 3);
+  EXPECT_EQ(found.sample, sample());
+  EXPECT_EQ(found.count, 1u);
+  expectValue(found);
+  EXPECT_EQ(
+      describe(found).rfind("mirror front > rear: pixel 5, 3, sample " + std::to_string(sample()) + ": radiance ", 0),
+      0u)
+      << describe(found);
+  EXPECT_EQ(session.exitCode(), 1);
+}
+
+TEST_P(BrokenPass, OfTheMainViewIsFoundInItsSamples) {
+  const BrokenSky sky(2, 60, 34, sample(), value());
+  Session session(watched(hall, "main_" + name(), sky, path(), samples()));
+  const FiniteWatch& watch = drawWatched(session);
+  ASSERT_FALSE(watch.findings().empty());
+  const NonFinite& found = watch.findings().front();
+  EXPECT_EQ(found.pass, samples() > 1 ? "main view (samples)" : "main view");
+  EXPECT_TRUE(found.path.empty());
+  EXPECT_EQ(found.x, 60);
+  EXPECT_EQ(found.y, 34);
+  EXPECT_EQ(found.sample, sample());
+  EXPECT_EQ(found.count, 1u);
+  expectValue(found);
+  // The mean of four samples is positive again, but never a number again.
+  EXPECT_EQ(watch.findings().size(), samples() > 1 && !negative() ? 2u : 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Values, BrokenPass,
+                         testing::Combine(testing::Values(RenderPath::dynamic, RenderPath::renderPass),
+                                          testing::Values(1, 4), testing::Bool()),
+                         [](const auto& info) {
+                           return std::string(renderPathName(std::get<0>(info.param))) +
+                                  std::to_string(std::get<1>(info.param)) +
+                                  (std::get<2>(info.param) ? "negative" : "nan");
+                         });
+
+using WatchedFrames = Watch;
+
+// An image that is held is found when it is rendered, not again in each frame that shows it.
+TEST_F(WatchedFrames, HeldImagesAreCheckedWhenTheyAreFresh) {
+  const BrokenSky sky(0, 5, 3, 0, "-1.0");
+  Options options = watched(wall, "held", sky, RenderPath::automatic, 1);
+  set(options, {{"reflection.update_interval", "3"}});
+  Session session(options);
+  int rendered = 0;
+  for (uint64_t frame = 1; frame <= 9; ++frame) {
+    const FiniteWatch& watch = drawWatched(session);
+    const bool fresh = !session.lastFrame().plan.passes.empty();
+    rendered += fresh ? 1 : 0;
+    // Without mirror passes the first view is the main view's, which shows sky there, too.
+    ASSERT_EQ(watch.findingsFrame(), frame);
+    EXPECT_EQ(watch.findings().front().pass, fresh ? "mirror front" : "main view");
+    EXPECT_EQ(watch.findings().size(), 1u);
+    EXPECT_EQ(watch.count(), frame);
+  }
+  EXPECT_GE(rendered, 3);
+  EXPECT_LE(rendered, 4);
+}
+
+TEST_F(WatchedFrames, StayFoundWhenLaterOnesAreClean) {
+  const BrokenSky sky(0, 5, 3, 0, "-1.0");
+  Session session(watched(hall, "later", sky, RenderPath::automatic, 1));
+  EXPECT_EQ(drawWatched(session).count(), 1u);
+  Settings settings = session.settings();
+  settings.view.clearColor = glm::dvec3(0.5);  // no sky
+  session.setSettings(settings);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(drawWatched(session).count(), 1u);
+  }
+  EXPECT_EQ(session.sceneRenderer().finiteWatch().findingsFrame(), 1u);
+  settings.debug.checkFinite = false;
+  session.setSettings(settings);
+  EXPECT_EQ(drawWatched(session).count(), 1u);
+  EXPECT_EQ(session.exitCode(), 1);
+}
+
+// Shader modules stay in their library.
+std::map<std::string, int64_t> objectsBesidesModules() {
+  std::map<std::string, int64_t> objects = liveObjects();
+  objects.erase("VkShaderModule");
+  return objects;
+}
+
+TEST_F(WatchedFrames, NothingExistsForThemWhenTheCheckIsOff) {
+  Options options = headless(writeScene("hall_off", hall), size);
+  set(options, {{"debug.check_finite", "false"}});
+  Session session(options);
+  const auto drawFrames = [&](bool checked) {
+    Settings settings = session.settings();
+    settings.debug.checkFinite = checked;
+    session.setSettings(settings);
+    for (int i = 0; i < 4; ++i) {
+      drawWatched(session);
+    }
+  };
+  drawFrames(false);
+  const auto objects = objectsBesidesModules();
+  const auto modules = liveObjects().at("VkShaderModule");
+  const size_t pipelines = session.sceneRenderer().pipelineCount();
+  const uint64_t bytes = session.device().allocatedBytes();
+  drawFrames(true);
+  auto watched = objectsBesidesModules();
+  EXPECT_EQ(watched["VkBuffer"], objects.at("VkBuffer") + 2) << "one for each frame in flight";
+  EXPECT_EQ(watched["VkPipeline"], objects.at("VkPipeline") + 4) << "for one sample and for several";
+  EXPECT_EQ(liveObjects().at("VkShaderModule"), modules + 4);
+  EXPECT_EQ(session.sceneRenderer().pipelineCount(), pipelines + 4);
+  drawFrames(false);
+  EXPECT_EQ(objectsBesidesModules(), objects);
+  EXPECT_EQ(session.sceneRenderer().pipelineCount(), pipelines);
+  EXPECT_EQ(session.device().allocatedBytes(), bytes);
+}
+
+TEST_F(WatchedFrames, ShowTheSameBytesAsOthers) {
+  Options options = headless(writeScene("hall_same", hall), size);
+  const Image8 checked = draw(options);
+  set(options, {{"debug.check_finite", "false"}});
+  EXPECT_EQ(draw(options).rgba, checked.rgba);
+}
+
+class CheckBarrier : public Watch, public testing::WithParamInterface<BarrierKind> {};
+
+// Three frames with images and a main view of `samples`.
+std::vector<std::string> messagesWithout(const std::string& kind, const fs::path& scene, const std::string& samples) {
+  Options options = headless(scene, size);
+  options.renderPath = RenderPath::renderPass;
+  set(options, {{"debug.omit_barrier", kind}, {"view.samples", samples}, {"reflection.samples", samples}});
+  Session session(options);
+  for (int i = 0; i < 3; ++i) {
+    session.draw(0.0, false);
+  }
+  session.finish();
+  return session.device().lastValidationMessages();
+}
+
+TEST_P(CheckBarrier, IsMissedWhenLeftOut) {
+  const std::string kind(barrierName(GetParam()));
+  const fs::path scene = writeScene("hall_" + kind, hall);
+  for (const char* samples : {"1", "4"}) {
+    const std::vector<std::string> messages = messagesWithout(kind, scene, samples);
+    ASSERT_FALSE(messages.empty()) << samples << " samples";
+    EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+    EXPECT_TRUE(messagesWithout("", scene, samples).empty());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, CheckBarrier,
+                         testing::Values(BarrierKind::targetToCheck, BarrierKind::checkToLookUp,
+                                         BarrierKind::checkToWrite),
+                         [](const auto& info) { return std::string(barrierName(info.param)); });
+
+}  // namespace
+}  // namespace speculum
