@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "accuracy/image_metrics.hpp"
@@ -29,6 +30,19 @@ class JsonReader {
       fail(key);
     }
   }
+  // Nothing that does not fit an int, which get<int>() would cut to one.
+  int integer(const char* key) const { return integerOf(member(key), key); }
+  std::vector<int> integers(const char* key) const {
+    std::vector<int> values;
+    const nlohmann::ordered_json& array = member(key);
+    if (!array.is_array()) {
+      fail(key);
+    }
+    for (const nlohmann::ordered_json& value : array) {
+      values.push_back(integerOf(value, key));
+    }
+    return values;
+  }
   // JSON has no infinity: null stands for it.
   double number(const char* key) const {
     const nlohmann::ordered_json& value = member(key);
@@ -47,18 +61,27 @@ class JsonReader {
     return readers;
   }
   bool null(const char* key) const { return member(key).is_null(); }
-  const nlohmann::ordered_json& json() const { return json_; }
   [[noreturn]] void fail(const char* key) const {
     throw InputError(file_.string() + ": " + place_ + key +
                      ": missing or of another kind (a results.json of speculum accuracy is needed)");
   }
 
- private:
+  // Whatever it is. A copy of it, as get() would make, could overflow the stack when values are nested deeply.
   const nlohmann::ordered_json& member(const char* key) const {
     if (!json_.is_object() || !json_.contains(key)) {
       fail(key);
     }
     return json_.at(key);
+  }
+
+ private:
+  int integerOf(const nlohmann::ordered_json& value, const char* key) const {
+    const auto fits = [](auto number) { return std::in_range<int>(number); };
+    if (!(value.is_number_unsigned() ? fits(value.get<uint64_t>())
+                                     : value.is_number_integer() && fits(value.get<int64_t>()))) {
+      fail(key);
+    }
+    return value.get<int>();
   }
 
   const std::filesystem::path& file_;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "accuracy/sweep_json.hpp"
 #include "accuracy/sweep_results.hpp"
@@ -13,7 +12,7 @@ using nlohmann::ordered_json;
 
 std::vector<SettingChange> readChanges(const JsonReader& reader, const char* key) {
   std::vector<SettingChange> changes;
-  const auto settings = reader.get<ordered_json>(key);
+  const ordered_json& settings = reader.member(key);
   for (const auto& [name, value] : settings.items()) {
     if (!settings.is_object() || !value.is_string()) {
       reader.fail(key);
@@ -25,7 +24,7 @@ std::vector<SettingChange> readChanges(const JsonReader& reader, const char* key
 
 Spread readSpread(const JsonReader& reader) {
   return {reader.number("median"), reader.number("min"), reader.number("q1"), reader.number("q3"),
-          reader.get<int>("repeats")};
+          reader.integer("repeats")};
 }
 
 ImageMetrics readMetrics(const JsonReader& reader) {
@@ -36,8 +35,8 @@ ImageMetrics readMetrics(const JsonReader& reader) {
           .flip = reader.number("flip"),
           .maxDiff = reader.number("max_diff"),
           .p99Diff = reader.number("p99_diff"),
-          .pixelsOver = reader.get<int64_t>("pixels_over"),
-          .pixels = reader.get<int64_t>("pixels")};
+          .pixelsOver = reader.integer("pixels_over"),
+          .pixels = reader.integer("pixels")};
 }
 
 SweepPoint readPoint(const JsonReader& reader) {
@@ -60,10 +59,10 @@ SweepSeries readSeries(const JsonReader& reader, size_t pointCount) {
       .name = reader.get<std::string>("name"),
       .axis = reader.get<std::string>("axis") == "linear" ? SweepSeries::Axis::linear : SweepSeries::Axis::logarithmic,
       .x = reader.get<std::vector<double>>("x"),
-      .points = reader.get<std::vector<int>>("points"),
+      .points = reader.integers("points"),
       .note = reader.get<std::string>("note"),
       .theorySlope = reader.get<double>("theory_slope"),
-      .fitted = reader.get<std::vector<int>>("fitted")};
+      .fitted = reader.integers("fitted")};
   if (!reader.null("fit")) {
     const JsonReader fit = reader.at("fit");
     series.fit = LineFit{fit.get<double>("slope"), fit.get<double>("offset")};
@@ -92,7 +91,7 @@ ErrorFigures readErrors(const JsonReader& errors) {
 SweepResults readSweepResults(const std::filesystem::path& file) {
   ordered_json json;
   try {
-    const std::vector<uint8_t> bytes = readFileBytes(file);
+    const std::vector<uint8_t> bytes = readFileBytes(file, 64u << 20);
     json = ordered_json::parse(bytes.begin(), bytes.end());
   } catch (const nlohmann::json::exception&) {
     throw InputError(file.string() + ": not JSON (a results.json of speculum accuracy is needed)");
@@ -111,12 +110,15 @@ SweepResults readSweepResults(const std::filesystem::path& file) {
                        .version = reader.get<std::string>("version"),
                        .date = reader.get<std::string>("date"),
                        .base = readChanges(reader, "settings")};
-  const auto size = reader.get<std::array<int, 2>>("size");
+  const std::vector<int> size = reader.integers("size");
+  if (size.size() != 2) {
+    reader.fail("size");
+  }
   results.width = size[0];
   results.height = size[1];
   const JsonReader truth = reader.at("ground_truth");
   results.truthMs = truth.number("ms");
-  results.truthThreads = truth.get<int>("threads");
+  results.truthThreads = truth.integer("threads");
   const ErrorFigures floor = readErrors(truth.at("noise_floor"));
   results.floorWhole = floor.whole;
   results.floorMirrors = floor.mirrors;

@@ -23,6 +23,12 @@ fs::path relativeTo(const fs::path& file, std::string name) {
   return (file.parent_path() / name).lexically_normal();
 }
 
+// The parser makes infinity of some numbers that the scan has read as finite ones, such as 400 digits and e-400.
+bool allFinite(const Material& material) {
+  const glm::dvec3 sum = material.diffuse + material.specular + material.emission;
+  return std::isfinite(sum.x + sum.y + sum.z + material.shininess);
+}
+
 // A file's fault without the advice in brackets at its end.
 std::string withoutAdvice(const std::string& message) {
   return message.substr(0, message.rfind(" ("));
@@ -79,6 +85,10 @@ bool ObjMaterials::operator()(const std::string& name, std::vector<tinyobj::mate
     missingFile_ = true;
     return false;
   }
+  // Materials multiply when many lines name one file.
+  if (!read_.insert(fs::weakly_canonical(file, ignored)).second) {
+    return true;
+  }
   const std::string text = readText(file, file, 1, "file", "a Wavefront MTL file is needed");
   const std::map<std::string, MtlLines> lines = scanMtl(file, text);
   const size_t first = materials->size();
@@ -118,6 +128,10 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
                     .specular = {source.specular[0], source.specular[1], source.specular[2]},
                     .emission = {source.emission[0], source.emission[1], source.emission[2]},
                     .shininess = std::max(1.0, static_cast<double>(source.shininess))};
+  if (!allFinite(material)) {
+    throwInputError(entry.file, std::max(1, entry.lines.newmtl), "newmtl", "has a number that is out of range",
+                    "numbers that a double can hold are needed");
+  }
   if (source.dissolve < 1.0 || !source.alpha_texname.empty()) {
     spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.lines.newmtl,
                  source.name);

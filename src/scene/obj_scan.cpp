@@ -13,6 +13,11 @@ namespace speculum {
 
 namespace {
 
+// Triangulation takes time in the square of this.
+constexpr size_t kMostCorners = 1000;
+// The parser keeps some kilobytes for each material.
+constexpr size_t kMostMaterials = 10'000;
+
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -75,7 +80,6 @@ class LineScanner {
   std::string_view keyword() const { return tokens_[0]; }
   // All after the keyword, blanks inside included.
   std::string_view argument() const { return trimmed(line_.substr(line_.find(tokens_[0]) + tokens_[0].size())); }
-  std::string_view line() const { return line_; }
   const std::vector<std::string_view>& tokens() const { return tokens_; }
   int number() const { return number_; }
 
@@ -163,6 +167,9 @@ void checkFace(const LineScanner& line, const ObjScan& scan) {
   if (tokens.size() < 4) {
     line.fail("f", fmt::format("has {} vertices", tokens.size() - 1), "a face needs 3 or more");
   }
+  if (tokens.size() - 1 > kMostCorners) {
+    line.fail("f", fmt::format("has {} vertices", tokens.size() - 1), fmt::format("3 .. {} are needed", kMostCorners));
+  }
   for (size_t i = 1; i < tokens.size(); ++i) {
     const std::string_view corner = tokens[i];
     const size_t first = corner.find('/');
@@ -215,8 +222,8 @@ ObjScan scanObj(const std::filesystem::path& file, std::string_view text) {
       for (const std::string_view token : line.tokens()) {
         scan.text.append(token).push_back(' ');
       }
-    } else {
-      scan.text.append(line.line());
+    } else if (line.keyword() == "usemtl" || line.keyword() == "mtllib") {
+      scan.text.append(line.keyword()).append(" ").append(line.argument());
     }
     scan.text.push_back('\n');
   }
@@ -226,6 +233,7 @@ ObjScan scanObj(const std::filesystem::path& file, std::string_view text) {
 std::map<std::string, MtlLines> scanMtl(const std::filesystem::path& file, std::string_view text) {
   std::map<std::string, MtlLines> materials;
   MtlLines* current = nullptr;
+  size_t count = 0;
   LineScanner line(file, text, false);
   while (line.next()) {
     const std::string_view key = line.keyword();
@@ -234,6 +242,9 @@ std::map<std::string, MtlLines> scanMtl(const std::filesystem::path& file, std::
     if (key == "newmtl") {
       current = &materials[std::string(line.argument())];
       current->newmtl = line.number();
+      if (++count > kMostMaterials) {
+        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
+      }
     } else if (key == "map_Kd" && current != nullptr) {
       current->mapKd = line.number();
     } else if (color || scalar) {

@@ -14,7 +14,8 @@ struct ObjScan {
   std::vector<bool> finiteTexcoord;  // of the k-th vt line
   std::vector<bool> finiteNormal;    // of the k-th vn line
   // The file again, line by line, with v, vt, vn and f lines reduced to their tokens: the parser takes a comment behind
-  // them for more of the same.
+  // them for more of the same. Other lines than these, usemtl and mtllib are empty, so that the parser sees none that
+  // it might read differently.
   std::string text;
 };
 
