@@ -73,7 +73,8 @@ class MeshBuilder {
   MeshBuilder(const ObjGeometry& geometry, const ObjScan& scan) : geometry_(geometry), scan_(scan) {
     normals_.reserve(geometry.normals.size());
     for (size_t i = 0; i < geometry.normals.size(); ++i) {
-      normals_.push_back(scan.finiteNormal[i] && isFinite(geometry.normals[i]) ? unit(geometry.normals[i]) : glm::dvec3(0.0));
+      normals_.push_back(scan.finiteNormal[i] && isFinite(geometry.normals[i]) ? unit(geometry.normals[i])
+                                                                               : glm::dvec3(0.0));
     }
   }
 
@@ -117,7 +118,7 @@ class MeshBuilder {
   }
 
  private:
-  // The parser makes infinity of some numbers that the scan has read as finite ones, such as 400 digits and e-400.
+  // The parser's arithmetic may round the largest doubles, which are finite to the scan, to infinity.
   bool finitePosition(int i) const { return scan_.finitePosition[i] && isFinite(geometry_.positions[i]); }
   bool finiteTexcoord(int i) const {
     return scan_.finiteTexcoord[i] && isFinite(glm::dvec3(geometry_.texcoords[i], 0.0));

@@ -23,10 +23,14 @@ fs::path relativeTo(const fs::path& file, std::string name) {
   return (file.parent_path() / name).lexically_normal();
 }
 
-// The parser makes infinity of some numbers that the scan has read as finite ones, such as 400 digits and e-400.
+// The parser's arithmetic may round the largest doubles, which are finite to the scan, to infinity.
 bool allFinite(const Material& material) {
-  const glm::dvec3 sum = material.diffuse + material.specular + material.emission;
-  return std::isfinite(sum.x + sum.y + sum.z + material.shininess);
+  bool finite = std::isfinite(material.shininess);
+  for (int i = 0; i < 3; ++i) {
+    finite = finite && std::isfinite(material.diffuse[i]) && std::isfinite(material.specular[i]) &&
+             std::isfinite(material.emission[i]);
+  }
+  return finite;
 }
 
 // A file's fault without the advice in brackets at its end.
@@ -90,16 +94,16 @@ bool ObjMaterials::operator()(const std::string& name, std::vector<tinyobj::mate
     return true;
   }
   const std::string text = readText(file, file, 1, "file", "a Wavefront MTL file is needed");
-  const std::map<std::string, MtlLines> lines = scanMtl(file, text);
+  const MtlScan scan = scanMtl(file, text);
   const size_t first = materials->size();
-  std::istringstream stream(text);
+  std::istringstream stream(scan.text);
   tinyobj::LoadMtl(indices, materials, &stream, warning, error);
   for (size_t i = first; i < materials->size(); ++i) {
     const tinyobj::material_t& material = (*materials)[i];
     const std::string key(trimmed(material.name));
-    const auto found = lines.find(key);
+    const auto found = scan.lines.find(key);
     indices_.try_emplace(key, static_cast<int>(entries_.size()));
-    entries_.push_back({material, file, found == lines.end() ? MtlLines{} : found->second});
+    entries_.push_back({material, file, found == scan.lines.end() ? MtlLines{} : found->second});
   }
   return true;
 }

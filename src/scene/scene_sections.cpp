@@ -15,9 +15,11 @@ namespace {
 
 using Key = std::string_view;
 
-// Shorter ones could be told from zero, but squares of products with them are no doubles any more.
+// Shorter vectors could be told from zero, but squares of products with them are no doubles any more.
+constexpr double kShortest = 1e-30;
+
 bool hasDirection(const glm::dvec3& v) {
-  return glm::length(v) >= 1e-30;
+  return glm::length(v) >= kShortest;
 }
 
 // Checking a polygon takes time in the square of this.
@@ -64,7 +66,7 @@ std::optional<Ripple> readRipple(const TableReader& mirror) {
 
 void checkShape(const TableReader& table, Key key, std::span<const glm::dvec3> polygon) {
   std::optional<std::string> defect = polygonDefect(polygon);
-  if (!defect && !std::isnormal(glm::dot(newellVector(polygon), newellVector(polygon)))) {
+  if (!defect && !(glm::length(newellVector(polygon)) >= kShortest * kShortest)) {
     defect = "has no area that can be computed with";
   }
   if (defect) {

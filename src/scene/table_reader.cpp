@@ -29,8 +29,8 @@ bool Range::contains(double value) const {
 std::string Range::text() const {
   const bool bounded = high < std::numeric_limits<double>::max();
   if (bounded) {
-    return aboveLow ? fmt::format("a finite number above {} and up to {} is needed", low, high)
-                    : fmt::format("a {}number {} .. {} is needed", high > 1e6 ? "finite " : "", low, high);
+    return aboveLow ? fmt::format("a finite number above {:g} and up to {:g} is needed", low, high)
+                    : fmt::format("a {}number {:g} .. {:g} is needed", high > 1e6 ? "finite " : "", low, high);
   }
   if (low == -std::numeric_limits<double>::max()) {
     return "a finite number is needed";

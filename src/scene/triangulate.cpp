@@ -11,7 +11,10 @@ namespace {
 class EarClipper {
  public:
   explicit EarClipper(std::span<const glm::dvec3> polygon)
-      : points_(polygon), normal_(newellVector(polygon)), left_(polygon.size()), isLeft_(polygon.size(), true),
+      : points_(polygon),
+        normal_(newellVector(polygon)),
+        left_(polygon.size()),
+        isLeft_(polygon.size(), true),
         looks_(polygon.size()) {
     std::iota(left_.begin(), left_.end(), 0);
   }
