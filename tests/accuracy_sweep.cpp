@@ -380,6 +380,30 @@ TEST_F(SmallSweep, ResultsSurviveTheirFile) {
   EXPECT_EQ(columns(0), columns(csv.find('\n') + 1));
 }
 
+// get<int>() would make something of each.
+TEST_F(SmallSweep, ResultsHoldIntegersThatAreSome) {
+  TracingSubject subject(scene_, state_);
+  SweepStore store(folder_ / "store");
+  SweepResults results;
+  ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, results, {}));
+  nlohmann::ordered_json json = sweepJson(results);
+  for (const char* value : {"1e300", "-1e300", "0.5", "2147483648", "18446744073709551615", "\"1\"", "[]"}) {
+    json["ground_truth"]["threads"] = nlohmann::ordered_json::parse(value);
+    const fs::path file = folder_.write("results.json", json.dump());
+    try {
+      readSweepResults(file);
+      ADD_FAILURE() << value;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), file.string() +
+                                  ": ground_truth.threads: missing or of another kind "
+                                  "(a results.json of speculum accuracy is needed)");
+    }
+  }
+  json["ground_truth"]["threads"] = 2;
+  json["settings"] = nlohmann::ordered_json::parse(std::string(5000, '[') + std::string(5000, ']'));
+  EXPECT_THROW(readSweepResults(folder_.write("results.json", json.dump())), InputError);
+}
+
 TEST_F(SweepFiles, ResultsThatAreNoneAreNamed) {
   const auto says = [&](const std::string& text) -> std::string {
     try {

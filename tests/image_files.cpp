@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <tinyexr.h>
 
 #include <cmath>
@@ -135,6 +136,32 @@ TEST(ImageFiles, DamagedFilesAreTold) {
     const fs::path exr = folder.write("cut.exr", content);
     expectFault(messageOf([&] { readExr(exr); }), exr, "is not an EXR");
   }
+}
+
+// The header alone: 13 bytes of width, height and kind, whose checksum nobody looks at.
+std::string pngHeader(uint8_t highByteOfSides) {
+  const char high = static_cast<char>(highByteOfSides);
+  return std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16) + std::string("\0\0", 2) + high + '\0' +
+         std::string("\0\0", 2) + high + std::string("\0\x08\x06\0\0\0\0\0\0\0", 10);
+}
+
+TEST(ImageFiles, PicturesThatClaimTooManyPixelsAreTold) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a.png", pngHeader(0x21));
+  expectFault(messageOf([&] { readImage8(file); }), file, "the picture has 8448x8448 pixels (at most 2^26");
+  folder.write("a.png", pngHeader(0x20));
+  expectFault(messageOf([&] { readImage8(file); }), file, "is damaged");
+}
+
+TEST(ImageFiles, DevicesPipesAndHugeFilesAreNotRead) {
+  const TemporaryFolder folder;
+  expectFault(messageOf([] { readFileBytes("/dev/zero"); }), "/dev/zero", "is a device or pipe");
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  expectFault(messageOf([&] { readFileBytes(folder / "pipe"); }), folder / "pipe", "is a device or pipe");
+  const fs::path file = folder.write("a", "");
+  fs::resize_file(file, (2u << 20) + 1);
+  expectFault(messageOf([&] { readFileBytes(file, 2u << 20); }), file, "is larger than 2 MiB");
+  EXPECT_EQ(readFileBytes(file).size(), (2u << 20) + 1);
 }
 
 TEST(ImageFiles, CutPngIsTold) {

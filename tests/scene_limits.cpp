@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/scene_state.hpp"
 #include "scene/toml_depth.hpp"
 #include "scene_support.hpp"
 
@@ -78,6 +79,19 @@ TEST(TomlDepth, StringsHideNothingBehindThem) {
   EXPECT_EQ(lineOfTooDeepKey("# \"\n" + deep), 2);
 }
 
+TEST(SceneLimits, CharactersBeyondAsciiStandInQuotationMarks) {
+  const std::string told =
+      " toml: a character that is not ASCII stands outside quotation marks (a TOML 1.0 file is needed, which quotes "
+      "such "
+      "keys and texts)";
+  EXPECT_EQ(faultOf("near = 1 \xc3\xa9\n"), "4:" + told);
+  EXPECT_EQ(faultOf("\n\"\" # \xc3\xa9\n\xc2\xa0near = 1\n"), "6:" + told);
+  EXPECT_EQ(faultOf("near = [1,\n\xd0\xa2\n"), "5:" + told);
+  EXPECT_EQ(faultOf("# \xc3\xa9\n[[light]]\nname = \"\xc3\xa9\" # \xc3\xa9\nposition = [0, 0, 0]\n"),
+            "no InputError was thrown");
+  EXPECT_EQ(lineOfStrayCharacter("a = 1\n\"\"\"\n\xc3\xa9\"\"\"\n'\xc3\xa9'\n\xff"), 5);
+}
+
 TEST(SceneLimits, NestedValuesAreTold) {
   EXPECT_NE(faultOf("x = " + repeated("{ a = ", 100'000)).find("4: toml: "), std::string::npos);
 }
@@ -96,6 +110,54 @@ TEST(SceneLimits, ScalesStayInTheRangeOfDoubles) {
               "6: object[0].scale: leaves the range of double precision (scales nearer to 1 are needed)");
   }
   EXPECT_EQ(faultOf(object + "scale = [1e-100, 1e100, -1]\n"), "no InputError was thrown");
+}
+
+TEST(SceneLimits, CopiesOfAllObjectsTogether) {
+  const auto object = [](int copies) {
+    return "[[object]]\nmodel = 'triangle.obj'\ncopies = { count = " + std::to_string(copies) + " }\n";
+  };
+  EXPECT_EQ(faultOf(object(600'000) + object(400'000)), "no InputError was thrown");
+  EXPECT_EQ(faultOf(object(600'000) + object(400'000) + object(1)),
+            "12: object[2].copies: makes more than 1000000 objects of the scene (fewer copies are needed)");
+}
+
+TEST(SceneLimits, PlacesAndSpeedsStayFiniteWhateverIsDoneWithThem) {
+  const std::string mirror = "[[mirror]]\nsize = [1e6, 1e6]\n";
+  EXPECT_EQ(faultOf(mirror + "position = [1e15, -1e15, 0]\nspin = [1e9, 0, -1e9]\n"), "no InputError was thrown");
+  EXPECT_EQ(faultOf(mirror + "position = [1.1e15, 0, 0]\n"),
+            "6: mirror[0].position[0]: is 1100000000000000 (a finite number -1e+15 .. 1e+15 is needed)");
+  EXPECT_EQ(faultOf(mirror + "spin = [0, 1.1e9, 0]\n"),
+            "6: mirror[0].spin[1]: is 1100000000 (a finite number -1e+09 .. 1e+09 is needed)");
+  EXPECT_EQ(faultOf("[[mirror]]\nsize = [1, 1]\nposition = [0, 0, 2e10]\n"),
+            "6: mirror[0].position: is too far from the origin for the mirror's size "
+            "(at most 1e10 times its width and height are needed)");
+  EXPECT_EQ(faultOf("[[light]]\nposition = [0, 0, 0]\nradius = 1e16\n"),
+            "6: light[0].radius: is 1e+16 (a finite number above 0 and up to 1e+15 is needed)");
+  EXPECT_EQ(faultOf("up = [0, 1e-31, 0]\n"),
+            "4: camera.up: has no direction (a vector that is not zero, such as [0, 1, 0], is needed)");
+}
+
+TEST(SceneLimits, SettingsAreNotNestedDeeply) {
+  EXPECT_EQ(faultOf("[settings]\na.b.c.d.e.f.g.h = 1\n"), "no InputError was thrown") << "unknown, but read";
+  EXPECT_EQ(faultOf("[settings]\na.b.c.d.e.f.g.h.i = 1\n"),
+            "5: settings.a.b.c.d.e.f.g.h: has too many parts (no setting has more than 2)");
+}
+
+// Rounding takes the eye to its target at some angle when it is taken from there anew.
+TEST(SceneLimits, CameraTurnsAboutATargetThatItNearlyTouches) {
+  const TemporaryFolder folder;
+  const Scene scene =
+      loadScene(folder.write("scene.toml",
+                             "[camera]\nposition = [10000000.000000002, 1e9, 1e9]\ntarget = [1e7, 1e9, 1e9]\n"
+                             "up = [1, 3, 1]\norbit_speed = 37\n"));
+  const double angle = glm::radians(60.0);
+  for (int second = 0; second < 1000; ++second) {
+    const CameraPose pose = evaluate(scene, second).camera;
+    EXPECT_EQ(pose.verticalFov, angle);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(glm::length(pose.worldToView[i]), 1.0, 1e-14) << second;
+    }
+  }
 }
 
 TEST(SceneLimits, ManySettingsAreReadInShortTime) {

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 #include "optics/polygon.hpp"
 #include "scene/triangulate.hpp"
@@ -63,6 +65,51 @@ TEST(Triangulate, PointsOnEdgesAreNoEars) {
 TEST(Triangulate, DegeneratePolygonsStillEnd) {
   EXPECT_EQ(triangulate(std::vector<glm::dvec3>(5, glm::dvec3(1.0))).size(), 3u);
   EXPECT_EQ(triangulate(std::vector<glm::dvec3>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);
+}
+
+// The rule itself, without remembering anything from one ear to the next.
+std::vector<std::array<int, 3>> earsByTheRule(const std::vector<glm::dvec3>& points) {
+  const glm::dvec3 normal = newellVector(points);
+  const auto turn = [&](int a, int b, int c) {
+    return glm::dot(normal, glm::cross(points[b] - points[a], points[c] - points[b]));
+  };
+  std::vector<int> left(points.size());
+  std::iota(left.begin(), left.end(), 0);
+  const auto isEar = [&](int a, int b, int c) {
+    return turn(a, b, c) > 0.0 && std::none_of(left.begin(), left.end(), [&](int p) {
+             return points[p] != points[a] && points[p] != points[b] && points[p] != points[c] &&
+                    turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+           });
+  };
+  std::vector<std::array<int, 3>> triangles;
+  while (left.size() >= 3) {
+    const size_t n = left.size();
+    size_t ear = 1;
+    for (size_t k = n; k-- > 0;) {
+      const size_t i = (k + 1) % n;
+      ear = isEar(left[(i + n - 1) % n], left[i], left[(i + 1) % n]) ? i : ear;
+    }
+    triangles.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  return triangles;
+}
+
+TEST(Triangulate, FindsTheEarsOfTheRuleWhateverThePolygon) {
+  std::mt19937 random(7);
+  for (int count = 3; count < 60; ++count) {
+    for (int kind = 0; kind < 4; ++kind) {
+      std::vector<glm::dvec3> points;
+      for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * std::acos(-1.0) * i / count;
+        const double radius = 1.0 + static_cast<double>(random() % 1000) / 300.0;
+        // Simple ones, and ones that cross themselves, touch themselves and repeat vertices.
+        points.push_back(kind == 0 ? radius * glm::dvec3(std::cos(angle), std::sin(angle), 0.1 * std::cos(angle))
+                                   : glm::dvec3(random() % (2u << (3 * kind)), random() % (2u << (3 * kind)), 0));
+      }
+      ASSERT_EQ(triangulate(points), earsByTheRule(points)) << count << " vertices, kind " << kind;
+    }
+  }
 }
 
 class LoadObj : public testing::Test {

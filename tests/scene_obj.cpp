@@ -98,6 +98,17 @@ TEST_F(ObjMaterial, TextureIsDecodedToLinear) {
   EXPECT_EQ(textures_[0].texels[1], glm::vec3(0.0f, static_cast<float>(srgbDecode(128.0 / 255.0)), 1.0f));
 }
 
+TEST_F(ObjMaterial, OptionsOfATextureAreNotItsName) {
+  writePng(folder_ / "a wall.png", Image8(1, 1));
+  for (const char* options : {"-blendu on ", "-bm 0.5 -clamp off\t", "-o 1 ", "-o 1 2 3 -s 1e2147483648 -mm 0 1 "}) {
+    const Mesh mesh =
+        load("usemtl m\nf 1 2 3\n", std::string("newmtl m\nmap_Kd ") + options + "a wall.png\nKd 0.5 0.5 0.5\n");
+    EXPECT_EQ(mesh.parts[0].material.diffuseTexture, 0) << options;
+    EXPECT_EQ(mesh.parts[0].material.diffuse, glm::dvec3(0.5)) << options;
+  }
+  EXPECT_EQ(textures_.size(), 1u);
+}
+
 TEST_F(ObjMaterial, TextureThatCannotBeReadIsAnError) {
   folder_.write("text.png", "no picture");
   for (const char* name : {"none.png", "text.png"}) {

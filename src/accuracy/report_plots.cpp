@@ -200,12 +200,12 @@ void addSlopes(Plot& plot, const SweepSeries& series, const std::vector<Sample2d
   if (fitted.empty()) {
     return;
   }
-  const auto [first, last] =
+  const auto ends =
       std::minmax_element(fitted.begin(), fitted.end(), [](const Sample2d& a, const Sample2d& b) { return a.x < b.x; });
   const auto along = [&](double x) { return series.axis == SweepSeries::Axis::logarithmic ? std::log(x) : x; };
   const auto line = [&](const char* style, const LineFit& fit) {
     PlotLine result{.style = style};
-    for (const double x : {first->x, last->x}) {
+    for (const double x : {ends.first->x, ends.second->x}) {
       result.points.push_back({x, std::exp(fit.offset + fit.slope * along(x))});
     }
     return result;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "accuracy/image_metrics.hpp"
@@ -29,6 +30,19 @@ class JsonReader {
       fail(key);
     }
   }
+  // Nothing that does not fit an int, which get<int>() would cut to one.
+  int integer(const char* key) const { return integerOf(member(key), key); }
+  std::vector<int> integers(const char* key) const {
+    std::vector<int> values;
+    const nlohmann::ordered_json& array = member(key);
+    if (!array.is_array()) {
+      fail(key);
+    }
+    for (const nlohmann::ordered_json& value : array) {
+      values.push_back(integerOf(value, key));
+    }
+    return values;
+  }
   // Finite, not negative, and no more than any figure of a sweep can be.
   double number(const char* key) const {
     const auto value = get<double>(key);
@@ -40,14 +54,6 @@ class JsonReader {
   // JSON has no infinity: null stands for it.
   double numberOrInfinity(const char* key) const {
     return member(key).is_null() ? std::numeric_limits<double>::infinity() : get<double>(key);
-  }
-  int integer(const char* key) const { return integerOf(member(key), key); }
-  std::vector<int> integers(const char* key) const {
-    std::vector<int> values;
-    for (const nlohmann::ordered_json& value : get<nlohmann::ordered_json>(key)) {
-      values.push_back(integerOf(value, key));
-    }
-    return values;
   }
   JsonReader at(const char* key) const { return {file_, member(key), place_ + key + "."}; }
   std::vector<JsonReader> items(const char* key) const {
@@ -62,24 +68,29 @@ class JsonReader {
     return readers;
   }
   bool null(const char* key) const { return member(key).is_null(); }
-  const nlohmann::ordered_json& json() const { return json_; }
   [[noreturn]] void fail(const char* key) const {
     throw InputError(file_.string() + ": " + place_ + key +
                      ": missing or of another kind (a results.json of speculum accuracy is needed)");
+  }
+
+  // Whatever it is. A copy of it, as get() would make, could overflow the stack when values are nested deeply.
+  const nlohmann::ordered_json& member(const char* key) const {
+    if (!json_.is_object() || !json_.contains(key)) {
+      fail(key);
+    }
+    return json_.at(key);
   }
 
  private:
   static constexpr double largestFigure = 1e12;
 
   int integerOf(const nlohmann::ordered_json& value, const char* key) const {
-    const bool whole = value.is_number_integer() && value >= 0 && value <= std::numeric_limits<int>::max();
-    return whole ? value.get<int>() : (fail(key), 0);
-  }
-  const nlohmann::ordered_json& member(const char* key) const {
-    if (!json_.is_object() || !json_.contains(key)) {
+    const auto fits = [](auto number) { return std::in_range<int>(number); };
+    if (!(value.is_number_unsigned() ? fits(value.get<uint64_t>())
+                                     : value.is_number_integer() && fits(value.get<int64_t>()))) {
       fail(key);
     }
-    return json_.at(key);
+    return value.get<int>();
   }
 
   const std::filesystem::path& file_;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "accuracy/sweep_json.hpp"
 #include "accuracy/sweep_results.hpp"
@@ -13,7 +12,7 @@ using nlohmann::ordered_json;
 
 std::vector<SettingChange> readChanges(const JsonReader& reader, const char* key) {
   std::vector<SettingChange> changes;
-  const auto settings = reader.get<ordered_json>(key);
+  const ordered_json& settings = reader.member(key);
   for (const auto& [name, value] : settings.items()) {
     if (!settings.is_object() || !value.is_string()) {
       reader.fail(key);
@@ -92,10 +91,7 @@ ErrorFigures readErrors(const JsonReader& errors) {
 SweepResults readSweepResults(const std::filesystem::path& file) {
   ordered_json json;
   try {
-    if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)) {
-      throw std::runtime_error(file.string() + ": no file (a results.json of speculum accuracy is needed)");
-    }
-    const std::vector<uint8_t> bytes = readFileBytes(file);
+    const std::vector<uint8_t> bytes = readFileBytes(file, 64u << 20);
     json = ordered_json::parse(bytes.begin(), bytes.end());
   } catch (const nlohmann::json::exception&) {
     throw InputError(file.string() + ": not JSON (a results.json of speculum accuracy is needed)");

@@ -7,8 +7,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
-#include "scene/scene_loader.hpp"
 
 namespace speculum {
 
@@ -305,7 +305,7 @@ Settings settingsOf(const Scene& scene) {
                           ? entry.key + ": a string is the wrong type (" + std::string(setting->info.range) + ")"
                           : setSetting(settings, entry.key, entryText(entry));
     if (problem) {
-      throw InputError(scene.file.string() + ":" + std::to_string(entry.line) + ": " + *problem);
+      throw InputError(oneLine(scene.file.string() + ":" + std::to_string(entry.line) + ": " + *problem));
     }
   }
   return settings;

@@ -9,10 +9,17 @@ namespace speculum {
 
 namespace fs = std::filesystem;
 
-std::vector<uint8_t> readFileBytes(const fs::path& file) {
+std::vector<uint8_t> readFileBytes(const fs::path& file, uintmax_t most) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) {
     throw std::runtime_error(file.string() + ": is a folder (a file is needed)");
+  }
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
+    throw std::runtime_error(file.string() + ": is a device or pipe (a file is needed)");
+  }
+  if (const uintmax_t size = fs::file_size(file, ignored); !ignored && size > most) {
+    throw std::runtime_error(file.string() + ": is larger than " + std::to_string(most >> 20) +
+                             " MiB (a smaller file is needed)");
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {

@@ -46,7 +46,7 @@ Image8 toDisplay(const LinearImage& image, double exposure, ToneMap toneMap);
 std::vector<uint8_t> encodeJpeg(const Image8& image, int quality);
 
 // All throw std::runtime_error with the file's name, what is wrong and what would be right.
-Image8 readImage8(const std::filesystem::path& file);  // PNG, JPEG
+Image8 readImage8(const std::filesystem::path& file);  // PNG, JPEG, of at most 2^26 pixels
 void writePng(const std::filesystem::path& file, const Image8& image);
 LinearImage readExr(const std::filesystem::path& file);
 void writeExr(const std::filesystem::path& file, const LinearImage& image);  // float RGB

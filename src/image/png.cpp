@@ -24,6 +24,19 @@ bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
   return startsWith(png) || startsWith(jpeg);
 }
 
+// A small file can claim any size, and a decoder believes it.
+void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
+  constexpr int64_t most = int64_t{1} << 26;
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) != 0 &&
+      int64_t{width} * height > most) {
+    throw std::runtime_error(file.string() + ": the picture has " + std::to_string(width) + "x" +
+                             std::to_string(height) + " pixels (at most 2^26, such as 8192x8192, are read)");
+  }
+}
+
 void writeChunk(void* stream, void* data, int size) {
   static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(data), size);
 }
@@ -35,6 +48,7 @@ Image8 readImage8(const std::filesystem::path& file) {
   if (!isPngOrJpeg(bytes)) {
     throw std::runtime_error(file.string() + ": is not a picture that can be read (a PNG or JPEG file is needed)");
   }
+  checkSize(file, bytes);
   int width = 0;
   int height = 0;
   int channels = 0;

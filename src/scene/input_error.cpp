@@ -5,13 +5,17 @@
 
 namespace speculum {
 
+std::string oneLine(std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+  return message;
+}
+
 void throwInputError(const std::filesystem::path& file, int line, std::string_view key, std::string_view wrong,
                      std::string_view right) {
   std::string message = file.string() + ":" + std::to_string(line) + ": ";
   message.append(key).append(": ").append(wrong).append(" (").append(right).append(")");
-  std::replace_if(
-      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-  throw InputError(message);
+  throw InputError(oneLine(std::move(message)));
 }
 
 }  // namespace speculum

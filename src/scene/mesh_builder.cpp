@@ -18,10 +18,20 @@ double largestComponent(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
+// Whose square need not be within the range of a double.
+double length(const glm::dvec3& v) {
+  const double scale = largestComponent(v);
+  return scale > 0.0 ? scale * glm::length(v / scale) : 0.0;
+}
+
 // Unit length whatever the magnitude; zero for zero.
 glm::dvec3 unit(const glm::dvec3& v) {
   const double scale = largestComponent(v);
   return scale > 0.0 ? glm::normalize(v / scale) : glm::dvec3(0.0);
+}
+
+bool isFinite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 struct TriangleShape {
@@ -63,7 +73,8 @@ class MeshBuilder {
   MeshBuilder(const ObjGeometry& geometry, const ObjScan& scan) : geometry_(geometry), scan_(scan) {
     normals_.reserve(geometry.normals.size());
     for (size_t i = 0; i < geometry.normals.size(); ++i) {
-      normals_.push_back(scan.finiteNormal[i] ? unit(geometry.normals[i]) : glm::dvec3(0.0));
+      normals_.push_back(scan.finiteNormal[i] && isFinite(geometry.normals[i]) ? unit(geometry.normals[i])
+                                                                               : glm::dvec3(0.0));
     }
   }
 
@@ -71,7 +82,7 @@ class MeshBuilder {
     points_.clear();
     for (size_t i = 0; i < face.cornerCount; ++i) {
       const ObjCorner& corner = geometry_.corners[face.firstCorner + i];
-      if (!scan_.finitePosition[corner.position] || (corner.texcoord >= 0 && !scan_.finiteTexcoord[corner.texcoord])) {
+      if (!finitePosition(corner.position) || (corner.texcoord >= 0 && !finiteTexcoord(corner.texcoord))) {
         ++nonFinite_;
         return;
       }
@@ -107,6 +118,12 @@ class MeshBuilder {
   }
 
  private:
+  // The parser's arithmetic may round the largest doubles, which are finite to the scan, to infinity.
+  bool finitePosition(int i) const { return scan_.finitePosition[i] && isFinite(geometry_.positions[i]); }
+  bool finiteTexcoord(int i) const {
+    return scan_.finiteTexcoord[i] && isFinite(glm::dvec3(geometry_.texcoords[i], 0.0));
+  }
+
   void addTriangle(const ObjFace& face, const std::array<int, 3>& triangle) {
     const TriangleShape shape = shapeOf(points_[triangle[0]], points_[triangle[1]], points_[triangle[2]]);
     if (!(shape.quality >= 1e-10)) {
@@ -156,7 +173,7 @@ class MeshBuilder {
     for (Vertex& vertex : mesh_.vertices) {
       vertex.position -= mesh_.center;
       mesh_.halfExtent = glm::max(mesh_.halfExtent, glm::abs(vertex.position));
-      mesh_.radius = std::max(mesh_.radius, glm::length(vertex.position));
+      mesh_.radius = std::max(mesh_.radius, length(vertex.position));
     }
   }
 

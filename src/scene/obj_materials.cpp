@@ -23,6 +23,16 @@ fs::path relativeTo(const fs::path& file, std::string name) {
   return (file.parent_path() / name).lexically_normal();
 }
 
+// The parser's arithmetic may round the largest doubles, which are finite to the scan, to infinity.
+bool allFinite(const Material& material) {
+  bool finite = std::isfinite(material.shininess);
+  for (int i = 0; i < 3; ++i) {
+    finite = finite && std::isfinite(material.diffuse[i]) && std::isfinite(material.specular[i]) &&
+             std::isfinite(material.emission[i]);
+  }
+  return finite;
+}
+
 // A file's fault without the advice in brackets at its end.
 std::string withoutAdvice(const std::string& message) {
   return message.substr(0, message.rfind(" ("));
@@ -79,17 +89,21 @@ bool ObjMaterials::operator()(const std::string& name, std::vector<tinyobj::mate
     missingFile_ = true;
     return false;
   }
+  // Materials multiply when many lines name one file.
+  if (!read_.insert(fs::weakly_canonical(file, ignored)).second) {
+    return true;
+  }
   const std::string text = readText(file, file, 1, "file", "a Wavefront MTL file is needed");
-  const std::map<std::string, MtlLines> lines = scanMtl(file, text);
+  const MtlScan scan = scanMtl(file, text);
   const size_t first = materials->size();
-  std::istringstream stream(text);
+  std::istringstream stream(scan.text);
   tinyobj::LoadMtl(indices, materials, &stream, warning, error);
   for (size_t i = first; i < materials->size(); ++i) {
     const tinyobj::material_t& material = (*materials)[i];
     const std::string key(trimmed(material.name));
-    const auto found = lines.find(key);
+    const auto found = scan.lines.find(key);
     indices_.try_emplace(key, static_cast<int>(entries_.size()));
-    entries_.push_back({material, file, found == lines.end() ? MtlLines{} : found->second});
+    entries_.push_back({material, file, found == scan.lines.end() ? MtlLines{} : found->second});
   }
   return true;
 }
@@ -118,6 +132,10 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
                     .specular = {source.specular[0], source.specular[1], source.specular[2]},
                     .emission = {source.emission[0], source.emission[1], source.emission[2]},
                     .shininess = std::max(1.0, static_cast<double>(source.shininess))};
+  if (!allFinite(material)) {
+    throwInputError(entry.file, std::max(1, entry.lines.newmtl), "newmtl", "has a number that is out of range",
+                    "numbers that a double can hold are needed");
+  }
   if (source.dissolve < 1.0 || !source.alpha_texname.empty()) {
     spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.lines.newmtl,
                  source.name);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ class ObjMaterials : public tinyobj::MaterialReader {
   std::filesystem::path objFile_;
   std::vector<Entry> entries_;
   std::map<std::string, int, std::less<>> indices_;
+  std::set<std::filesystem::path> read_;
   bool missingFile_ = false;
 };
 

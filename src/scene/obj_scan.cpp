@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +14,11 @@
 namespace speculum {
 
 namespace {
+
+// Triangulation takes time in the square of this.
+constexpr size_t kMostCorners = 1000;
+// The parser keeps some kilobytes for each material.
+constexpr size_t kMostMaterials = 10'000;
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
@@ -75,8 +82,10 @@ class LineScanner {
   std::string_view keyword() const { return tokens_[0]; }
   // All after the keyword, blanks inside included.
   std::string_view argument() const { return trimmed(line_.substr(line_.find(tokens_[0]) + tokens_[0].size())); }
-  std::string_view line() const { return line_; }
+  // All from one of the tokens on.
+  std::string_view from(std::string_view token) const { return trimmed(line_.substr(token.data() - line_.data())); }
   const std::vector<std::string_view>& tokens() const { return tokens_; }
+  std::string joinedTokens() const { return fmt::format("{}", fmt::join(tokens_, " ")); }
   int number() const { return number_; }
 
   [[noreturn]] void fail(std::string_view key, const std::string& wrong, const std::string& right) const {
@@ -163,6 +172,9 @@ void checkFace(const LineScanner& line, const ObjScan& scan) {
   if (tokens.size() < 4) {
     line.fail("f", fmt::format("has {} vertices", tokens.size() - 1), "a face needs 3 or more");
   }
+  if (tokens.size() - 1 > kMostCorners) {
+    line.fail("f", fmt::format("has {} vertices", tokens.size() - 1), fmt::format("3 .. {} are needed", kMostCorners));
+  }
   for (size_t i = 1; i < tokens.size(); ++i) {
     const std::string_view corner = tokens[i];
     const size_t first = corner.find('/');
@@ -182,20 +194,68 @@ void checkFace(const LineScanner& line, const ObjScan& scan) {
   }
 }
 
-// Returns whether the line is one whose tokens are checked.
-bool scanGeometry(const LineScanner& line, ObjScan& scan) {
-  if (line.keyword() == "v") {
-    scan.finitePosition.push_back(allFinite(line.numbers(3, 8), 3));
-  } else if (line.keyword() == "vt") {
-    scan.finiteTexcoord.push_back(allFinite(line.numbers(1, 3), 2));
-  } else if (line.keyword() == "vn") {
-    scan.finiteNormal.push_back(allFinite(line.numbers(3, 3), 3));
-  } else if (line.keyword() == "f") {
-    checkFace(line, scan);
-  } else {
-    return false;
+// Written anew: the parser's own arithmetic overflows on 1e2147483648.
+std::string lineOf(std::string_view keyword, const std::vector<double>& numbers, size_t count) {
+  std::string text(keyword);
+  for (size_t i = 0; i < std::min(count, numbers.size()); ++i) {
+    text += ' ' + (std::isfinite(numbers[i]) ? fmt::to_string(numbers[i]) : "0");
   }
-  return true;
+  return text;
+}
+
+// What the parser is to see of a line.
+std::string scanLine(const LineScanner& line, ObjScan& scan) {
+  const std::string keyword(line.keyword());
+  const bool position = keyword == "v";
+  if (position || keyword == "vn" || keyword == "vt") {
+    const size_t used = keyword == "vt" ? 2 : 3;
+    const std::vector<double> numbers = line.numbers(used == 2 ? 1 : 3, position ? 8 : 3);
+    std::vector<bool>& finite = position ? scan.finitePosition : used == 2 ? scan.finiteTexcoord : scan.finiteNormal;
+    finite.push_back(allFinite(numbers, used));
+    return lineOf(keyword, numbers, used);
+  }
+  if (keyword == "f") {
+    checkFace(line, scan);
+    return line.joinedTokens();
+  }
+  return keyword == "usemtl" || keyword == "mtllib" ? keyword + " " + std::string(line.argument()) : "";
+}
+
+// The words that an option of a texture takes behind it; those of -o, -s and -t, up to 3, are numbers. -1: no option.
+int wordsOf(std::string_view option) {
+  constexpr std::array<std::string_view, 10> one{"-blendu", "-blendv", "-cc",      "-clamp", "-boost",
+                                                 "-bm",     "-texres", "-imfchan", "-type",  "-colorspace"};
+  if (option == "-o" || option == "-s" || option == "-t") {
+    return 3;
+  }
+  return option == "-mm" ? 2 : std::find(one.begin(), one.end(), option) != one.end() ? 1 : -1;
+}
+
+// The file name, which may hold blanks, behind the options, none of which is used.
+std::string_view textureName(const LineScanner& line) {
+  const std::vector<std::string_view>& tokens = line.tokens();
+  size_t i = 1;
+  while (i < tokens.size() && wordsOf(tokens[i]) >= 0) {
+    const int most = wordsOf(tokens[i++]);
+    for (int word = 0; word < most && i < tokens.size() && (most < 3 || parseNumber(tokens[i])); ++word) {
+      ++i;
+    }
+  }
+  return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
+}
+
+// The numbers of a line of a material.
+std::vector<double> checkedNumbers(const LineScanner& line, bool color) {
+  const std::vector<double> numbers = color ? line.numbers(3, 3) : line.numbers(1, 1);
+  for (const double value : numbers) {
+    if (!std::isfinite(value)) {
+      line.fail(line.keyword(), "is not finite", "finite numbers are needed");
+    }
+    if (color && value < 0.0) {
+      line.fail(line.keyword(), "is negative", "colours are 0 or more");
+    }
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -211,43 +271,38 @@ ObjScan scanObj(const std::filesystem::path& file, std::string_view text) {
   LineScanner line(file, text, true);
   scan.text.reserve(text.size());
   while (line.next()) {
-    if (scanGeometry(line, scan)) {
-      for (const std::string_view token : line.tokens()) {
-        scan.text.append(token).push_back(' ');
-      }
-    } else {
-      scan.text.append(line.line());
-    }
-    scan.text.push_back('\n');
+    scan.text.append(scanLine(line, scan)).push_back('\n');
   }
   return scan;
 }
 
-std::map<std::string, MtlLines> scanMtl(const std::filesystem::path& file, std::string_view text) {
-  std::map<std::string, MtlLines> materials;
+MtlScan scanMtl(const std::filesystem::path& file, std::string_view text) {
+  MtlScan scan;
   MtlLines* current = nullptr;
+  size_t count = 0;
   LineScanner line(file, text, false);
   while (line.next()) {
     const std::string_view key = line.keyword();
     const bool color = key == "Kd" || key == "Ks" || key == "Ke";
-    const bool scalar = key == "Ns" || key == "d" || key == "Tr";
     if (key == "newmtl") {
-      current = &materials[std::string(line.argument())];
+      current = &scan.lines[std::string(line.argument())];
       current->newmtl = line.number();
+      if (++count > kMostMaterials) {
+        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
+      }
     } else if (key == "map_Kd" && current != nullptr) {
       current->mapKd = line.number();
-    } else if (color || scalar) {
-      for (const double value : color ? line.numbers(3, 3) : line.numbers(1, 1)) {
-        if (!std::isfinite(value)) {
-          line.fail(key, "is not finite", "finite numbers are needed");
-        }
-        if (color && value < 0.0) {
-          line.fail(key, "is negative", "colours are 0 or more");
-        }
-      }
     }
+    if (color || key == "Ns" || key == "d" || key == "Tr") {
+      scan.text.append(lineOf(key, checkedNumbers(line, color), 3));
+    } else if (key == "newmtl") {
+      scan.text.append("newmtl ").append(line.argument());
+    } else if (key == "map_Kd" || key == "map_d") {
+      scan.text.append(key).append(" ").append(textureName(line));
+    }
+    scan.text.push_back('\n');
   }
-  return materials;
+  return scan;
 }
 
 }  // namespace speculum

@@ -13,8 +13,9 @@ struct ObjScan {
   std::vector<bool> finitePosition;  // of the k-th v line; a w or a vertex colour does not count
   std::vector<bool> finiteTexcoord;  // of the k-th vt line
   std::vector<bool> finiteNormal;    // of the k-th vn line
-  // The file again, line by line, with v, vt, vn and f lines reduced to their tokens: the parser takes a comment behind
-  // them for more of the same.
+  // What the parser is to see, line by line: v, vt, vn and f lines reduced to what is used of them and with numbers
+  // that it can take, because it takes a comment behind them for more of the same; usemtl and mtllib lines; nothing
+  // else.
   std::string text;
 };
 
@@ -28,9 +29,13 @@ struct MtlLines {
   int mapKd = 0;  // 0: none
 };
 
-// Checks the numbers of Kd, Ks, Ke, Ns, d and Tr; throws InputError. Returns the lines by material name, first one
-// first.
-std::map<std::string, MtlLines> scanMtl(const std::filesystem::path& file, std::string_view text);
+struct MtlScan {
+  std::map<std::string, MtlLines> lines;  // by material name, the last one of a name
+  std::string text;                       // what the parser is to see
+};
+
+// Checks the numbers of Kd, Ks, Ke, Ns, d and Tr, and that there are at most 10 000 materials; throws InputError.
+MtlScan scanMtl(const std::filesystem::path& file, std::string_view text);
 
 // Without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);

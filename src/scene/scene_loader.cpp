@@ -1,5 +1,6 @@
 #include "scene/scene_loader.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "scene/input_error.hpp"
@@ -35,6 +36,23 @@ int meshIndex(const TableReader& object, Scene& scene) {
   return static_cast<int>(scene.meshes.size()) - 1;
 }
 
+// Every copy takes memory in every frame.
+constexpr int kMostInstances = 1'000'000;
+
+void checkCount(const TableReader& table, const Object& object, int earlier) {
+  if (object.copies.count > kMostInstances - earlier) {
+    table.fail("copies", "makes more than 1000000 objects of the scene", "fewer copies are needed");
+  }
+}
+
+// Beyond, squares of what follows from it are no doubles.
+void checkExtent(const TableReader& table, const Object& object, const Mesh& mesh) {
+  const glm::dvec3 farthest = glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius);
+  if (!(std::max({farthest.x, farthest.y, farthest.z}) <= 1e150)) {
+    table.fail("scale", "leaves the range of double precision", "model and scale of at most 1e150 m are needed");
+  }
+}
+
 }  // namespace
 
 Scene loadScene(const fs::path& file) {
@@ -54,9 +72,13 @@ Scene loadScene(const fs::path& file) {
     scene.mirrors.push_back(readMirror(table));
   }
   // Last, so that a slip in the file is told before models are read.
+  int instances = 0;
   for (const TableReader& table : reader.tables("object", objectKeys())) {
     Object object = readObject(table);
+    checkCount(table, object, instances);
+    instances += object.copies.count;
     object.mesh = meshIndex(table, scene);
+    checkExtent(table, object, scene.meshes[object.mesh]);
     scene.objects.push_back(std::move(object));
   }
   return scene;

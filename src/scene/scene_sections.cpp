@@ -15,6 +15,13 @@ namespace {
 
 using Key = std::string_view;
 
+// Shorter vectors could be told from zero, but squares of products with them are no doubles any more.
+constexpr double kShortest = 1e-30;
+
+bool hasDirection(const glm::dvec3& v) {
+  return glm::length(v) >= kShortest;
+}
+
 // Checking a polygon takes time in the square of this.
 constexpr size_t kMostVertices = 1000;
 
@@ -23,7 +30,7 @@ Copies readCopies(const TableReader& object) {
   Copies copies;
   if (const std::optional<TableReader> table = object.subtable("copies", kKeys)) {
     copies.count = static_cast<int>(table->integer("count", copies.count, 1, 1'000'000));
-    copies.step = table->vec3("step", copies.step);
+    copies.step = table->vec3("step", copies.step, kCoordinate);
   }
   return copies;
 }
@@ -35,10 +42,10 @@ std::optional<Orbit> readOrbit(const TableReader& light) {
     return std::nullopt;
   }
   Orbit orbit;
-  orbit.center = table->vec3("center", orbit.center);
-  orbit.axis = table->vec3("axis", orbit.axis);
-  orbit.speed = table->number("speed", orbit.speed);
-  if (!std::isnormal(glm::dot(orbit.axis, orbit.axis))) {
+  orbit.center = table->vec3("center", orbit.center, kCoordinate);
+  orbit.axis = table->vec3("axis", orbit.axis, kCoordinate);
+  orbit.speed = table->number("speed", orbit.speed, kTurn);
+  if (!hasDirection(orbit.axis)) {
     table->fail("axis", "has no direction", "a vector that is not zero, such as [0, 1, 0], is needed");
   }
   return orbit;
@@ -59,12 +66,20 @@ std::optional<Ripple> readRipple(const TableReader& mirror) {
 
 void checkShape(const TableReader& table, Key key, std::span<const glm::dvec3> polygon) {
   std::optional<std::string> defect = polygonDefect(polygon);
-  if (!defect && !std::isnormal(glm::dot(newellVector(polygon), newellVector(polygon)))) {
+  if (!defect && !(glm::length(newellVector(polygon)) >= kShortest * kShortest)) {
     defect = "has no area that can be computed with";
   }
   if (defect) {
     table.fail(key, *defect,
                "a planar, convex polygon with an area of at least 1e-8 of its squared diameter is needed");
+  }
+}
+
+// Vertices are rounded to 2^-53 of their distance from the origin: little must be left of that in the mirror.
+void checkSizeAtPosition(const TableReader& table, const Mirror& mirror) {
+  if (std::min(mirror.size.x, mirror.size.y) < 1e-10 * glm::length(mirror.position)) {
+    table.fail("position", "is too far from the origin for the mirror's size",
+               "at most 1e10 times its width and height are needed");
   }
 }
 
@@ -85,14 +100,15 @@ void readShape(const TableReader& table, Mirror& mirror) {
   if (!table.has("size")) {
     table.fail("size", "is missing", "size = [width, height] or polygon = [[x, y, z], ...] is needed");
   }
-  mirror.size = table.vec2("size", kPositive);
+  mirror.size = table.vec2("size", kLength);
   const glm::dvec2 half = 0.5 * mirror.size;
   const std::array<glm::dvec3, 4> corners{glm::dvec3(-half, 0.0), glm::dvec3(half.x, -half.y, 0.0),
                                           glm::dvec3(half, 0.0), glm::dvec3(-half.x, half.y, 0.0)};
   checkShape(table, "size", corners);
-  mirror.position = table.vec3("position", mirror.position);
-  mirror.rotation = table.vec3("rotation", mirror.rotation);
-  mirror.spin = table.vec3("spin", mirror.spin);
+  mirror.position = table.vec3("position", mirror.position, kCoordinate);
+  mirror.rotation = table.vec3("rotation", mirror.rotation, kCoordinate);
+  mirror.spin = table.vec3("spin", mirror.spin, kTurn);
+  checkSizeAtPosition(table, mirror);
 }
 
 SettingEntry readSetting(const TableReader& settings, const toml::node& node, const std::string& key, int line) {
@@ -124,13 +140,18 @@ SettingEntry readSetting(const TableReader& settings, const toml::node& node, co
   return entry;
 }
 
-void flatten(const TableReader& settings, const toml::table& table, const std::string& prefix, int tableLine,
+// `depth` tables stand around the table within [settings].
+void flatten(const TableReader& settings, const toml::table& table, const std::string& prefix, int tableLine, int depth,
              std::map<std::string, SettingEntry>& entries) {
+  constexpr int kDeepest = 7;
   for (const auto& [key, node] : table) {
     const std::string full = prefix + std::string(key.str());
     const int line = key.source().begin.line > 0 ? static_cast<int>(key.source().begin.line) : tableLine;
+    if (node.is_table() && depth == kDeepest) {
+      settings.failAt(node, full, "has too many parts", "no setting has more than 2");
+    }
     if (node.is_table()) {
-      flatten(settings, *node.as_table(), full + ".", line, entries);
+      flatten(settings, *node.as_table(), full + ".", line, depth + 1, entries);
       continue;
     }
     if (entries.contains(full)) {
@@ -167,16 +188,16 @@ CameraSpec readCamera(const TableReader& file) {
     file.fail("camera", "is missing", "[camera] with position and target is needed");
   }
   CameraSpec camera;
-  camera.position = table->vec3("position");
-  camera.target = table->vec3("target");
-  camera.up = table->vec3("up", camera.up);
+  camera.position = table->vec3("position", kCoordinate);
+  camera.target = table->vec3("target", kCoordinate);
+  camera.up = table->vec3("up", camera.up, kCoordinate);
   camera.verticalFov = table->number("vertical_fov", camera.verticalFov, {.low = 1.0, .high = 170.0});
   camera.near = table->number("near", camera.near, kPositive);
-  camera.orbitSpeed = table->number("orbit_speed", camera.orbitSpeed);
-  if (!std::isnormal(glm::length(camera.target - camera.position))) {
+  camera.orbitSpeed = table->number("orbit_speed", camera.orbitSpeed, kTurn);
+  if (!hasDirection(camera.target - camera.position)) {
     table->fail("target", "has no direction from position", "a point away from position is needed");
   }
-  if (!std::isnormal(glm::length(camera.up))) {
+  if (!hasDirection(camera.up)) {
     table->fail("up", "has no direction", "a vector that is not zero, such as [0, 1, 0], is needed");
   }
   try {
@@ -195,7 +216,7 @@ std::vector<SettingEntry> readSettings(const TableReader& file) {
     return entries;
   }
   std::map<std::string, SettingEntry> byKey;
-  flatten(*settings, settings->table(), "", settings->line(), byKey);
+  flatten(*settings, settings->table(), "", settings->line(), 0, byKey);
   for (auto& [key, entry] : byKey) {
     entries.push_back(std::move(entry));
   }
@@ -207,10 +228,10 @@ std::vector<SettingEntry> readSettings(const TableReader& file) {
 Object readObject(const TableReader& table) {
   Object object;
   object.name = table.text("name", "");
-  object.position = table.vec3("position", object.position);
-  object.rotation = table.vec3("rotation", object.rotation);
+  object.position = table.vec3("position", object.position, kCoordinate);
+  object.rotation = table.vec3("rotation", object.rotation, kCoordinate);
   object.scale = table.numberOrVec3("scale", object.scale);
-  object.spin = table.vec3("spin", object.spin);
+  object.spin = table.vec3("spin", object.spin, kTurn);
   for (int i = 0; i < 3; ++i) {
     if (object.scale[i] == 0.0) {
       table.fail("scale", "is zero along an axis", "scales other than 0 are needed, negative ones mirror");
@@ -235,10 +256,10 @@ Object readObject(const TableReader& table) {
 PointLight readLight(const TableReader& table) {
   PointLight light;
   light.name = table.text("name", "");
-  light.position = table.vec3("position");
+  light.position = table.vec3("position", kCoordinate);
   light.color = table.vec3("color", light.color, kNotNegative);
   light.intensity = table.number("intensity", light.intensity, kNotNegative);
-  light.radius = table.number("radius", light.radius, kPositive);
+  light.radius = table.number("radius", light.radius, kLength);
   light.glow = table.number("glow", light.glow, kNotNegative);
   light.castsShadow = table.boolean("casts_shadow", light.castsShadow);
   light.orbit = readOrbit(table);

@@ -77,10 +77,21 @@ MirrorState mirrorState(const Mirror& mirror, double time) {
   return state;
 }
 
+// `forward`, of any length, is not parallel to `up`.
+CameraPose poseAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, double verticalFovDegrees,
+                     double near) {
+  const glm::dvec3 back = -glm::normalize(forward);
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
+  CameraPose pose{.eye = eye, .verticalFov = glm::radians(verticalFovDegrees), .near = near};
+  pose.worldToView = glm::transpose(glm::dmat3(right, glm::cross(back, right), back));
+  return pose;
+}
+
+// The direction is turned, not taken from eye and target: far from the origin, rounding could make one of the two.
 CameraPose cameraPose(const CameraSpec& camera, double time) {
   const glm::dmat3 turn = rotationAboutAxis(camera.up, camera.orbitSpeed * time);
-  return lookAt(camera.target + turn * (camera.position - camera.target), camera.target, camera.up, camera.verticalFov,
-                camera.near);
+  const glm::dvec3 arm = turn * (camera.position - camera.target);
+  return poseAlong(camera.target + arm, -arm, camera.up, camera.verticalFov, camera.near);
 }
 
 }  // namespace
@@ -96,16 +107,11 @@ glm::dvec3 Environment::radiance(const glm::dvec3& d) const {
 CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,
                   double near) {
   const glm::dvec3 forward = target - eye;
-  const glm::dvec3 side = glm::cross(forward, up);
-  const double sideLength = glm::length(side);
+  const double sideLength = glm::length(glm::cross(forward, up));
   if (!(sideLength > 1e-9 * glm::length(forward) * glm::length(up))) {
     throw std::invalid_argument("the camera's target is its position, or lies along its up vector");
   }
-  const glm::dvec3 back = -glm::normalize(forward);
-  const glm::dvec3 right = side / sideLength;
-  CameraPose pose{.eye = eye, .verticalFov = glm::radians(verticalFovDegrees), .near = near};
-  pose.worldToView = glm::transpose(glm::dmat3(right, glm::cross(back, right), back));
-  return pose;
+  return poseAlong(eye, forward, up, verticalFovDegrees, near);
 }
 
 SceneState evaluate(const Scene& scene, double timeSeconds) {

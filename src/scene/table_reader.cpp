@@ -29,7 +29,8 @@ bool Range::contains(double value) const {
 std::string Range::text() const {
   const bool bounded = high < std::numeric_limits<double>::max();
   if (bounded) {
-    return fmt::format("a number {} .. {} is needed", low, high);
+    return aboveLow ? fmt::format("a finite number above {:g} and up to {:g} is needed", low, high)
+                    : fmt::format("a {}number {:g} .. {:g} is needed", high > 1e6 ? "finite " : "", low, high);
   }
   if (low == -std::numeric_limits<double>::max()) {
     return "a finite number is needed";
@@ -211,7 +212,7 @@ std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
   }
   std::vector<glm::dvec3> points;
   for (size_t i = 0; i < node.as_array()->size(); ++i) {
-    points.push_back(vec3Of((*node.as_array())[i], elementKey(key, i), kAny));
+    points.push_back(vec3Of((*node.as_array())[i], elementKey(key, i), kCoordinate));
   }
   return points;
 }

@@ -26,6 +26,11 @@ struct Range {
 inline constexpr Range kAny{};
 inline constexpr Range kNotNegative{.low = 0.0};
 inline constexpr Range kPositive{.low = 0.0, .aboveLow = true};
+// Metres and degrees, and metres that are lengths: squares of sums and products of several of them are still doubles.
+inline constexpr Range kCoordinate{.low = -1e15, .high = 1e15};
+inline constexpr Range kLength{.low = 0.0, .high = 1e15, .aboveLow = true};
+// Degrees per second: times any number of seconds is still a double.
+inline constexpr Range kTurn{.low = -1e9, .high = 1e9};
 inline constexpr Range kUnit{.low = 0.0, .high = 1.0};
 
 // One table of a scene file. Every getter throws InputError with file, line and full key for a wrong type or a value

@@ -32,13 +32,11 @@ size_t endOfString(std::string_view toml, size_t start) {
   return toml.size();
 }
 
-}  // namespace
-
-int lineOfTooDeepKey(std::string_view toml) {
-  constexpr int kMostDots = 31;
+// The line of the first character outside strings and comments that `stop` is true of, or 0.
+template <typename Stop>
+int lineOf(std::string_view toml, Stop stop) {
   int line = 1;
-  int dots = 0;
-  for (size_t i = 0; i < toml.size();) {
+  for (size_t i = toml.starts_with("\xef\xbb\xbf") ? 3 : 0; i < toml.size();) {
     const size_t start = i;
     const char c = toml[i++];
     if (c == '"' || c == '\'') {
@@ -48,16 +46,31 @@ int lineOfTooDeepKey(std::string_view toml) {
       }
     } else if (c == '#') {
       i = std::min(toml.find('\n', i), toml.size());
-    } else if (c == '.') {
-      if (++dots > kMostDots) {
-        return line;
-      }
-    } else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
-      dots = 0;
-      line += c == '\n' ? 1 : 0;
+    } else if (stop(c)) {
+      return line;
+    } else if (c == '\n') {
+      ++line;
     }
   }
   return 0;
+}
+
+}  // namespace
+
+int lineOfTooDeepKey(std::string_view toml) {
+  constexpr int kMostDots = 31;
+  int dots = 0;
+  return lineOf(toml, [&](char c) {
+    if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+    dots += c == '.' ? 1 : 0;
+    return dots > kMostDots;
+  });
+}
+
+int lineOfStrayCharacter(std::string_view toml) {
+  return lineOf(toml, [](char c) { return static_cast<unsigned char>(c) > 0x7f; });
 }
 
 }  // namespace speculum

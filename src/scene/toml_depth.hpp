@@ -9,4 +9,9 @@ namespace speculum {
 // thousand parts overflow the stack.
 int lineOfTooDeepKey(std::string_view toml);
 
+// The line of the first character beyond ASCII outside strings and comments, where TOML has none, or 0. The TOML
+// library (3.3) decides whether such a character is blank with a table that has no entry for most of them, which leaves
+// what it does undefined.
+int lineOfStrayCharacter(std::string_view toml);
+
 }  // namespace speculum

@@ -41,6 +41,10 @@ toml::table readToml(const fs::path& file, std::string_view kind) {
     throwInputError(file, line, "toml", "a key has too many parts",
                     fmt::format("no key of a {} has more than 3", kind));
   }
+  if (const int line = lineOfStrayCharacter(text)) {
+    throwInputError(file, line, "toml", "a character that is not ASCII stands outside quotation marks",
+                    "a TOML 1.0 file is needed, which quotes such keys and texts");
+  }
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {

@@ -1,0 +1,59 @@
+#include "fuzz_support.hpp"
+#include "image/image.hpp"
+
+namespace speculum::fuzz {
+
+namespace {
+
+void checkParts(const Mesh& mesh, size_t textureCount) {
+  size_t next = 0;
+  for (const MeshPart& part : mesh.parts) {
+    require(part.firstIndex == next && part.indexCount > 0 && part.indexCount % 3 == 0, "parts follow each other");
+    next += part.indexCount;
+    const Material& material = part.material;
+    for (const glm::dvec3& color : {material.diffuse, material.specular, material.emission}) {
+      require(finite(color) && glm::all(glm::greaterThanEqual(color, glm::dvec3(0.0))),
+              "colours are finite, 0 or more");
+    }
+    require(std::isfinite(material.shininess) && material.shininess >= 1.0, "shininess is finite, 1 or more");
+    require(material.diffuseTexture < static_cast<int>(textureCount), "a texture's index is in range");
+  }
+  require(next == mesh.indices.size(), "parts cover all indices");
+}
+
+void checkMesh(const Mesh& mesh, size_t textureCount) {
+  require(!mesh.indices.empty() && mesh.indices.size() % 3 == 0, "a mesh has triangles");
+  require(finite(mesh.center) && finite(mesh.halfExtent) && std::isfinite(mesh.radius), "a mesh's bounds are finite");
+  for (const Vertex& vertex : mesh.vertices) {
+    require(finite(vertex.position) && finite(vertex.normal) && finite(vertex.uv), "vertices are finite");
+    require(unit(vertex.normal), "normals are of unit length");
+    require(glm::all(glm::lessThanEqual(glm::abs(vertex.position), mesh.halfExtent)), "vertices are in the box");
+  }
+  for (const uint32_t index : mesh.indices) {
+    require(index < mesh.vertices.size(), "indices are in range");
+  }
+  checkParts(mesh, textureCount);
+}
+
+}  // namespace
+
+void checkModel(std::string_view text) {
+  static const InputFolder folder("model");
+  static const bool hasTexture = [] {
+    writePng(folder / "t.png", Image8(2, 2));
+    return true;
+  }();
+  constexpr std::string_view separator = "%mtl\n";
+  const size_t end = std::min(text.find(separator), text.size());
+  const std::string_view rest = text.substr(end);
+  folder.write("m.mtl", rest.substr(std::min(separator.size(), rest.size())));
+  const std::filesystem::path file = folder.write("m.obj", text.substr(0, end));
+  std::vector<Texture> textures;
+  Mesh mesh;
+  if (accepted([&] { mesh = loadObj(file, textures); })) {
+    require(hasTexture, "the texture is there");
+    checkMesh(mesh, textures.size());
+  }
+}
+
+}  // namespace speculum::fuzz

@@ -1,0 +1,51 @@
+#include <nlohmann/json.hpp>
+
+#include "accuracy/sweep_plan.hpp"
+#include "accuracy/sweep_results.hpp"
+#include "fuzz_support.hpp"
+
+namespace speculum::fuzz {
+
+namespace {
+
+void checkResults(const SweepResults& results) {
+  for (const SweepSeries& series : results.series) {
+    require(series.points.size() == series.x.size(), "a series has a value for each point");
+    for (const int point : series.points) {
+      require(point >= 0 && static_cast<size_t>(point) < results.points.size(), "a series' points are the sweep's");
+    }
+  }
+  // What was read can be written.
+  sweepCsv(results);
+  sweepJson(results).dump();
+}
+
+void checkPlan(const SweepPlan& plan) {
+  require(!plan.configurations.empty() && plan.configurations[0].changes.empty(), "the base comes first");
+  require(plan.configurations.size() <= 1000 && plan.repeats >= SweepPlan::leastRepeats, "plans keep to their bounds");
+  for (const SweepConfiguration& configuration : plan.configurations) {
+    settingsWith(Settings(), configuration.changes);
+  }
+  for (const PlannedSeries& planned : plan.series) {
+    require(planned.series.points.size() == planned.series.x.size() && planned.series.points.size() > 1,
+            "a series has points");
+  }
+}
+
+}  // namespace
+
+void checkSweep(std::string_view text) {
+  static const InputFolder folder("sweep");
+  SweepResults results;
+  const std::filesystem::path json = folder.write("results.json", text);
+  if (accepted([&] { results = readSweepResults(json); })) {
+    checkResults(results);
+  }
+  SweepPlan plan;
+  const std::filesystem::path toml = folder.write("sweep.toml", text);
+  if (accepted([&] { plan = readSweepPlan(toml, SweepContext()); })) {
+    checkPlan(plan);
+  }
+}
+
+}  // namespace speculum::fuzz

@@ -1,0 +1,83 @@
+// Every input that the fuzzers start from, and every one that they or a reader of the code ever found to crash, hang or
+// take too much memory, goes through what the fuzzers run; without Clang.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "fuzz_checks.hpp"
+#include "heap_watch.hpp"
+
+namespace speculum::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMostSeconds = 10.0;
+constexpr size_t kMostBytes = 512u << 20;
+
+std::vector<fs::path> inputs(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(fs::path(SPECULUM_SOURCE_DIR) / "tests/fuzz" / folder)) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string content(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+struct Subject {
+  const char* name;
+  void (*check)(std::string_view);
+};
+
+class FuzzInputs : public testing::TestWithParam<Subject> {
+ protected:
+  void run(const std::string& folder) {
+    const std::vector<fs::path> files = inputs(folder + "/" + GetParam().name);
+    EXPECT_FALSE(files.empty());
+    for (const fs::path& file : files) {
+      SCOPED_TRACE(file.string());
+      const std::string text = content(file);
+      EXPECT_LE(text.size(), kLargestInput) << "the fuzzers pass over it";
+      restartHeapPeak();
+      const size_t before = heapPeak();
+      const auto start = std::chrono::steady_clock::now();
+      EXPECT_NO_THROW(GetParam().check(text));
+      EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), kMostSeconds);
+      EXPECT_LT(heapPeak() - before, kMostBytes);
+    }
+  }
+};
+
+TEST_P(FuzzInputs, Corpus) {
+  run("corpus");
+}
+
+TEST_P(FuzzInputs, Regressions) {
+  run("regressions");
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FuzzInputs,
+                         testing::Values(Subject{"scene", checkScene}, Subject{"model", checkModel},
+                                         Subject{"sweep", checkSweep}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(FuzzHeapWatch, SeesWhatIsAllocatedInBetween) {
+  restartHeapPeak();
+  const size_t before = heapPeak();
+  std::vector<char>(8u << 20, 'x').back() = 'y';
+  EXPECT_GE(heapPeak() - before, 8u << 20);
+}
+
+}  // namespace
+}  // namespace speculum::fuzz

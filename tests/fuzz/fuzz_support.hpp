@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+
+#include "fuzz_checks.hpp"
+#include "scene/scene_loader.hpp"
+
+namespace speculum::fuzz {
+
+// The folder that holds one kind of input and what goes with it, in memory where the system has such a place; there
+// until the program ends.
+class InputFolder {
+ public:
+  explicit InputFolder(std::string_view kind);
+  ~InputFolder();
+  InputFolder(const InputFolder&) = delete;
+  InputFolder& operator=(const InputFolder&) = delete;
+
+  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+  std::filesystem::path write(std::string_view name, std::string_view content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+void require(bool kept, const char* promise);
+
+inline bool finite(const glm::dvec2& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y);
+}
+inline bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+inline bool unit(const glm::dvec3& v) {
+  return std::abs(glm::length(v) - 1.0) <= 1e-9;
+}
+
+// Whether `read` accepted the input. Throws BrokenPromise for an InputError that is not one line.
+template <typename Read>
+bool accepted(const Read& read) {
+  try {
+    read();
+    return true;
+  } catch (const InputError& refusal) {
+    const std::string_view message = refusal.what();
+    require(message.find_first_of("\r\n") == std::string_view::npos, "an error is one line");
+    require(message.ends_with(')'), "an error ends with what would be right");
+    return false;
+  }
+}
+
+}  // namespace speculum::fuzz
