@@ -186,9 +186,9 @@ TEST_F(CommandLine, RadianceThatIsNegativeIsNamedAndExitsOne) {
   };
   const ProcessResult render = run({"render", "--out", out("n.png"), "--stats", out("n.json")}, "true");
   EXPECT_EQ(render.exitCode, 1);
-  EXPECT_EQ(render.output.rfind("error: debug.check_finite: mirror wall: pixel ", 0), 0u) << render.output;
+  EXPECT_NE(render.output.find("error: debug.check_finite: mirror wall: pixel "), std::string::npos) << render.output;
+  EXPECT_EQ(render.output.rfind("debug.check_finite"), render.output.find("debug.check_finite")) << render.output;
   EXPECT_NE(render.output.find(" samples of radiance that are not finite"), std::string::npos) << render.output;
-  EXPECT_EQ(std::count(render.output.begin(), render.output.end(), '\n'), 2) << render.output;
   EXPECT_GT(readJson(out("n.json"))["totals"]["non_finite"], 100);
   EXPECT_EQ(run({"bench", "--frames", "1", "--warmup", "0"}, "true").exitCode, 1);
 
