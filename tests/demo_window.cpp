@@ -175,7 +175,7 @@ struct NegativeLight {
 
 class DemoWindowWithNegativeLight : protected NegativeLight, public DemoWindow {
  protected:
-  DemoWindowWithNegativeLight() : DemoWindow(options()) {}
+  DemoWindowWithNegativeLight() : DemoWindow(windowScene, options()) {}
 };
 
 TEST_F(DemoWindowWithNegativeLight, SaysWhereItIsUntilItIsGone) {

@@ -41,10 +41,11 @@ size = [5, 3]
 // A demo window on a virtual display, driven by X events.
 class DemoWindow : public testing::Test {
  protected:
-  explicit DemoWindow(const std::string& toml = windowScene) : configHome_(environment("XDG_CONFIG_HOME")) {
+  explicit DemoWindow(const std::string& toml = windowScene, const Options& more = {})
+      : configHome_(environment("XDG_CONFIG_HOME")) {
     // A layout that somebody saved must not move the widgets.
     setEnvironment("XDG_CONFIG_HOME", config_.path().string());
-    Options options;
+    Options options = more;
     options.scene = writeScene("demo_window", toml).string();
     options.size = {width, height};
     options.validation = true;
