@@ -12,9 +12,7 @@ namespace fs = std::filesystem;
 InputFolder::InputFolder(std::string_view kind) {
   // Warnings are thousands a second and say nothing here.
   spdlog::set_level(spdlog::level::off);
-  const fs::path memory = "/dev/shm";
-  const fs::path parent = access(memory.c_str(), W_OK) == 0 ? memory : fs::temp_directory_path();
-  std::string pattern = (parent / ("speculum-" + std::string(kind) + "-XXXXXX")).string();
+  std::string pattern = (fs::temp_directory_path() / ("speculum-" + std::string(kind) + "-XXXXXX")).string();
   if (mkdtemp(pattern.data()) == nullptr) {
     throw std::runtime_error("no folder " + pattern);
   }

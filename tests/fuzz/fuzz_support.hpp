@@ -11,8 +11,8 @@
 
 namespace speculum::fuzz {
 
-// The folder that holds one kind of input and what goes with it, in memory where the system has such a place; there
-// until the program ends.
+// The folder that holds one kind of input and what goes with it; there until the program ends, but a fuzzer ends
+// without cleaning up.
 class InputFolder {
  public:
   explicit InputFolder(std::string_view kind);
