@@ -24,6 +24,15 @@ void* operator new(size_t size) {
   return memory;
 }
 
+// The library's own would take the memory from elsewhere, and the delete below gives it back here.
+void* operator new(size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
 void operator delete(void* memory) noexcept {
   inUse -= malloc_usable_size(memory);
   std::free(memory);
