@@ -59,8 +59,8 @@ class SceneRenderer {
   // What debug.check_finite found in the frames that have finished.
   const FiniteWatch& finiteWatch();
   size_t pipelineCount() const;
-  OffScreen& mainTarget() { return *main_; }  // linear radiance of the main view, of the last recorded frame
-  LinearImage radiance();                     // the same, read back; waits for the GPU
+  // Linear radiance of the main view, of the last recorded frame; waits for the GPU.
+  LinearImage radiance();
 
  private:
   struct DisplayVariant {
