@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "accuracy/sweep_results.hpp"
-#include "core/platform.hpp"
+#include "command_support.hpp"
 #include "picture_support.hpp"
 
 namespace speculum {
@@ -13,16 +12,6 @@ namespace {
 
 using namespace testing_support;
 namespace fs = std::filesystem;
-
-ProcessResult speculum(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), std::string(SPECULUM_BINARY_DIR) + "/speculum");
-  return runProcess(arguments);
-}
-
-nlohmann::json readJson(const fs::path& file) {
-  std::ifstream stream(file);
-  return nlohmann::json::parse(stream);
-}
 
 std::string readText(const fs::path& file) {
   std::ifstream stream(file);

@@ -3,9 +3,8 @@
 
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "core/platform.hpp"
+#include "command_support.hpp"
 #include "image/image.hpp"
 #include "picture_support.hpp"
 
@@ -14,20 +13,6 @@ namespace {
 
 using namespace testing_support;
 namespace fs = std::filesystem;
-
-// What draws, draws with debug.check_finite.
-ProcessResult speculum(std::vector<std::string> arguments) {
-  if (arguments.front() == "render" || arguments.front() == "bench") {
-    arguments.insert(arguments.begin() + 1, {"--set", "debug.check_finite=true"});
-  }
-  arguments.insert(arguments.begin(), std::string(SPECULUM_BINARY_DIR) + "/speculum");
-  return runProcess(arguments);
-}
-
-nlohmann::json readJson(const fs::path& file) {
-  std::ifstream stream(file);
-  return nlohmann::json::parse(stream);
-}
 
 const std::string smallScene = R"([environment]
 background = [0.2, 0.3, 0.4]
