@@ -7,21 +7,22 @@ struct ViewData {
   vec4 rayY;
   vec4 rayOrigin;
   vec4 clipPlane;  // (n, h): a point p (relative) is drawn where n.p + h >= 0
-  vec4 ambient;
+  vec4 ambient;     // w: throughput below which a bounce is dropped
   vec4 background;  // w: 1 with a sky, else 0
   vec4 zenith;
   vec4 horizon;
   vec4 ground;
+  vec4 traceOffset;  // from relative to trace space (trace.glsl); w: throughput of the mirrors up to this view
   uint firstLight;
   uint lightCount;
-  uint pad0;
-  uint pad1;
+  uint depth;     // of the mirrors seen in this view
+  uint maxDepth;  // mirrors of this depth show the background
 };
 
 struct LightData {
   vec4 position;    // relative; w: radius in metres
-  vec4 irradiance;  // at 1 m, facing the light
-  vec4 glow;        // radiance of the glyph
+  vec4 irradiance;  // at 1 m, facing the light; w: 1 casts shadows
+  vec4 glow;        // radiance of the glyph; w: 1 unless there is none
 };
 
 struct InstanceData {
@@ -31,11 +32,11 @@ struct InstanceData {
   vec4 clipPlane;            // in mesh space
   vec4 diffuse;              // w: 1 replaces the material's
   vec4 specular;             // w: 1 replaces the material's
-  vec4 shininess;            // x: 0 keeps the material's
+  vec4 shininess;            // x: 0 keeps the material's; y: index into traceInstances
 };
 
 struct MaterialData {
-  vec4 diffuse;   // w: 1 with a texture
+  vec4 diffuse;   // w: 0, or 1 + the index of its texture
   vec4 specular;  // w: shininess
   vec4 emission;
 };
@@ -45,7 +46,7 @@ struct MirrorData {
   vec4 reflectance;  // w: 1 for Schlick's Fresnel
   vec4 baseColor;    // of the diffuse layer or of the back; w: one of the mirror* constants
   vec4 lookup;       // texel of the image = pixel of the pass * xy + zw
-  ivec4 image;       // width and height of the image's used part in texels; z: one of the lookup* constants
+  ivec4 image;       // width and height of the image's used part in texels; z: one of the lookup* constants; w: index into traceMirrors
   vec4 reproject[3]; // columns 0, 1, 2 of a matrix and in their w a vector: homogeneous texel of an image of an earlier
                      // frame = matrix * (pixel of the pass, 1) + vector * disparity
 };
@@ -66,7 +67,8 @@ layout(set = 0, binding = 5, std430) readonly buffer MirrorVertices { vec4 mirro
 
 layout(push_constant) uniform DrawConstants {
   uint viewIndex;
-  uint drawIndex;  // material or mirror
+  uint drawIndex;      // material or mirror
+  uint firstTriangle;  // of the draw, in its mesh
 }
 draw;
 

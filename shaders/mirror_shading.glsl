@@ -1,8 +1,13 @@
 // The fragment shader of mirrors. MIRROR_IMAGE is the type of the image; with MIRROR_OWN_SAMPLE each invocation stands
-// for one sample, reads the same sample of the image and gives the reflection's share only.
+// for one sample, reads the same sample of the image and gives the reflection's share only. TRACED: light that needs
+// rays falls on the layer under the reflection.
 #include "interface.glsl"
 #include "shading.glsl"
 #include "texels.glsl"
+#ifdef TRACED
+#include "trace.glsl"
+#include "traced_light.glsl"
+#endif
 
 layout(constant_id = 0) const bool baseOnly = false;   // the share of the layer under the reflection
 layout(constant_id = 1) const bool reprojects = false; // the image is one of an earlier frame, and something moved
@@ -161,7 +166,14 @@ vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
   base.emission = vec3(0.0);
   base.shininess = 1.0;
   bool back = mirror.baseColor.w == mirrorBack;
-  return back || any(greaterThan(base.diffuse, vec3(0.0))) ? surfaceRadiance(view, base) : vec3(0.0);
+  if (!back && all(equal(base.diffuse, vec3(0.0)))) {
+    return vec3(0.0);
+  }
+#ifdef TRACED
+  return tracedSurfaceRadiance(view, base, safeNormalize(-position), Skip(none, none, uint(mirror.image.w), none));
+#else
+  return surfaceRadiance(view, base);
+#endif
 }
 
 // The disparity stored is that of what is reflected, so that an image of this mirror can be reprojected in its turn:

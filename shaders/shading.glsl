@@ -15,8 +15,8 @@ struct Surface {
 
 vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
-vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
-  vec3 toLight = light.position.xyz - surface.position;
+// Of a light at `toLight` from the surface; `irradiance` is at 1 m, facing it.
+vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface, vec3 toViewer) {
   float distance2 = dot(toLight, toLight);
   vec3 l = safeNormalize(toLight);
   float cosine = clamp(dot(surface.normal, l), 0.0, 1.0);
@@ -29,15 +29,17 @@ vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
     brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe, 1e-6), surface.shininess));
   }
   // Neither infinite nor divided by an underflow: a black channel of the surface times infinity is not a number.
-  float falloff = cosine / max(max(distance2, light.position.w * light.position.w), 1e-30);
-  return min(light.irradiance.rgb * falloff, 1e30) * brdf;
+  float falloff = cosine / max(max(distance2, radius * radius), 1e-30);
+  return min(irradiance * falloff, 1e30) * brdf;
 }
 
 vec3 surfaceRadiance(ViewData view, Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
   vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
   for (uint i = 0; i < view.lightCount; ++i) {
-    radiance += lightRadiance(lights[view.firstLight + i], surface, toViewer);
+    LightData light = lights[view.firstLight + i];
+    radiance += lightRadiance(light.position.xyz - surface.position, light.position.w, light.irradiance.rgb, surface,
+                              toViewer);
   }
   return radiance;
 }

@@ -11,3 +11,11 @@ speculum_test(truth_tests SOURCES truth_tests.cpp truth_support.cpp picture_supp
 speculum_test(accuracy_command_tests SOURCES accuracy_command.cpp picture_support.cpp LIBRARIES app LABELS command_line
               TIMEOUT 300)
 add_dependencies(accuracy_command_tests speculum)
+speculum_test(effects_tests SOURCES effects_truth.cpp truth_support.cpp picture_support.cpp LIBRARIES app LABELS pictures
+              TIMEOUT 300)
+speculum_test(effects_ledger_tests SOURCES effects_ledger.cpp picture_support.cpp LIBRARIES app LABELS pictures)
+foreach(call CreateBuffer DestroyBuffer CreateImage DestroyImage CreateShaderModule DestroyShaderModule
+             CreateDescriptorSetLayout DestroyDescriptorSetLayout CreateGraphicsPipelines DestroyPipeline CmdDraw
+             CmdDrawIndexed)
+  target_link_options(effects_ledger_tests PRIVATE LINKER:--wrap=vk${call})
+endforeach()

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "image/image.hpp"
-#include "scene/scene_effects.hpp"
 #include "scene_support.hpp"
 
 namespace speculum {
@@ -254,20 +253,6 @@ TEST(SceneLoader, EachModelAndTextureIsLoadedOnce) {
   EXPECT_EQ(scene.objects[2].mesh, 0);
   EXPECT_EQ(scene.textures.size(), 1u);
   EXPECT_EQ(scene.meshes[1].parts[0].material.diffuseTexture, 0);
-}
-
-TEST(IgnoredEffects, NoneOfAPlainScene) {
-  EXPECT_TRUE(ignoredEffects(load(std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\nripple = {}\n")).empty());
-}
-
-TEST(IgnoredEffects, OneLineForEachKey) {
-  const std::vector<std::string> lines = ignoredEffects(load(kEverything));
-  ASSERT_EQ(lines.size(), 4u);
-  EXPECT_EQ(lines[0].rfind("casts_shadow", 0), 0u) << lines[0];
-  EXPECT_NE(lines[0].find("key"), std::string::npos) << lines[0];
-  EXPECT_EQ(lines[1].rfind("roughness", 0), 0u) << lines[1];
-  EXPECT_EQ(lines[2].rfind("ripple", 0), 0u) << lines[2];
-  EXPECT_EQ(lines[3].rfind("casts_light", 0), 0u) << lines[3];
 }
 
 }  // namespace

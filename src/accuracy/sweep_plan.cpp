@@ -81,6 +81,20 @@ void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool ful
                   {"reflection.max_depth", greatestDepth}});
 }
 
+void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
+  std::vector<std::string> rays = {"1", "4", "16", "64"};
+  if (full) {
+    rays = {"1", "2", "4", "8", "16", "32", "64", "128", "256"};
+  }
+  planner.series({.series = {.key = "effects.rough_samples",
+                             .name = "Rays a pixel of rough mirrors",
+                             .note = "Random rays err by N^-0.5; a shifted lattice does better where what is seen is "
+                                     "smooth",
+                             .theorySlope = -0.5},
+                  .theory = Theory::fixed},
+                 rays, best(context));
+}
+
 void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   const std::vector<std::string> counts = texts(context.sampleCounts);
   PlannedSeries msaa{.series = {.key = "view.samples",
@@ -94,6 +108,9 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
                                    : Changes{{"view.samples", count}});
   }
   planner.series(std::move(msaa), counts, each);
+  if (context.rough) {
+    addRoughSeries(planner, context, full);
+  }
   if (!context.mirrors) {
     return;
   }
@@ -115,6 +132,9 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
 void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   const std::string most = std::to_string(context.sampleCounts.back());
   planner.add({{"view.texture_filter", "trilinear"}});
+  for (const std::string& effect : context.effects) {
+    planner.add({{effect, "false"}});
+  }
   if (!context.mirrors) {
     return;
   }

@@ -40,6 +40,8 @@ struct SweepContext {
   std::vector<int> sampleCounts{1, 4};  // that the device has
   bool mirrors = true;                  // the scene has mirrors
   bool animated = false;                // something moves
+  bool rough = false;                   // a mirror is rough
+  std::vector<std::string> effects{};   // switches, such as effects.shadows, of those that the scene asks for
 };
 
 // The built-in sweeps "quick" and "full", or a TOML file:

@@ -93,6 +93,7 @@ void addBench(CLI::App& app, Options& options, Raw& raw) {
   app.add_option("--warmup", options.warmup, "frames before")->check(CLI::Range(0, 1000000));
   app.add_option("--json", options.json, "write the figures to F");
   addSweepResults(app, options);
+  app.add_flag("--prices", options.benchPrices, "GPU ms of each effect as well, by leaving it out in turn");
   app.add_flag("--reference", options.benchReference, "the ray tracer instead: rays per second and core");
 }
 

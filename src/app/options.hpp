@@ -44,6 +44,7 @@ struct Options {
   std::string sweep = "quick";         // accuracy: quick, full or a file
   std::filesystem::path sweepResults;  // results.json of an earlier sweep; empty: none
   bool benchReference = false;         // bench: the ray tracer in the place of the renderer
+  bool benchPrices = false;            // bench: what each effect costs as well
 };
 
 // Bad usage; what() is one line.

@@ -1,9 +1,11 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/effect_prices.hpp"
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "app/stats.hpp"
@@ -67,6 +69,35 @@ int benchReference(const Options& options) {
   return 0;
 }
 
+std::string fixed(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", value);
+  return text;
+}
+
+void addPrices(nlohmann::ordered_json& merged, const std::vector<EffectPrice>& prices) {
+  for (size_t i = 0; i < prices.size(); ++i) {
+    if (!prices[i].empty()) {
+      merged["effects"][i]["gpu_ms"] = summary(prices[i]);
+    }
+  }
+}
+
+void printEffects(const nlohmann::ordered_json& effects) {
+  std::printf("%-40s %6s %10s %10s %8s %10s %10s\n", "effect", "", "median ms", "p95 ms", "draws", "bytes",
+              "pipelines");
+  for (const auto& effect : effects) {
+    if (effect["called_for"].get<bool>()) {
+      const auto ms = [&](const char* key) {
+        return effect["gpu_ms"].is_null() ? std::string("-") : fixed(effect["gpu_ms"][key].get<double>());
+      };
+      std::printf("%-40s %6s %10s %10s %8s %10s %10s\n", effect["name"].get<std::string>().c_str(), "",
+                  ms("median").c_str(), ms("p95").c_str(), effect["draws"].dump().c_str(),
+                  effect["bytes"].dump().c_str(), effect["pipelines"].dump().c_str());
+    }
+  }
+}
+
 }  // namespace
 
 int runBench(const Options& options) {
@@ -90,7 +121,10 @@ int runBench(const Options& options) {
       return 1;
     }
   }
-  const nlohmann::ordered_json merged = mergeStats(frames);
+  nlohmann::ordered_json merged = mergeStats(frames);
+  if (options.benchPrices) {
+    addPrices(merged, effectPrices(session, options.time, std::max(5, measured / 4)));
+  }
   if (!options.json.empty()) {
     writeJson(options.json, merged);
   }
@@ -105,6 +139,7 @@ int runBench(const Options& options) {
                 pass["gpu_ms"]["p95"].get<double>(), figure(pass["draws"]).c_str(), figure(pass["triangles"]).c_str(),
                 figure(pass["fragments"]).c_str());
   }
+  printEffects(merged["effects"]);
   for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms"}) {
     const auto& total = merged["totals"][key];
     std::printf("%-40s %6d %10.3f %10.3f\n", key, measured, total["median"].get<double>(), total["p95"].get<double>());

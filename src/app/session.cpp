@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "core/platform.hpp"
-#include "scene/scene_effects.hpp"
 
 namespace speculum {
 
@@ -51,9 +50,6 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
     }
   }
   loaded.quality = chooseQuality(options, file, loaded.settings);
-  for (const std::string& line : ignoredEffects(loaded.scene)) {
-    spdlog::warn("{}", line);
-  }
   return loaded;
 }
 
@@ -98,6 +94,7 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
   limits_.largestSide =
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
                                  device.limits().maxViewportDimensions[1]}));
+  limits_.tracesRays = device.caps().primitiveId;
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,

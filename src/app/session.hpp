@@ -17,7 +17,7 @@ namespace speculum {
 std::filesystem::path findScene(const std::string& wanted);
 
 // The scene with the settings that hold for it: defaults, [settings], --set, and what a sweep has for the bounds of
-// quality.*. Warns of keys that are not drawn.
+// quality.*.
 struct LoadedScene {
   Scene scene;
   Settings settings;

@@ -82,24 +82,30 @@ ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
   return skipped;
 }
 
+// The price of an effect in milliseconds is known only to `bench --prices`, which leaves it out in turn.
 ordered_json effectsJson(Session& session) {
-  ordered_json effects = ordered_json::array();
+  ordered_json json = ordered_json::array();
   const DrawnFrame& frame = session.lastFrame();
-  for (const Effect& effect : effectsOf(session.scene(), frame.state, frame.settings, frame.plan)) {
-    // What an effect adds to passes that run anyway has no time of its own yet.
-    effects.push_back({{"name", effect.name},
-                       {"called_for", effect.calledFor},
-                       {"why", effect.why},
-                       {"gpu_ms", nullptr},
-                       {"draws", nullptr},
-                       {"bytes", nullptr}});
+  const EffectLedger& ledger = session.sceneRenderer().ledger();
+  const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
+  for (size_t i = 0; i < effects.size(); ++i) {
+    const EffectCost& cost = ledger[static_cast<EffectKind>(i)];
+    json.push_back({{"name", effects[i].name},
+                    {"called_for", effects[i].calledFor},
+                    {"why", effects[i].why},
+                    {"gpu_ms", nullptr},
+                    {"draws", cost.draws},
+                    {"bytes", cost.bytes},
+                    {"pipelines", cost.pipelines}});
   }
-  return effects;
+  return json;
 }
 
 bool isMilliseconds(const std::string& key) {
   return key.size() > 3 && key.compare(key.size() - 3, 3, "_ms") == 0;
 }
+
+}  // namespace
 
 ordered_json summary(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -110,6 +116,8 @@ ordered_json summary(std::vector<double> values) {
   const double median = values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
   return {{"median", median}, {"min", values.front()}, {"p95", rank(0.95)}, {"max", values.back()}};
 }
+
+namespace {
 
 ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
   ordered_json merged = ordered_json::object();

@@ -14,6 +14,9 @@ nlohmann::ordered_json frameStats(Session& session, const FrameTimings& timings)
 // frames in which it ran, and has their number as `frames` if they are not all.
 nlohmann::ordered_json mergeStats(const std::vector<nlohmann::ordered_json>& frames);
 
+// { "median", "min", "p95", "max" } of at least one value.
+nlohmann::ordered_json summary(std::vector<double> values);
+
 // Both throw std::runtime_error when the file cannot be written. The folder is made.
 void writeText(const std::filesystem::path& file, const std::string& text);
 void writeJson(const std::filesystem::path& file, const nlohmann::ordered_json& json);

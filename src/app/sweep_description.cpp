@@ -31,6 +31,31 @@ void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
   }
 }
 
+template <typename Item, typename Predicate>
+bool contains(const std::vector<Item>& items, Predicate predicate) {
+  return std::any_of(items.begin(), items.end(), predicate);
+}
+
+bool isRough(const Mirror& mirror) {
+  return mirror.roughness > 0.0;
+}
+
+std::vector<std::string> effectsAskedFor(const Scene& scene) {
+  const std::vector<std::pair<std::string, bool>> switches = {
+      {"effects.shadows", contains(scene.lights, [](const PointLight& light) { return light.castsShadow; })},
+      {"effects.roughness", contains(scene.mirrors, isRough)},
+      {"effects.ripple", contains(scene.mirrors, [](const Mirror& mirror) { return mirror.ripple.has_value(); })},
+      {"effects.casts_light", contains(scene.mirrors, [](const Mirror& mirror) { return mirror.castsLight; })},
+      {"effects.curved", contains(scene.objects, [](const Object& object) { return object.mirror.has_value(); })}};
+  std::vector<std::string> wanted;
+  for (const auto& [key, asked] : switches) {
+    if (asked) {
+      wanted.push_back(key);
+    }
+  }
+  return wanted;
+}
+
 std::string utcNow() {
   const std::time_t now = std::time(nullptr);
   char text[32];
@@ -44,7 +69,9 @@ SweepContext sweepContext(Session& session) {
   return {.base = session.settings(),
           .sampleCounts = sampleCountsOf(session.device()),
           .mirrors = !session.scene().mirrors.empty(),
-          .animated = moves(session.scene())};
+          .animated = moves(session.scene()),
+          .rough = contains(session.scene().mirrors, isRough),
+          .effects = effectsAskedFor(session.scene())};
 }
 
 // Another build, other shaders, another driver: everything is measured again.

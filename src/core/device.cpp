@@ -14,6 +14,7 @@ namespace {
 
 VkPhysicalDeviceFeatures usedFeatures(const VkPhysicalDeviceFeatures& available) {
   return {
+      .geometryShader = available.geometryShader,  // for gl_PrimitiveID in fragment shaders
       .sampleRateShading = available.sampleRateShading,
       .depthClamp = available.depthClamp,
       .fillModeNonSolid = available.fillModeNonSolid,

@@ -48,6 +48,7 @@ struct DeviceCaps {
   bool sampleRateShading = false;
   bool depthClamp = false;
   bool fillModeNonSolid = false;
+  bool primitiveId = false;  // in fragment shaders
   bool dynamicRendering = false;
   bool memoryBudget = false;
 };

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/image.hpp"
@@ -64,6 +65,9 @@ class PassScope {
 
   VkCommandBuffer commands() const { return commands_; }
   const PassDesc& desc() const { return desc_; }
+  // A label within the pass's own; ended by endLabel.
+  void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
+  void endLabel() const { device_.endLabel(commands_); }
 
  private:
   friend class Renderer;

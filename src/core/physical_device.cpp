@@ -108,6 +108,7 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index) {
   caps.pipelineStatistics = device.features.pipelineStatisticsQuery;
   caps.sampleRateShading = device.features.sampleRateShading;
   caps.depthClamp = device.features.depthClamp;
+  caps.primitiveId = device.features.geometryShader;
   caps.fillModeNonSolid = device.features.fillModeNonSolid;
   caps.memoryBudget = device.hasExtension(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   device.info = {.index = index,

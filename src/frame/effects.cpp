@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "frame/traced_effects.hpp"
+
 namespace speculum {
 
 namespace {
@@ -30,10 +32,6 @@ Visible visibleIn(const FramePlan& plan) {
   return visible;
 }
 
-std::string nameOf(const std::string& kind, const std::string& name, int index) {
-  return kind + " " + (name.empty() ? std::to_string(index) : "'" + name + "'");
-}
-
 template <typename Predicate>
 Effect mirrorEffect(const std::string& name, const Scene& scene, const Visible& visible, Predicate wants) {
   for (const int i : visible.mirrorFronts) {
@@ -44,12 +42,8 @@ Effect mirrorEffect(const std::string& name, const Scene& scene, const Visible& 
   return {name, false, "no visible mirror asks for it"};
 }
 
-// An effect of the scene format that this version does not draw.
-Effect notDrawn(Effect effect) {
-  if (effect.calledFor) {
-    effect = {effect.name, false, "asked for by " + effect.why + ", not drawn by this version"};
-  }
-  return effect;
+Effect tracedEffect(const std::string& name, const std::string& caller, const std::string& otherwise) {
+  return {name, !caller.empty(), caller.empty() ? otherwise : caller};
 }
 
 Effect textures(const Scene& scene, const SceneState& state, const Visible& visible) {
@@ -65,15 +59,6 @@ Effect textures(const Scene& scene, const SceneState& state, const Visible& visi
     }
   }
   return {"textures", false, "no visible object has one"};
-}
-
-Effect shadows(const Scene& scene) {
-  for (size_t i = 0; i < scene.lights.size(); ++i) {
-    if (scene.lights[i].castsShadow) {
-      return {"shadows", true, nameOf("light", scene.lights[i].name, static_cast<int>(i))};
-    }
-  }
-  return {"shadows", false, "no light casts them"};
 }
 
 Effect glyphs(const Scene& scene, const Visible& visible) {
@@ -96,16 +81,42 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effect) {
+  switch (effect) {
+    case EffectKind::shadows:
+      return {{"effects.shadows", "false"}};
+    case EffectKind::roughness:
+      return {{"effects.roughness", "false"}};
+    case EffectKind::ripple:
+      return {{"effects.ripple", "false"}};
+    case EffectKind::castsLight:
+      return {{"effects.casts_light", "false"}};
+    case EffectKind::curved:
+      return {{"effects.curved", "false"}};
+    case EffectKind::msaa:
+      return {{"view.samples", "1"}, {"reflection.samples", "1"}};
+    case EffectKind::toneMap:
+      return {{"view.tone_map", "clamp"}};
+    case EffectKind::wireframe:
+      return {{"view.wireframe", "false"}};
+    case EffectKind::fresnel:
+    case EffectKind::textures:
+    case EffectKind::glyphs:
+      break;
+  }
+  return {};
+}
+
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
                               const FramePlan& plan) {
   const Visible visible = visibleIn(plan);
+  const TracedEffects traced = tracedEffects(scene, state, settings, plan);
   const bool aces = settings.view.toneMap == ToneMap::aces;
   return {
-      notDrawn(shadows(scene)),
-      notDrawn(mirrorEffect("roughness", scene, visible, [](const Mirror& m) { return m.roughness > 0.0; })),
-      notDrawn(mirrorEffect("ripple", scene, visible,
-                            [](const Mirror& m) { return m.ripple && m.ripple->amplitude != 0.0; })),
-      notDrawn(mirrorEffect("casts_light", scene, visible, [](const Mirror& m) { return m.castsLight; })),
+      tracedEffect("shadows", traced.shadows, "no light casts them on what is drawn"),
+      tracedEffect("roughness", traced.roughness, "no visible mirror is rough"),
+      tracedEffect("ripple", traced.ripple, "no visible mirror has ripples"),
+      tracedEffect("casts_light", traced.castsLight, "no mirror casts light on what is drawn"),
       mirrorEffect("fresnel", scene, visible, [](const Mirror& m) { return m.fresnel == Fresnel::schlick; }),
       textures(scene, state, visible),
       multisampling(settings, plan),
@@ -113,7 +124,7 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
       glyphs(scene, visible),
       {"wireframe", settings.view.wireframe,
        settings.view.wireframe ? "view.wireframe = true" : "view.wireframe = false"},
-      {"curved", false, "no object is a mirror"},
+      tracedEffect("curved", traced.curved, "no visible object is a mirror"),
   };
 }
 

@@ -1,11 +1,27 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frame/frame_plan.hpp"
 
 namespace speculum {
+
+enum class EffectKind {
+  shadows,
+  roughness,
+  ripple,
+  castsLight,
+  fresnel,
+  textures,
+  msaa,
+  toneMap,
+  glyphs,
+  wireframe,
+  curved,
+};
+inline constexpr size_t effectKinds = 11;
 
 // One line of the ledger: an effect, whether something visible calls for it, and what that is.
 struct Effect {
@@ -14,8 +30,10 @@ struct Effect {
   std::string why;
 };
 
-// All effects in a fixed order: shadows, roughness, ripple, casts_light, fresnel, textures, msaa, tone_map, glyphs,
-// wireframe, curved.
+// The settings that leave an effect out of the picture, as key and value; none for those that have no such settings.
+std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effect);
+
+// All effects, in the order of EffectKind.
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
                               const FramePlan& plan);
 

@@ -61,6 +61,10 @@ double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
   return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
 }
 
+bool scatters(const Mirror& mirror, const EffectSettings& effects) {
+  return (effects.roughness && mirror.roughness > 0.0) || (effects.ripple && mirror.ripple);
+}
+
 std::string number(double value) {
   std::ostringstream out;
   out.precision(3);
@@ -179,17 +183,22 @@ void Planner::consider(int node, int mirror) {
   if (visible.empty()) {
     return skip(view, mirror, SkipReason::outside);
   }
+  draw.scatters = scatters(material, allSettings_.effects);
+  const bool needsPass = !draw.scatters;
   const double area = screenArea(toClip(view, plan_.projection, visible), plan_.width, plan_.height);
   const glm::dvec3 throughput = nodes_[node].throughput * reflectanceBound(material, draw.plane, view.eye, visible);
   pass.mirrors.push_back(std::move(draw));
   if (static_cast<int>(view.path.size()) >= settings_.maxDepth) {
     return skip(view, mirror, SkipReason::maxDepth, "max_depth " + std::to_string(settings_.maxDepth));
   }
-  if (area < settings_.minPixels) {
+  if (needsPass && area < settings_.minPixels) {
     return skip(view, mirror, SkipReason::minPixels, number(area) + " px");
   }
   if (largest(throughput) < settings_.minThroughput) {
     return skip(view, mirror, SkipReason::minThroughput, number(largest(throughput)));
+  }
+  if (!needsPass) {
+    return;
   }
   candidates_.push(
       {area * largest(throughput), node, pass.mirrors.size() - 1, visible, area, throughput, discovered_++});

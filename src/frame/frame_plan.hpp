@@ -27,6 +27,7 @@ std::string_view skipReasonName(SkipReason reason);
 struct MirrorDraw {
   int mirror = 0;                   // index into Scene::mirrors
   bool back = false;                // its painted back is seen
+  bool scatters = false;            // rippled or rough: rays are traced, an image of its plane would not show it
   int pass = -1;                    // index into FramePlan::passes of its image; -1: it has none of this frame
   std::optional<HeldLookup> held;   // of its image of an earlier frame; with neither it shows the background
   std::vector<glm::dvec3> polygon;  // world, cut to what the view shows, counter-clockwise for the view's eye

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "frame/traced_effects.hpp"
+
 namespace speculum {
 
 namespace {
@@ -86,6 +88,15 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
   fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
+  if (!limits.tracesRays && tracedEffects(scene, state, fitted.settings, fitted.plan).any()) {
+    fitted.settings.effects = {
+        .shadows = false, .roughness = false, .ripple = false, .castsLight = false, .curved = false};
+    fitted.message += (fitted.message.empty() ? "" : "; ") +
+                      std::string(
+                          "effects.* that trace rays are left out: the device's shaders do not know their "
+                          "triangle (no geometryShader)");
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
+  }
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
   std::string lowered;

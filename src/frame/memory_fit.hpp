@@ -14,6 +14,7 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 struct TargetLimits {
   uint64_t budgetBytes = 0;  // for all render targets together
   int largestSide = 0;       // pixels of a picture, at any resolution
+  bool tracesRays = true;    // shaders can tell on which triangle a ray starts
 };
 
 struct FittedPlan {
@@ -24,7 +25,7 @@ struct FittedPlan {
 
 // planFrame, with the resolution of mirror images within the largest side, and samples of mirror images, then of the
 // main view, then the resolution of mirror images halved step by step until the targets fit the budget. What cannot be
-// lowered any more is planned as it is.
+// lowered any more is planned as it is. Effects that trace rays are left out where the device cannot.
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
                       int width, int height, std::span<const HeldImage> held = {});
 

@@ -195,6 +195,20 @@ std::vector<Setting> viewTable() {
   };
 }
 
+std::vector<Setting> effectTable() {
+  using E = EffectSettings;
+  const auto group = &Settings::effects;
+  return {
+      boolean<E>({"effects.shadows", "true | false", "shadows of lights that cast them"}, group, &E::shadows),
+      boolean<E>({"effects.roughness", "true | false", "blur of rough mirrors"}, group, &E::roughness),
+      integer<E>({"effects.rough_samples", "1 .. 4096", "rays a pixel of rough mirrors"}, group, &E::roughSamples, 1,
+                 4096),
+      boolean<E>({"effects.ripple", "true | false", "ripples of mirrors"}, group, &E::ripple),
+      boolean<E>({"effects.casts_light", "true | false", "light bounced off mirrors"}, group, &E::castsLight),
+      boolean<E>({"effects.curved", "true | false", "objects that are mirrors"}, group, &E::curved),
+  };
+}
+
 std::vector<Setting> qualityTable() {
   using Q = QualitySettings;
   const auto group = &Settings::quality;
@@ -219,7 +233,7 @@ std::vector<Setting> debugTable() {
 const std::vector<Setting>& table() {
   static const std::vector<Setting> settings = [] {
     std::vector<Setting> all = reflectionTable();
-    for (std::vector<Setting>& more : std::array{viewTable(), qualityTable(), debugTable()}) {
+    for (std::vector<Setting>& more : std::array{viewTable(), effectTable(), qualityTable(), debugTable()}) {
       std::move(more.begin(), more.end(), std::back_inserter(all));
     }
     return all;
@@ -317,7 +331,7 @@ bool sameMirrorImages(const Settings& a, const Settings& b) {
   c.view.samples = a.view.samples;
   c.view.exposure = a.view.exposure;
   c.view.toneMap = a.view.toneMap;
-  return a.reflection == c.reflection && a.view == c.view;
+  return a.reflection == c.reflection && a.view == c.view && a.effects == c.effects;
 }
 
 ordered_json settingsJson(const Settings& settings) {

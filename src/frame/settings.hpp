@@ -40,6 +40,18 @@ struct ViewSettings {
   bool operator==(const ViewSettings&) const = default;
 };
 
+// Effects are drawn where the scene calls for them, unless they are switched off here.
+struct EffectSettings {
+  bool shadows = true;
+  bool roughness = true;
+  bool ripple = true;
+  bool castsLight = true;
+  bool curved = true;
+  int roughSamples = 16;  // rays a pixel of rough mirrors
+
+  bool operator==(const EffectSettings&) const = default;
+};
+
 // Bounds that a measured sweep is asked to keep; see accuracy/pareto.hpp. Nothing in the frame plan reads them.
 struct QualitySettings {
   double budgetMs = 0.0;  // GPU milliseconds a frame; 0: no bound
@@ -54,6 +66,7 @@ struct DebugSettings {
 struct Settings {
   ReflectionSettings reflection;
   ViewSettings view;
+  EffectSettings effects;
   QualitySettings quality;
   DebugSettings debug;
 };

@@ -63,12 +63,20 @@ struct BoxTester {
 // Bounding Volume Hierarchies", 2007). The caller keeps the primitives in the order that `order()` gives.
 class Bvh {
  public:
+  struct Node {
+    Bounds box;
+    uint32_t first = 0;  // leaf: first primitive; else: left child, the right one follows it
+    uint32_t count = 0;  // primitives of a leaf; 0: inner node
+  };
+
   Bvh() = default;
   explicit Bvh(std::span<const Bounds> primitives, int leafSize = 4);
 
   // The k-th primitive of the leaves is order()[k] of the input.
   const std::vector<uint32_t>& order() const { return order_; }
   Bounds bounds() const { return nodes_.empty() ? Bounds{} : nodes_[0].box; }
+  std::span<const Node> nodes() const { return nodes_; }  // the root first; none without primitives
+  int depth() const { return depth_; }                    // inner nodes above the deepest leaf
 
   // Calls leaf(first, count, tMax) for every leaf that the ray may meet before tMax, near ones first. `leaf` lowers
   // tMax as it finds hits, and returns true to end the traversal.
@@ -76,11 +84,6 @@ class Bvh {
   void traverse(const Ray& ray, Leaf&& leaf) const;
 
  private:
-  struct Node {
-    Bounds box;
-    uint32_t first = 0;  // leaf: first primitive; else: left child, the right one follows it
-    uint32_t count = 0;  // primitives of a leaf; 0: inner node
-  };
   struct Builder;
   // Splits fall back to halves at a depth from where 2^32 primitives still fit below.
   static constexpr int maxBinnedDepth = 64;
@@ -88,6 +91,7 @@ class Bvh {
 
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_;
+  int depth_ = 0;
 };
 
 template <typename Leaf>

@@ -76,59 +76,81 @@ glm::dvec3 PathTracer::background(const glm::dvec3& direction) const {
 }
 
 bool PathTracer::reflects(const SceneHit& hit) const {
-  return hit.mirrorFront || world_.scene().mirrors[hit.index].twoSided;
+  if (hit.kind == HitKind::object) {
+    return world_.scene().objects[world_.instances()[hit.index].object].mirror.has_value();
+  }
+  return hit.kind == HitKind::mirror && (hit.mirrorFront || world_.scene().mirrors[hit.index].twoSided);
 }
 
-PathTracer::Bounce PathTracer::bounceAt(const Ray& ray, const SceneHit& hit) const {
+PathTracer::Bounce PathTracer::mirrorBounce(const Ray& ray, const SceneHit& hit) const {
   const Mirror& mirror = world_.scene().mirrors[hit.index];
   const MirrorState& state = world_.mirrors()[hit.index];
   const double side = hit.mirrorFront ? 1.0 : -1.0;
-  Bounce bounce{.mirror = hit.index, .position = ray.at(hit.t), .planeNormal = side * state.normal, .t = hit.t};
-  bounce.normal = side * mirrorNormal(mirror, state, bounce.position, time_);
-  bounce.reflectance = mirrorReflectance(mirror, -glm::dot(bounce.normal, ray.direction));
-  return bounce;
+  const glm::dvec3 position = ray.at(hit.t);
+  const glm::dvec3 normal = side * mirrorNormal(mirror, state, position, time_);
+  return {.base = {.position = position,
+                   .normal = normal,
+                   .toViewer = -ray.direction,
+                   .diffuse = mirror.baseColor,
+                   .self = {.mirror = hit.index}},
+          .planeNormal = side * state.normal,
+          .reflectance = mirrorReflectance(mirror.reflectance, mirror.fresnel, -glm::dot(normal, ray.direction)),
+          .roughness = mirror.roughness,
+          .t = hit.t};
 }
 
-glm::dvec3 PathTracer::mirrorLayer(const Ray& ray, const SceneHit& hit, const glm::dvec3& normal,
-                                   const glm::dvec3& color) const {
-  return surfaceRadiance(world_, {.position = ray.at(hit.t),
-                                  .normal = normal,
-                                  .toViewer = -ray.direction,
-                                  .diffuse = color,
-                                  .self = {.mirror = hit.index}});
+PathTracer::Bounce PathTracer::curvedBounce(const Ray& ray, const SceneHit& hit) const {
+  const ObjectMirror& mirror = *world_.scene().objects[world_.instances()[hit.index].object].mirror;
+  const ShadingPoint point = objectPoint(world_, ray, hit);
+  return {.base = {.position = point.position,
+                   .normal = point.normal,
+                   .toViewer = point.toViewer,
+                   .diffuse = mirror.baseColor,
+                   .self = point.self},
+          .planeNormal = point.facet,
+          .reflectance = mirrorReflectance(mirror.reflectance, mirror.fresnel, glm::dot(point.normal, point.toViewer)),
+          .roughness = 0.0,
+          .t = hit.t};
+}
+
+PathTracer::Bounce PathTracer::bounceAt(const Ray& ray, const SceneHit& hit) const {
+  return hit.kind == HitKind::object ? curvedBounce(ray, hit) : mirrorBounce(ray, hit);
 }
 
 glm::dvec3 PathTracer::backSide(const Ray& ray, const SceneHit& hit) const {
-  return mirrorLayer(ray, hit, -world_.mirrors()[hit.index].normal, world_.scene().mirrors[hit.index].backColor);
+  return surfaceRadiance(world_, {.position = ray.at(hit.t),
+                                  .normal = -world_.mirrors()[hit.index].normal,
+                                  .toViewer = -ray.direction,
+                                  .diffuse = world_.scene().mirrors[hit.index].backColor,
+                                  .self = {.mirror = hit.index}});
 }
 
-PathTracer::Path PathTracer::reflected(const Path& path, const Bounce& bounce, const Ray& ray) const {
-  return {ray, {.mirror = bounce.mirror}, path.depth + 1, path.throughput, path.roughLevel};
+PathTracer::Path PathTracer::reflected(const Path& path, const Bounce& bounce, const glm::dvec3& normal) const {
+  return {reflectedRay(path.ray, bounce.base.position, normal, bounce.planeNormal, bounce.t), bounce.base.self,
+          path.depth + 1, path.throughput, path.roughLevel};
 }
 
 glm::dvec3 PathTracer::roughReflection(const Path& path, const Bounce& bounce) {
-  const double roughness = world_.scene().mirrors[bounce.mirror].roughness;
   const int level = path.roughLevel;
   const int wanted = level == 0 ? options_.roughSamples : level == 1 ? std::max(1, options_.roughSamples / 16) : 1;
   glm::dvec3 sum(0.0);
   int taken = 0;
   for (int drawn = 0; taken < wanted && drawn < 4 * wanted + 16; ++drawn) {
-    const glm::dvec3 m = microfacet(bounce.normal, roughness * roughness, sampler_.next(level));
+    const glm::dvec3 m = microfacet(bounce.base.normal, bounce.roughness * bounce.roughness, sampler_.next(level));
     const double facing = -glm::dot(m, path.ray.direction);
     const glm::dvec3 direction = path.ray.direction + 2.0 * facing * m;
     if (facing <= 0.0 || glm::dot(direction, bounce.planeNormal) <= 0.0) {
       continue;
     }
     ++taken;
-    Path next = reflected(path, bounce, reflectedRay(path.ray, bounce.position, m, bounce.planeNormal, bounce.t));
+    Path next = reflected(path, bounce, m);
     ++next.roughLevel;
     sum += follow(next);
   }
   if (taken > 0) {
     return sum / static_cast<double>(taken);
   }
-  return follow(
-      reflected(path, bounce, reflectedRay(path.ray, bounce.position, bounce.normal, bounce.planeNormal, bounce.t)));
+  return follow(reflected(path, bounce, bounce.base.normal));
 }
 
 glm::dvec3 PathTracer::follow(Path path) {
@@ -143,28 +165,25 @@ glm::dvec3 PathTracer::follow(Path path) {
       const PointLight& light = world_.scene().lights[hit->index];
       return sum + weight * light.color * light.glow;
     }
-    if (hit->kind == HitKind::object) {
-      return sum + weight * surfaceRadiance(world_, objectPoint(world_, path.ray, *hit));
-    }
     if (!reflects(*hit)) {
-      return sum + weight * backSide(path.ray, *hit);
+      return sum + weight * (hit->kind == HitKind::object ? surfaceRadiance(world_, objectPoint(world_, path.ray, *hit))
+                                                          : backSide(path.ray, *hit));
     }
-    const Mirror& mirror = world_.scene().mirrors[hit->index];
     const Bounce bounce = bounceAt(path.ray, *hit);
-    if (mirror.baseColor != glm::dvec3(0.0)) {
-      sum += weight * (1.0 - bounce.reflectance) * mirrorLayer(path.ray, *hit, bounce.normal, mirror.baseColor);
+    if (bounce.base.diffuse != glm::dvec3(0.0)) {
+      sum += weight * (1.0 - bounce.reflectance) * surfaceRadiance(world_, bounce.base);
     }
     weight *= bounce.reflectance;
     path.throughput *= bounce.reflectance;
-    const Ray ray = reflectedRay(path.ray, bounce.position, bounce.normal, bounce.planeNormal, bounce.t);
+    const Path next = reflected(path, bounce, bounce.base.normal);
     const double throughput = largestChannel(path.throughput);
     if (path.depth >= options_.maxDepth || throughput < options_.minThroughput || throughput == 0.0) {
-      return sum + weight * background(ray.direction);
+      return sum + weight * background(next.ray.direction);
     }
-    if (mirror.roughness > 0.0) {
+    if (bounce.roughness > 0.0) {
       return sum + weight * roughReflection(path, bounce);
     }
-    path = reflected(path, bounce, ray);
+    path = next;
   }
 }
 
@@ -176,12 +195,12 @@ MirrorChain PathTracer::followMirrors(Ray ray) const {
   while (chain.count < most) {
     const auto hit = world_.closest(ray, skip);
     chain.background = chain.background || (chain.count == 0 && !hit);
-    if (!hit || hit->kind != HitKind::mirror || !reflects(*hit)) {
+    if (!hit || !reflects(*hit)) {
       break;
     }
     const Bounce bounce = bounceAt(ray, *hit);
-    ray = reflectedRay(ray, bounce.position, bounce.normal, bounce.planeNormal, bounce.t);
-    skip = {.mirror = hit->index};
+    ray = reflectedRay(ray, bounce.base.position, bounce.base.normal, bounce.planeNormal, bounce.t);
+    skip = bounce.base.self;
     throughput *= bounce.reflectance;
     ++chain.count;
   }

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "reference/ray_tracer.hpp"
+#include "reference/shading.hpp"
 #include "reference/trace_world.hpp"
 
 namespace speculum {
@@ -50,23 +51,23 @@ class PathTracer {
     glm::dvec3 throughput;  // of the bounces so far
     int roughLevel;         // rough bounces so far
   };
-  // A mirror's reflecting side at one point.
+  // The reflecting side of a mirror or of a curved one at one point.
   struct Bounce {
-    int mirror;
-    glm::dvec3 position;
-    glm::dvec3 planeNormal;  // unit, on the viewer's side
-    glm::dvec3 normal;       // with ripples
+    ShadingPoint base;       // the layer under the reflection; its normal is with ripples, or the shading normal
+    glm::dvec3 planeNormal;  // unit, on the viewer's side; of a curved mirror the triangle's own
     glm::dvec3 reflectance;
+    double roughness;
     double t;
   };
   bool reflects(const SceneHit& hit) const;
   Bounce bounceAt(const Ray& ray, const SceneHit& hit) const;
   glm::dvec3 follow(Path path);
-  glm::dvec3 mirrorLayer(const Ray& ray, const SceneHit& hit, const glm::dvec3& normal, const glm::dvec3& color) const;
+  Bounce mirrorBounce(const Ray& ray, const SceneHit& hit) const;
+  Bounce curvedBounce(const Ray& ray, const SceneHit& hit) const;
   glm::dvec3 backSide(const Ray& ray, const SceneHit& hit) const;
   glm::dvec3 roughReflection(const Path& path, const Bounce& bounce);
   glm::dvec3 background(const glm::dvec3& direction) const;
-  Path reflected(const Path& path, const Bounce& bounce, const Ray& ray) const;
+  Path reflected(const Path& path, const Bounce& bounce, const glm::dvec3& normal) const;
 
   const TraceWorld& world_;
   const Environment& environment_;

@@ -54,7 +54,7 @@ glm::dvec3 mirroredLight(const TraceWorld& world, const ShadingPoint& point, int
     }
   }
   const double cosine = std::abs(glm::dot(plane.normal, safeNormalize(toImage)));
-  return mirrorReflectance(material, cosine) *
+  return mirrorReflectance(material.reflectance, material.fresnel, cosine) *
          lightRadiance(point, toImage, source.color * source.intensity, source.radius);
 }
 
@@ -107,12 +107,12 @@ glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv) {
   return glm::mix(glm::mix(texel(0, 0), texel(1, 0), wx), glm::mix(texel(0, 1), texel(1, 1), wx), wy);
 }
 
-glm::dvec3 mirrorReflectance(const Mirror& mirror, double cosine) {
-  if (mirror.fresnel == Fresnel::none) {
-    return mirror.reflectance;
+glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine) {
+  if (fresnel == Fresnel::none) {
+    return reflectance;
   }
   const double grazing = 1.0 - std::clamp(cosine, 0.0, 1.0);
-  return mirror.reflectance + (1.0 - mirror.reflectance) * std::pow(grazing, 5.0);
+  return reflectance + (1.0 - reflectance) * std::pow(grazing, 5.0);
 }
 
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time) {
@@ -144,7 +144,9 @@ ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit
   point.toViewer = safeNormalize(-ray.direction);
   const glm::dvec3 geometric = normalFromMesh * glm::cross(b.position - a.position, c.position - a.position);
   const glm::dvec3 shading = safeNormalize(normalFromMesh * (w.x * a.normal + w.y * b.normal + w.z * c.normal));
-  point.normal = glm::dot(geometric, point.toViewer) < 0.0 ? -shading : shading;
+  const double side = glm::dot(geometric, point.toViewer) < 0.0 ? -1.0 : 1.0;
+  point.normal = side * shading;
+  point.facet = side * safeNormalize(geometric);
   point.self = {.instance = hit.index, .triangle = hit.triangle};
   static const Material defaultMaterial;
   const Material& material = mesh.parts.empty() ? defaultMaterial : mesh.parts[world.partOf(hit)].material;

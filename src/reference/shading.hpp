@@ -11,6 +11,7 @@ struct ShadingPoint {
   glm::dvec3 position{0.0};
   glm::dvec3 normal{0.0};    // unit, on the viewer's side; zero if the model's normals cancel
   glm::dvec3 toViewer{0.0};  // unit
+  glm::dvec3 facet{0.0};     // unit normal of the triangle itself, on the viewer's side; zero for mirrors
   glm::dvec3 diffuse{0.0};   // with the texture applied
   glm::dvec3 specular{0.0};
   glm::dvec3 emission{0.0};
@@ -28,9 +29,9 @@ glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
 // Bilinear on linear texels, repeated, v up; texel centres at (i + 0.5) / size.
 glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv);
 
-// The mirror's F for the cosine between its normal and the viewer: constant, or Schlick, "An Inexpensive BRDF Model for
+// A mirror's F for the cosine between its normal and the viewer: constant, or Schlick, "An Inexpensive BRDF Model for
 // Physically-based Rendering" (1994).
-glm::dvec3 mirrorReflectance(const Mirror& mirror, double cosine);
+glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine);
 
 // The mirror's front normal at a world position relative to the eye: its plane's, or with ripples that of the height
 // field, which is the same from both sides.

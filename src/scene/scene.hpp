@@ -41,6 +41,15 @@ struct Copies {
   glm::dvec3 step{0.0};
 };
 
+enum class Fresnel { none, schlick };
+
+// What makes an object a curved mirror.
+struct ObjectMirror {
+  glm::dvec3 reflectance{0.95};
+  Fresnel fresnel = Fresnel::none;
+  glm::dvec3 baseColor{0.0};
+};
+
 struct Object {
   std::string name;
   int mesh = -1;  // index into Scene::meshes
@@ -52,6 +61,7 @@ struct Object {
   std::optional<glm::dvec3> specular;
   std::optional<double> shininess;
   Copies copies;
+  std::optional<ObjectMirror> mirror;
 };
 
 struct Orbit {
@@ -70,8 +80,6 @@ struct PointLight {
   bool castsShadow = false;
   std::optional<Orbit> orbit;
 };
-
-enum class Fresnel { none, schlick };
 
 struct Ripple {
   double amplitude = 0.0;  // metres

@@ -25,6 +25,24 @@ bool hasDirection(const glm::dvec3& v) {
 // Checking a polygon takes time in the square of this.
 constexpr size_t kMostVertices = 1000;
 
+Fresnel readFresnel(const TableReader& table) {
+  static constexpr std::array<Key, 2> kFresnel{"none", "schlick"};
+  return table.choice("fresnel", 0, kFresnel) == 1 ? Fresnel::schlick : Fresnel::none;
+}
+
+std::optional<ObjectMirror> readObjectMirror(const TableReader& object) {
+  static constexpr std::array<Key, 3> kKeys{"reflectance", "fresnel", "base_color"};
+  const std::optional<TableReader> table = object.subtable("mirror", kKeys);
+  if (!table) {
+    return std::nullopt;
+  }
+  ObjectMirror mirror;
+  mirror.reflectance = table->vec3("reflectance", mirror.reflectance, kUnit);
+  mirror.fresnel = readFresnel(*table);
+  mirror.baseColor = table->vec3("base_color", mirror.baseColor, kNotNegative);
+  return mirror;
+}
+
 Copies readCopies(const TableReader& object) {
   static constexpr std::array<Key, 2> kKeys{"count", "step"};
   Copies copies;
@@ -250,6 +268,7 @@ Object readObject(const TableReader& table) {
     object.shininess = std::max(1.0, table.number("shininess", 1.0));
   }
   object.copies = readCopies(table);
+  object.mirror = readObjectMirror(table);
   return object;
 }
 
@@ -267,12 +286,11 @@ PointLight readLight(const TableReader& table) {
 }
 
 Mirror readMirror(const TableReader& table) {
-  static constexpr std::array<Key, 2> kFresnel{"none", "schlick"};
   Mirror mirror;
   mirror.name = table.text("name", "");
   readShape(table, mirror);
   mirror.reflectance = table.vec3("reflectance", mirror.reflectance, kUnit);
-  mirror.fresnel = table.choice("fresnel", 0, kFresnel) == 1 ? Fresnel::schlick : Fresnel::none;
+  mirror.fresnel = readFresnel(table);
   mirror.baseColor = table.vec3("base_color", mirror.baseColor, kNotNegative);
   mirror.roughness = table.number("roughness", mirror.roughness, kUnit);
   mirror.ripple = readRipple(table);
@@ -283,8 +301,8 @@ Mirror readMirror(const TableReader& table) {
 }
 
 std::span<const std::string_view> objectKeys() {
-  static constexpr std::array<Key, 10> kKeys{"name", "model", "position", "rotation",  "scale",
-                                             "spin", "color", "specular", "shininess", "copies"};
+  static constexpr std::array<Key, 11> kKeys{"name",  "model",    "position",  "rotation", "scale", "spin",
+                                             "color", "specular", "shininess", "copies",   "mirror"};
   return kKeys;
 }
 

@@ -106,6 +106,7 @@ MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const View& 
     data.lookup = glm::vec4(glm::dvec4(ratio, offset));
     data.image = glm::ivec4(rect.width, rect.height, static_cast<int>(lookupFor(ratio)), 0);
   }
+  data.image.w = draw.mirror;
   if (draw.held && draw.held->moved) {
     for (int column = 0; column < 3; ++column) {
       data.reproject[column] =
@@ -184,11 +185,15 @@ void FrameData::addPass(const PlannedPass& pass, const FramePlan& plan, const Sc
   view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
   setRays(view, pass.view, plan.projection);
   setBackground(view, environment);
+  view.ambient.w = static_cast<float>(settings.reflection.minThroughput);
+  view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, pass.throughput));
+  view.depth = static_cast<uint32_t>(pass.view.path.size());
+  view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
   addLights(pass, scene, state, view);
   views_.push_back(view);
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
-  addInstances(pass, projection, scene, state, data);
-  addMirrors(pass, projection, plan, scene, data);
+  addInstances(pass, projection, scene, state, settings.effects, data);
+  addMirrors(pass, projection, plan, scene, settings.effects, data);
 }
 
 // Lights whose glyphs are visible come first, so that one instanced draw covers them.
@@ -202,27 +207,31 @@ void FrameData::addLights(const PlannedPass& pass, const Scene& scene, const Sce
   for (const int i : order) {
     const PointLight& light = scene.lights[i];
     const glm::dvec3 relative = state.lights[i].position - pass.view.eye;
-    lights_.push_back({.position = glm::vec4(glm::dvec4(relative, light.radius)),
-                       .irradiance = glm::vec4(glm::vec3(light.color * light.intensity), 0.0f),
-                       .glow = glm::vec4(glm::vec3(light.color * light.glow), 0.0f)});
+    lights_.push_back(
+        {.position = glm::vec4(glm::dvec4(relative, light.radius)),
+         .irradiance = glm::vec4(glm::vec3(light.color * light.intensity), light.castsShadow ? 1.0f : 0.0f),
+         .glow = glm::vec4(glm::vec3(light.color * light.glow), light.glow > 0.0 ? 1.0f : 0.0f)});
   }
 }
 
 void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene,
-                             const SceneState& state, PassData& data) {
+                             const SceneState& state, const EffectSettings& effects, PassData& data) {
   const glm::dmat4 clipFromRelative = projection * relativeToView(pass.view);
   for (const int i : pass.instances) {
     const InstanceState& instance = state.instances[i];
-    if (data.batches.empty() || data.batches.back().mesh != instance.mesh) {
-      data.batches.push_back({instance.mesh, static_cast<uint32_t>(instances_.size()), 0});
+    const Object& object = scene.objects[instance.object];
+    const bool curved = effects.curved && object.mirror;
+    if (data.batches.empty() || data.batches.back().mesh != instance.mesh || data.batches.back().curved != curved) {
+      data.batches.push_back({instance.mesh, static_cast<uint32_t>(instances_.size()), 0, curved});
     }
     ++data.batches.back().count;
-    instances_.push_back(instanceData(instance, scene.objects[instance.object], pass.view, clipFromRelative));
+    instances_.push_back(instanceData(instance, object, pass.view, clipFromRelative));
+    instances_.back().shininess.y = static_cast<float>(i);  // exact up to 2^24
   }
 }
 
 void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan,
-                           const Scene& scene, PassData& data) {
+                           const Scene& scene, const EffectSettings& effects, PassData& data) {
   for (const MirrorDraw& draw : pass.mirrors) {
     const Mirror& mirror = scene.mirrors[draw.mirror];
     MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
@@ -230,6 +239,10 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
                       .pass = draw.pass,
                       .held = draw.held ? draw.held->image : -1,
                       .reprojected = draw.held && draw.held->moved,
+                      .scatters = draw.scatters,
+                      .rippled = draw.scatters && effects.ripple && mirror.ripple,
+                      .rough = draw.scatters && effects.roughness && mirror.roughness > 0.0,
+                      .fresnel = !draw.back && mirror.fresnel != Fresnel::none,
                       .base = mirror.baseColor != glm::dvec3(0.0)};
     mirrors_.push_back(mirrorData(draw, mirror, pass.view, imageView(draw, plan)));
     range.lookup = static_cast<Lookup>(mirrors_.back().image.z);

@@ -21,6 +21,7 @@ struct Batch {
   int mesh = 0;
   uint32_t firstInstance = 0;
   uint32_t count = 0;
+  bool curved = false;  // they are mirrors
 };
 
 struct MirrorRange {
@@ -31,6 +32,10 @@ struct MirrorRange {
   int held = -1;  // index into FramePlan::held of its image of an earlier frame; -1: none
   bool reprojected = false;
   Lookup lookup = Lookup::fetch;
+  bool scatters = false;  // its reflection is traced
+  bool rippled = false;
+  bool rough = false;
+  bool fresnel = false;
   bool base = false;  // there is a diffuse layer under the reflection
 };
 
@@ -64,9 +69,9 @@ class FrameData {
                const Settings& settings, const Environment& environment);
   void addLights(const PlannedPass& pass, const Scene& scene, const SceneState& state, ViewData& view);
   void addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene, const SceneState& state,
-                    PassData& data);
+                    const EffectSettings& effects, PassData& data);
   void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
-                  PassData& data);
+                  const EffectSettings& effects, PassData& data);
   void upload(Frame& frame, Kind kind, std::span<const std::byte> data);
 
   Device& device_;

@@ -2,8 +2,10 @@
 
 #include "core/renderer.hpp"
 #include "frame/frame_plan.hpp"
+#include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/scene_resources.hpp"
+#include "systems/trace_frame.hpp"
 
 namespace speculum {
 
@@ -16,6 +18,8 @@ struct FrameInfo {
   const FramePlan& plan;
   const SceneResources& resources;
   const FrameData& data;
+  const TraceFrame& trace;
+  EffectLedger& ledger;                 // systems enter their draws
   std::span<const MirrorImage> images;  // of plan.passes, by index; valid while their parent is recorded
   std::span<const MirrorImage> held;    // of plan.held, by index; set where the image is of an earlier frame
 };

@@ -19,13 +19,15 @@ struct ViewData {
   glm::vec4 zenith;
   glm::vec4 horizon;
   glm::vec4 ground;
+  glm::vec4 traceOffset;
   uint32_t firstLight;
   uint32_t lightCount;
-  uint32_t pad[2];
+  uint32_t depth;
+  uint32_t maxDepth;
 };
 static_assert(offsetof(ViewData, rayX) == 64 && offsetof(ViewData, clipPlane) == 112 &&
-              offsetof(ViewData, background) == 144 && offsetof(ViewData, firstLight) == 208 &&
-              sizeof(ViewData) == 224);
+              offsetof(ViewData, background) == 144 && offsetof(ViewData, traceOffset) == 208 &&
+              offsetof(ViewData, firstLight) == 224 && sizeof(ViewData) == 240);
 
 struct LightData {
   glm::vec4 position;
@@ -71,6 +73,7 @@ enum class Lookup { fetch, bilinear, box };
 struct DrawConstants {
   uint32_t viewIndex;
   uint32_t drawIndex;
+  uint32_t firstTriangle;
 };
 
 // Of display.frag.

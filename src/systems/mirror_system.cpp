@@ -21,33 +21,75 @@ MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& 
   noImage_ = uploader.image(std::as_bytes(std::span(&black, 1)), {1, 1}, colorFormat, false, "no mirror image");
 }
 
-const Pipeline& MirrorSystem::pipeline(const Variant& variant) {
+bool MirrorSystem::tracesRays(Shading shading, const TraceVariant& trace) {
+  switch (shading) {
+    case Shading::scattered:
+    case Shading::scatteredBySample:
+      return true;
+    case Shading::ownSample:
+    case Shading::ownSampleAdded:
+      return false;
+    case Shading::single:
+    case Shading::average:
+    case Shading::base:
+      break;
+  }
+  return trace.traced;
+}
+
+const Pipeline& MirrorSystem::pipeline(const Variant& variant, VkDescriptorSetLayout traceLayout) {
   std::unique_ptr<Pipeline>& pipeline = pipelines_[variant];
   if (!pipeline) {
+    const Shading shading = variant.shading;
     GraphicsPipelineDesc desc{.name = "mirror", .vert = "mirror.vert", .frag = "mirror.frag"};
     desc.setLayouts = {frameLayout_, imageLayout_.get()};
     desc.pushConstantBytes = sizeof(DrawConstants);
     desc.samples = variant.samples;
     desc.depthClamp = variant.clampDepth;
-    desc.fragConstants = {variant.shading == Shading::base, variant.reprojected};
-    if (variant.shading == Shading::average) {
+    desc.fragConstants = {shading == Shading::base, variant.reprojected};
+    if (shading == Shading::average) {
       desc.frag = "mirror_average.frag";
-    } else if (variant.shading == Shading::ownSample || variant.shading == Shading::ownSampleAdded) {
+    } else if (shading == Shading::ownSample || shading == Shading::ownSampleAdded) {
       desc.frag = "mirror_sample.frag";
       desc.sampleShading = true;
     }
-    if (variant.shading == Shading::ownSampleAdded) {
+    if (shading == Shading::ownSampleAdded) {
       desc.depthCompare = VK_COMPARE_OP_EQUAL;
       desc.depthWrite = false;
       desc.blend = Blend::add;
+    }
+    if (tracesRays(shading, variant.trace)) {
+      const bool scattered = shading == Shading::scattered || shading == Shading::scatteredBySample;
+      desc.frag = scattered                     ? "mirror_scattered.frag"
+                  : shading == Shading::average ? "mirror_average_traced.frag"
+                                                : "mirror_traced.frag";
+      desc.sampleShading = shading == Shading::scatteredBySample;
+      desc.setLayouts.push_back(traceLayout);
+      addConstants(variant.trace, desc.fragConstants);
     }
     pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
   }
   return *pipeline;
 }
 
+void MirrorSystem::countPipelines(EffectLedger& ledger) const {
+  for (const auto& [variant, pipeline] : pipelines_) {
+    ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
+    ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
+    ledger.pipeline(EffectKind::ripple, variant.shading == Shading::scatteredBySample);
+    ledger.pipeline(EffectKind::roughness, variant.shading == Shading::scattered);
+  }
+}
+
+void MirrorSystem::dropTraced() {
+  std::erase_if(pipelines_, [](const auto& entry) { return tracesRays(entry.first.shading, entry.first.trace); });
+}
+
 std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const MirrorImage* image,
                                                           const PassFormat& format) const {
+  if (mirror.scatters) {
+    return {mirror.rippled ? Shading::scatteredBySample : Shading::scattered};
+  }
   if (!image || image->samples == VK_SAMPLE_COUNT_1_BIT) {
     return {Shading::single};
   }
@@ -68,17 +110,30 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
   for (const MirrorRange& mirror : data.mirrors) {
     const MirrorImage* image = imageOf(mirror, info);
     for (const Shading shading : shadings(mirror, image, format)) {
-      const Pipeline& drawn = pipeline(
-          {.shading = shading, .samples = format.samples, .clampDepth = !oblique, .reprojected = mirror.reprojected});
+      Variant variant{
+          .shading = shading, .samples = format.samples, .clampDepth = !oblique, .reprojected = mirror.reprojected};
+      const bool traces = tracesRays(shading, info.trace.variant());
+      variant.trace = traces ? info.trace.variant() : TraceVariant{};
+      const Pipeline& drawn = pipeline(variant, info.trace.layout());
       const bool reads = image && shading != Shading::base;
       const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
       DescriptorWriter().image(0, reads ? image->descriptor : noImage).update(device_, set);
       drawn.bind(scope.commands());
       drawn.bindSet(scope.commands(), 0, info.data.set());
       drawn.bindSet(scope.commands(), 1, set);
-      drawn.push(scope.commands(), DrawConstants{data.view, mirror.mirror});
+      if (traces) {
+        drawn.bindSet(scope.commands(), 2, info.trace.set());
+      }
+      drawn.push(scope.commands(), DrawConstants{data.view, mirror.mirror, 0});
+      scope.beginLabel(mirror.scatters ? "traced mirror" : "mirror");
       vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
+      scope.endLabel();
       ++draws;
+      info.ledger.draw(EffectKind::ripple, mirror.rippled);
+      info.ledger.draw(EffectKind::roughness, mirror.rough);
+      info.ledger.draw(EffectKind::fresnel, mirror.fresnel);
+      info.ledger.draw(EffectKind::shadows, variant.trace.shadows);
+      info.ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
     }
   }
   return draws;

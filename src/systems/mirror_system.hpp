@@ -9,25 +9,31 @@ namespace speculum {
 
 // Draws the mirrors of a pass: fronts read the images that earlier passes rendered for them, fronts without an image
 // show the background, backs their paint. An image with the pass's samples and pixels is read sample by sample; the
-// layer under the reflection, whose light costs much more, is then a draw of its own at one invocation per pixel. An
+// layer under the reflection, whose light costs much more, is then a draw of its own at one invocation per pixel.
+// Rippled and rough mirrors trace what they reflect, rippled ones at each sample, as their images have edges. An
 // image of an earlier frame is read like one of this frame as long as nothing moved, otherwise it is reprojected.
 class MirrorSystem {
  public:
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  void countPipelines(EffectLedger& ledger) const;
+  // Drops the pipelines that trace rays.
+  void dropTraced();
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  enum class Shading { single, average, base, ownSample, ownSampleAdded };
+  enum class Shading { single, average, base, ownSample, ownSampleAdded, scattered, scatteredBySample };
   struct Variant {
     Shading shading;
     VkSampleCountFlagBits samples;
     bool clampDepth;
     bool reprojected;
+    TraceVariant trace;
     auto operator<=>(const Variant&) const = default;
   };
-  const Pipeline& pipeline(const Variant& variant);
+  static bool tracesRays(Shading shading, const TraceVariant& trace);
+  const Pipeline& pipeline(const Variant& variant, VkDescriptorSetLayout traceLayout);
   // The draws of a mirror, in order.
   std::vector<Shading> shadings(const MirrorRange& mirror, const MirrorImage* image, const PassFormat& format) const;
 

@@ -23,8 +23,9 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
   }
   pipeline->bind(scope.commands());
   pipeline->bindSet(scope.commands(), 0, info.data.set());
-  pipeline->push(scope.commands(), DrawConstants{data.view, 0});
+  pipeline->push(scope.commands(), DrawConstants{data.view, 0, 0});
   vkCmdDraw(scope.commands(), 36, data.glyphCount, 0, 0);
+  info.ledger.draw(EffectKind::glyphs);
   return 1;
 }
 

@@ -6,13 +6,18 @@ RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frame
                            VkDescriptorSetLayout textureLayout)
     : factory_(factory), frameLayout_(frameLayout), textureLayout_(textureLayout) {}
 
-const Pipeline& RenderSystem::objects(const Variant& variant) {
+const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLayout traceLayout) {
   std::unique_ptr<Pipeline>& pipeline = objects_[variant];
   if (!pipeline) {
     GraphicsPipelineDesc desc{.name = "scene", .vert = "scene.vert", .frag = "scene.frag"};
     desc.vertConstants = {variant.clipDistance};
     desc.fragConstants = {variant.trilinear};
     desc.setLayouts = {frameLayout_, textureLayout_};
+    if (variant.curved || variant.trace.traced) {
+      desc.frag = variant.curved ? "scene_curved.frag" : "scene_traced.frag";
+      desc.setLayouts.push_back(traceLayout);
+      addConstants(variant.trace, desc.fragConstants);
+    }
     desc.pushConstantBytes = sizeof(DrawConstants);
     desc.samples = variant.samples;
     desc.depthClamp = variant.clampDepth;
@@ -41,25 +46,53 @@ const Pipeline& RenderSystem::sky(VkSampleCountFlagBits samples) {
 }
 
 uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data,
-                                     const Pipeline& pipeline) {
+                                     Variant variant) {
   const VkCommandBuffer commands = scope.commands();
-  pipeline.bind(commands);
-  pipeline.bindSet(commands, 0, info.data.set());
   uint32_t draws = 0;
   for (const Batch& batch : data.batches) {
+    variant.curved = batch.curved;
+    const bool traces = variant.curved || info.trace.variant().traced;
+    variant.trace = traces ? info.trace.variant() : TraceVariant{};
+    const Pipeline& pipeline = objects(variant, info.trace.layout());
+    pipeline.bind(commands);
+    pipeline.bindSet(commands, 0, info.data.set());
+    if (traces) {
+      pipeline.bindSet(commands, 2, info.trace.set());
+    }
     const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
     const VkBuffer vertices = mesh.vertices.get();
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &offset);
     vkCmdBindIndexBuffer(commands, mesh.indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
     for (const SceneResources::Part& part : mesh.parts) {
       pipeline.bindSet(commands, 1, part.texture);
-      pipeline.push(commands, DrawConstants{data.view, part.material});
+      pipeline.push(commands, DrawConstants{data.view, part.material, part.firstIndex / 3});
       vkCmdDrawIndexed(commands, part.indexCount, batch.count, part.firstIndex, 0, batch.firstInstance);
       ++draws;
+      info.ledger.draw(EffectKind::textures, part.textured);
+      info.ledger.draw(EffectKind::shadows, variant.trace.shadows);
+      info.ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
+      info.ledger.draw(EffectKind::curved, variant.curved);
+      info.ledger.draw(EffectKind::wireframe, variant.wireframe);
     }
+    scope.endLabel();
   }
   return draws;
+}
+
+void RenderSystem::countPipelines(EffectLedger& ledger) const {
+  for (const auto& [variant, pipeline] : objects_) {
+    const bool lit = variant.curved || variant.trace.traced;
+    ledger.pipeline(EffectKind::shadows, lit && variant.trace.shadows);
+    ledger.pipeline(EffectKind::castsLight, lit && variant.trace.castsLight);
+    ledger.pipeline(EffectKind::curved, variant.curved);
+    ledger.pipeline(EffectKind::wireframe, variant.wireframe);
+  }
+}
+
+void RenderSystem::dropTraced() {
+  std::erase_if(objects_, [](const auto& entry) { return entry.first.curved || entry.first.trace.traced; });
 }
 
 uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
@@ -68,17 +101,17 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, siz
   uint32_t draws = 0;
   if (!data.batches.empty()) {
     draws += recordObjects(scope, info, data,
-                           objects({.samples = format.samples,
-                                    .clipDistance = format.mirrorView && clip == ClipMethod::clipDistance,
-                                    .clampDepth = !(format.mirrorView && clip == ClipMethod::oblique),
-                                    .trilinear = info.settings.view.textureFilter == TextureFilter::trilinear,
-                                    .wireframe = info.settings.view.wireframe}));
+                           {.samples = format.samples,
+                            .clipDistance = format.mirrorView && clip == ClipMethod::clipDistance,
+                            .clampDepth = !(format.mirrorView && clip == ClipMethod::oblique),
+                            .trilinear = info.settings.view.textureFilter == TextureFilter::trilinear,
+                            .wireframe = info.settings.view.wireframe});
   }
   if (info.environment.sky) {
     const Pipeline& pipeline = sky(format.samples);
     pipeline.bind(scope.commands());
     pipeline.bindSet(scope.commands(), 0, info.data.set());
-    pipeline.push(scope.commands(), DrawConstants{data.view, 0});
+    pipeline.push(scope.commands(), DrawConstants{data.view, 0, 0});
     vkCmdDraw(scope.commands(), 3, 1, 0, 0);
     ++draws;
   }

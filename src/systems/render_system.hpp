@@ -14,6 +14,9 @@ class RenderSystem {
 
   // Records pass `pass` of info.data; returns the number of draws.
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  void countPipelines(EffectLedger& ledger) const;
+  // Drops the pipelines that trace rays.
+  void dropTraced();
   size_t pipelineCount() const { return objects_.size() + skies_.size(); }
 
  private:
@@ -23,11 +26,13 @@ class RenderSystem {
     bool clampDepth;
     bool trilinear;
     bool wireframe;
+    bool curved;
+    TraceVariant trace;
     auto operator<=>(const Variant&) const = default;
   };
-  const Pipeline& objects(const Variant& variant);
+  const Pipeline& objects(const Variant& variant, VkDescriptorSetLayout traceLayout);
   const Pipeline& sky(VkSampleCountFlagBits samples);
-  uint32_t recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data, const Pipeline& pipeline);
+  uint32_t recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data, Variant variant);
 
   PipelineFactory& factory_;
   VkDescriptorSetLayout frameLayout_;

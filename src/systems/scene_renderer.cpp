@@ -4,6 +4,8 @@
 #include <glm/gtc/packing.hpp>
 #include <utility>
 
+#include "frame/memory_fit.hpp"
+
 namespace speculum {
 
 namespace {
@@ -55,6 +57,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       scene_(scene),
       resources_(device_, renderer.uploader(), scene),
       data_(device_),
+      trace_(device_, renderer.uploader(), scene),
       renderSystem_(renderer.pipelines(), data_.layout(), resources_.textureLayout()),
       pointLightSystem_(renderer.pipelines(), data_.layout()),
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
@@ -85,10 +88,18 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   prepareTargets(settings, plan, *frame.retired);
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
+  const TracedEffects effects = tracedEffects(scene_, state, settings, plan);
+  trace_.build(frame, state, settings, effects);
+  ledger_ = {};
+  if (!trace_.exists()) {
+    renderSystem_.dropTraced();
+    mirrorSystem_.dropTraced();
+  }
   targets_.assign(plan.passes.size(), nullptr);
   images_.assign(plan.passes.size(), {});
   recorded_.clear();
-  const FrameInfo info{frame, scene_, settings, environment, plan, resources_, data_, images_, heldImages_};
+  const FrameInfo info{frame, scene_, settings, environment, plan,       resources_,
+                       data_, trace_, ledger_,  images_,     heldImages_};
   if (settings.debug.checkFinite) {
     watch_.begin(frame, plan.passes.size() + 2);  // the main view's samples and their mean
   } else {
@@ -112,10 +123,37 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
       pool_->release(*targets_[debug->pass]);
     }
   }
+  finishLedger(settings, plan, effects);
   keepHeldImages(plan);
   if (pool_) {
     pool_->endFrame(*frame.retired);
   }
+}
+
+// What is not entered draw by draw.
+void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan, const TracedEffects& effects) {
+  Settings single = settings;
+  single.view.samples = 1;
+  single.reflection.samples = 1;
+  ledger_[EffectKind::msaa].bytes = targetBytes(plan, settings) - targetBytes(plan, single);
+  for (size_t i = 0; i < plan.passes.size() + 1; ++i) {
+    const int samples = i < plan.passes.size() ? settings.reflection.samples : settings.view.samples;
+    ledger_[EffectKind::msaa].draws += samples > 1 ? recorded_[i].draws : 0;
+  }
+  ledger_[EffectKind::textures].bytes = ledger_[EffectKind::textures].draws > 0 ? resources_.textureBytes() : 0;
+  ledger_[EffectKind::toneMap].draws = settings.view.toneMap == ToneMap::aces ? 1 : 0;
+  for (const auto& [kind, caller] :
+       {std::pair(EffectKind::shadows, &effects.shadows), std::pair(EffectKind::roughness, &effects.roughness),
+        std::pair(EffectKind::ripple, &effects.ripple), std::pair(EffectKind::castsLight, &effects.castsLight),
+        std::pair(EffectKind::curved, &effects.curved)}) {
+    ledger_[kind].bytes = caller->empty() ? 0 : trace_.bytes();
+  }
+  ledger_[EffectKind::glyphs].pipelines = static_cast<uint32_t>(pointLightSystem_.pipelineCount());
+  for (const auto& [variant, pipeline] : displayPipelines_) {
+    ledger_.pipeline(EffectKind::toneMap, variant.toneMap == ToneMap::aces);
+  }
+  renderSystem_.countPipelines(ledger_);
+  mirrorSystem_.countPipelines(ledger_);
 }
 
 void SceneRenderer::restart() {

@@ -59,6 +59,8 @@ class SceneRenderer {
   // What debug.check_finite found in the frames that have finished.
   const FiniteWatch& finiteWatch();
   size_t pipelineCount() const;
+  // What each effect took part in, of the last recorded frame.
+  const EffectLedger& ledger() const { return ledger_; }
   // Linear radiance of the main view, of the last recorded frame; waits for the GPU.
   LinearImage radiance();
 
@@ -83,12 +85,14 @@ class SceneRenderer {
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   const Pipeline& displayPipeline(const DisplayVariant& variant);
   void recordCover(Frame& frame);
+  void finishLedger(const Settings& settings, const FramePlan& plan, const TracedEffects& effects);
 
   Renderer& renderer_;
   Device& device_;
   const Scene& scene_;
   SceneResources resources_;
   FrameData data_;
+  TraceFrame trace_;
   RenderSystem renderSystem_;
   PointLightSystem pointLightSystem_;
   MirrorSystem mirrorSystem_;
@@ -107,6 +111,7 @@ class SceneRenderer {
   SamplerHandle coverSampler_;
   Image cover_;  // empty: none
   std::vector<RecordedPass> recorded_;
+  EffectLedger ledger_;
   std::optional<int> keptPass_;  // its image is not given back before the frame ends
 };
 

@@ -16,7 +16,7 @@ std::vector<uint64_t> halfTexels(const Texture& texture) {
 }
 
 MaterialData materialData(const Material& material) {
-  return {.diffuse = glm::vec4(glm::vec3(material.diffuse), material.diffuseTexture >= 0 ? 1.0f : 0.0f),
+  return {.diffuse = glm::vec4(glm::vec3(material.diffuse), static_cast<float>(material.diffuseTexture + 1)),
           .specular = glm::vec4(glm::vec3(material.specular), static_cast<float>(material.shininess)),
           .emission = glm::vec4(glm::vec3(material.emission), 0.0f)};
 }
@@ -64,13 +64,23 @@ void SceneResources::createMeshes(Uploader& uploader, const Scene& scene) {
         uploader.buffer(std::span<const uint32_t>(mesh.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
     for (const MeshPart& part : mesh.parts) {
       gpu.parts.push_back({part.firstIndex, part.indexCount, static_cast<uint32_t>(materials.size()),
-                           textureSet(part.material.diffuseTexture)});
+                           textureSet(part.material.diffuseTexture), part.material.diffuseTexture >= 0});
       materials.push_back(materialData(part.material));
     }
   }
   materials.resize(std::max<size_t>(materials.size(), 1));
   materials_ =
       uploader.buffer(std::span<const MaterialData>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
+}
+
+uint64_t SceneResources::textureBytes() const {
+  uint64_t bytes = 0;
+  for (size_t i = 0; i + 1 < textures_.size(); ++i) {
+    const VkExtent2D extent = textures_[i].extent();
+    // RGBA16F; levels that halve both sides add a third.
+    bytes += uint64_t{8} * extent.width * extent.height * 4 / 3;
+  }
+  return bytes;
 }
 
 VkDescriptorSet SceneResources::textureSet(int texture) {

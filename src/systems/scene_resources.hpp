@@ -17,6 +17,7 @@ class SceneResources {
     uint32_t indexCount = 0;
     uint32_t material = 0;  // index into materials()
     VkDescriptorSet texture = VK_NULL_HANDLE;
+    bool textured = false;
   };
   struct GpuMesh {
     Buffer vertices;
@@ -28,6 +29,7 @@ class SceneResources {
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
+  uint64_t textureBytes() const;  // with all levels, as far as the scene has textures
   VkDescriptorSetLayout textureLayout() const { return textureLayout_.get(); }
 
  private:

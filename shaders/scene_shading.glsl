@@ -1,0 +1,80 @@
+// The fragment shader of objects. TRACED: light that needs rays; CURVED: objects that are mirrors.
+#include "interface.glsl"
+#include "shading.glsl"
+#ifdef TRACED
+#include "trace.glsl"
+#include "traced_light.glsl"
+#endif
+#ifdef CURVED
+#include "traced_path.glsl"
+#endif
+
+layout(constant_id = 0) const bool trilinear = false;
+
+layout(set = 1, binding = 0) uniform sampler2D diffuseTexture;  // linear radiance factors
+
+layout(location = 0) centroid in vec3 relativePosition;
+layout(location = 1) centroid in vec3 relativeNormal;
+layout(location = 2) centroid in vec2 textureUv;
+layout(location = 3) flat in uint instanceIndex;
+
+layout(location = 0) out vec4 color;
+
+// Bilinear by hand: the weights of a sampler have as few as 8 bits, which shows where texels differ much.
+vec3 bilinearLevel0(vec2 uv) {
+  ivec2 size = textureSize(diffuseTexture, 0);
+  vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
+  vec2 corner = floor(texel);
+  vec2 weight = texel - corner;
+  ivec2 low = (ivec2(corner) + size) % size;
+  ivec2 high = (low + 1) % size;
+  vec3 a = texelFetch(diffuseTexture, low, 0).rgb;
+  vec3 b = texelFetch(diffuseTexture, ivec2(high.x, low.y), 0).rgb;
+  vec3 c = texelFetch(diffuseTexture, ivec2(low.x, high.y), 0).rgb;
+  vec3 d = texelFetch(diffuseTexture, high, 0).rgb;
+  return mix(mix(a, b, weight.x), mix(c, d, weight.x), weight.y);
+}
+
+vec3 diffuseFactor() {
+  return trilinear ? texture(diffuseTexture, vec2(textureUv.x, 1.0 - textureUv.y)).rgb : bilinearLevel0(textureUv);
+}
+
+void main() {
+  MaterialData material = materials[draw.drawIndex];
+  vec4 diffuse = instances[instanceIndex].diffuse;
+  vec4 specular = instances[instanceIndex].specular;
+  float shininess = instances[instanceIndex].shininess.x;
+
+  Surface surface;
+  surface.position = relativePosition;
+  // The side that faces the viewer is lit, by the winding in the model file: front faces already turn with the view's
+  // handedness, the sign of the instance's determinant turns them back.
+  bool front = gl_FrontFacing == (instances[instanceIndex].normalFromMesh[0].w > 0.0);
+  surface.normal = safeNormalize(front ? relativeNormal : -relativeNormal);
+  surface.diffuse = diffuse.w > 0.0 ? diffuse.rgb : material.diffuse.rgb;
+  if (material.diffuse.w > 0.0) {
+    surface.diffuse *= diffuseFactor();
+  }
+  surface.specular = specular.w > 0.0 ? specular.rgb : material.specular.rgb;
+  surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
+  surface.emission = material.emission.rgb;
+#ifdef TRACED
+  uint traceInstance = uint(instances[instanceIndex].shininess.y);
+  Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none);
+#endif
+#ifdef CURVED
+  vec3 direction = safeNormalize(relativePosition);
+  vec3 geometric = safeNormalize(cross(dFdx(relativePosition), dFdy(relativePosition)));
+  geometric = dot(geometric, direction) > 0.0 ? -geometric : geometric;
+  Bounce bounce = Bounce(surface, self, true, geometric, vec3(0.0), 0.0);
+  applyCurvedMirror(traceInstance, direction, bounce);
+  vec3 radiance = tracedRadiance(views[draw.viewIndex], bounce, direction);
+#elif defined(TRACED)
+  vec3 radiance = tracedSurfaceRadiance(views[draw.viewIndex], surface, safeNormalize(-surface.position), self);
+#else
+  vec3 radiance = surfaceRadiance(views[draw.viewIndex], surface);
+#endif
+  // Not gl_FragCoord.w: at the pixel's centre, off the triangle, it is far from that of a steep one.
+  float w = (views[draw.viewIndex].clipFromRelative * vec4(relativePosition, 1.0)).w;
+  color = storable(radiance, 1.0 / max(w, 1e-30));
+}

@@ -1,0 +1,113 @@
+// Shadows, and light by way of mirrors that cast it. Needs trace.glsl.
+
+layout(constant_id = 3) const bool shadows = false;
+layout(constant_id = 4) const bool castsLight = false;
+
+// A light, or its image in a mirror, as a point sees it.
+struct Incoming {
+  vec3 toLight;  // from the point
+  float radius;
+  vec3 irradiance;  // at 1 m, with the mirror's reflectance
+  bool castsShadow;
+  int legs;  // straight lines on the way; 0: no light arrives
+  vec3 origin[2];  // trace space
+  vec3 direction[2];
+  float tMax[2];
+  Skip skip[2];
+};
+
+vec3 schlick(vec3 reflectance, float cosine) {
+  float grazing = 1.0 - clamp(cosine, 0.0, 1.0);
+  float grazing2 = grazing * grazing;
+  return reflectance + (1.0 - reflectance) * (grazing2 * grazing2 * grazing);
+}
+
+vec3 mirrorReflectance(uint mirror, float cosine) {
+  vec4 f = traceMirrors[mirror].reflectance;
+  return f.w > 0.0 ? schlick(f.rgb, cosine) : f.rgb;
+}
+
+Incoming directLight(LightData light, vec3 position, vec3 tracePosition, Skip self) {
+  Incoming incoming;
+  incoming.toLight = light.position.xyz - position;
+  incoming.radius = light.position.w;
+  incoming.irradiance = light.irradiance.rgb;
+  incoming.castsShadow = light.irradiance.w > 0.0;
+  incoming.legs = 1;
+  incoming.origin[0] = tracePosition;
+  incoming.direction[0] = incoming.toLight;
+  incoming.tMax[0] = 1.0;
+  incoming.skip[0] = self;
+  incoming.origin[1] = tracePosition;
+  incoming.direction[1] = incoming.toLight;
+  incoming.tMax[1] = 1.0;
+  incoming.skip[1] = self;
+  return incoming;
+}
+
+// A straight line from the point to the light's image, which has to cross the mirror.
+Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
+  Incoming incoming;
+  uint mirror = path.mirror;
+  vec3 normal = traceMirrors[mirror].normal;
+  float pointHeight = dot(normal, tracePosition - traceMirrors[mirror].origin);
+  float lightHeight = dot(normal, path.light - traceMirrors[mirror].origin);
+  bool sameSide = pointHeight > 0.0 ? lightHeight > 0.0
+                                    : traceMirrors[mirror].twoSided != 0 && pointHeight < 0.0 && lightHeight < 0.0;
+  incoming.toLight = path.image - tracePosition;
+  float crossing = meetMirror(mirror, tracePosition, incoming.toLight);
+  bool arrives = sameSide && self.mirror != mirror && crossing > 0.0 && crossing < 1.0;
+  vec3 bounce = tracePosition + crossing * incoming.toLight;
+  incoming.radius = path.radius;
+  incoming.irradiance =
+      path.irradiance * mirrorReflectance(mirror, abs(dot(normal, safeNormalize(incoming.toLight))));
+  incoming.castsShadow = path.castsShadow != 0;
+  incoming.legs = arrives ? 2 : 0;
+  incoming.origin[0] = tracePosition;
+  incoming.direction[0] = incoming.toLight;
+  incoming.tMax[0] = crossing;
+  incoming.skip[0] = Skip(self.instance, self.triangle, self.mirror, mirror);
+  incoming.origin[1] = bounce;
+  incoming.direction[1] = path.light - bounce;
+  incoming.tMax[1] = 1.0;
+  incoming.skip[1] = Skip(none, none, mirror, none);
+  return incoming;
+}
+
+bool unobstructed(Incoming incoming) {
+  for (int leg = 0; leg < incoming.legs; ++leg) {
+    Hit hit = traceRay(incoming.origin[leg], incoming.direction[leg], incoming.tMax[leg], incoming.skip[leg], true);
+    if (hit.instance != none || hit.mirror != none) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Of all lights, and of their images in mirrors. `self` is what the surface is part of.
+vec3 tracedLight(ViewData view, Surface surface, vec3 toViewer, Skip self) {
+  vec3 tracePosition = surface.position + view.traceOffset.xyz;
+  uint paths = view.lightCount + (castsLight ? lightPathCount : 0);
+  vec3 radiance = vec3(0.0);
+  for (uint i = 0; i < paths; ++i) {
+    Incoming incoming;
+    if (i < view.lightCount) {
+      incoming = directLight(lights[view.firstLight + i], surface.position, tracePosition, self);
+    } else {
+      incoming = mirroredLight(lightPaths[i - view.lightCount], tracePosition, self);
+    }
+    if (incoming.legs == 0) {
+      continue;
+    }
+    vec3 arriving = lightRadiance(incoming.toLight, incoming.radius, incoming.irradiance, surface, toViewer);
+    bool dark = max(arriving.r, max(arriving.g, arriving.b)) <= 0.0;
+    if (!dark && (!shadows || !incoming.castsShadow || unobstructed(incoming))) {
+      radiance += arriving;
+    }
+  }
+  return radiance;
+}
+
+vec3 tracedSurfaceRadiance(ViewData view, Surface surface, vec3 toViewer, Skip self) {
+  return surface.emission + view.ambient.rgb * surface.diffuse + tracedLight(view, surface, toViewer, self);
+}

@@ -1,0 +1,259 @@
+// Radiance of what a surface reflects, by following rays from mirror to mirror as docs/picture.md defines them: ripples,
+// rough mirrors and curved ones, which no image of a plane can show. Needs trace.glsl and traced_light.glsl.
+
+struct Bounce {
+  Surface surface;  // relative; of a mirror, the layer under the reflection
+  Skip self;
+  bool reflects;
+  vec3 planeNormal;  // unit, towards the viewer: what is reflected stays on this side
+  vec3 reflectance;
+  float alpha;  // of GGX; 0: smooth
+};
+
+Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
+  return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0);
+}
+
+vec3 rippled(uint mirror, vec3 tracePosition) {
+  vec3 normal = traceMirrors[mirror].normal;
+  vec4 ripple = traceMirrors[mirror].ripple;
+  if (ripple.w == 0.0) {
+    return normal;
+  }
+  vec3 axisX = traceMirrors[mirror].axisX;
+  vec3 axisY = traceMirrors[mirror].axisY;
+  vec3 local = tracePosition - traceMirrors[mirror].origin;
+  float x = dot(local, axisX);
+  float y = dot(local, axisY);
+  vec3 first = ripple.y * cos(ripple.x * x + ripple.z) * axisX;
+  vec3 second = ripple.y * cos(ripple.x * (0.6 * x + 0.8 * y) - ripple.z) * (0.6 * axisX + 0.8 * axisY);
+  return safeNormalize(normal - first - second);
+}
+
+// A mirror seen along `direction`, from its front or its back.
+Bounce mirrorBounce(ViewData view, uint mirror, vec3 tracePosition, vec3 direction) {
+  bool front = dot(traceMirrors[mirror].normal, direction) < 0.0;
+  float side = front ? 1.0 : -1.0;
+  vec3 position = tracePosition - view.traceOffset.xyz;
+  Bounce bounce;
+  bounce.self = Skip(none, none, mirror, none);
+  bounce.planeNormal = side * traceMirrors[mirror].normal;
+  bounce.reflects = front || traceMirrors[mirror].twoSided != 0;
+  bounce.alpha = traceMirrors[mirror].alpha;
+  if (!bounce.reflects) {
+    bounce.surface = mirrorLayer(position, bounce.planeNormal, traceMirrors[mirror].backColor.rgb);
+    bounce.reflectance = vec3(0.0);
+    return bounce;
+  }
+  vec3 normal = side * rippled(mirror, tracePosition);
+  bounce.surface = mirrorLayer(position, normal, traceMirrors[mirror].baseColor.rgb);
+  bounce.reflectance = mirrorReflectance(mirror, -dot(normal, direction));
+  return bounce;
+}
+
+// Makes an object's surface that of a mirror, if it is one.
+void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
+  vec4 reflectance = traceInstances[instance].reflectance;
+  bounce.reflects = reflectance.w != curvedNone;
+  if (bounce.reflects) {
+    bounce.surface =
+        mirrorLayer(bounce.surface.position, bounce.surface.normal, traceInstances[instance].baseColor.rgb);
+    float cosine = -dot(bounce.surface.normal, direction);
+    bounce.reflectance = reflectance.w == curvedSchlick ? schlick(reflectance.rgb, cosine) : reflectance.rgb;
+  }
+}
+
+// Bilinear on linear texels, repeated, v up.
+vec3 textureColor(uint index, vec2 uv) {
+  uvec4 source = traceTextures[index];
+  ivec2 size = ivec2(source.yz);
+  vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
+  vec2 corner = floor(texel);
+  vec2 weight = texel - corner;
+  ivec2 low = (ivec2(corner) + size) % size;
+  ivec2 high = (low + 1) % size;
+  vec3 rows[2];
+  for (int i = 0; i < 2; ++i) {
+    int y = i == 0 ? low.y : high.y;
+    uvec2 left = traceTexels[source.x + uint(y * size.x + low.x)];
+    uvec2 right = traceTexels[source.x + uint(y * size.x + high.x)];
+    rows[i] = mix(vec3(unpackHalf2x16(left.x), unpackHalf2x16(left.y).x),
+                  vec3(unpackHalf2x16(right.x), unpackHalf2x16(right.y).x), weight.x);
+  }
+  return mix(rows[0], rows[1], weight.y);
+}
+
+vec3 normalFromMesh(uint instance, vec3 n) {
+  return vec3(dot(traceInstances[instance].normalFromMesh[0].xyz, n),
+              dot(traceInstances[instance].normalFromMesh[1].xyz, n),
+              dot(traceInstances[instance].normalFromMesh[2].xyz, n));
+}
+
+Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
+  TraceTriangle triangle = traceTriangles[hit.slot];
+  uint index = 3 * (traceInstances[hit.instance].firstTriangle + triangle.triangle);
+  TraceVertex a = traceVertices[triangle.firstVertex + traceIndices[index]];
+  TraceVertex b = traceVertices[triangle.firstVertex + traceIndices[index + 1]];
+  TraceVertex c = traceVertices[triangle.firstVertex + traceIndices[index + 2]];
+  vec3 w = hit.weights;
+  vec3 geometric = safeNormalize(normalFromMesh(hit.instance, cross(triangle.b - triangle.a, triangle.c - triangle.a)));
+  vec3 normal = safeNormalize(normalFromMesh(hit.instance, w.x * a.normal + w.y * b.normal + w.z * c.normal));
+  bool away = dot(geometric, direction) > 0.0;
+  MaterialData material = materials[triangle.material];
+  vec4 diffuse = traceInstances[hit.instance].diffuse;
+  vec4 specular = traceInstances[hit.instance].specular;
+  float shininess = traceInstances[hit.instance].shininess;
+  Surface surface;
+  surface.position = traceOrigin + hit.t * direction - view.traceOffset.xyz;
+  surface.normal = away ? -normal : normal;
+  surface.diffuse = diffuse.w > 0.0 ? diffuse.rgb : material.diffuse.rgb;
+  if (material.diffuse.w > 0.0) {
+    vec2 uv = w.x * vec2(a.u, a.v) + w.y * vec2(b.u, b.v) + w.z * vec2(c.u, c.v);
+    surface.diffuse *= textureColor(uint(material.diffuse.w) - 1, uv);
+  }
+  surface.specular = specular.w > 0.0 ? specular.rgb : material.specular.rgb;
+  surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
+  surface.emission = material.emission.rgb;
+  Bounce bounce =
+      Bounce(surface, Skip(hit.instance, triangle.triangle, none, none), false, away ? -geometric : geometric,
+             vec3(0.0), 0.0);
+  applyCurvedMirror(hit.instance, direction, bounce);
+  return bounce;
+}
+
+// Glow of the first glyph before `t`, which is lowered to it.
+vec3 glyphRadiance(ViewData view, vec3 origin, vec3 direction, inout float t) {
+  vec3 glow = vec3(0.0);
+  for (uint i = view.firstLight; i < view.firstLight + view.lightCount; ++i) {
+    vec3 center = lights[i].position.xyz - origin;
+    float radius = lights[i].position.w;
+    float middle = dot(direction, center);
+    vec3 offset = center - middle * direction;
+    float halfChord2 = radius * radius - dot(offset, offset);
+    if (lights[i].glow.w == 0.0 || halfChord2 < 0.0) {
+      continue;
+    }
+    float halfChord = sqrt(halfChord2);
+    float met = middle > halfChord ? middle - halfChord : middle + halfChord;
+    if (met > 0.0 && met < t) {
+      t = met;
+      glow = lights[i].glow.rgb;
+    }
+  }
+  return glow;
+}
+
+uint mixedBits(uint x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
+
+// A normal of GGX with density D(m)(n.m) about n: Walter et al., "Microfacet Models for Refraction through Rough
+// Surfaces" (2007), equations 35 and 36.
+vec3 microfacet(vec3 n, float alpha, vec2 u) {
+  float cosine2 = (1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x);
+  float sine = sqrt(max(0.0, 1.0 - cosine2));
+  float angle = 2.0 * pi * u.y;
+  vec3 x = safeNormalize(cross(abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), n));
+  vec3 y = cross(n, x);
+  return sine * cos(angle) * x + sine * sin(angle) * y + sqrt(cosine2) * n;
+}
+
+// The direction mirrored about m, turned back above the plane if it went below.
+vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
+  vec3 d = direction - 2.0 * dot(direction, m) * m;
+  float outward = dot(d, planeNormal);
+  return safeNormalize(outward < 0.0 ? d - 2.0 * outward * planeNormal : d);
+}
+
+struct Path {
+  vec3 direction;  // unit, towards `bounce`
+  Bounce bounce;
+  vec3 m;            // normal that it is mirrored about
+  uint depth;        // of the bounce
+  float throughput;  // of the bounces before, largest channel
+};
+
+// Follows a path from its first bounce, whose own layer goes to `layer` if `withLayer`.
+vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 layer) {
+  vec3 sum = vec3(0.0);
+  vec3 weight = vec3(1.0);
+  bool first = true;
+  for (;;) {
+    Surface surface = path.bounce.surface;
+    bool black = all(equal(surface.diffuse + surface.specular + surface.emission, vec3(0.0)));
+    if (!black && (!first || withLayer)) {
+      vec3 own = tracedSurfaceRadiance(view, surface, -path.direction, path.bounce.self);
+      own *= path.bounce.reflects ? 1.0 - path.bounce.reflectance : vec3(1.0);
+      layer = first ? own : layer;
+      sum += first ? vec3(0.0) : weight * own;
+    }
+    first = false;
+    if (!path.bounce.reflects) {
+      return sum;
+    }
+    weight *= path.bounce.reflectance;
+    float through = path.throughput * max(weight.r, max(weight.g, weight.b));
+    bool last = path.depth >= view.maxDepth || through < view.ambient.w || through == 0.0;
+    path.direction = mirrored(path.direction, last ? surface.normal : path.m, path.bounce.planeNormal);
+    if (last) {
+      return sum + weight * backgroundRadiance(view, path.direction);
+    }
+    ++path.depth;
+    vec3 origin = surface.position + view.traceOffset.xyz;
+    Hit hit = traceRay(origin, path.direction, infinity, path.bounce.self, false);
+    float t = hit.t;
+    vec3 glow = glyphRadiance(view, surface.position, path.direction, t);
+    if (t < hit.t) {
+      return sum + weight * glow;
+    }
+    if (hit.instance == none && hit.mirror == none) {
+      return sum + weight * backgroundRadiance(view, path.direction);
+    }
+    if (hit.mirror != none) {
+      path.bounce = mirrorBounce(view, hit.mirror, origin + hit.t * path.direction, path.direction);
+    } else {
+      path.bounce = objectBounce(view, hit, origin, path.direction);
+    }
+    path.m = path.bounce.surface.normal;
+    if (path.bounce.alpha > 0.0 && path.bounce.reflects) {
+      // One microfacet on each further bounce; one that faces away gives way to the mirror's own normal.
+      seed = mixedBits(seed + 0x9e3779b9u);
+      vec3 m = microfacet(path.m, path.bounce.alpha, vec2(unitInterval(seed), unitInterval(mixedBits(seed))));
+      vec3 next = path.direction - 2.0 * dot(path.direction, m) * m;
+      path.m = dot(m, path.direction) < 0.0 && dot(next, path.bounce.planeNormal) > 0.0 ? m : path.m;
+    }
+  }
+}
+
+// Radiance of a surface that reflects, seen along `direction`: layer and reflection. A rough one takes the mean over
+// microfacets on the additive recurrence of the plastic number, shifted for each pixel; those that face away, or that
+// mirror the ray below the plane, are left out.
+vec3 tracedRadiance(ViewData view, Bounce bounce, vec3 direction) {
+  uint seed = mixedBits(uint(gl_FragCoord.x) + mixedBits(uint(gl_FragCoord.y)));
+  vec2 shift = vec2(unitInterval(seed), unitInterval(mixedBits(seed + 1)));
+  int wanted = bounce.alpha > 0.0 ? int(roughSamples) : 1;
+  int most = 4 * wanted + 16;
+  int taken = 0;
+  vec3 layer = vec3(0.0);
+  vec3 sum = vec3(0.0);
+  for (int drawn = 1; taken < wanted && drawn <= most; ++drawn) {
+    vec3 m = bounce.surface.normal;
+    if (bounce.alpha > 0.0 && (taken > 0 || drawn < most)) {
+      m = microfacet(m, bounce.alpha, fract(shift + float(drawn) * vec2(0.7548776662466927, 0.5698402909980532)));
+      vec3 next = direction - 2.0 * dot(direction, m) * m;
+      if (dot(m, direction) >= 0.0 || dot(next, bounce.planeNormal) <= 0.0) {
+        continue;
+      }
+    }
+    Path path = Path(direction, bounce, m, view.depth, view.traceOffset.w);
+    sum += follow(view, path, seed + uint(drawn), taken == 0, layer);
+    ++taken;
+  }
+  return layer + sum / float(max(taken, 1));
+}

@@ -1,0 +1,42 @@
+#include "app/effect_prices.hpp"
+
+namespace speculum {
+
+namespace {
+
+double gpuMs(Session& session, const Settings& settings, double time) {
+  session.setSettings(settings);
+  session.draw(time, false);
+  session.finish();
+  return session.renderer().timings().gpuMs;
+}
+
+}  // namespace
+
+std::vector<EffectPrice> effectPrices(Session& session, double time, int pairs) {
+  const Settings all = session.settings();
+  const DrawnFrame& frame = session.lastFrame();
+  const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
+  std::vector<EffectPrice> prices(effects.size());
+  for (size_t i = 0; i < effects.size(); ++i) {
+    const auto changes = settingsWithout(static_cast<EffectKind>(i));
+    if (!effects[i].calledFor || changes.empty()) {
+      continue;
+    }
+    Settings without = all;
+    for (const auto& [key, value] : changes) {
+      setSetting(without, key, value);
+    }
+    for (int pair = 0; pair <= pairs; ++pair) {
+      const double with = gpuMs(session, all, time);
+      const double rest = gpuMs(session, without, time);
+      if (pair > 0) {
+        prices[i].push_back(with - rest);
+      }
+    }
+  }
+  session.setSettings(all);
+  return prices;
+}
+
+}  // namespace speculum

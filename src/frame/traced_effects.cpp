@@ -1,0 +1,148 @@
+#include "frame/traced_effects.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace speculum {
+
+namespace {
+
+bool isBlack(const glm::dvec3& color) {
+  return color == glm::dvec3(0.0);
+}
+
+// What the passes draw that light falls on.
+struct Lit {
+  std::set<int> instances;
+  bool mirrors = false;  // a layer under a reflection, or a back
+};
+
+// Adds the pass's own calls for effects, and what in it is lit.
+class Collector {
+ public:
+  Collector(const Scene& scene, const SceneState& state, const EffectSettings& settings)
+      : scene_(scene), state_(state), settings_(settings) {}
+
+  void add(const PlannedPass& pass) {
+    for (const int i : pass.instances) {
+      lit_.instances.insert(i);
+      const int object = state_.instances[i].object;
+      if (settings_.curved && scene_.objects[object].mirror && effects_.curved.empty()) {
+        effects_.curved = nameOf("object", scene_.objects[object].name, object);
+      }
+    }
+    for (const MirrorDraw& draw : pass.mirrors) {
+      add(draw);
+    }
+  }
+
+  TracedEffects finish() {
+    addShadows();
+    addMirroredLights();
+    return std::move(effects_);
+  }
+
+ private:
+  void add(const MirrorDraw& draw) {
+    const Mirror& mirror = scene_.mirrors[draw.mirror];
+    lit_.mirrors = lit_.mirrors || !isBlack(draw.back ? mirror.backColor : mirror.baseColor);
+    const std::string name = nameOf("mirror", mirror.name, draw.mirror);
+    if (draw.scatters && settings_.roughness && mirror.roughness > 0.0 && effects_.roughness.empty()) {
+      effects_.roughness = name;
+    }
+    if (draw.scatters && settings_.ripple && mirror.ripple && effects_.ripple.empty()) {
+      effects_.ripple = name;
+    }
+  }
+
+  // What such rays meet may be anything in the scene.
+  bool reflectsRays() const {
+    return !(effects_.roughness.empty() && effects_.ripple.empty() && effects_.curved.empty());
+  }
+  bool anythingLit() const { return lit_.mirrors || !lit_.instances.empty() || reflectsRays(); }
+
+  void addShadows() {
+    for (size_t i = 0; settings_.shadows && anythingLit() && i < scene_.lights.size(); ++i) {
+      const PointLight& light = scene_.lights[i];
+      if (light.castsShadow && !isBlack(light.color * light.intensity)) {
+        effects_.shadows = nameOf("light", light.name, static_cast<int>(i));
+        return;
+      }
+    }
+  }
+
+  void addMirroredLights() {
+    for (size_t m = 0; settings_.castsLight && anythingLit() && m < scene_.mirrors.size(); ++m) {
+      for (size_t i = 0; scene_.mirrors[m].castsLight && i < scene_.lights.size(); ++i) {
+        const MirroredLight path{static_cast<int>(i), static_cast<int>(m)};
+        if (bounces(path) && reachesSomething(path)) {
+          effects_.mirroredLights.push_back(path);
+        }
+      }
+    }
+    if (!effects_.mirroredLights.empty()) {
+      const int mirror = effects_.mirroredLights.front().mirror;
+      effects_.castsLight = nameOf("mirror", scene_.mirrors[mirror].name, mirror);
+    }
+  }
+
+  double heightOf(const MirroredLight& path) const {
+    const MirrorState& mirror = state_.mirrors[path.mirror];
+    return glm::dot(mirror.normal, state_.lights[path.light].position - mirror.origin);
+  }
+
+  bool bounces(const MirroredLight& path) const {
+    const PointLight& light = scene_.lights[path.light];
+    const double height = heightOf(path);
+    return !isBlack(light.color * light.intensity) && (height > 0.0 || (height < 0.0 && twoSided(path)));
+  }
+
+  bool twoSided(const MirroredLight& path) const { return scene_.mirrors[path.mirror].twoSided; }
+
+  // The light's image shines through the mirror's polygon as through a window: only what its cone meets is lit.
+  bool reachesSomething(const MirroredLight& path) const {
+    if (lit_.mirrors || reflectsRays()) {
+      return true;
+    }
+    const MirrorState& mirror = state_.mirrors[path.mirror];
+    const double height = heightOf(path);
+    const glm::dvec3 image = state_.lights[path.light].position - 2.0 * height * mirror.normal;
+    const double side = height > 0.0 ? 1.0 : -1.0;
+    return std::any_of(lit_.instances.begin(), lit_.instances.end(), [&](int i) {
+      const InstanceState& instance = state_.instances[i];
+      bool inside = side * glm::dot(mirror.normal, instance.center - mirror.origin) > -instance.radius;
+      for (size_t k = 0; inside && k < mirror.polygon.size(); ++k) {
+        const glm::dvec3 a = mirror.polygon[k] - image;
+        const glm::dvec3 b = mirror.polygon[(k + 1) % mirror.polygon.size()] - image;
+        // Towards the polygon's inside: it is counter-clockwise seen from the front, the image lies behind it.
+        const glm::dvec3 normal = side * glm::cross(a, b);
+        inside = glm::dot(normal, instance.center - image) >= -instance.radius * glm::length(normal);
+      }
+      return inside;
+    });
+  }
+
+  const Scene& scene_;
+  const SceneState& state_;
+  const EffectSettings& settings_;
+  Lit lit_;
+  TracedEffects effects_;
+};
+
+}  // namespace
+
+TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
+                            const FramePlan& plan) {
+  Collector collector(scene, state, settings.effects);
+  for (const PlannedPass& pass : plan.passes) {
+    collector.add(pass);
+  }
+  collector.add(plan.main);
+  return collector.finish();
+}
+
+std::string nameOf(const std::string& kind, const std::string& name, int index) {
+  return kind + " " + (name.empty() ? std::to_string(index) : "'" + name + "'");
+}
+
+}  // namespace speculum

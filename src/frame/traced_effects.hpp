@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frame/frame_plan.hpp"
+
+namespace speculum {
+
+// A light that a mirror bounces to something that is drawn.
+struct MirroredLight {
+  int light = 0;   // index into Scene::lights
+  int mirror = 0;  // index into Scene::mirrors
+};
+
+// The effects that images of planes cannot show, each with what calls for it; empty if nothing that is drawn does.
+struct TracedEffects {
+  std::string shadows;
+  std::string roughness;
+  std::string ripple;
+  std::string castsLight;
+  std::string curved;
+  std::vector<MirroredLight> mirroredLights;
+
+  // Whether any ray is traced through the scene's triangles.
+  bool traces() const { return !(shadows.empty() && roughness.empty() && ripple.empty() && curved.empty()); }
+  bool any() const { return traces() || !castsLight.empty(); }
+};
+
+// What the passes of a plan call for, under settings.effects. Pure.
+TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
+                            const FramePlan& plan);
+
+// "mirror 'floor'", or "mirror 2" for one without a name.
+std::string nameOf(const std::string& kind, const std::string& name, int index);
+
+}  // namespace speculum

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/renderer.hpp"
+#include "frame/traced_effects.hpp"
+#include "systems/trace_scene.hpp"
+
+namespace speculum {
+
+// What a pipeline needs to know of the traced effects of a frame: its specialisation constants.
+struct TraceVariant {
+  bool traced = false;  // there is light that needs rays, or a mirror's bounce of light
+  bool shadows = false;
+  bool castsLight = false;
+  uint32_t stackSize = 1;  // entries
+
+  auto operator<=>(const TraceVariant&) const = default;
+};
+
+// Appends `variant` to a fragment shader's constants, of which there are at most two.
+void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants);
+
+// The scene as rays meet it, placed anew every frame. Nothing exists before a frame calls for it, and all is given back
+// when frames have gone by without.
+class TraceFrame {
+ public:
+  TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
+
+  // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
+  // finished, and null if none is called for.
+  void build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects);
+
+  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSet set() const { return set_; }
+  const TraceVariant& variant() const { return variant_; }
+  bool exists() const { return static_cast<bool>(nothing_); }  // whether anything is kept on the GPU
+  uint64_t bytes() const;                                      // of all its buffers
+
+ private:
+  enum Kind { topNodes, items, instances, mirrors, mirrorVertices, lightPaths, kindCount };
+
+  void create();
+  void release(RetireQueue& retired);
+  void addInstances(const SceneState& state, const Settings& settings, bool meetsObjects);
+  void addMirrors(const SceneState& state, const Settings& settings);
+  std::vector<std::byte> lightPathBytes(const SceneState& state, const Settings& settings,
+                                        const TracedEffects& effects) const;
+  void upload(Frame& frame, Kind kind, std::span<const std::byte> data);
+
+  Device& device_;
+  Uploader& uploader_;
+  const Scene& scene_;
+  DescriptorSetLayoutHandle layout_;
+  std::optional<TraceScene> traceScene_;
+  Buffer nothing_;  // bound in the place of a scene whose triangles no ray meets
+  std::array<std::array<Buffer, kindCount>, framesInFlight> buffers_;
+  std::vector<TraceNode> topNodes_;
+  std::vector<uint32_t> items_;
+  std::vector<TraceInstance> instances_;
+  std::vector<TraceMirror> mirrors_;
+  std::vector<glm::vec2> mirrorVertices_;
+  TraceVariant variant_;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  int idleFrames_ = 0;
+};
+
+}  // namespace speculum

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "reference/bvh.hpp"
+#include "systems/trace_types.hpp"
+
+namespace speculum {
+
+// Appends a hierarchy's nodes. Its primitives stand in `order()` from `firstPrimitive` on. Boxes grow by a millionth of
+// their coordinates, so that what they hold stays inside when it becomes float.
+void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<TraceNode>& nodes);
+
+}  // namespace speculum

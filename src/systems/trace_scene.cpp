@@ -1,0 +1,107 @@
+#include "systems/trace_scene.hpp"
+
+#include <algorithm>
+#include <glm/gtc/packing.hpp>
+#include <stdexcept>
+
+#include "reference/bvh.hpp"
+#include "systems/trace_nodes.hpp"
+
+namespace speculum {
+
+struct TraceScene::Content {
+  std::vector<TraceNode> nodes;
+  std::vector<TraceTriangle> triangles;
+  std::vector<uint32_t> indices;
+  std::vector<TraceVertex> vertices;
+  std::vector<glm::uvec4> textures;  // first texel, width, height
+  std::vector<uint64_t> texels;
+  uint32_t materials = 0;  // of the meshes before, as SceneResources counts them
+};
+
+namespace {
+
+constexpr int trianglesPerLeaf = 4;
+
+std::vector<uint32_t> materialsOf(const Mesh& mesh, uint32_t first) {
+  std::vector<uint32_t> materials(mesh.indices.size() / 3, first);
+  for (size_t p = 0; p < mesh.parts.size(); ++p) {
+    const MeshPart& part = mesh.parts[p];
+    std::fill_n(materials.begin() + part.firstIndex / 3, part.indexCount / 3, first + static_cast<uint32_t>(p));
+  }
+  return materials;
+}
+
+Bvh hierarchyOf(const Mesh& mesh) {
+  std::vector<Bounds> boxes(mesh.indices.size() / 3);
+  for (size_t i = 0; i < 3 * boxes.size(); ++i) {
+    boxes[i / 3].add(mesh.vertices[mesh.indices[i]].position);
+  }
+  return Bvh(boxes, trianglesPerLeaf);
+}
+
+}  // namespace
+
+TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
+  Content content;
+  for (const Mesh& mesh : scene.meshes) {
+    add(mesh, content);
+  }
+  for (const Texture& texture : scene.textures) {
+    content.textures.emplace_back(content.texels.size(), texture.width, texture.height, 0);
+    for (const glm::vec3& texel : texture.texels) {
+      content.texels.push_back(glm::packHalf4x16(glm::vec4(texel, 1.0f)));
+    }
+  }
+  const auto upload = [&](Kind kind, const auto& values, const char* name) {
+    const std::span data = std::as_bytes(std::span(values));
+    if (data.size() > device.limits().maxStorageBufferRange) {
+      throw std::runtime_error(std::string("the scene has ") + std::to_string(data.size() >> 20) + " MiB of " + name +
+                               ", the device takes " + std::to_string(device.limits().maxStorageBufferRange >> 20) +
+                               " (smaller models, or effects.* = false for what needs rays)");
+    }
+    buffers_[kind] = uploader.buffer(data, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name);
+  };
+  upload(nodes, content.nodes, "trace nodes");
+  upload(triangles, content.triangles, "trace triangles");
+  upload(indices, content.indices, "trace indices");
+  upload(vertices, content.vertices, "trace vertices");
+  upload(textures, content.textures, "trace textures");
+  upload(texels, content.texels, "trace texels");
+}
+
+uint64_t TraceScene::bytes() const {
+  uint64_t sum = 0;
+  for (const Buffer& buffer : buffers_) {
+    sum += buffer.bytes();
+  }
+  return sum;
+}
+
+void TraceScene::add(const Mesh& mesh, Content& content) {
+  const Bvh hierarchy = hierarchyOf(mesh);
+  depth_ = std::max(depth_, hierarchy.depth());
+  const auto firstSlot = static_cast<uint32_t>(content.triangles.size());
+  const auto firstVertex = static_cast<uint32_t>(content.vertices.size());
+  meshes_.push_back({static_cast<uint32_t>(content.nodes.size()), static_cast<uint32_t>(content.indices.size() / 3)});
+  appendNodes(hierarchy, firstSlot, content.nodes);
+  const std::vector<uint32_t> materials = materialsOf(mesh, content.materials);
+  for (const uint32_t triangle : hierarchy.order()) {
+    const uint32_t* index = &mesh.indices[size_t{triangle} * 3];
+    content.triangles.push_back({.a = glm::vec3(mesh.vertices[index[0]].position),
+                                 .triangle = triangle,
+                                 .b = glm::vec3(mesh.vertices[index[1]].position),
+                                 .material = materials[triangle],
+                                 .c = glm::vec3(mesh.vertices[index[2]].position),
+                                 .firstVertex = firstVertex});
+  }
+  for (const Vertex& vertex : mesh.vertices) {
+    content.vertices.push_back({.normal = glm::vec3(vertex.normal),
+                                .u = static_cast<float>(vertex.uv.x),
+                                .v = static_cast<float>(vertex.uv.y)});
+  }
+  content.indices.insert(content.indices.end(), mesh.indices.begin(), mesh.indices.end());
+  content.materials += static_cast<uint32_t>(mesh.parts.size());
+}
+
+}  // namespace speculum

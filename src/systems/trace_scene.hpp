@@ -1,0 +1,37 @@
+#pragma once
+
+#include "core/uploader.hpp"
+#include "scene/scene.hpp"
+#include "systems/trace_types.hpp"
+
+namespace speculum {
+
+// What rays meet of a scene as long as it is shown: triangles of its meshes under hierarchies of boxes, attributes of
+// their vertices, texels. Finished on return.
+class TraceScene {
+ public:
+  // Where a mesh stands in the buffers.
+  struct MeshRange {
+    uint32_t root = 0;           // node
+    uint32_t firstTriangle = 0;  // a third of its first index
+  };
+  enum Kind { nodes, triangles, indices, vertices, textures, texels, kindCount };
+
+  // Throws std::runtime_error if the device's storage buffers cannot hold it.
+  TraceScene(Device& device, Uploader& uploader, const Scene& scene);
+
+  const std::vector<MeshRange>& meshes() const { return meshes_; }
+  const Buffer& buffer(Kind kind) const { return buffers_[kind]; }
+  int depth() const { return depth_; }  // of the deepest hierarchy
+  uint64_t bytes() const;
+
+ private:
+  struct Content;
+  void add(const Mesh& mesh, Content& content);
+
+  std::vector<MeshRange> meshes_;
+  std::array<Buffer, kindCount> buffers_;
+  int depth_ = 0;
+};
+
+}  // namespace speculum

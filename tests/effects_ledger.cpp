@@ -1,0 +1,238 @@
+// What an effect costs when nothing calls for it: nothing. Objects and draws are counted where the program meets
+// Vulkan, by linking its calls through functions of this file.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "app/stats.hpp"
+#include "picture_support.hpp"
+
+namespace {
+
+struct Counts {
+  std::map<std::string, int> created;
+  std::map<std::string, int> alive;
+  int draws = 0;
+
+  void create(const char* kind, int count = 1) {
+    created[kind] += count;
+    alive[kind] += count;
+  }
+  void destroy(const char* kind, bool exists) { alive[kind] -= exists; }
+};
+
+Counts counts;
+
+}  // namespace
+
+// The linker's --wrap leads calls of NAME to __wrap_NAME, and __real_NAME to the loader.
+extern "C" {
+#define SPECULUM_COUNT_OBJECT(Kind)                                                                               \
+  VkResult __real_vkCreate##Kind(VkDevice, const Vk##Kind##CreateInfo*, const VkAllocationCallbacks*, Vk##Kind*); \
+  VkResult __wrap_vkCreate##Kind(VkDevice device, const Vk##Kind##CreateInfo* info,                               \
+                                 const VkAllocationCallbacks* allocator, Vk##Kind* object) {                      \
+    counts.create(#Kind);                                                                                         \
+    return __real_vkCreate##Kind(device, info, allocator, object);                                                \
+  }                                                                                                               \
+  void __real_vkDestroy##Kind(VkDevice, Vk##Kind, const VkAllocationCallbacks*);                                  \
+  void __wrap_vkDestroy##Kind(VkDevice device, Vk##Kind object, const VkAllocationCallbacks* allocator) {         \
+    counts.destroy(#Kind, object != VK_NULL_HANDLE);                                                              \
+    __real_vkDestroy##Kind(device, object, allocator);                                                            \
+  }
+SPECULUM_COUNT_OBJECT(Buffer)
+SPECULUM_COUNT_OBJECT(Image)
+SPECULUM_COUNT_OBJECT(ShaderModule)
+SPECULUM_COUNT_OBJECT(DescriptorSetLayout)
+#undef SPECULUM_COUNT_OBJECT
+
+VkResult __real_vkCreateGraphicsPipelines(VkDevice, VkPipelineCache, uint32_t, const VkGraphicsPipelineCreateInfo*,
+                                          const VkAllocationCallbacks*, VkPipeline*);
+VkResult __wrap_vkCreateGraphicsPipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                          const VkGraphicsPipelineCreateInfo* infos,
+                                          const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
+  counts.create("Pipeline", static_cast<int>(count));
+  return __real_vkCreateGraphicsPipelines(device, cache, count, infos, allocator, pipelines);
+}
+void __real_vkDestroyPipeline(VkDevice, VkPipeline, const VkAllocationCallbacks*);
+void __wrap_vkDestroyPipeline(VkDevice device, VkPipeline pipeline, const VkAllocationCallbacks* allocator) {
+  counts.destroy("Pipeline", pipeline != VK_NULL_HANDLE);
+  __real_vkDestroyPipeline(device, pipeline, allocator);
+}
+void __real_vkCmdDraw(VkCommandBuffer, uint32_t, uint32_t, uint32_t, uint32_t);
+void __wrap_vkCmdDraw(VkCommandBuffer commands, uint32_t vertices, uint32_t instances, uint32_t first, uint32_t base) {
+  ++counts.draws;
+  __real_vkCmdDraw(commands, vertices, instances, first, base);
+}
+void __real_vkCmdDrawIndexed(VkCommandBuffer, uint32_t, uint32_t, uint32_t, int32_t, uint32_t);
+void __wrap_vkCmdDrawIndexed(VkCommandBuffer commands, uint32_t indices, uint32_t instances, uint32_t first,
+                             int32_t offset, uint32_t base) {
+  ++counts.draws;
+  __real_vkCmdDrawIndexed(commands, indices, instances, first, offset, base);
+}
+}
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{160, 90};
+
+// `uncalled` asks for the effect where nothing that is seen needs it, `called` where something does.
+struct Case {
+  const char* effect;
+  const char* uncalled;
+  const char* called;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.effect;
+}
+
+std::filesystem::path sceneWith(const std::string& name, const std::string& rest) {
+  return writeScene("ledger_" + name, R"(
+[environment]
+background = [0.3, 0.4, 0.5]
+ambient = [0.1, 0.1, 0.1]
+[camera]
+position = [0, 1, 3]
+target = [0, 0.5, 0]
+[[object]]
+model = "MODELS/teapot.obj"
+)" + rest);
+}
+
+Options optionsFor(const std::filesystem::path& file) {
+  Options options = headless(file, size);
+  // The watch has objects of its own.
+  set(options, {{"debug.check_finite", "false"}});
+  return options;
+}
+
+struct Outcome {
+  Counts counts;
+  Image8 picture;
+};
+
+Outcome run(const Options& options) {
+  counts = {};
+  Outcome result;
+  {
+    Session session(options);
+    session.draw(0.0, true);
+    session.finish();
+    result.picture = session.picture();
+    expectQuiet(session);
+    result.counts = counts;
+  }
+  return result;
+}
+
+// As if the program did not have the effect at all.
+Options without(Options options, const std::string& effect) {
+  set(options, {{"effects." + effect, "false"}});
+  return options;
+}
+
+class Ledger : public testing::TestWithParam<Case> {};
+
+TEST_P(Ledger, WhatNothingCallsForCostsNothing) {
+  const std::string effect = GetParam().effect;
+  const Options options = optionsFor(sceneWith(effect + "_uncalled", GetParam().uncalled));
+  const Outcome asked = run(options);
+  const Outcome none = run(without(options, effect));
+  EXPECT_EQ(asked.counts.created, none.counts.created);
+  EXPECT_EQ(asked.counts.draws, none.counts.draws);
+  EXPECT_EQ(asked.picture.rgba, none.picture.rgba);
+}
+
+TEST_P(Ledger, WhatIsCalledForIsThereAndGivenBack) {
+  const std::string effect = GetParam().effect;
+  const Options options = optionsFor(sceneWith(effect + "_called", GetParam().called));
+  counts = {};
+  Session session(without(options, effect));
+  const Settings off = session.settings();
+  Settings on = off;
+  ASSERT_EQ(setSetting(on, "effects." + effect, "true"), std::nullopt);
+  const auto drawn = [&](const Settings& settings, int frames) {
+    session.setSettings(settings);
+    for (int i = 0; i < frames; ++i) {
+      counts.draws = 0;
+      session.draw(0.0, true);
+      session.finish();
+    }
+    return std::pair(counts.alive, session.picture().rgba);
+  };
+  const auto before = drawn(off, 3);
+  const int drawsBefore = counts.draws;
+  const auto during = drawn(on, 1);
+  EXPECT_GT(during.first.at("Buffer"), before.first.at("Buffer"));
+  EXPECT_GT(during.first.at("Pipeline"), before.first.at("Pipeline"));
+  EXPECT_NE(during.second, before.second) << "the effect shows nothing";
+  const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
+  const auto& lines = stats.at("effects");
+  const auto line = std::find_if(lines.begin(), lines.end(), [&](const auto& l) { return l.at("name") == effect; });
+  ASSERT_NE(line, lines.end());
+  EXPECT_EQ(line->at("called_for"), true) << *line;
+  EXPECT_GT(line->at("bytes"), 0) << *line;
+  EXPECT_GT(line->at("draws"), 0) << *line;
+  EXPECT_GT(line->at("pipelines"), 0) << *line;
+  const auto after = drawn(off, 130);
+  std::map<std::string, int> kept = after.first;
+  // Code and layouts stay: they are no cost of a frame, and hot reload knows them.
+  for (const char* kind : {"ShaderModule", "DescriptorSetLayout"}) {
+    kept[kind] = before.first.at(kind);
+  }
+  EXPECT_EQ(kept, before.first);
+  EXPECT_EQ(counts.draws, drawsBefore);
+  EXPECT_EQ(after.second, before.second);
+  expectQuiet(session);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Effects, Ledger,
+    testing::Values(
+        Case{"shadows", "[[light]]\nposition = [1, 2, 1]\nintensity = 0\ncasts_shadow = true\n",
+             "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n"},
+        Case{"roughness", "[[mirror]]\nposition = [0, 1, 5]\nsize = [2, 2]\nroughness = 0.3\n",
+             "[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\nroughness = 0.3\n"},
+        Case{"ripple", "[[mirror]]\nposition = [0, 1, 5]\nsize = [2, 2]\nripple = { amplitude = 0.02 }\n",
+             "[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\nripple = { amplitude = 0.02 }\n"},
+        Case{"casts_light",
+             "[[light]]\nposition = [0, 2, -3]\nintensity = 9\n[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\n"
+             "casts_light = true\n",
+             "[[light]]\nposition = [0, 2, 1]\nintensity = 9\n[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\n"
+             "casts_light = true\n"},
+        Case{"curved", "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0, 1, 5]\nmirror = {}\n",
+             "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\nmirror = {}\n"}),
+    [](const auto& info) { return std::string(info.param.effect); });
+
+// The camera turns away from what the light falls on.
+TEST(Ledger, TurningAwayGivesTheCostBack) {
+  const std::filesystem::path file =
+      sceneWith("turned_away", "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n");
+  Session session(optionsFor(file));
+  const CameraPose away = lookAt({0, 1, 3}, {0, 1, 9}, {0, 1, 0}, 60, 0.001);
+  const auto pictures = [&](int frames) {
+    for (int i = 0; i < frames; ++i) {
+      session.draw(0.0, true);
+      session.finish();
+    }
+    return session.picture().rgba;
+  };
+  session.setCamera(away);
+  const std::vector<uint8_t> empty = pictures(3);
+  const std::map<std::string, int> alive = counts.alive;
+  session.setCamera(std::nullopt);
+  pictures(1);
+  EXPECT_GT(session.sceneRenderer().ledger()[EffectKind::shadows].bytes, 0u);
+  session.setCamera(away);
+  EXPECT_EQ(pictures(130), empty);
+  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::shadows].draws, 0u);
+  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::shadows].pipelines, 0u);
+  EXPECT_EQ(counts.alive.at("Buffer"), alive.at("Buffer"));
+}
+
+}  // namespace
+}  // namespace speculum

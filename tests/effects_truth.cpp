@@ -1,0 +1,184 @@
+// Effects that rays draw, against the ray tracer: exact ones pixel by pixel, approximate ones along their knob.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "accuracy/image_metrics.hpp"
+#include "truth_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{320, 180};
+
+// A room corner with two objects on a floor; `rest` adds lights and mirrors.
+std::filesystem::path corner(const std::string& name, const std::string& rest) {
+  return writeScene(name, R"(
+[environment]
+background = [0.25, 0.3, 0.4]
+ambient = [0.05, 0.05, 0.06]
+[camera]
+position = [0.3, 1.7, 3.6]
+target = [0, 0.6, 0]
+[[object]]
+model = "MODELS/block.obj"
+position = [0, -0.1, 0]
+scale = [7, 0.1, 7]
+[[object]]
+model = "MODELS/torus_knot.obj"
+position = [-0.7, 0.9, 0.2]
+scale = 0.55
+color = [0.8, 0.3, 0.2]
+specular = [0.2, 0.2, 0.2]
+shininess = 60
+[[object]]
+name = "pot"
+model = "MODELS/teapot.obj"
+position = [0.8, 0.1, 0.4]
+scale = [0.6, 0.6, -0.6]
+)" + rest);
+}
+
+const std::string shadowLight = "[[light]]\nposition = [1.2, 2.6, 1.9]\nintensity = 14\ncasts_shadow = true\n";
+const std::string plainLight = "[[light]]\nposition = [-1.6, 2, 1.2]\nintensity = 5\ncolor = [0.6, 0.7, 1]\n";
+const std::string wall = "[[mirror]]\nname = \"wall\"\nposition = [0, 1, -1.6]\nsize = [4, 2]\n";
+const std::string side = "[[mirror]]\nposition = [-1.9, 1, 0]\nrotation = [0, 78, 0]\nsize = [2.4, 1.8]\n";
+const std::string pool =
+    "[[mirror]]\nname = \"pool\"\nposition = [0, 0.05, 1.2]\nrotation = [-90, 0, 0]\nsize = [3, 2]\n";
+const std::string ripple = "ripple = { amplitude = 0.006, wavelength = 0.35, speed = 0.2 }\n";
+
+struct Case {
+  const char* name;
+  std::string rest;
+  const char* effects;  // that are called for
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
+
+std::string tracedEffectsOf(const Options& options, double time) {
+  const Scene scene = loadScene(options.scene);
+  const SceneState state = evaluate(scene, time);
+  const Settings settings = settingsOf(scene);
+  std::string names;
+  const FramePlan plan = planFrame(scene, state, settings, options.size.width, options.size.height);
+  for (const Effect& effect : effectsOf(scene, state, settings, plan)) {
+    const bool traced = effect.name == "shadows" || effect.name == "ripple" || effect.name == "casts_light" ||
+                        effect.name == "curved" || effect.name == "roughness";
+    names += effect.calledFor && traced ? effect.name + " " : "";
+  }
+  return names;
+}
+
+class ExactEffects : public testing::TestWithParam<Case> {};
+
+TEST_P(ExactEffects, AreTheTracers) {
+  constexpr double time = 1.7;
+  const std::filesystem::path file = corner("effects_" + std::string(GetParam().name), GetParam().rest);
+  EXPECT_EQ(tracedEffectsOf(truthOptions(file, size, 3), time), GetParam().effects);
+  expectTruth(file, size, 3, trace(file, size, 3, time), time);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Corner, ExactEffects,
+    testing::Values(
+        Case{"shadows", shadowLight + plainLight, "shadows "},
+        Case{"shadows_in_mirrors", shadowLight + wall + side, "shadows "},
+        Case{"shadow_of_a_light_behind_the_eye",
+             "[[light]]\nposition = [0.5, 2.2, 5]\nintensity = 30\ncasts_shadow = true\n" + wall, "shadows "},
+        Case{"shadows_on_backs_and_layers",
+             shadowLight + wall + "base_color = [0.3, 0.2, 0.1]\nreflectance = [0.3, 0.3, 0.3]\n" + side +
+                 "back_color = [0.4, 0.5, 0.4]\n[[mirror]]\nposition = [1.7, 1, 0.6]\nrotation = [0, 120, 0]\n"
+                 "size = [1, 1]\nback_color = [0.5, 0.4, 0.4]\n",
+             "shadows "},
+        Case{"bounced_light", plainLight + wall + "casts_light = true\n", "casts_light "},
+        Case{"bounced_light_with_shadows",
+             shadowLight + wall + "casts_light = true\nfresnel = \"schlick\"\nreflectance = [0.6, 0.7, 0.8]\n" + side +
+                 "casts_light = true\ntwo_sided = true\n",
+             "shadows casts_light "},
+        Case{"ripples", plainLight + pool + ripple, "ripple "},
+        Case{"ripples_and_shadows_in_mirrors",
+             shadowLight + wall + pool + ripple + "fresnel = \"schlick\"\nreflectance = [0.1, 0.1, 0.1]\n" +
+                 "base_color = [0.05, 0.2, 0.25]\n",
+             "shadows ripple "},
+        Case{"curved_mirror",
+             plainLight + wall +
+                 "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.2, 0.6, 1.2]\nscale = 0.4\n" +
+                 "mirror = { reflectance = [0.9, 0.8, 0.6], base_color = [0.1, 0, 0] }\n",
+             "curved "},
+        Case{"curved_mirror_with_all",
+             shadowLight + plainLight + wall + "casts_light = true\n" + pool + ripple +
+                 "[[object]]\nmodel = \"MODELS/torus_knot.obj\"\nposition = [0.2, 0.7, 1.2]\nscale = 0.4\n"
+                 "mirror = { reflectance = [0.2, 0.2, 0.2], fresnel = \"schlick\" }\n",
+             "shadows ripple casts_light curved "}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+// Far from the origin the same rays are traced.
+TEST(ExactEffects, HoldFarFromTheOrigin) {
+  std::ostringstream out;
+  const auto at = [](double x, double y, double z) {
+    std::ostringstream text;
+    text << std::fixed << "[" << 1e7 + x << ", " << -3e6 + y << ", " << 2e6 + z << "]";
+    return text.str();
+  };
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\nbackground = [0.2, 0.3, 0.4]\n[camera]\nposition = "
+      << at(0.5, 1.5, 3.5) << "\ntarget = " << at(0, 0.5, 0)
+      << "\n[[object]]\nmodel = \"MODELS/block.obj\"\nposition = " << at(0, -0.1, 0)
+      << "\nscale = [7, 0.1, 7]\n[[object]]\nmodel = \"MODELS/teapot.obj\"\nposition = " << at(0.3, 0.1, 0.3)
+      << "\n[[light]]\nposition = " << at(1.5, 2.5, 2)
+      << "\nintensity = 12\ncasts_shadow = true\n[[mirror]]\nposition = " << at(0, 1, -1.5)
+      << "\nsize = [4, 2]\ncasts_light = true\n[[mirror]]\nposition = " << at(-1, 0.03, 1)
+      << "\nrotation = [-90, 0, 0]\nsize = [1.5, 1.5]\n"
+      << ripple;
+  const std::filesystem::path file = writeScene("effects_far", out.str());
+  expectTruth(file, size, 3, trace(file, size, 3));
+}
+
+// The more rays, the smaller the error: a factor of 8 in rays is worth at least 1.8 in RMSE, where 8^0.5 is expected
+// until the noise of the reference is reached.
+TEST(RoughMirror, ErrorFallsAlongItsKnob) {
+  const std::filesystem::path file = corner("effects_rough", plainLight + wall + "roughness = 0.35\n");
+  constexpr PictureSize small{160, 90};
+  const Scene scene = loadScene(file);
+  const RayTracer tracer(scene, evaluate(scene, 0.0));
+  const TraceResult reference =
+      *tracer.render({.width = small.width, .height = small.height, .samples = 1, .maxDepth = 3, .roughSamples = 4096});
+  std::vector<double> errors;
+  for (const char* samples : {"2", "16", "128"}) {
+    Options options = truthOptions(file, small, 3);
+    set(options, {{"effects.rough_samples", samples}});
+    Session session(options);
+    session.draw(0.0, false);
+    session.finish();
+    const LinearImage drawn = session.radiance();
+    double sum = 0.0;
+    for (size_t i = 0; i < drawn.pixels.size(); ++i) {
+      const glm::dvec3 off = glm::dvec3(drawn.pixels[i]) - glm::dvec3(reference.image.pixels[i]);
+      sum += reference.mirrorMask[i] ? glm::dot(off, off) : 0.0;
+    }
+    errors.push_back(std::sqrt(sum));
+    expectQuiet(session);
+  }
+  EXPECT_LT(errors[1], errors[0] / 1.8) << "from 2 to 16 rays";
+  EXPECT_LT(errors[2], errors[1] / 1.8) << "from 16 to 128 rays";
+}
+
+// Without an effect switched on, the scene is drawn as if it did not ask for it.
+TEST(Effects, CanBeSwitchedOff) {
+  const std::string all = shadowLight + plainLight + wall + "casts_light = true\nroughness = 0.2\n" + pool + ripple;
+  const std::string none = "[[light]]\nposition = [1.2, 2.6, 1.9]\nintensity = 14\n" + plainLight + wall + pool;
+  Options options = truthOptions(corner("effects_off", all), size, 3);
+  set(options, {{"effects.shadows", "false"},
+                {"effects.roughness", "false"},
+                {"effects.ripple", "false"},
+                {"effects.casts_light", "false"}});
+  const Image8 off = draw(options);
+  EXPECT_EQ(off.rgba, draw(truthOptions(corner("effects_none", none), size, 3)).rgba);
+}
+
+}  // namespace
+}  // namespace speculum
