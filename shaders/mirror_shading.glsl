@@ -170,7 +170,7 @@ vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
     return vec3(0.0);
   }
 #ifdef TRACED
-  return tracedSurfaceRadiance(view, base, safeNormalize(-position), Skip(none, none, uint(mirror.image.w), none));
+  return tracedSurfaceRadiance(view, base, safeNormalize(-position), Skip(none, none, uint(mirror.image.w), none, 0.0));
 #else
   return surfaceRadiance(view, base);
 #endif

@@ -39,6 +39,55 @@ vec3 diffuseFactor() {
   return trilinear ? texture(diffuseTexture, vec2(textureUv.x, 1.0 - textureUv.y)).rgb : bilinearLevel0(textureUv);
 }
 
+#ifdef TRACED
+// A triangle's vertices, relative.
+struct Corners {
+  vec3 a;
+  vec3 b;
+  vec3 c;
+};
+
+// Weights of the corners where the line of sight through `point` meets the triangle, or of its point next to that.
+vec3 weightsOnTriangle(vec3 point, Corners corners) {
+  LocalRay sight = localRay(point, point);
+  vec3 a = permuted(corners.a - point, sight.along);
+  vec3 b = permuted(corners.b - point, sight.along);
+  vec3 c = permuted(corners.c - point, sight.along);
+  a.xy -= sight.shear.xy * a.z;
+  b.xy -= sight.shear.xy * b.z;
+  c.xy -= sight.shear.xy * c.z;
+  vec3 weights = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+  float area = weights.x + weights.y + weights.z;
+  weights = area == 0.0 ? vec3(1.0, 0.0, 0.0) : max(weights / area, vec3(0.0));
+  return weights / (weights.x + weights.y + weights.z);
+}
+
+vec3 relativeVertex(uint instance, uint triangle, uint corner) {
+  vec4 p = vec4(vertexOf(instance, triangle, corner).position, 1.0);
+  return vec3(dot(instances[instanceIndex].relativeFromMesh[0], p), dot(instances[instanceIndex].relativeFromMesh[1], p),
+              dot(instances[instanceIndex].relativeFromMesh[2], p));
+}
+
+// At a pixel that the triangle covers in part, an interpolated position lies off the triangle, and with some drivers off
+// its plane: rays would start inside the object.
+void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surface) {
+  Corners corners = Corners(relativeVertex(instance, triangle, 0), relativeVertex(instance, triangle, 1),
+                            relativeVertex(instance, triangle, 2));
+  vec3 sight = perSample ? rayThrough(views[draw.viewIndex], gl_FragCoord.xy) : relativePosition;
+  vec3 point = safeNormalize(sight) * length(relativePosition);
+  vec3 w = weightsOnTriangle(point, corners);
+  surface.position = point + w.x * (corners.a - point) + w.y * (corners.b - point) + w.z * (corners.c - point);
+  if (perSample) {
+    vec3 normal = w.x * vertexOf(instance, triangle, 0).normal + w.y * vertexOf(instance, triangle, 1).normal +
+                  w.z * vertexOf(instance, triangle, 2).normal;
+    normal = vec3(dot(instances[instanceIndex].normalFromMesh[0].xyz, normal),
+                  dot(instances[instanceIndex].normalFromMesh[1].xyz, normal),
+                  dot(instances[instanceIndex].normalFromMesh[2].xyz, normal));
+    surface.normal = safeNormalize(front ? normal : -normal);
+  }
+}
+#endif
+
 void main() {
   MaterialData material = materials[draw.drawIndex];
   vec4 diffuse = instances[instanceIndex].diffuse;
@@ -60,11 +109,16 @@ void main() {
   surface.emission = material.emission.rgb;
 #ifdef TRACED
   uint traceInstance = uint(instances[instanceIndex].shininess.y);
-  Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none);
+  Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none,
+                   nearOf(views[draw.viewIndex], relativePosition));
+#ifndef CURVED
+  if (shadows)
+#endif
+    moveOnTriangle(traceInstance, self.triangle, front, surface);
 #endif
 #ifdef CURVED
-  vec3 direction = safeNormalize(relativePosition);
-  vec3 geometric = safeNormalize(cross(dFdx(relativePosition), dFdy(relativePosition)));
+  vec3 direction = safeNormalize(surface.position);
+  vec3 geometric = facetNormal(traceInstance, self.triangle);
   geometric = dot(geometric, direction) > 0.0 ? -geometric : geometric;
   Bounce bounce = Bounce(surface, self, true, geometric, vec3(0.0), 0.0);
   applyCurvedMirror(traceInstance, direction, bounce);

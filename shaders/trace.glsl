@@ -15,16 +15,14 @@ struct TraceTriangle {
   vec3 b;
   uint material;
   vec3 c;
-  uint firstVertex;  // of its mesh
+  uint pad;
 };
 
 struct TraceVertex {
-  vec3 normal;  // mesh space
+  vec3 position;  // mesh space
   float u;
+  vec3 normal;
   float v;
-  float pad0;
-  float pad1;
-  float pad2;
 };
 
 struct TraceInstance {
@@ -37,7 +35,7 @@ struct TraceInstance {
   float shininess;         // 0 keeps the material's
   uint root;               // node
   uint firstTriangle;      // of its mesh, in traceIndices / 3
-  uint pad;
+  uint firstVertex;        // of its mesh
 };
 
 struct TraceMirror {
@@ -91,6 +89,11 @@ layout(set = 2, binding = 11, std430) readonly buffer LightPaths {
 // As deep as both hierarchies together.
 layout(constant_id = 2) const uint traceStackSize = 64;
 
+TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
+  uint index = 3 * (traceInstances[instance].firstTriangle + triangle) + corner;
+  return traceVertices[traceInstances[instance].firstVertex + traceIndices[index]];
+}
+
 const uint itemMirror = 0x80000000u;
 const uint none = 0xffffffffu;
 const float infinity = 1e38;
@@ -101,7 +104,12 @@ struct Skip {
   uint triangle;
   uint mirror;
   uint secondMirror;
+  float near;  // metres; within them the rest of the instance is not seen either
 };
+
+// A fragment may lie beside its triangle by what the rasteriser rounds, 1/256 of a pixel and more where the triangle is
+// steep: beyond a crease that is inside the object. A quarter of a pixel at the point's distance is out of that.
+float nearOf(ViewData view, vec3 position) { return 0.25 * length(view.rayX.xyz) * length(position); }
 
 struct Hit {
   float t;
@@ -205,6 +213,7 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
     return hit;
   }
   LocalRay ray = localRay(origin, direction);
+  float near = skip.near / max(length(direction), 1e-30);
   uint instance = none;  // whose mesh is being searched; none: the top
   uint used = 0;
   uint base = 0;  // entries of the stack that belong to the top
@@ -219,26 +228,26 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
         node = traceNodes[current];
       }
       if (node.count == 0) {
-        uint near = node.first;
-        uint far = node.first + 1;
-        float nearEnter;
-        float farEnter;
+        uint left = node.first;
+        uint right = node.first + 1;
+        float leftEnter;
+        float rightEnter;
         if (instance == none) {
-          nearEnter = enterBox(traceTopNodes[near], ray.origin, ray.inverse, hit.t);
-          farEnter = enterBox(traceTopNodes[far], ray.origin, ray.inverse, hit.t);
+          leftEnter = enterBox(traceTopNodes[left], ray.origin, ray.inverse, hit.t);
+          rightEnter = enterBox(traceTopNodes[right], ray.origin, ray.inverse, hit.t);
         } else {
-          nearEnter = enterBox(traceNodes[near], ray.origin, ray.inverse, hit.t);
-          farEnter = enterBox(traceNodes[far], ray.origin, ray.inverse, hit.t);
+          leftEnter = enterBox(traceNodes[left], ray.origin, ray.inverse, hit.t);
+          rightEnter = enterBox(traceNodes[right], ray.origin, ray.inverse, hit.t);
         }
-        bool swap = farEnter < nearEnter;
-        float later = swap ? nearEnter : farEnter;
+        bool swap = rightEnter < leftEnter;
+        float later = swap ? leftEnter : rightEnter;
         if (later < infinity) {
-          stackNodes[used] = swap ? near : far;
+          stackNodes[used] = swap ? left : right;
           stackDistances[used] = later;
           ++used;
         }
-        current = swap ? far : near;
-        enter = swap ? farEnter : nearEnter;
+        current = swap ? right : left;
+        enter = swap ? rightEnter : leftEnter;
         continue;
       }
       if (instance == none) {
@@ -260,7 +269,7 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
       } else {
         for (uint i = node.first; i < node.first + node.count; ++i) {
           vec4 met = meetTriangle(traceTriangles[i], ray.origin, ray.along, ray.shear);
-          bool own = instance == skip.instance && traceTriangles[i].triangle == skip.triangle;
+          bool own = instance == skip.instance && (traceTriangles[i].triangle == skip.triangle || met.w < near);
           if (met.w > 0.0 && met.w < hit.t && !own) {
             hit = Hit(met.w, instance, i, met.xyz, none);
           }

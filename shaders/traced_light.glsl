@@ -2,6 +2,7 @@
 
 layout(constant_id = 3) const bool shadows = false;
 layout(constant_id = 4) const bool castsLight = false;
+layout(constant_id = 5) const bool perSample = false;  // one invocation for each sample, and rays through it
 
 // A light, or its image in a mirror, as a point sees it.
 struct Incoming {
@@ -66,11 +67,11 @@ Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
   incoming.origin[0] = tracePosition;
   incoming.direction[0] = incoming.toLight;
   incoming.tMax[0] = crossing;
-  incoming.skip[0] = Skip(self.instance, self.triangle, self.mirror, mirror);
+  incoming.skip[0] = Skip(self.instance, self.triangle, self.mirror, mirror, self.near);
   incoming.origin[1] = bounce;
   incoming.direction[1] = path.light - bounce;
   incoming.tMax[1] = 1.0;
-  incoming.skip[1] = Skip(none, none, mirror, none);
+  incoming.skip[1] = Skip(none, none, mirror, none, 0.0);
   return incoming;
 }
 

@@ -36,7 +36,7 @@ Bounce mirrorBounce(ViewData view, uint mirror, vec3 tracePosition, vec3 directi
   float side = front ? 1.0 : -1.0;
   vec3 position = tracePosition - view.traceOffset.xyz;
   Bounce bounce;
-  bounce.self = Skip(none, none, mirror, none);
+  bounce.self = Skip(none, none, mirror, none, 0.0);
   bounce.planeNormal = side * traceMirrors[mirror].normal;
   bounce.reflects = front || traceMirrors[mirror].twoSided != 0;
   bounce.alpha = traceMirrors[mirror].alpha;
@@ -89,14 +89,21 @@ vec3 normalFromMesh(uint instance, vec3 n) {
               dot(traceInstances[instance].normalFromMesh[2].xyz, n));
 }
 
+// Unit normal of a triangle of the mesh, by the winding in the model file.
+vec3 facetNormal(uint instance, uint triangle) {
+  vec3 a = vertexOf(instance, triangle, 0).position;
+  vec3 b = vertexOf(instance, triangle, 1).position;
+  vec3 c = vertexOf(instance, triangle, 2).position;
+  return safeNormalize(normalFromMesh(instance, cross(b - a, c - a)));
+}
+
 Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
   TraceTriangle triangle = traceTriangles[hit.slot];
-  uint index = 3 * (traceInstances[hit.instance].firstTriangle + triangle.triangle);
-  TraceVertex a = traceVertices[triangle.firstVertex + traceIndices[index]];
-  TraceVertex b = traceVertices[triangle.firstVertex + traceIndices[index + 1]];
-  TraceVertex c = traceVertices[triangle.firstVertex + traceIndices[index + 2]];
+  TraceVertex a = vertexOf(hit.instance, triangle.triangle, 0);
+  TraceVertex b = vertexOf(hit.instance, triangle.triangle, 1);
+  TraceVertex c = vertexOf(hit.instance, triangle.triangle, 2);
   vec3 w = hit.weights;
-  vec3 geometric = safeNormalize(normalFromMesh(hit.instance, cross(triangle.b - triangle.a, triangle.c - triangle.a)));
+  vec3 geometric = facetNormal(hit.instance, triangle.triangle);
   vec3 normal = safeNormalize(normalFromMesh(hit.instance, w.x * a.normal + w.y * b.normal + w.z * c.normal));
   bool away = dot(geometric, direction) > 0.0;
   MaterialData material = materials[triangle.material];
@@ -115,7 +122,7 @@ Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
   surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
   surface.emission = material.emission.rgb;
   Bounce bounce =
-      Bounce(surface, Skip(hit.instance, triangle.triangle, none, none), false, away ? -geometric : geometric,
+      Bounce(surface, Skip(hit.instance, triangle.triangle, none, none, nearOf(view, surface.position)), false, away ? -geometric : geometric,
              vec3(0.0), 0.0);
   applyCurvedMirror(hit.instance, direction, bounce);
   return bounce;

@@ -160,7 +160,7 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
 
 TEST_F(CommandLine, RadianceThatIsNegativeIsNamedAndExitsOne) {
   const TemporaryDirectory shaders;
-  writeShaders(shaders.path(), "scene.frag", "  color.r = -1.0;\n");
+  writeShaders(shaders.path(), "scene_shading.glsl", "  color.r = -1.0;\n");
   const auto run = [&](std::vector<std::string> arguments, const std::string& checked) {
     for (const std::string& more :
          {std::string("--shader-dir"), shaders.path().string(), std::string("--scene"), scene_, std::string("--size"),
@@ -273,14 +273,21 @@ TEST_F(CommandLine, SmallestAndFlattestPicturesAreDrawn) {
   }
 }
 
-TEST_F(CommandLine, MissingMirrorsOfTheFormatAreSaidOnce) {
-  const std::string scene = writeScene(
-      "effects", smallScene + "roughness = 0.2\n[[mirror]]\nposition = [9, 9, 9]\nsize = [1, 1]\nroughness = 0.1\n");
-  const ProcessResult result = speculum({"render", "--scene", scene, "--size", "32x18", "--out", out("e.png")});
+TEST_F(CommandLine, BenchSaysWhatEachEffectCosts) {
+  const std::string scene = writeScene("effects", smallScene + "roughness = 0.2\n");
+  const ProcessResult result = speculum({"bench", "--scene", scene, "--size", "32x18", "--frames", "2", "--warmup", "0",
+                                         "--prices", "--json", out("e.json")});
   EXPECT_EQ(result.exitCode, 0) << result.output;
-  const size_t first = result.output.find("roughness");
-  ASSERT_NE(first, std::string::npos) << result.output;
-  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+  EXPECT_NE(result.output.find("roughness"), std::string::npos) << result.output;
+  for (const auto& effect : readJson(out("e.json"))["effects"]) {
+    if (effect["name"] == "roughness") {
+      EXPECT_EQ(effect["why"], "mirror 'wall'");
+      EXPECT_TRUE(effect["gpu_ms"].contains("median")) << effect;
+    } else if (effect["name"] == "shadows") {
+      EXPECT_EQ(effect["called_for"], false);
+      EXPECT_TRUE(effect["gpu_ms"].is_null()) << effect;
+    }
+  }
 }
 
 }  // namespace

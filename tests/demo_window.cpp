@@ -164,7 +164,7 @@ TEST_F(DemoWindow, IconifiedDrawsNoFrameAndComesBack) {
 }
 
 struct NegativeLight {
-  NegativeLight() { writeShaders(shaders.path(), "scene.frag", "  color.b = -1.0;\n"); }
+  NegativeLight() { writeShaders(shaders.path(), "scene_shading.glsl", "  color.b = -1.0;\n"); }
   Options options() const {
     Options options;
     options.shaderDir = shaders.path();

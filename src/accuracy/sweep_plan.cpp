@@ -135,6 +135,9 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   for (const std::string& effect : context.effects) {
     planner.add({{effect, "false"}});
   }
+  if (!context.effects.empty()) {
+    planner.add({{"effects.per_sample", "true"}});
+  }
   if (!context.mirrors) {
     return;
   }

@@ -239,6 +239,15 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
   model_.debugPass = shown != model_.passes.end() ? static_cast<int>(shown - model_.passes.begin()) : -1;
 }
 
+void Demo::fillEffects(const FramePlan& plan, const SceneState& state) {
+  model_.effects.clear();
+  const EffectLedger& ledger = sceneRenderer_->ledger();
+  for (const Effect& effect : effectsOf(loaded_->scene, state, model_.settings, plan)) {
+    const EffectCost& cost = ledger[static_cast<EffectKind>(model_.effects.size())];
+    model_.effects.push_back({effect.name, effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
+  }
+}
+
 void Demo::fillModel(const FramePlan& plan, const SceneState& state, int updateInterval) {
   const FrameTimings& timings = renderer_.timings();
   model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
@@ -255,6 +264,7 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, int updateI
   }
   model_.time = time_;
   fillPasses(plan, state, updateInterval);
+  fillEffects(plan, state);
   model_.skipped.clear();
   for (const SkippedMirror& skip : plan.skipped) {
     model_.skipped.push_back(

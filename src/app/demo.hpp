@@ -37,6 +37,7 @@ class Demo {
   void moveCamera(double seconds);
   void drawFrame(double seconds);
   std::optional<DebugView> debugView(const FramePlan& plan);
+  void fillEffects(const FramePlan& plan, const SceneState& state);
   void fillModel(const FramePlan& plan, const SceneState& state, int updateInterval);
   void fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval);
   void applyModel();

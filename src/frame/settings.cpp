@@ -203,6 +203,8 @@ std::vector<Setting> effectTable() {
       boolean<E>({"effects.roughness", "true | false", "blur of rough mirrors"}, group, &E::roughness),
       integer<E>({"effects.rough_samples", "1 .. 4096", "rays a pixel of rough mirrors"}, group, &E::roughSamples, 1,
                  4096),
+      boolean<E>({"effects.per_sample", "true | false", "shadows and curved mirrors at every sample of a pixel"}, group,
+                 &E::perSample),
       boolean<E>({"effects.ripple", "true | false", "ripples of mirrors"}, group, &E::ripple),
       boolean<E>({"effects.casts_light", "true | false", "light bounced off mirrors"}, group, &E::castsLight),
       boolean<E>({"effects.curved", "true | false", "objects that are mirrors"}, group, &E::curved),

@@ -47,7 +47,8 @@ struct EffectSettings {
   bool ripple = true;
   bool castsLight = true;
   bool curved = true;
-  int roughSamples = 16;  // rays a pixel of rough mirrors
+  int roughSamples = 16;   // rays a pixel of rough mirrors
+  bool perSample = false;  // rays at each sample of a pixel, not once
 
   bool operator==(const EffectSettings&) const = default;
 };

@@ -63,7 +63,7 @@ const Pipeline& MirrorSystem::pipeline(const Variant& variant, VkDescriptorSetLa
       desc.frag = scattered                     ? "mirror_scattered.frag"
                   : shading == Shading::average ? "mirror_average_traced.frag"
                                                 : "mirror_traced.frag";
-      desc.sampleShading = shading == Shading::scatteredBySample;
+      desc.sampleShading = shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered);
       desc.setLayouts.push_back(traceLayout);
       addConstants(variant.trace, desc.fragConstants);
     }

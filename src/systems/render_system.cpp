@@ -17,6 +17,7 @@ const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLay
       desc.frag = variant.curved ? "scene_curved.frag" : "scene_traced.frag";
       desc.setLayouts.push_back(traceLayout);
       addConstants(variant.trace, desc.fragConstants);
+      desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
     }
     desc.pushConstantBytes = sizeof(DrawConstants);
     desc.samples = variant.samples;

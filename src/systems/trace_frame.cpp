@@ -83,7 +83,7 @@ glm::vec4 rippleData(const Ripple& ripple, double time) {
 
 void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants) {
   constants.resize(2, 0);
-  constants.insert(constants.end(), {variant.stackSize, variant.shadows, variant.castsLight});
+  constants.insert(constants.end(), {variant.stackSize, variant.shadows, variant.castsLight, variant.perSample});
 }
 
 TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
@@ -134,7 +134,8 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   }
   variant_ = {.traced = !effects.shadows.empty() || !effects.castsLight.empty(),
               .shadows = !effects.shadows.empty(),
-              .castsLight = !effects.castsLight.empty()};
+              .castsLight = !effects.castsLight.empty(),
+              .perSample = settings.effects.perSample && effects.traces()};
   addMirrors(state, settings);
   addInstances(state, settings, effects.traces());
   upload(frame, topNodes, std::as_bytes(std::span(topNodes_)));
@@ -181,6 +182,7 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings,
     TraceInstance data = instanceData(instance, object, eye);
     data.root = mesh.root;
     data.firstTriangle = mesh.firstTriangle;
+    data.firstVertex = mesh.firstVertex;
     setMirror(settings.effects.curved ? object.mirror : std::nullopt, data);
     instances_.push_back(data);
     if (!scene_.meshes[instance.mesh].indices.empty()) {

@@ -15,6 +15,7 @@ struct TraceVariant {
   bool traced = false;  // there is light that needs rays, or a mirror's bounce of light
   bool shadows = false;
   bool castsLight = false;
+  bool perSample = false;
   uint32_t stackSize = 1;  // entries
 
   auto operator<=>(const TraceVariant&) const = default;

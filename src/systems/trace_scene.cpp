@@ -82,8 +82,8 @@ void TraceScene::add(const Mesh& mesh, Content& content) {
   const Bvh hierarchy = hierarchyOf(mesh);
   depth_ = std::max(depth_, hierarchy.depth());
   const auto firstSlot = static_cast<uint32_t>(content.triangles.size());
-  const auto firstVertex = static_cast<uint32_t>(content.vertices.size());
-  meshes_.push_back({static_cast<uint32_t>(content.nodes.size()), static_cast<uint32_t>(content.indices.size() / 3)});
+  meshes_.push_back({static_cast<uint32_t>(content.nodes.size()), static_cast<uint32_t>(content.indices.size() / 3),
+                     static_cast<uint32_t>(content.vertices.size())});
   appendNodes(hierarchy, firstSlot, content.nodes);
   const std::vector<uint32_t> materials = materialsOf(mesh, content.materials);
   for (const uint32_t triangle : hierarchy.order()) {
@@ -92,12 +92,12 @@ void TraceScene::add(const Mesh& mesh, Content& content) {
                                  .triangle = triangle,
                                  .b = glm::vec3(mesh.vertices[index[1]].position),
                                  .material = materials[triangle],
-                                 .c = glm::vec3(mesh.vertices[index[2]].position),
-                                 .firstVertex = firstVertex});
+                                 .c = glm::vec3(mesh.vertices[index[2]].position)});
   }
   for (const Vertex& vertex : mesh.vertices) {
-    content.vertices.push_back({.normal = glm::vec3(vertex.normal),
+    content.vertices.push_back({.position = glm::vec3(vertex.position),
                                 .u = static_cast<float>(vertex.uv.x),
+                                .normal = glm::vec3(vertex.normal),
                                 .v = static_cast<float>(vertex.uv.y)});
   }
   content.indices.insert(content.indices.end(), mesh.indices.begin(), mesh.indices.end());

@@ -14,6 +14,7 @@ class TraceScene {
   struct MeshRange {
     uint32_t root = 0;           // node
     uint32_t firstTriangle = 0;  // a third of its first index
+    uint32_t firstVertex = 0;
   };
   enum Kind { nodes, triangles, indices, vertices, textures, texels, kindCount };
 

@@ -22,18 +22,17 @@ struct TraceTriangle {
   glm::vec3 b;
   uint32_t material;
   glm::vec3 c;
-  uint32_t firstVertex;
+  uint32_t pad;
 };
-static_assert(offsetof(TraceTriangle, b) == 16 && offsetof(TraceTriangle, firstVertex) == 44 &&
-              sizeof(TraceTriangle) == 48);
+static_assert(offsetof(TraceTriangle, b) == 16 && offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48);
 
 struct TraceVertex {
-  glm::vec3 normal;
+  glm::vec3 position;
   float u;
+  glm::vec3 normal;
   float v;
-  float pad[3];
 };
-static_assert(offsetof(TraceVertex, v) == 16 && sizeof(TraceVertex) == 32);
+static_assert(offsetof(TraceVertex, normal) == 16 && sizeof(TraceVertex) == 32);
 
 struct TraceInstance {
   glm::vec4 meshFromTrace[3];
@@ -45,7 +44,7 @@ struct TraceInstance {
   float shininess;
   uint32_t root;
   uint32_t firstTriangle;
-  uint32_t pad;
+  uint32_t firstVertex;
 };
 static_assert(offsetof(TraceInstance, normalFromMesh) == 48 && offsetof(TraceInstance, reflectance) == 128 &&
               offsetof(TraceInstance, shininess) == 160 && sizeof(TraceInstance) == 176);

@@ -11,20 +11,6 @@ namespace speculum::panels {
 
 namespace {
 
-// After each widget of a setting: notes its place and explains it.
-void describe(UiModel& model, std::string_view key) {
-  notePlace(model, key);
-  if (!ImGui::IsItemHovered()) {
-    return;
-  }
-  for (const SettingInfo& info : settingInfos()) {
-    if (info.key == key) {
-      ImGui::SetTooltip("%s\n%s (%s)", std::string(key).c_str(), std::string(info.help).c_str(),
-                        std::string(info.range).c_str());
-    }
-  }
-}
-
 // 1, 2, 4 or 8 samples.
 void samplesCombo(UiModel& model, const char* label, int& samples, std::string_view key) {
   static constexpr std::array<const char*, 4> names = {"1", "2", "4", "8"};
@@ -98,6 +84,19 @@ void viewSettings(UiModel& model) {
 }
 
 }  // namespace
+
+void describe(UiModel& model, std::string_view key) {
+  notePlace(model, key);
+  if (!ImGui::IsItemHovered()) {
+    return;
+  }
+  for (const SettingInfo& info : settingInfos()) {
+    if (info.key == key) {
+      ImGui::SetTooltip("%s\n%s (%s)", std::string(key).c_str(), std::string(info.help).c_str(),
+                        std::string(info.range).c_str());
+    }
+  }
+}
 
 void notePlace(UiModel& model, std::string_view key) {
   const ImVec2 low = ImGui::GetItemRectMin();

@@ -10,9 +10,12 @@ void scene(UiModel& model);
 void settings(UiModel& model);
 void passes(UiModel& model);
 void skipped(const UiModel& model);
+void effects(UiModel& model);
 void device(UiModel& model);
 void accuracy(UiModel& model);
 
+// After each widget of a setting: notes its place and explains it.
+void describe(UiModel& model, std::string_view key);
 // After a widget: notes its place under `key` in the model.
 void notePlace(UiModel& model, std::string_view key);
 

@@ -150,6 +150,7 @@ void SimpleUI::buildPanel(UiModel& model) {
     }
     panels::passes(model);
     panels::skipped(model);
+    panels::effects(model);
     panels::device(model);
     ImGui::PopItemWidth();
   }

@@ -28,6 +28,15 @@ struct UiSkipped {
   std::string detail;
 };
 
+struct UiEffect {
+  std::string name;
+  bool calledFor = false;
+  std::string why;
+  uint32_t draws = 0;
+  uint64_t bytes = 0;
+  uint32_t pipelines = 0;
+};
+
 // A measured configuration.
 struct UiAccuracyPoint {
   std::string name;
@@ -79,6 +88,7 @@ struct UiModel {
   int validationMessages = -1;  // -1: the layer is off
   std::vector<UiPass> passes;   // in the order of recording; with reflection.update_interval, of that many frames
   std::vector<UiSkipped> skipped;
+  std::vector<UiEffect> effects;                           // all, in a fixed order
   std::vector<std::pair<std::string, PixelRect>> widgets;  // where each setting's widget stands, by key
   int debugPass = -1;                  // index into passes of the image to show; -1: none. Changed by the person.
   std::optional<PixelRect> debugArea;  // pixels of the display image where it is to be drawn; set by the panel

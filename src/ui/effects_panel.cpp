@@ -1,0 +1,68 @@
+#include <imgui.h>
+
+#include "ui/panels.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+void effectSwitch(UiModel& model, const char* label, bool& on, std::string_view key) {
+  ImGui::Checkbox(label, &on);
+  describe(model, key);
+}
+
+void switches(UiModel& model) {
+  EffectSettings& e = model.settings.effects;
+  effectSwitch(model, "shadows", e.shadows, "effects.shadows");
+  ImGui::SameLine();
+  effectSwitch(model, "ripples", e.ripple, "effects.ripple");
+  ImGui::SameLine();
+  effectSwitch(model, "bounced light", e.castsLight, "effects.casts_light");
+  effectSwitch(model, "roughness", e.roughness, "effects.roughness");
+  ImGui::SameLine();
+  effectSwitch(model, "curved mirrors", e.curved, "effects.curved");
+  effectSwitch(model, "rays at every sample", e.perSample, "effects.per_sample");
+  ImGui::SliderInt("rough samples", &e.roughSamples, 1, 256, "%d",
+                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  describe(model, "effects.rough_samples");
+}
+
+std::string mebibytes(uint64_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", static_cast<double>(bytes) / (1024.0 * 1024.0));
+  return text;
+}
+
+}  // namespace
+
+void effects(UiModel& model) {
+  int called = 0;
+  for (const UiEffect& effect : model.effects) {
+    called += effect.calledFor;
+  }
+  const std::string title = "Effects (" + std::to_string(called) + " called for)###effects";
+  if (!ImGui::CollapsingHeader(title.c_str())) {
+    return;
+  }
+  switches(model);
+  if (!ImGui::BeginTable("effects", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+    return;
+  }
+  for (const char* column : {"effect", "called for by", "draws", "MiB", "pipelines"}) {
+    ImGui::TableSetupColumn(column);
+  }
+  ImGui::TableHeadersRow();
+  for (const UiEffect& effect : model.effects) {
+    const bool on = effect.calledFor;
+    ImGui::TableNextRow();
+    for (const std::string& text :
+         {effect.name, effect.why, on ? std::to_string(effect.draws) : std::string(),
+          on ? mebibytes(effect.bytes) : std::string(), on ? std::to_string(effect.pipelines) : std::string()}) {
+      ImGui::TableNextColumn();
+      on ? ImGui::TextWrapped("%s", text.c_str()) : ImGui::TextDisabled("%s", text.c_str());
+    }
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace speculum::panels
