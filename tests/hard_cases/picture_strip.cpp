@@ -15,8 +15,8 @@
 namespace speculum {
 namespace {
 
-constexpr int gap = 4;       // pixels of white between two pictures
-constexpr int quality = 92;  // above 90: chroma at full resolution, which coloured lines of one pixel need
+constexpr int gap = 4;  // pixels of white between two pictures
+constexpr int quality = 82;
 
 struct Part {
   int x = 0;
