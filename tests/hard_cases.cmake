@@ -26,3 +26,8 @@ hard_case_test(hard_cases_random SOURCES ${hard}/random_scenes.cpp ${hard}/scene
 # The patches that scripts/check-hard-cases tries must keep up with the sources.
 add_test(NAME hard_case_mutations_apply COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-hard-cases --applies)
 set_tests_properties(hard_case_mutations_apply PROPERTIES LABELS hard_cases)
+
+# Joins the pictures that scripts/hard-case-pictures draws.
+add_executable(picture_strip ${hard}/picture_strip.cpp)
+target_link_libraries(picture_strip PRIVATE image speculum_flags)
+set_target_properties(picture_strip PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "optics/projection.hpp"
@@ -69,6 +70,58 @@ TEST(ScreenRect, IsEverythingWhenAVertexIsInTheEyesPlane) {
 TEST(ScreenRect, IsEmptyWithoutVertices) {
   EXPECT_TRUE(screenRect({}, 64, 32, {0, 0, 64, 32}).empty());
   EXPECT_EQ(screenArea({}, 64, 32), 0.0);
+}
+
+// In pixels, from the line through two of a polygon's corners; positive on the side of `inside`.
+double distanceFromEdge(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& inside) {
+  const glm::dvec2 across = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
+  return glm::dot(across, p - a) * (glm::dot(across, inside - a) < 0.0 ? -1.0 : 1.0);
+}
+
+TEST(Grown, MovesEdgesOutwardsByPixelsAndKeepsDepth) {
+  constexpr glm::dvec2 half(320.0, 180.0);
+  EXPECT_TRUE(rc::check("edges of a quadrangle", [&] {
+    const auto number = [](double low, double high) {
+      return low + (high - low) * *rc::gen::inRange(0, 10001) / 10000.0;
+    };
+    const bool turned = *rc::gen::arbitrary<bool>();
+    std::vector<glm::dvec4> clip;
+    for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+      const double w = std::pow(10.0, number(-6, 6));
+      const glm::dvec2 p = corner * glm::dvec2(number(0.5, 1.0), number(0.5, 1.0));
+      clip.emplace_back(p * w, 0.001, w);
+    }
+    if (turned) {
+      std::reverse(clip.begin(), clip.end());
+    }
+    const std::vector<glm::dvec4> moved = grown(clip, 640, 360, 0.01);
+    RC_ASSERT(moved.size() == clip.size());
+    const auto pixel = [&](const glm::dvec4& v) { return glm::dvec2(v) / v.w * half; };
+    for (size_t i = 0; i < clip.size(); ++i) {
+      const size_t next = (i + 1) % clip.size();
+      RC_ASSERT(moved[i].w == clip[i].w);
+      RC_ASSERT(moved[i].z == clip[i].z);
+      for (const size_t end : {i, next}) {
+        const double off = distanceFromEdge(pixel(moved[end]), pixel(clip[i]), pixel(clip[next]), glm::dvec2(0.0));
+        RC_ASSERT(std::abs(off + 0.01) < 1e-9);
+      }
+    }
+  }));
+}
+
+TEST(Grown, AcuteCornersAndRepeatedOnesStayNear) {
+  const std::vector<glm::dvec4> needle = {{-1, 0, 1, 1}, {1, 1e-4, 1, 1}, {1, 1e-4, 1, 1}, {1, -1e-4, 1, 1}};
+  const std::vector<glm::dvec4> moved = grown(needle, 200, 200, 0.01);
+  for (size_t i = 0; i < needle.size(); ++i) {
+    EXPECT_LT(100.0 * glm::length(moved[i] - needle[i]), 0.03) << i;
+  }
+  EXPECT_LT(moved[3].y, needle[3].y);
+  EXPECT_GT(moved[1].y, needle[1].y);
+}
+
+TEST(Grown, IsAsItWasInTheEyesPlane) {
+  const std::vector<glm::dvec4> clip = {{0, 0, 0, 1}, {1e-14, 0, 0, 1e-13}, {0, 0.5, 0, 1}};
+  EXPECT_EQ(grown(clip, 64, 32, 1.0), clip);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "core/device.hpp"
+#include "core/instance.hpp"
 #include "core/platform.hpp"
 
 namespace speculum::testing_support {
@@ -24,6 +26,12 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
   writePng(directory / (name + "-expected.png"), expected);
   writePng(directory / (name + "-difference.png"), shown);
   std::printf("see %s/%s-{actual,expected,difference}.png\n", directory.c_str(), name.c_str());
+}
+
+// Some drivers can be loaded only some 30 times by one process; while an instance stays they are not unloaded.
+void keepDriverLoaded() {
+  static const Instance* const kept = new Instance(DeviceOptions{});
+  (void)kept;
 }
 
 }  // namespace
@@ -51,6 +59,7 @@ std::filesystem::path sourceFile(const std::string& relative) {
 }
 
 Options headless(const std::filesystem::path& scene, PictureSize size) {
+  keepDriverLoaded();
   Options options;
   options.scene = scene.string();
   options.size = size;

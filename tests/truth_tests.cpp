@@ -27,7 +27,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SceneTruth,
 
 INSTANTIATE_TEST_SUITE_P(HardScenes, SceneTruth,
                          testing::Values("hard/far_from_origin", "hard/eye_at_the_mirror", "hard/across_the_mirror",
-                                         "hard/inside_out", "hard/corner", "hard/depth_32"),
+                                         "hard/inside_out", "hard/corner", "hard/depth_32", "hard/behind_the_mirror",
+                                         "hard/near_plane", "hard/grazing", "hard/beside_the_eye", "hard/nested",
+                                         "hard/turning_fast"),
                          [](const auto& info) { return std::string(info.param).substr(5); });
 
 std::string randomObject(Random& random, unsigned seed) {

@@ -8,9 +8,20 @@ namespace speculum {
 namespace {
 
 constexpr double eyePlane = 1e-12;
+constexpr double shortestEdge = 1e-6;    // pixels; below it an edge has no direction to speak of
+constexpr double sharpestCorner = 0.25;  // 1 + the cosine of the angle between its edges' normals
 
 glm::dvec2 toPixels(const glm::dvec4& clip, double width, double height) {
   return {(clip.x / clip.w * 0.5 + 0.5) * width, (clip.y / clip.w * 0.5 + 0.5) * height};
+}
+
+std::vector<glm::dvec2> cornersOf(std::span<const glm::dvec4> clip, double width, double height) {
+  std::vector<glm::dvec2> corners;
+  corners.reserve(clip.size());
+  for (const glm::dvec4& v : clip) {
+    corners.push_back(toPixels(v, width, height));
+  }
+  return corners;
 }
 
 bool touchesEyePlane(std::span<const glm::dvec4> clip) {
@@ -27,6 +38,17 @@ std::pair<int, int> paddedRange(double low, double high, int start, int size) {
 
 double sign(double x) {
   return x < 0.0 ? -1.0 : 1.0;
+}
+
+// Positive where y, downwards, turns to the right of x.
+double twiceArea(std::span<const glm::dvec2> corners) {
+  double twice = 0.0;
+  for (size_t i = 1; i + 1 < corners.size(); ++i) {
+    const glm::dvec2 a = corners[i] - corners[0];
+    const glm::dvec2 b = corners[i + 1] - corners[0];
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return twice;
 }
 
 }  // namespace
@@ -98,14 +120,31 @@ double screenArea(std::span<const glm::dvec4> clip, double width, double height)
   if (touchesEyePlane(clip)) {
     return width * height;
   }
-  const glm::dvec2 first = toPixels(clip[0], width, height);
-  double twice = 0.0;
-  for (size_t i = 1; i + 1 < clip.size(); ++i) {
-    const glm::dvec2 a = toPixels(clip[i], width, height) - first;
-    const glm::dvec2 b = toPixels(clip[i + 1], width, height) - first;
-    twice += a.x * b.y - a.y * b.x;
+  return std::min(0.5 * std::abs(twiceArea(cornersOf(clip, width, height))), width * height);
+}
+
+std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, double height, double pixels) {
+  std::vector<glm::dvec4> moved(clip.begin(), clip.end());
+  if (touchesEyePlane(clip)) {
+    return moved;
   }
-  return std::min(0.5 * std::abs(twice), width * height);
+  const size_t n = clip.size();
+  const std::vector<glm::dvec2> corners = cornersOf(clip, width, height);
+  const double side = sign(twiceArea(corners));
+  const auto outward = [&](size_t edge) {
+    const glm::dvec2 along = corners[(edge + 1) % n] - corners[edge];
+    const double length = glm::length(along);
+    return length > shortestEdge ? side / length * glm::dvec2(along.y, -along.x) : glm::dvec2(0.0);
+  };
+  for (size_t i = 0; i < n; ++i) {
+    const glm::dvec2 before = outward((i + n - 1) % n);
+    const glm::dvec2 after = outward(i);
+    const glm::dvec2 sum = before + after;
+    const double share = std::max({glm::dot(sum, before), glm::dot(sum, after), sharpestCorner});
+    const glm::dvec2 step = pixels / share * sum * 2.0 / glm::dvec2(width, height) * clip[i].w;
+    moved[i] += glm::dvec4(step, 0.0, 0.0);
+  }
+  return moved;
 }
 
 }  // namespace speculum

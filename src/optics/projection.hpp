@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace speculum {
 
@@ -49,5 +50,9 @@ PixelRect screenRect(std::span<const glm::dvec4> clip, double width, double heig
 
 // Area in square pixels of such a polygon; that of the picture if a vertex is in the eye's plane.
 double screenArea(std::span<const glm::dvec4> clip, double width, double height);
+
+// Such a polygon with its edges moved outwards by so many pixels; every vertex keeps its z and w. An acute corner moves
+// less than its edges would take it, a polygon with a vertex in the eye's plane stays as it is.
+std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, double height, double pixels);
 
 }  // namespace speculum

@@ -230,6 +230,32 @@ void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projecti
   }
 }
 
+namespace {
+
+// In pixels: as much as vertices snapped to 1/256 of a pixel are off by. Any wider, and it shows in mirrors to
+// depth 32.
+constexpr double fringeWidth = 1.0 / 256.0;
+// Behind everything but the background, at any distance.
+constexpr double fringeDepth = 1e-25;
+
+// The polygon as triangles, and around it a fringe that shows only where the background would. Where mirrors share an
+// edge, or end at a body, rounding may part them by a sample; there the fringe of one of them is seen. Widening the
+// mirror itself would be worse: it would hide what it ends at, and its image has nothing to show beyond its edge.
+void addTriangles(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size) {
+  for (size_t i = 1; i + 1 < clip.size(); ++i) {
+    vertices.insert(vertices.end(), {clip[0], clip[i], clip[i + 1]});
+  }
+  const std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
+  const auto far = [](const glm::dvec4& v) { return glm::vec4(v.x, v.y, fringeDepth * v.w, v.w); };
+  for (size_t i = 0; i < clip.size(); ++i) {
+    const size_t next = (i + 1) % clip.size();
+    vertices.insert(vertices.end(), {far(clip[i]), far(outer[i]), far(outer[next])});
+    vertices.insert(vertices.end(), {far(clip[i]), far(outer[next]), far(clip[next])});
+  }
+}
+
+}  // namespace
+
 void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan,
                            const Scene& scene, const EffectSettings& effects, PassData& data) {
   for (const MirrorDraw& draw : pass.mirrors) {
@@ -246,13 +272,11 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
                       .base = mirror.baseColor != glm::dvec3(0.0)};
     mirrors_.push_back(mirrorData(draw, mirror, pass.view, imageView(draw, plan)));
     range.lookup = static_cast<Lookup>(mirrors_.back().image.z);
-    std::vector<glm::vec4> clip;
+    std::vector<glm::dvec4> clip;
     for (const glm::dvec3& p : draw.polygon) {
-      clip.emplace_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
+      clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
     }
-    for (size_t i = 1; i + 1 < clip.size(); ++i) {
-      mirrorVertices_.insert(mirrorVertices_.end(), {clip[0], clip[i], clip[i + 1]});
-    }
+    addTriangles(mirrorVertices_, clip, pass.view.pictureSize * overscan(pass.view));
     range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;
     data.mirrors.push_back(range);
   }

@@ -268,6 +268,45 @@ TEST(SeamsOfMirrorsAndBodies, NoPixelShowsTheBackground) {
   }
 }
 
+// Two mirrors in one plane, so far apart, a metre from the eye; they show a white wall behind it.
+int darkPixelsBetween(double gapMetres) {
+  writeQuad();
+  const std::string half = text(0.5 * gapMetres);
+  Options options = headless(sceneFile("gap", "[environment]\nambient = [1, 1, 1]\n" + std::string(R"([camera]
+position = [0, 0, 1]
+target = [0, 0, 0]
+up = [0.2718, 1, 0]
+[[object]]
+model = "quad.obj"
+position = [0, 0, 2]
+rotation = [0, 180, 0]
+scale = 50
+color = [1, 1, 1]
+[[mirror]]
+reflectance = [1, 1, 1]
+polygon = [[-5, -5, 0], [-)") + half + ", -5, 0], [-" +
+                                                  half +
+                                                  R"(, 5, 0], [-5, 5, 0]]
+[[mirror]]
+reflectance = [1, 1, 1]
+polygon = [[)" + half + ", -5, 0], [5, -5, 0], [5, 5, 0], [" +
+                                                  half + ", 5, 0]]\n"),
+                             {640, 360});
+  Session session(options);
+  session.draw(0.0, true);
+  const LinearImage radiance = session.radiance();
+  const auto dark = std::count_if(radiance.pixels.begin(), radiance.pixels.end(),
+                                  [](const glm::vec3& pixel) { return pixel.r < 0.999f; });
+  expectQuiet(session);
+  return static_cast<int>(dark);
+}
+
+TEST(SeamsOfMirrorsAndBodies, GapAsWideAsRoundingIsClosedAndAPixelIsNot) {
+  const double pixel = 2.0 * std::tan(glm::radians(30.0)) / 360.0;
+  EXPECT_EQ(darkPixelsBetween(pixel / 200), 0);
+  EXPECT_GT(darkPixelsBetween(pixel), 300);
+}
+
 TEST(SeamsOfMirrorsAndBodies, AveragedImagesShowIt) {
   const int dark = darkPixels(0, "4", "1");
   EXPECT_GT(dark, 20) << "the naive way, samples that have no counterpart, should fail";
