@@ -6,6 +6,8 @@
 #include <queue>
 #include <sstream>
 
+#include "frame/pass_mask.hpp"
+
 namespace speculum {
 
 namespace {
@@ -222,6 +224,9 @@ void Planner::expand(const Candidate& candidate) {
   node.throughput = candidate.throughput;
   if (node.pass.depth == 0 && settings_.updateInterval > 1) {
     hold(node, candidate);
+  }
+  if (allSettings_.debug.maskPasses) {
+    node.pass.mask = passMask(node.pass.view, plan_.projection, lookupReach(settings_));
   }
   const int index = static_cast<int>(nodes_.size());
   nodes_[candidate.parent].children.push_back(index);

@@ -9,6 +9,10 @@ namespace speculum {
 
 namespace {
 
+// As an angle at the eye. Rounding turns the plane through a shorter one by more than 1e-7, and what it bounds is no
+// wider than rounding anyway.
+constexpr double shortestEdge = 1e-9;
+
 // Planes through the eye and the polygon's edges, turned inwards. An edge that points at the eye bounds nothing.
 std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
   glm::dvec3 inside(0.0);
@@ -21,7 +25,7 @@ std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::
     const glm::dvec3 b = polygon[(i + 1) % polygon.size()] - eye;
     const glm::dvec3 n = glm::cross(a, b);
     const double length = glm::length(n);
-    if (length <= 1e-14 * glm::length(a) * glm::length(b)) {
+    if (length <= shortestEdge * glm::length(a) * glm::length(b)) {
       continue;
     }
     cone.push_back(glm::dot(n, inside) < 0.0 ? n / -length : n / length);

@@ -189,6 +189,7 @@ void FrameData::addPass(const PlannedPass& pass, const FramePlan& plan, const Sc
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(pass, projection, scene, state, data);
   addMirrors(pass, projection, plan, scene, data);
+  addMask(pass, data);
 }
 
 // Lights whose glyphs are visible come first, so that one instanced draw covers them.
@@ -226,7 +227,6 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
   for (const MirrorDraw& draw : pass.mirrors) {
     const Mirror& mirror = scene.mirrors[draw.mirror];
     MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
-                      .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
                       .pass = draw.pass,
                       .held = draw.held ? draw.held->image : -1,
                       .reprojected = draw.held && draw.held->moved,
@@ -237,12 +237,28 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
     for (const glm::dvec3& p : draw.polygon) {
       clip.emplace_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
     }
-    for (size_t i = 1; i + 1 < clip.size(); ++i) {
-      mirrorVertices_.insert(mirrorVertices_.end(), {clip[0], clip[i], clip[i + 1]});
-    }
+    range.firstVertex = addFan(clip);
     range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;
     data.mirrors.push_back(range);
   }
+}
+
+void FrameData::addMask(const PlannedPass& pass, PassData& data) {
+  const glm::dvec2 drawn = overscan(pass.view);
+  std::vector<glm::vec4> clip;
+  for (const glm::dvec2& p : pass.mask) {
+    clip.emplace_back(glm::dvec4(p / drawn, 0.0, 1.0));  // infinitely far
+  }
+  data.maskFirstVertex = addFan(clip);
+  data.maskVertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - data.maskFirstVertex;
+}
+
+uint32_t FrameData::addFan(std::span<const glm::vec4> polygon) {
+  const size_t first = mirrorVertices_.size();
+  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+    mirrorVertices_.insert(mirrorVertices_.end(), {polygon[0], polygon[i], polygon[i + 1]});
+  }
+  return static_cast<uint32_t>(first);
 }
 
 void FrameData::upload(Frame& frame, Kind kind, std::span<const std::byte> data) {

@@ -40,6 +40,8 @@ struct PassData {
   std::vector<Batch> batches;
   uint32_t glyphCount = 0;
   std::vector<MirrorRange> mirrors;
+  uint32_t maskFirstVertex = 0;
+  uint32_t maskVertexCount = 0;  // 0: the whole rectangle is drawn
 };
 
 // The buffers of one frame. Everything is composed in double relative to the eye of its view and becomes float once.
@@ -67,6 +69,9 @@ class FrameData {
                     PassData& data);
   void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
                   PassData& data);
+  void addMask(const PlannedPass& pass, PassData& data);
+  // Triangles of a convex polygon in clip space; returns the index of their first vertex.
+  uint32_t addFan(std::span<const glm::vec4> polygon);
   void upload(Frame& frame, Kind kind, std::span<const std::byte> data);
 
   Device& device_;

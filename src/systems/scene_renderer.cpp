@@ -55,6 +55,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       scene_(scene),
       resources_(device_, renderer.uploader(), scene),
       data_(device_),
+      maskSystem_(renderer.pipelines(), data_.layout()),
       renderSystem_(renderer.pipelines(), data_.layout(), resources_.textureLayout()),
       pointLightSystem_(renderer.pipelines(), data_.layout()),
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
@@ -69,8 +70,8 @@ SceneRenderer::~SceneRenderer() {
 }
 
 size_t SceneRenderer::pipelineCount() const {
-  return renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() + mirrorSystem_.pipelineCount() +
-         displayPipelines_.size() + watch_.pipelineCount();
+  return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
+         mirrorSystem_.pipelineCount() + displayPipelines_.size() + watch_.pipelineCount();
 }
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
@@ -193,7 +194,8 @@ void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& pl
 
 uint32_t SceneRenderer::recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass,
                                       const PassFormat& format) {
-  uint32_t draws = mirrorSystem_.record(scope, info, pass, format);
+  uint32_t draws = maskSystem_.record(scope, info, pass, format);
+  draws += mirrorSystem_.record(scope, info, pass, format);
   draws += pointLightSystem_.record(scope, info, pass, format);
   draws += renderSystem_.record(scope, info, pass, format);
   return draws;
@@ -236,6 +238,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
                       .scissor = area,
                       .frontFace = frontFace(view),
                       .clearColor = clearColor(info.environment),
+                      .clearDepth = MaskSystem::clearDepth(info.data.passes()[index]),
                       .collectStatistics = true};
   {
     const PassScope scope = renderer_.beginPass(frame, desc);
