@@ -6,6 +6,7 @@
 #include <queue>
 #include <sstream>
 
+#include "frame/occlusion.hpp"
 #include "frame/pass_mask.hpp"
 
 namespace speculum {
@@ -81,6 +82,7 @@ class Planner {
     plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, near);
     plan_.width = width;
     plan_.height = height;
+    occlusion_.emplace(scene, state, settings, plan_.projection);
   }
 
   FramePlan plan() {
@@ -100,7 +102,7 @@ class Planner {
 
  private:
   void fill(int node);
-  void consider(int node, int mirror);
+  void consider(int node, int mirror, const View& readable);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
   void hold(Node& node, const Candidate& candidate) const;
@@ -119,6 +121,7 @@ class Planner {
   FramePlan plan_;
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> candidates_;
+  std::optional<Occlusion> occlusion_;
   int discovered_ = 0;
 };
 
@@ -136,10 +139,15 @@ void Planner::fill(int node) {
       nodes_[node].pass.lights.push_back(static_cast<int>(i));
     }
   }
+  // A mirror image is read a little beyond the edge of what is seen of it.
+  View readable = view;
+  if (!view.path.empty()) {
+    widen(readable, plan_.projection, static_cast<int>(std::ceil(lookupReach(settings_))) + 1);
+  }
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
     const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);
     if (!last) {
-      consider(node, static_cast<int>(i));
+      consider(node, static_cast<int>(i), readable);
     }
   }
 }
@@ -155,7 +163,7 @@ void Planner::skip(const View& view, int mirror, SkipReason reason, std::string 
   plan_.skipped.push_back(std::move(skipped));
 }
 
-void Planner::consider(int node, int mirror) {
+void Planner::consider(int node, int mirror, const View& readable) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
   const Mirror& material = scene_.mirrors[mirror];
@@ -172,14 +180,20 @@ void Planner::consider(int node, int mirror) {
     draw.plane.normal = -draw.plane.normal;
     std::reverse(draw.polygon.begin(), draw.polygon.end());
   }
+  const std::optional<std::string> occluder =
+      visible.empty() ? std::nullopt
+                      : occlusion_->hiddenBy(view, pass.instances, mirror, visiblePart(readable, geometry.polygon));
   if (draw.back) {
-    if (!visible.empty() && height < 0.0) {
+    if (!visible.empty() && height < 0.0 && !occluder) {
       pass.mirrors.push_back(std::move(draw));
     }
     return skip(view, mirror, SkipReason::backface, height == 0.0 ? "the eye is in its plane" : "");
   }
   if (visible.empty()) {
     return skip(view, mirror, SkipReason::outside);
+  }
+  if (occluder) {
+    return skip(view, mirror, SkipReason::hidden, "behind " + *occluder);
   }
   const double area = screenArea(toClip(view, plan_.projection, visible), plan_.width, plan_.height);
   const glm::dvec3 throughput = nodes_[node].throughput * reflectanceBound(material, draw.plane, view.eye, visible);
