@@ -64,6 +64,8 @@ class PassScope {
 
   VkCommandBuffer commands() const { return commands_; }
   const PassDesc& desc() const { return desc_; }
+  // From here to the pass's end the samples that pass the depth test are counted; once a pass, with collectStatistics.
+  void countSamples();
 
  private:
   friend class Renderer;

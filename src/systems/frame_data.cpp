@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "frame/draw_order.hpp"
+
 namespace speculum {
 
 namespace {
@@ -212,7 +214,7 @@ void FrameData::addLights(const PlannedPass& pass, const Scene& scene, const Sce
 void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene,
                              const SceneState& state, PassData& data) {
   const glm::dmat4 clipFromRelative = projection * relativeToView(pass.view);
-  for (const int i : pass.instances) {
+  for (const int i : frontToBack(pass.view, pass.instances, state)) {
     const InstanceState& instance = state.instances[i];
     if (data.batches.empty() || data.batches.back().mesh != instance.mesh) {
       data.batches.push_back({instance.mesh, static_cast<uint32_t>(instances_.size()), 0});

@@ -194,8 +194,7 @@ void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& pl
 
 uint32_t SceneRenderer::recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass,
                                       const PassFormat& format) {
-  uint32_t draws = maskSystem_.record(scope, info, pass, format);
-  draws += mirrorSystem_.record(scope, info, pass, format);
+  uint32_t draws = mirrorSystem_.record(scope, info, pass, format);
   draws += pointLightSystem_.record(scope, info, pass, format);
   draws += renderSystem_.record(scope, info, pass, format);
   return draws;
@@ -241,8 +240,11 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
                       .clearDepth = MaskSystem::clearDepth(info.data.passes()[index]),
                       .collectStatistics = true};
   {
-    const PassScope scope = renderer_.beginPass(frame, desc);
-    recorded.draws = recordSystems(scope, info, index, {.samples = target.samples(), .mirrorView = true});
+    PassScope scope = renderer_.beginPass(frame, desc);
+    const PassFormat format{.samples = target.samples(), .mirrorView = true};
+    recorded.draws = maskSystem_.record(scope, info, index, format);
+    scope.countSamples();
+    recorded.draws += recordSystems(scope, info, index, format);
   }
   recorded_.push_back(std::move(recorded));
   checkTarget(frame, info, target, area.extent);
@@ -259,7 +261,8 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
   desc.storeSamples = main_->desc().readSamples;
   RecordedPass recorded{.name = desc.name, .areaPx = info.plan.main.areaPx};
   {
-    const PassScope scope = renderer_.beginPass(frame, desc);
+    PassScope scope = renderer_.beginPass(frame, desc);
+    scope.countSamples();
     recorded.draws = recordSystems(scope, info, info.plan.passes.size(), {.samples = main_->samples()});
   }
   recorded_.push_back(std::move(recorded));
