@@ -186,8 +186,9 @@ TEST(PassMask, HoldsTheMirrorAndAsMuchAroundItAsIsReadAndNoMore) {
     const FramePlan p = plan(sceneWith({mirror}, {}), settings);
     ASSERT_EQ(p.passes.size(), 1u);
     const PlannedPass& pass = p.passes[0];
-    ASSERT_GE(pass.mask.size(), 4u);
-    const double reach = lookupReach(settings.reflection);
+    const double reach = lookupReach(settings, false);
+    const std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, reach);
+    ASSERT_GE(mask.size(), 4u);
     const std::vector<glm::dvec4> clip = toClip(p.main.view, p.projection, p.main.mirrors[0].polygon);
     const glm::dvec2 texel = 2.0 / pass.view.pictureSize;
     const PixelRect& rect = pass.view.rect;
@@ -197,13 +198,13 @@ TEST(PassMask, HoldsTheMirrorAndAsMuchAroundItAsIsReadAndNoMore) {
       for (int i = 0; i < 16; ++i) {
         const glm::dvec2 off(std::cos(0.4 * i), std::sin(0.4 * i));
         const glm::dvec2 near = glm::dvec2(v) / v.w + 0.99 * reach * texel * off;
-        EXPECT_TRUE(holds(pass.mask, glm::clamp(near, low, high))) << scale;
+        EXPECT_TRUE(holds(mask, glm::clamp(near, low, high))) << scale;
       }
     }
     double area = 0.0;
-    for (size_t i = 1; i + 1 < pass.mask.size(); ++i) {
-      const glm::dvec2 a = pass.mask[i] - pass.mask[0];
-      const glm::dvec2 b = pass.mask[i + 1] - pass.mask[0];
+    for (size_t i = 1; i + 1 < mask.size(); ++i) {
+      const glm::dvec2 a = mask[i] - mask[0];
+      const glm::dvec2 b = mask[i + 1] - mask[0];
       area += 0.5 * std::abs(a.x * b.y - a.y * b.x);
     }
     const double pixels = area / (texel.x * texel.y) / (scale * scale);
@@ -215,7 +216,23 @@ TEST(PassMask, HoldsTheMirrorAndAsMuchAroundItAsIsReadAndNoMore) {
 TEST(PassMask, IsNoneWhereTheMirrorCoversItsRectangle) {
   const FramePlan p = plan(sceneWith({wall({0, 0, -1}, 0, {20, 20})}, {}));
   ASSERT_EQ(p.passes.size(), 1u);
-  EXPECT_TRUE(p.passes[0].mask.empty());
+  EXPECT_TRUE(passMask(p.passes[0].view, p.projection, 1.5).empty());
+}
+
+TEST(PassMask, ReachesAsFarAsLookupsDo) {
+  Settings settings;
+  const double own = lookupReach(settings, true);
+  const double texel = lookupReach(settings, false);
+  EXPECT_LT(own, 0.5) << "sample by sample";
+  EXPECT_GT(texel, std::sqrt(2.0)) << "a texel's mean";
+  settings.view.samples = 1;
+  EXPECT_EQ(lookupReach(settings, true), texel) << "no counterparts";
+  settings.reflection.samples = 1;
+  EXPECT_EQ(lookupReach(settings, false), own);
+  settings.reflection.updateInterval = 2;
+  EXPECT_GT(lookupReach(settings, true), 2.0 * std::sqrt(2.0));
+  settings.reflection.scale = 4.0;
+  EXPECT_GT(lookupReach(settings, true), 5.0 * std::sqrt(2.0));
 }
 
 TEST(PassMask, FollowsTheMarginOfAHeldImage) {

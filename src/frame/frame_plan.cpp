@@ -142,7 +142,7 @@ void Planner::fill(int node) {
   // A mirror image is read a little beyond the edge of what is seen of it.
   View readable = view;
   if (!view.path.empty()) {
-    widen(readable, plan_.projection, static_cast<int>(std::ceil(lookupReach(settings_))) + 1);
+    widen(readable, plan_.projection, static_cast<int>(std::ceil(lookupReach(allSettings_, false))) + 1);
   }
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
     const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);
@@ -238,9 +238,6 @@ void Planner::expand(const Candidate& candidate) {
   node.throughput = candidate.throughput;
   if (node.pass.depth == 0 && settings_.updateInterval > 1) {
     hold(node, candidate);
-  }
-  if (allSettings_.debug.maskPasses) {
-    node.pass.mask = passMask(node.pass.view, plan_.projection, lookupReach(settings_));
   }
   const int index = static_cast<int>(nodes_.size());
   nodes_[candidate.parent].children.push_back(index);

@@ -43,7 +43,6 @@ struct PlannedPass {
   std::vector<int> instances;       // visible, indices into SceneState::instances, ascending
   std::vector<int> lights;          // whose glyphs are visible, indices into Scene::lights
   std::vector<MirrorDraw> mirrors;  // in the order of Scene::mirrors
-  std::vector<glm::dvec2> mask;     // see passMask; what lies outside is not drawn
 };
 
 struct SkippedMirror {

@@ -19,15 +19,18 @@ std::vector<glm::dvec3> corners(const View& view) {
 
 }  // namespace
 
-// A pixel may be shaded anywhere inside the mirror's edge and reads the samples of one texel, up to a texel's diagonal
-// away. At another resolution than the screen's, and in images of earlier frames, it reads a box: as wide as itself and
-// at least as a texel, and half a texel more on each side for the samples, about a centre that may lie half a pixel
-// outside the edge.
-double lookupReach(const ReflectionSettings& settings) {
-  constexpr double rounding = 0.1;  // of float positions on the GPU, with room to spare
-  const bool sameTexel = settings.scale == 1.0 && settings.updateInterval == 1;
-  const double side = sameTexel ? 1.0 : std::max(settings.scale, 1.0) + 1.0;
-  return std::sqrt(2.0) * side + rounding;
+// Where samples have counterparts, only those inside the edge are read. Otherwise a pixel may be shaded anywhere inside
+// and reads the samples of one texel, up to a texel's diagonal away. At another resolution than the screen's, and in
+// images of earlier frames, it reads a box: as wide as itself and at least as a texel, and half a texel more on each
+// side for the samples, about a centre that may lie half a pixel outside the edge.
+double lookupReach(const Settings& settings, bool ownSamples) {
+  constexpr double rounding = 0.25;  // of float positions on the GPU, with room to spare
+  const ReflectionSettings& r = settings.reflection;
+  if (r.scale != 1.0 || r.updateInterval > 1) {
+    return std::sqrt(2.0) * (std::max(r.scale, 1.0) + 1.0) + rounding;
+  }
+  const bool counterparts = r.samples == settings.view.samples && (ownSamples || r.samples == 1);
+  return (counterparts ? 0.0 : std::sqrt(2.0)) + rounding;
 }
 
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach) {

@@ -8,8 +8,9 @@
 
 namespace speculum {
 
-// How far from the edge of a mirror's visible part a texel of its image may lie that is read nevertheless, in texels.
-double lookupReach(const ReflectionSettings& settings);
+// How far outside the edge of a mirror's visible part samples of its image may lie that are read nevertheless, in
+// texels. `ownSamples`: a mirror reads its image sample by sample where the two have counterparts.
+double lookupReach(const Settings& settings, bool ownSamples);
 
 // The part of the view's rectangle that those who look its image up can read: within `reach` pixels of what the cone
 // bounds. A convex polygon in the picture's device coordinates ([-1, 1], y down); empty if it is the whole rectangle.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "frame/draw_order.hpp"
+#include "frame/pass_mask.hpp"
 
 namespace speculum {
 
@@ -191,7 +192,7 @@ void FrameData::addPass(const PlannedPass& pass, const FramePlan& plan, const Sc
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(pass, projection, scene, state, data);
   addMirrors(pass, projection, plan, scene, data);
-  addMask(pass, data);
+  addMask(pass, plan, settings, data);
 }
 
 // Lights whose glyphs are visible come first, so that one instanced draw covers them.
@@ -245,10 +246,14 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
   }
 }
 
-void FrameData::addMask(const PlannedPass& pass, PassData& data) {
+void FrameData::addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data) {
+  if (pass.view.path.empty() || !settings.debug.maskPasses) {
+    return;
+  }
   const glm::dvec2 drawn = overscan(pass.view);
+  const double reach = lookupReach(settings, device_.caps().sampleRateShading);
   std::vector<glm::vec4> clip;
-  for (const glm::dvec2& p : pass.mask) {
+  for (const glm::dvec2& p : passMask(pass.view, plan.projection, reach)) {
     clip.emplace_back(glm::dvec4(p / drawn, 0.0, 1.0));  // infinitely far
   }
   data.maskFirstVertex = addFan(clip);

@@ -69,7 +69,7 @@ class FrameData {
                     PassData& data);
   void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
                   PassData& data);
-  void addMask(const PlannedPass& pass, PassData& data);
+  void addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
   // Triangles of a convex polygon in clip space; returns the index of their first vertex.
   uint32_t addFan(std::span<const glm::vec4> polygon);
   void upload(Frame& frame, Kind kind, std::span<const std::byte> data);
