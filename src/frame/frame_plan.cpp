@@ -142,7 +142,7 @@ void Planner::fill(int node) {
   // A mirror image is read a little beyond the edge of what is seen of it.
   View readable = view;
   if (!view.path.empty()) {
-    widen(readable, plan_.projection, static_cast<int>(std::ceil(lookupReach(allSettings_, false))) + 1);
+    widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(allSettings_, false))) + 1);
   }
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
     const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);

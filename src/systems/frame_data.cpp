@@ -251,7 +251,7 @@ void FrameData::addMask(const PlannedPass& pass, const FramePlan& plan, const Se
     return;
   }
   const glm::dvec2 drawn = overscan(pass.view);
-  const double reach = lookupReach(settings, device_.caps().sampleRateShading);
+  const double reach = lookupReach(settings, device_.limits().standardSampleLocations);
   std::vector<glm::vec4> clip;
   for (const glm::dvec2& p : passMask(pass.view, plan.projection, reach)) {
     clip.emplace_back(glm::dvec4(p / drawn, 0.0, 1.0));  // infinitely far
