@@ -6,6 +6,7 @@
 #include "frame/draw_order.hpp"
 #include "frame/frame_plan.hpp"
 #include "frame/pass_mask.hpp"
+#include "optics/affine.hpp"
 
 namespace speculum {
 namespace {
@@ -244,6 +245,29 @@ TEST(PassMask, FollowsTheMarginOfAHeldImage) {
     EXPECT_TRUE(holds(wide, p + glm::dvec2(19.0, 0.0) * 2.0 / view.pictureSize));
     EXPECT_TRUE(holds(wide, p - glm::dvec2(19.0, 0.0) * 2.0 / view.pictureSize));
   }
+}
+
+TEST(BoxVisible, IsAsTightAsTheBoxAndNeverTooTight) {
+  const Scene scene = sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {});
+  const FramePlan p = plan(scene);
+  std::mt19937 engine(5);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  int culled = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const View& view = round % 2 == 0 ? p.main.view : p.passes[0].view;
+    const glm::dvec3 half(uniform(0.01, 2), uniform(0.01, 2), uniform(0.01, 0.05));
+    const Affine place{rotationFromDegrees({uniform(0, 360), uniform(0, 360), 0}) * uniform(0.2, 2),
+                       {uniform(-8, 8), uniform(-6, 6), uniform(-12, 12)}};
+    const glm::dvec3 point = place.point(half * glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+    const bool visible = boxVisible(view, place, half);
+    if (sphereVisible(view, point, 0.0)) {
+      EXPECT_TRUE(visible) << "round " << round;
+    }
+    culled += !visible && sphereVisible(view, place.translation, glm::length(place.linear * half));
+  }
+  EXPECT_GT(culled, 500) << "spheres are no tighter";
 }
 
 TEST(DrawOrder, NearFirstByMeshAndWhatSurroundsLast) {

@@ -128,8 +128,15 @@ class Planner {
 // What is drawn in a node's view, and which of its mirrors are candidates for passes.
 void Planner::fill(int node) {
   const View view = nodes_[node].pass.view;
+  // A mirror image is read a little beyond the edge of what is seen of it.
+  View readable = view;
+  if (!view.path.empty()) {
+    widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(allSettings_, false))) + 1);
+  }
   for (size_t i = 0; i < state_.instances.size(); ++i) {
-    if (sphereVisible(view, state_.instances[i].center, state_.instances[i].radius)) {
+    const InstanceState& instance = state_.instances[i];
+    if (sphereVisible(view, instance.center, instance.radius) &&
+        boxVisible(readable, instance.worldFromMesh, scene_.meshes[instance.mesh].halfExtent)) {
       nodes_[node].pass.instances.push_back(static_cast<int>(i));
     }
   }
@@ -138,11 +145,6 @@ void Planner::fill(int node) {
     if (light.glow > 0.0 && sphereVisible(view, state_.lights[i].position, light.radius)) {
       nodes_[node].pass.lights.push_back(static_cast<int>(i));
     }
-  }
-  // A mirror image is read a little beyond the edge of what is seen of it.
-  View readable = view;
-  if (!view.path.empty()) {
-    widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(allSettings_, false))) + 1);
   }
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
     const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);

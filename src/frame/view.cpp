@@ -134,6 +134,23 @@ bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {
                      [&](const glm::dvec3& normal) { return glm::dot(normal, center - view.eye) >= -radius; });
 }
 
+bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent) {
+  const glm::dvec3 axes = glm::dvec3(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
+                                     glm::length(worldFromBox.linear[2])) *
+                          halfExtent;
+  const double rounding = 1e-5 * (axes.x + axes.y + axes.z);  // of floats on the GPU, with room to spare
+  const auto reach = [&](const glm::dvec3& normal) {
+    const glm::dvec3 along = glm::abs(normal * worldFromBox.linear) * halfExtent;
+    return along.x + along.y + along.z + rounding;
+  };
+  if (view.clip && view.clip->distance(worldFromBox.translation) < -reach(view.clip->normal)) {
+    return false;
+  }
+  return std::all_of(view.cone.begin(), view.cone.end(), [&](const glm::dvec3& normal) {
+    return glm::dot(normal, worldFromBox.translation - view.eye) >= -reach(normal);
+  });
+}
+
 std::vector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon) {
   std::vector<glm::dvec4> clip;
   clip.reserve(polygon.size());
