@@ -12,6 +12,8 @@ test_packages=(
   vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
   xvfb xdotool wmctrl openbox util-linux clang-format-14 python3-minimal
 )
+# For scripts/bench-mirrors only.
+bench_packages=(python3)
 # For scripts/fuzz only.
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 

@@ -24,6 +24,9 @@ void addBody(Scene& scene, SceneState& state, const glm::dvec3& center, double r
   instance.object = static_cast<int>(scene.objects.size());
   instance.center = center;
   instance.radius = radius;
+  instance.mesh = static_cast<int>(scene.meshes.size());
+  instance.worldFromMesh.translation = center;
+  scene.meshes.push_back({.halfExtent = glm::dvec3(radius), .radius = radius});
   scene.objects.emplace_back();
   state.instances.push_back(instance);
 }

@@ -268,7 +268,7 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, int updateI
   model_.skipped.clear();
   for (const SkippedMirror& skip : plan.skipped) {
     model_.skipped.push_back(
-        {mirrorPathName(loaded_->scene, skip.path), std::string(skipReasonName(skip.reason)), skip.detail});
+        {mirrorPathName(loaded_->scene, skip.path), std::string(skipReasonName(skip.reason)), skip.detail, skip.path});
   }
 }
 

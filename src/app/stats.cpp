@@ -49,6 +49,17 @@ ordered_json depthJson(const Session& session, const std::vector<int>& path) {
           {"none_m", metres(readout->none)}};
 }
 
+// Index of the pass that looks this one's image up; null where none does.
+ordered_json parentJson(const std::vector<RecordedPass>& passes, const RecordedPass& pass) {
+  if (pass.path.empty()) {
+    return nullptr;
+  }
+  const std::vector<int> seenIn(pass.path.begin(), pass.path.end() - 1);
+  const auto parent =
+      std::find_if(passes.begin(), passes.end(), [&](const RecordedPass& other) { return other.path == seenIn; });
+  return parent == passes.end() ? ordered_json(nullptr) : ordered_json(parent - passes.begin());
+}
+
 ordered_json passesJson(Session& session, const FrameTimings& timings) {
   ordered_json passes = ordered_json::array();
   const std::vector<RecordedPass>& recorded = session.sceneRenderer().passes();
@@ -59,11 +70,13 @@ ordered_json passesJson(Session& session, const FrameTimings& timings) {
     passes.push_back({{"name", pass.name},
                       {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
                       {"path", pathJson(session.scene(), pass.path)},
+                      {"parent", parentJson(recorded, pass)},
                       {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
                       {"gpu_ms", timing.gpuMs},
                       {"draws", pass.draws},
                       {"triangles", timing.hasStatistics ? ordered_json(timing.triangles) : ordered_json(nullptr)},
                       {"fragments", timing.hasStatistics ? ordered_json(timing.fragments) : ordered_json(nullptr)},
+                      {"samples_drawn", timing.hasSamples ? ordered_json(timing.samples) : ordered_json(nullptr)},
                       {"area_px", pass.areaPx},
                       {"depth_resolution", depthJson(session, pass.path)}});
   }
@@ -162,10 +175,25 @@ std::vector<GatheredPass> gatherPasses(const std::vector<ordered_json>& frames) 
   return gathered;
 }
 
+// The place among the gathered passes of the one that looks this one's image up.
+ordered_json gatheredParent(const std::vector<GatheredPass>& gathered, const GatheredPass& pass) {
+  const ordered_json& parent = pass.passes.back()->at("parent");
+  if (parent.is_null()) {
+    return nullptr;
+  }
+  const ordered_json* sought = &pass.lastFrame->at("passes").at(parent.get<size_t>());
+  const auto found = std::find_if(gathered.begin(), gathered.end(), [&](const GatheredPass& other) {
+    return std::find(other.passes.begin(), other.passes.end(), sought) != other.passes.end();
+  });
+  return found - gathered.begin();
+}
+
 ordered_json mergePasses(const std::vector<ordered_json>& frames) {
   ordered_json merged = ordered_json::array();
-  for (const GatheredPass& pass : gatherPasses(frames)) {
+  const std::vector<GatheredPass> gathered = gatherPasses(frames);
+  for (const GatheredPass& pass : gathered) {
     merged.push_back(mergeObjects(pass.passes));
+    merged.back()["parent"] = gatheredParent(gathered, pass);
     if (pass.passes.size() < frames.size()) {
       merged.back()["frames"] = pass.passes.size();
     }

@@ -19,6 +19,7 @@ VkPhysicalDeviceFeatures usedFeatures(const VkPhysicalDeviceFeatures& available)
       .depthClamp = available.depthClamp,
       .fillModeNonSolid = available.fillModeNonSolid,
       .samplerAnisotropy = available.samplerAnisotropy,
+      .occlusionQueryPrecise = available.occlusionQueryPrecise,
       .pipelineStatisticsQuery = available.pipelineStatisticsQuery,
       .shaderSampledImageArrayDynamicIndexing = available.shaderSampledImageArrayDynamicIndexing,
       .shaderClipDistance = VK_TRUE,

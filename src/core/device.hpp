@@ -45,6 +45,7 @@ struct DeviceCaps {
   double timestampPeriod = 0.0;                             // nanoseconds per tick
   uint32_t timestampValidBits = 0;                          // 0: no timestamps
   bool pipelineStatistics = false;
+  bool countsSamples = false;  // exactly, in occlusion queries
   bool sampleRateShading = false;
   bool depthClamp = false;
   bool fillModeNonSolid = false;

@@ -30,6 +30,9 @@ GpuTimer::GpuTimer(Device& device, const std::string& name) : device_(device) {
                                  VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT,
                              name + " statistics");
   }
+  if (device.caps().countsSamples) {
+    samples_ = createPool(device, VK_QUERY_TYPE_OCCLUSION, maxPasses, 0, name + " samples");
+  }
 }
 
 void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame) {
@@ -40,6 +43,9 @@ void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame) {
   }
   if (statistics_) {
     vkCmdResetQueryPool(commands, statistics_.get(), 0, maxPasses);
+  }
+  if (samples_) {
+    vkCmdResetQueryPool(commands, samples_.get(), 0, maxPasses);
   }
 }
 
@@ -71,6 +77,19 @@ void GpuTimer::end(VkCommandBuffer commands, int slot) {
   }
 }
 
+void GpuTimer::beginSamples(VkCommandBuffer commands, int slot) {
+  if (samples_ && slot >= 0) {
+    passes_[static_cast<size_t>(slot)].hasSamples = true;
+    vkCmdBeginQuery(commands, samples_.get(), static_cast<uint32_t>(slot), VK_QUERY_CONTROL_PRECISE_BIT);
+  }
+}
+
+void GpuTimer::endSamples(VkCommandBuffer commands, int slot) {
+  if (slot >= 0 && passes_[static_cast<size_t>(slot)].hasSamples) {
+    vkCmdEndQuery(commands, samples_.get(), static_cast<uint32_t>(slot));
+  }
+}
+
 FrameTimings GpuTimer::read() const {
   FrameTimings timings{.frame = frame_, .passes = passes_};
   const auto count = static_cast<uint32_t>(passes_.size());
@@ -97,6 +116,11 @@ FrameTimings GpuTimer::read() const {
             "read pipeline statistics");
       timings.passes[i].triangles = values[0];
       timings.passes[i].fragments = values[1];
+    }
+    if (passes_[i].hasSamples) {
+      check(vkGetQueryPoolResults(device_.get(), samples_.get(), i, 1, sizeof(uint64_t), &timings.passes[i].samples,
+                                  sizeof(uint64_t), VK_QUERY_RESULT_64_BIT),
+            "read sample counts");
     }
   }
   return timings;

@@ -13,6 +13,8 @@ struct PassTiming {
   bool hasStatistics = false;
   uint64_t triangles = 0;  // that left clipping
   uint64_t fragments = 0;  // fragment shader invocations
+  bool hasSamples = false;
+  uint64_t samples = 0;  // that passed the depth test since beginSamples
 };
 
 struct FrameTimings {
@@ -30,6 +32,9 @@ class GpuTimer {
   void reset(VkCommandBuffer commands, uint64_t frame);  // at the start of the frame's commands
   int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
   void end(VkCommandBuffer commands, int slot);
+  // Both within one render pass.
+  void beginSamples(VkCommandBuffer commands, int slot);
+  void endSamples(VkCommandBuffer commands, int slot);
   FrameTimings read() const;  // after the frame's fence
 
  private:
@@ -38,6 +43,7 @@ class GpuTimer {
   Device& device_;
   QueryPoolHandle stamps_;      // null where the queue has none
   QueryPoolHandle statistics_;  // null where the device has none
+  QueryPoolHandle samples_;     // null where the device cannot count them
   uint64_t frame_ = 0;
   std::vector<PassTiming> passes_;
 };

@@ -65,7 +65,14 @@ PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& ti
   device_.setFrontFace(commands_, desc_.frontFace);
 }
 
+void PassScope::countSamples() {
+  if (desc_.collectStatistics) {
+    timer_.beginSamples(commands_, timerSlot_);
+  }
+}
+
 PassScope::~PassScope() {
+  timer_.endSamples(commands_, timerSlot_);
   if (dynamic_) {
     device_.endRendering(commands_);
   } else {

@@ -68,6 +68,8 @@ class PassScope {
   // A label within the pass's own; ended by endLabel.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }
+  // From here to the pass's end the samples that pass the depth test are counted; once a pass, with collectStatistics.
+  void countSamples();
 
  private:
   friend class Renderer;

@@ -106,6 +106,7 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index) {
       device.properties.limits.framebufferColorSampleCounts & device.properties.limits.framebufferDepthSampleCounts;
   caps.timestampPeriod = device.properties.limits.timestampPeriod;
   caps.pipelineStatistics = device.features.pipelineStatisticsQuery;
+  caps.countsSamples = device.features.occlusionQueryPrecise;
   caps.sampleRateShading = device.features.sampleRateShading;
   caps.depthClamp = device.features.depthClamp;
   caps.primitiveId = device.features.geometryShader;

@@ -80,7 +80,10 @@ VkPipelineDepthStencilStateCreateInfo depthState(const GraphicsPipelineDesc& des
           .depthCompareOp = desc.depthCompare};
 }
 
-VkPipelineColorBlendAttachmentState blending(Blend blend) {
+constexpr VkColorComponentFlags allColor =
+    VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+
+VkPipelineColorBlendAttachmentState blending(Blend blend, bool writesColor) {
   const bool add = blend == Blend::add;
   return {.blendEnable = blend != Blend::none,
           .srcColorBlendFactor = add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_SRC_ALPHA,
@@ -89,8 +92,7 @@ VkPipelineColorBlendAttachmentState blending(Blend blend) {
           .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
           .dstAlphaBlendFactor = add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
           .alphaBlendOp = VK_BLEND_OP_ADD,
-          .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                            VK_COLOR_COMPONENT_A_BIT};
+          .colorWriteMask = writesColor ? allColor : 0};
 }
 
 PipelineLayoutHandle createLayout(Device& device, const PipelineDesc& desc) {
@@ -159,8 +161,12 @@ PipelineHandle PipelineFactory::buildCompute(const ComputePipelineDesc& desc, Vk
 
 PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
   const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.vertConstants);
-  const Stage frag(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(desc.frag), desc.fragConstants);
-  const std::array stages = {vert.info(), frag.info()};
+  std::vector<VkPipelineShaderStageCreateInfo> stages = {vert.info()};
+  std::optional<Stage> frag;
+  if (!desc.frag.empty()) {
+    frag.emplace(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(desc.frag), desc.fragConstants);
+    stages.push_back(frag->info());
+  }
   const auto vertexInput = vertexInputState(desc);
   const VkPipelineInputAssemblyStateCreateInfo assembly{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO, .topology = desc.topology};
@@ -169,12 +175,12 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
   const auto raster = rasterization(desc, device_.caps());
   const auto samples = multisampling(desc, device_.caps());
   const auto depth = depthState(desc);
-  const auto attachment = blending(desc.blend);
+  const auto attachment = blending(desc.blend, !desc.frag.empty());
   const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                                   .attachmentCount = 1,
                                                   .pAttachments = &attachment};
   VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                    .stageCount = stages.size(),
+                                    .stageCount = static_cast<uint32_t>(stages.size()),
                                     .pStages = stages.data(),
                                     .pVertexInputState = &vertexInput,
                                     .pInputAssemblyState = &assembly,

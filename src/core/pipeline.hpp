@@ -22,8 +22,8 @@ enum class Blend {
 // Dynamic: viewport, scissor, front face. Everything else is fixed here.
 struct GraphicsPipelineDesc {
   std::string name;
-  std::string vert;  // e.g. "scene.vert"
-  std::string frag;
+  std::string vert;                     // e.g. "scene.vert"
+  std::string frag;                     // empty: only depth is written
   std::vector<uint32_t> vertConstants;  // specialisation constants 0, 1, ... of the vertex shader
   std::vector<uint32_t> fragConstants;
   std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline

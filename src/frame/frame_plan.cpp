@@ -6,6 +6,9 @@
 #include <queue>
 #include <sstream>
 
+#include "frame/occlusion.hpp"
+#include "frame/pass_mask.hpp"
+
 namespace speculum {
 
 namespace {
@@ -83,6 +86,7 @@ class Planner {
     plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, near);
     plan_.width = width;
     plan_.height = height;
+    occlusion_.emplace(scene, state, settings, plan_.projection);
   }
 
   FramePlan plan() {
@@ -102,7 +106,7 @@ class Planner {
 
  private:
   void fill(int node);
-  void consider(int node, int mirror);
+  void consider(int node, int mirror, const View& readable);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
   void hold(Node& node, const Candidate& candidate) const;
@@ -121,14 +125,22 @@ class Planner {
   FramePlan plan_;
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> candidates_;
+  std::optional<Occlusion> occlusion_;
   int discovered_ = 0;
 };
 
 // What is drawn in a node's view, and which of its mirrors are candidates for passes.
 void Planner::fill(int node) {
   const View view = nodes_[node].pass.view;
+  // A mirror image is read a little beyond the edge of what is seen of it.
+  View readable = view;
+  if (!view.path.empty()) {
+    widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(allSettings_, false))) + 1);
+  }
   for (size_t i = 0; i < state_.instances.size(); ++i) {
-    if (sphereVisible(view, state_.instances[i].center, state_.instances[i].radius)) {
+    const InstanceState& instance = state_.instances[i];
+    if (sphereVisible(view, instance.center, instance.radius) &&
+        boxVisible(readable, instance.worldFromMesh, scene_.meshes[instance.mesh].halfExtent)) {
       nodes_[node].pass.instances.push_back(static_cast<int>(i));
     }
   }
@@ -141,7 +153,7 @@ void Planner::fill(int node) {
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
     const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);
     if (!last) {
-      consider(node, static_cast<int>(i));
+      consider(node, static_cast<int>(i), readable);
     }
   }
 }
@@ -157,7 +169,7 @@ void Planner::skip(const View& view, int mirror, SkipReason reason, std::string 
   plan_.skipped.push_back(std::move(skipped));
 }
 
-void Planner::consider(int node, int mirror) {
+void Planner::consider(int node, int mirror, const View& readable) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
   const Mirror& material = scene_.mirrors[mirror];
@@ -174,14 +186,20 @@ void Planner::consider(int node, int mirror) {
     draw.plane.normal = -draw.plane.normal;
     std::reverse(draw.polygon.begin(), draw.polygon.end());
   }
+  const std::optional<std::string> occluder =
+      visible.empty() ? std::nullopt
+                      : occlusion_->hiddenBy(view, pass.instances, mirror, visiblePart(readable, geometry.polygon));
   if (draw.back) {
-    if (!visible.empty() && height < 0.0) {
+    if (!visible.empty() && height < 0.0 && !occluder) {
       pass.mirrors.push_back(std::move(draw));
     }
     return skip(view, mirror, SkipReason::backface, height == 0.0 ? "the eye is in its plane" : "");
   }
   if (visible.empty()) {
     return skip(view, mirror, SkipReason::outside);
+  }
+  if (occluder) {
+    return skip(view, mirror, SkipReason::hidden, "behind " + *occluder);
   }
   draw.scatters = scatters(material, allSettings_.effects);
   const bool needsPass = !draw.scatters;

@@ -229,6 +229,10 @@ std::vector<Setting> debugTable() {
       boolean<DebugSettings>(
           {"debug.check_finite", "true | false", "radiance that is NaN, infinite or negative is found"},
           &Settings::debug, &DebugSettings::checkFinite),
+      boolean<DebugSettings>({"debug.skip_hidden", "true | false", "mirrors behind something flat have no pass"},
+                             &Settings::debug, &DebugSettings::skipHidden),
+      boolean<DebugSettings>({"debug.mask_passes", "true | false", "only what is seen of a mirror image is shaded"},
+                             &Settings::debug, &DebugSettings::maskPasses),
   };
 }
 

@@ -62,6 +62,8 @@ struct QualitySettings {
 struct DebugSettings {
   std::string omitBarrier;   // name of a barrier that is not recorded, to show that validation notices; empty: none
   bool checkFinite = false;  // every render target of radiance is searched for values that are not finite or negative
+  bool skipHidden = true;    // a mirror that one flat thing hides has no pass
+  bool maskPasses = true;    // what no one looks up of a mirror's image is not shaded
 };
 
 struct Settings {

@@ -9,6 +9,10 @@ namespace speculum {
 
 namespace {
 
+// As an angle at the eye. Rounding turns the plane through a shorter one by more than 1e-7, and what it bounds is no
+// wider than rounding anyway.
+constexpr double shortestEdge = 1e-9;
+
 // Planes through the eye and the polygon's edges, turned inwards. An edge that points at the eye bounds nothing.
 std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
   glm::dvec3 inside(0.0);
@@ -21,7 +25,7 @@ std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::
     const glm::dvec3 b = polygon[(i + 1) % polygon.size()] - eye;
     const glm::dvec3 n = glm::cross(a, b);
     const double length = glm::length(n);
-    if (length <= 1e-14 * glm::length(a) * glm::length(b)) {
+    if (length <= shortestEdge * glm::length(a) * glm::length(b)) {
       continue;
     }
     cone.push_back(glm::dot(n, inside) < 0.0 ? n / -length : n / length);
@@ -128,6 +132,23 @@ bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {
   }
   return std::all_of(view.cone.begin(), view.cone.end(),
                      [&](const glm::dvec3& normal) { return glm::dot(normal, center - view.eye) >= -radius; });
+}
+
+bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent) {
+  const glm::dvec3 axes = glm::dvec3(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
+                                     glm::length(worldFromBox.linear[2])) *
+                          halfExtent;
+  const double rounding = 1e-5 * (axes.x + axes.y + axes.z);  // of floats on the GPU, with room to spare
+  const auto reach = [&](const glm::dvec3& normal) {
+    const glm::dvec3 along = glm::abs(normal * worldFromBox.linear) * halfExtent;
+    return along.x + along.y + along.z + rounding;
+  };
+  if (view.clip && view.clip->distance(worldFromBox.translation) < -reach(view.clip->normal)) {
+    return false;
+  }
+  return std::all_of(view.cone.begin(), view.cone.end(), [&](const glm::dvec3& normal) {
+    return glm::dot(normal, worldFromBox.translation - view.eye) >= -reach(normal);
+  });
 }
 
 std::vector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon) {

@@ -50,6 +50,10 @@ std::vector<glm::dvec3> drawnPart(const View& view, std::span<const glm::dvec3> 
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 
+// Whether any of a box may be seen: `halfExtent` about the origin of its own space, which `worldFromBox` takes to the
+// world.
+bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent);
+
 // World positions to clip space, with the difference from the eye taken first.
 std::vector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon);
 

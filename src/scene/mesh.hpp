@@ -48,6 +48,8 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
   std::vector<MeshPart> parts;
+  std::vector<std::vector<glm::dvec3>>
+      faces;  // flat and convex, the largest few; relative to `center`. See convexFaces
 };
 
 }  // namespace speculum

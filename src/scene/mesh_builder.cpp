@@ -8,6 +8,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "optics/convex_faces.hpp"
 #include "scene/triangulate.hpp"
 
 namespace speculum {
@@ -190,6 +191,18 @@ class MeshBuilder {
   size_t slivers_ = 0;     // triangles
 };
 
+// What hides a whole mirror is a wall, a door or a cupboard: few triangles, or few of them large.
+std::vector<std::vector<glm::dvec3>> largestFaces(const Mesh& mesh) {
+  constexpr size_t most = 32;
+  constexpr size_t mostTriangles = 4096;
+  std::vector<glm::dvec3> positions;
+  positions.reserve(mesh.vertices.size());
+  for (const Vertex& vertex : mesh.vertices) {
+    positions.push_back(vertex.position);
+  }
+  return convexFaces(positions, mesh.indices, most, mostTriangles);
+}
+
 }  // namespace
 
 Mesh buildMesh(const std::filesystem::path& file, const ObjGeometry& geometry, const ObjScan& scan,
@@ -201,6 +214,7 @@ Mesh buildMesh(const std::filesystem::path& file, const ObjGeometry& geometry, c
   builder.warn(file);
   Mesh mesh = builder.finish(materialOf);
   mesh.source = file;
+  mesh.faces = largestFaces(mesh);
   return mesh;
 }
 

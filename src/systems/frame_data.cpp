@@ -5,6 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "frame/draw_order.hpp"
+#include "frame/pass_mask.hpp"
+
 namespace speculum {
 
 namespace {
@@ -194,6 +197,7 @@ void FrameData::addPass(const PlannedPass& pass, const FramePlan& plan, const Sc
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(pass, projection, scene, state, settings.effects, data);
   addMirrors(pass, projection, plan, scene, settings.effects, data);
+  addMask(pass, plan, settings, data);
 }
 
 // Lights whose glyphs are visible come first, so that one instanced draw covers them.
@@ -217,7 +221,7 @@ void FrameData::addLights(const PlannedPass& pass, const Scene& scene, const Sce
 void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene,
                              const SceneState& state, const EffectSettings& effects, PassData& data) {
   const glm::dmat4 clipFromRelative = projection * relativeToView(pass.view);
-  for (const int i : pass.instances) {
+  for (const int i : frontToBack(pass.view, pass.instances, state)) {
     const InstanceState& instance = state.instances[i];
     const Object& object = scene.objects[instance.object];
     const bool curved = effects.curved && object.mirror;
@@ -238,13 +242,18 @@ constexpr double fringeWidth = 1.0 / 256.0;
 // Behind everything but the background, at any distance.
 constexpr double fringeDepth = 1e-25;
 
+// Triangles of a convex polygon in clip space.
+void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygon) {
+  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+    vertices.insert(vertices.end(), {polygon[0], polygon[i], polygon[i + 1]});
+  }
+}
+
 // The polygon as triangles, and around it a fringe that shows only where the background would. Where mirrors share an
 // edge, or end at a body, rounding may part them by a sample; there the fringe of one of them is seen. Widening the
 // mirror itself would be worse: it would hide what it ends at, and its image has nothing to show beyond its edge.
 void addTriangles(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size) {
-  for (size_t i = 1; i + 1 < clip.size(); ++i) {
-    vertices.insert(vertices.end(), {clip[0], clip[i], clip[i + 1]});
-  }
+  addFan(vertices, clip);
   const std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
   const auto far = [](const glm::dvec4& v) { return glm::vec4(v.x, v.y, fringeDepth * v.w, v.w); };
   for (size_t i = 0; i < clip.size(); ++i) {
@@ -280,6 +289,21 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
     range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;
     data.mirrors.push_back(range);
   }
+}
+
+void FrameData::addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data) {
+  if (pass.view.path.empty() || !settings.debug.maskPasses) {
+    return;
+  }
+  const glm::dvec2 drawn = overscan(pass.view);
+  const double reach = lookupReach(settings, device_.limits().standardSampleLocations);
+  std::vector<glm::dvec4> clip;
+  for (const glm::dvec2& p : passMask(pass.view, plan.projection, reach)) {
+    clip.emplace_back(p / drawn, 0.0, 1.0);  // infinitely far
+  }
+  data.maskFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
+  addFan(mirrorVertices_, clip);
+  data.maskVertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - data.maskFirstVertex;
 }
 
 void FrameData::upload(Frame& frame, Kind kind, std::span<const std::byte> data) {

@@ -45,6 +45,8 @@ struct PassData {
   std::vector<Batch> batches;
   uint32_t glyphCount = 0;
   std::vector<MirrorRange> mirrors;
+  uint32_t maskFirstVertex = 0;
+  uint32_t maskVertexCount = 0;  // 0: the whole rectangle is drawn
 };
 
 // The buffers of one frame. Everything is composed in double relative to the eye of its view and becomes float once.
@@ -72,6 +74,7 @@ class FrameData {
                     const EffectSettings& effects, PassData& data);
   void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
                   const EffectSettings& effects, PassData& data);
+  void addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
   void upload(Frame& frame, Kind kind, std::span<const std::byte> data);
 
   Device& device_;

@@ -58,6 +58,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       resources_(device_, renderer.uploader(), scene),
       data_(device_),
       trace_(device_, renderer.uploader(), scene),
+      maskSystem_(renderer.pipelines(), data_.layout()),
       renderSystem_(renderer.pipelines(), data_.layout(), resources_.textureLayout()),
       pointLightSystem_(renderer.pipelines(), data_.layout()),
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
@@ -72,8 +73,8 @@ SceneRenderer::~SceneRenderer() {
 }
 
 size_t SceneRenderer::pipelineCount() const {
-  return renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() + mirrorSystem_.pipelineCount() +
-         displayPipelines_.size() + watch_.pipelineCount();
+  return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
+         mirrorSystem_.pipelineCount() + displayPipelines_.size() + watch_.pipelineCount();
 }
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
@@ -274,10 +275,14 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
                       .scissor = area,
                       .frontFace = frontFace(view),
                       .clearColor = clearColor(info.environment),
+                      .clearDepth = MaskSystem::clearDepth(info.data.passes()[index]),
                       .collectStatistics = true};
   {
-    const PassScope scope = renderer_.beginPass(frame, desc);
-    recorded.draws = recordSystems(scope, info, index, {.samples = target.samples(), .mirrorView = true});
+    PassScope scope = renderer_.beginPass(frame, desc);
+    const PassFormat format{.samples = target.samples(), .mirrorView = true};
+    recorded.draws = maskSystem_.record(scope, info, index, format);
+    scope.countSamples();
+    recorded.draws += recordSystems(scope, info, index, format);
   }
   recorded_.push_back(std::move(recorded));
   checkTarget(frame, info, target, area.extent);
@@ -294,7 +299,8 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
   desc.storeSamples = main_->desc().readSamples;
   RecordedPass recorded{.name = desc.name, .areaPx = info.plan.main.areaPx};
   {
-    const PassScope scope = renderer_.beginPass(frame, desc);
+    PassScope scope = renderer_.beginPass(frame, desc);
+    scope.countSamples();
     recorded.draws = recordSystems(scope, info, info.plan.passes.size(), {.samples = main_->samples()});
   }
   recorded_.push_back(std::move(recorded));

@@ -8,6 +8,7 @@
 #include "systems/finite_watch.hpp"
 #include "systems/frame_info.hpp"
 #include "systems/image_pool.hpp"
+#include "systems/mask_system.hpp"
 #include "systems/mirror_system.hpp"
 #include "systems/point_light_system.hpp"
 #include "systems/render_system.hpp"
@@ -93,6 +94,7 @@ class SceneRenderer {
   SceneResources resources_;
   FrameData data_;
   TraceFrame trace_;
+  MaskSystem maskSystem_;
   RenderSystem renderSystem_;
   PointLightSystem pointLightSystem_;
   MirrorSystem mirrorSystem_;

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "image/image.hpp"
+#include "ui/pass_tree.hpp"
 
 namespace speculum::panels {
 
@@ -176,6 +177,70 @@ void depthResolution(const UiPass& pass, ClipMethod inUse) {
 
 }  // namespace
 
+namespace {
+
+void skippedRows(const UiModel& model, const PassNode& node) {
+  if (node.skipped.empty()) {
+    return;
+  }
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  const std::string title = std::to_string(node.skipped.size()) + " without a pass###skipped";
+  if (!ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth)) {
+    return;
+  }
+  for (const int i : node.skipped) {
+    const UiSkipped& skip = model.skipped[static_cast<size_t>(i)];
+    const size_t last = skip.path.rfind(" > ");
+    const std::string name = last == std::string::npos ? skip.path : skip.path.substr(last + 3);
+    const std::string why = skip.reason + (skip.detail.empty() ? "" : " (" + skip.detail + ")");
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s: %s", name.c_str(), why.c_str());
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s\n%s", skip.path.c_str(), why.c_str());
+    }
+  }
+  ImGui::TreePop();
+}
+
+void passRow(UiModel& model, const PassNode& node) {
+  const UiPass& pass = model.passes[static_cast<size_t>(node.pass)];
+  const bool leaf = node.children.empty() && node.skipped.empty();
+  ImGuiTreeNodeFlags flags =
+      ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_DefaultOpen;
+  flags |= leaf ? ImGuiTreeNodeFlags_Leaf : 0;
+  flags |= model.debugPass == node.pass ? ImGuiTreeNodeFlags_Selected : 0;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  // In the tree the mirror's own name says enough.
+  const size_t last = pass.name.rfind(" > ");
+  const std::string name = last == std::string::npos ? pass.name : pass.name.substr(last + 3);
+  const std::string id = pass.name + "/" + std::to_string(node.pass);
+  const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
+  if (pass.depth >= 0 && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
+    model.debugPass = model.debugPass == node.pass ? -1 : node.pass;
+  }
+  ImGui::TableNextColumn();
+  ImGui::Text("%.3f", pass.gpuMs);
+  ImGui::TableNextColumn();
+  ImGui::Text("%u", pass.draws);
+  ImGui::TableNextColumn();
+  ImGui::Text("%.0f", pass.areaPx);
+  ImGui::TableNextColumn();
+  depthResolution(pass, model.settings.reflection.clip);
+  if (!open) {
+    return;
+  }
+  for (const PassNode& child : node.children) {
+    passRow(model, child);
+  }
+  skippedRows(model, node);
+  ImGui::TreePop();
+}
+
+}  // namespace
+
 void passes(UiModel& model) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
@@ -193,43 +258,10 @@ void passes(UiModel& model) {
   ImGui::TableSetupColumn("pixels", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableSetupColumn("depth m", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableHeadersRow();
-  for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
-    const UiPass& pass = model.passes[i];
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::PushID(i);
-    const bool mirror = pass.depth >= 0;
-    if (ImGui::Selectable(pass.name.c_str(), model.debugPass == i, mirror ? 0 : ImGuiSelectableFlags_Disabled)) {
-      model.debugPass = model.debugPass == i ? -1 : i;
-    }
-    ImGui::PopID();
-    ImGui::TableNextColumn();
-    ImGui::Text("%.3f", pass.gpuMs);
-    ImGui::TableNextColumn();
-    ImGui::Text("%u", pass.draws);
-    ImGui::TableNextColumn();
-    ImGui::Text("%.0f", pass.areaPx);
-    ImGui::TableNextColumn();
-    depthResolution(pass, model.settings.reflection.clip);
+  for (const PassNode& node : passTree(model.passes, model.skipped)) {
+    passRow(model, node);
   }
   ImGui::EndTable();
-}
-
-void skipped(const UiModel& model) {
-  const std::string title = "Skipped mirrors (" + std::to_string(model.skipped.size()) + ")###skipped";
-  if (!ImGui::CollapsingHeader(title.c_str()) || model.skipped.empty()) {
-    return;
-  }
-  if (ImGui::BeginTable("skipped", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
-    for (const UiSkipped& skip : model.skipped) {
-      ImGui::TableNextRow();
-      for (const std::string& text : {skip.path, skip.reason, skip.detail}) {
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(text.c_str());
-      }
-    }
-    ImGui::EndTable();
-  }
 }
 
 void device(UiModel& model) {

@@ -9,7 +9,6 @@ void message(const UiModel& model);
 void scene(UiModel& model);
 void settings(UiModel& model);
 void passes(UiModel& model);
-void skipped(const UiModel& model);
 void effects(UiModel& model);
 void device(UiModel& model);
 void accuracy(UiModel& model);

@@ -149,7 +149,6 @@ void SimpleUI::buildPanel(UiModel& model) {
       panels::settings(model);
     }
     panels::passes(model);
-    panels::skipped(model);
     panels::effects(model);
     panels::device(model);
     ImGui::PopItemWidth();

@@ -26,6 +26,7 @@ struct UiSkipped {
   std::string path;  // mirrors from the eye
   std::string reason;
   std::string detail;
+  std::vector<int> mirrors;  // of the path, indices into Scene::mirrors
 };
 
 struct UiEffect {

@@ -1,0 +1,70 @@
+#include "frame/pass_mask.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+// Device coordinates of the rectangle's corners, in the plane z = 0.
+std::vector<glm::dvec3> corners(const View& view) {
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  const double x0 = view.rect.x * step.x - 1.0;
+  const double y0 = view.rect.y * step.y - 1.0;
+  const double x1 = (view.rect.x + view.rect.width) * step.x - 1.0;
+  const double y1 = (view.rect.y + view.rect.height) * step.y - 1.0;
+  return {{x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0}};
+}
+
+}  // namespace
+
+// A pixel that is shaded has a sample inside the edge and reads the same texel. All of the texel's samples are wanted,
+// those that are not read as well: where only some of them pass the depth test, a driver may shade at another place.
+// At another resolution than the screen's, and in images of earlier frames, a pixel reads a box: as wide as itself and
+// at least as a texel, and half a texel more on each side for the samples, about a centre that may lie half a pixel
+// outside the edge.
+double lookupReach(const Settings& settings, bool standardLocations) {
+  const ReflectionSettings& r = settings.reflection;
+  if (r.scale != 1.0 || r.updateInterval > 1) {
+    return std::max(r.scale, 1.0) + 1.0;
+  }
+  // Standard locations of 2, 4 and 8 samples, from the texel's middle.
+  const auto farthest = [&](int samples) { return standardLocations ? 0.5 - 0.5 / std::min(samples, 8) : 0.5; };
+  return std::max(farthest(r.samples), farthest(settings.view.samples)) + farthest(r.samples);
+}
+
+std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach) {
+  constexpr double rounding = 0.1;  // pixels, of float positions on the GPU, with room to spare
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  const glm::dvec2 perDevice(projection.aspect / projection.focal, 1.0 / projection.focal);
+  const std::vector<glm::dvec3> rectangle = corners(view);
+  std::vector<glm::dvec3> part = rectangle;
+  bool cut = false;
+  for (const glm::dvec3& normal : view.cone) {
+    // The plane's line on the screen, as in widen().
+    const glm::dvec3 n = view.worldToView * normal;
+    const glm::dvec3 line(n.x * perDevice.x, -n.y * perDevice.y, 0.0);
+    const glm::dvec2 perPixel = glm::abs(step * glm::dvec2(line));
+    const double offset = -n.z + reach * (perPixel.x + perPixel.y) + rounding * glm::length(perPixel);
+    const auto inside = [&](const glm::dvec3& p) { return glm::dot(line, p) + offset >= 0.0; };
+    const double length2 = glm::dot(line, line);
+    if (length2 == 0.0 || std::all_of(part.begin(), part.end(), inside)) {
+      continue;
+    }
+    part = clipPolygon(part, Plane{line * (-offset / length2), line});
+    cut = true;
+  }
+  // An image is looked up only where its mirror is seen: without such a part, arithmetic failed.
+  if (!cut || part.size() < 3) {
+    return {};
+  }
+  std::vector<glm::dvec2> mask;
+  mask.reserve(part.size());
+  for (const glm::dvec3& p : part) {
+    mask.emplace_back(p);
+  }
+  return mask;
+}
+
+}  // namespace speculum

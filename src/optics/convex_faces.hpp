@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace speculum {
+
+// Flat convex faces of a triangle mesh, the largest first and at most `most`. Triangles are joined across common edges
+// (equal positions, opposite directions) as long as the face stays convex and within 1e-6 of its size of one plane; a
+// face that could not grow is a triangle. Every face is covered by its triangles without a gap. Meshes of more than
+// `mostTriangles` have none: what they hide, no single face does.
+std::vector<std::vector<glm::dvec3>> convexFaces(std::span<const glm::dvec3> positions,
+                                                 std::span<const uint32_t> indices, size_t most, size_t mostTriangles);
+
+}  // namespace speculum

@@ -1,0 +1,44 @@
+#include "ui/pass_tree.hpp"
+
+#include <algorithm>
+
+namespace speculum {
+
+namespace {
+
+bool isSeenIn(const std::vector<int>& path, const std::vector<int>& parent) {
+  return path.size() == parent.size() + 1 && std::equal(parent.begin(), parent.end(), path.begin());
+}
+
+PassNode nodeOf(int pass, std::span<const UiPass> passes, std::span<const UiSkipped> skipped) {
+  PassNode node{.pass = pass};
+  const std::vector<int>& path = passes[static_cast<size_t>(pass)].path;
+  for (size_t i = 0; i < skipped.size(); ++i) {
+    if (isSeenIn(skipped[i].mirrors, path)) {
+      node.skipped.push_back(static_cast<int>(i));
+    }
+  }
+  for (size_t i = 0; i < passes.size(); ++i) {
+    if (isSeenIn(passes[i].path, path)) {
+      node.children.push_back(nodeOf(static_cast<int>(i), passes, skipped));
+    }
+  }
+  return node;
+}
+
+}  // namespace
+
+std::vector<PassNode> passTree(std::span<const UiPass> passes, std::span<const UiSkipped> skipped) {
+  std::vector<PassNode> roots;
+  for (size_t i = 0; i < passes.size(); ++i) {
+    if (!passes[i].path.empty()) {
+      continue;
+    }
+    // The first of them is the main view.
+    const int pass = static_cast<int>(i);
+    roots.push_back(roots.empty() ? nodeOf(pass, passes, skipped) : PassNode{.pass = pass});
+  }
+  return roots;
+}
+
+}  // namespace speculum

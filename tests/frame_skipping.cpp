@@ -1,0 +1,290 @@
+// What a frame does not draw: mirrors behind something flat, and the parts of mirror images that nobody looks up.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "frame/draw_order.hpp"
+#include "frame/frame_plan.hpp"
+#include "frame/pass_mask.hpp"
+#include "optics/affine.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr int width = 640;
+constexpr int height = 360;
+
+Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size) {
+  Mirror mirror;
+  mirror.position = position;
+  mirror.rotation = {0, yaw, 0};
+  mirror.size = size;
+  return mirror;
+}
+
+// The camera stands at the origin and looks along -z. Every object is a square of 2 m that faces +z.
+Scene sceneWith(std::vector<Mirror> mirrors, const std::vector<Object>& objects) {
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  scene.mirrors = std::move(mirrors);
+  scene.objects = objects;
+  Mesh mesh{.halfExtent = {1, 1, 0}, .radius = std::sqrt(2.0)};
+  mesh.faces = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
+  scene.meshes = {mesh};
+  return scene;
+}
+
+Object square(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1.0)) {
+  Object object;
+  object.name = "door";
+  object.mesh = 0;
+  object.position = position;
+  object.scale = scale;
+  return object;
+}
+
+FramePlan plan(const Scene& scene, const Settings& settings = {}) {
+  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
+}
+
+const SkippedMirror* skipOf(const FramePlan& plan, const std::vector<int>& path) {
+  const auto it = std::find_if(plan.skipped.begin(), plan.skipped.end(),
+                               [&](const SkippedMirror& skip) { return skip.path == path; });
+  return it == plan.skipped.end() ? nullptr : &*it;
+}
+
+bool isHidden(const FramePlan& plan, const std::vector<int>& path) {
+  const SkippedMirror* skip = skipOf(plan, path);
+  return skip && skip->reason == SkipReason::hidden;
+}
+
+TEST(Hidden, BehindAnObjectNeitherPassNorDraw) {
+  const FramePlan p = plan(sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {square({0, 0, -3})}));
+  EXPECT_TRUE(p.passes.empty());
+  EXPECT_TRUE(p.main.mirrors.empty());
+  ASSERT_TRUE(isHidden(p, {0}));
+  EXPECT_EQ(skipOf(p, {0})->detail, "behind object door");
+}
+
+TEST(Hidden, BehindAnotherMirrorFrontAndBack) {
+  for (const double yaw : {0.0, 180.0}) {
+    Mirror screen = wall({0, 0, -3}, yaw, {2, 2});
+    screen.name = "screen";
+    const FramePlan p = plan(sceneWith({wall({0, 0, -5}, 0, {2, 2}), screen}, {}));
+    ASSERT_TRUE(isHidden(p, {0})) << yaw;
+    EXPECT_EQ(skipOf(p, {0})->detail, "behind mirror screen");
+    ASSERT_EQ(p.main.mirrors.size(), 1u);
+    EXPECT_EQ(p.main.mirrors[0].mirror, 1);
+  }
+}
+
+TEST(Hidden, ABackIsNotDrawnEither) {
+  const FramePlan p = plan(sceneWith({wall({0, 0, -5}, 180, {2, 2})}, {square({0, 0, -3})}));
+  EXPECT_TRUE(p.main.mirrors.empty());
+  EXPECT_EQ(skipOf(p, {0})->reason, SkipReason::backface);
+}
+
+TEST(Hidden, OnlyByWhatCoversAllOfItInFrontOfIt) {
+  const Mirror mirror = wall({0, 0, -5}, 0, {2, 2});
+  EXPECT_FALSE(isHidden(plan(sceneWith({mirror}, {square({0, 0, -7}, {9, 9, 1})})), {0})) << "behind it";
+  EXPECT_FALSE(isHidden(plan(sceneWith({mirror}, {square({0.9, 0, -3})})), {0})) << "part of it peeps out";
+  EXPECT_FALSE(
+      isHidden(plan(sceneWith({mirror}, {square({-0.5, 0, -3}, {0.5, 1, 1}), square({0.5, 0, -3}, {0.5, 1, 1})})), {0}))
+      << "two halves are not one";
+  EXPECT_FALSE(isHidden(plan(sceneWith({mirror}, {square({0, 0, -4.9999999})})), {0})) << "depth cannot be sure";
+  EXPECT_FALSE(isHidden(plan(sceneWith({mirror}, {square({0, 0, 3})})), {0})) << "behind the eye";
+  // The outline is 0.6 m wide at 3 m; a pixel is 3 * 2 tan(30) / 360 = 9.6 mm there.
+  EXPECT_FALSE(isHidden(plan(sceneWith({mirror}, {square({0, 0, -3}, {0.605, 0.605, 1})})), {0})) << "half a pixel";
+  EXPECT_TRUE(isHidden(plan(sceneWith({mirror}, {square({0, 0, -3}, {0.612, 0.612, 1})})), {0})) << "more than a pixel";
+}
+
+TEST(Hidden, OnlyWhatThePictureShowsHasToBeCovered) {
+  // The mirror reaches far past the picture's border, the occluder only just.
+  EXPECT_TRUE(isHidden(plan(sceneWith({wall({0, 0, -5}, 0, {90, 90})}, {square({0, 0, -1}, {1.1, 0.62, 1})})), {0}));
+}
+
+TEST(Hidden, NothingHidesInWireframeNorWithTheSwitchOff) {
+  const Scene scene = sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {square({0, 0, -3})});
+  Settings settings;
+  settings.view.wireframe = true;
+  EXPECT_EQ(plan(scene, settings).passes.size(), 1u);
+  settings = {};
+  settings.debug.skipHidden = false;
+  EXPECT_EQ(plan(scene, settings).passes.size(), 1u);
+}
+
+// A mirror at z = -4 shows the one behind the camera; a door stands in between, or behind the first mirror's plane.
+TEST(Hidden, InMirrorsOnlyByWhatTheyReflect) {
+  const std::vector<Mirror> facing = {wall({0, 0, -4}, 0, {3, 3}), wall({0, 0, 6}, 180, {2, 2})};
+  const FramePlan between = plan(sceneWith(facing, {square({0, 0, 2}, {3, 3, 1})}));
+  EXPECT_TRUE(isHidden(between, {0, 1}));
+  const FramePlan beyond = plan(sceneWith(facing, {square({0, 0, -6}, {3, 3, 1})}));
+  EXPECT_FALSE(isHidden(beyond, {0, 1}));
+  EXPECT_EQ(beyond.passes.back().view.path, std::vector<int>{0});
+  ASSERT_NE(std::find_if(beyond.passes.begin(), beyond.passes.end(),
+                         [](const PlannedPass& pass) {
+                           return pass.view.path == std::vector<int>{0, 1};
+                         }),
+            beyond.passes.end());
+  // Of a door that stands across the plane, only the part before it reflects, and hides.
+  Object across = square({0, 0, -4}, {3, 3, 1});
+  across.rotation = {0, 90, 0};
+  EXPECT_FALSE(isHidden(plan(sceneWith(facing, {across})), {0, 1}));
+}
+
+// Every line of sight to what is said to be hidden meets the occluder first.
+TEST(Hidden, LinesOfSightAgree) {
+  std::mt19937 engine(7);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  int hidden = 0;
+  for (int round = 0; round < 4000; ++round) {
+    Object door = square({uniform(-1, 1), uniform(-1, 1), uniform(-4, -1)}, {uniform(0.2, 3), uniform(0.2, 3), 1});
+    door.rotation = {uniform(-80, 80), uniform(-80, 80), uniform(0, 360)};
+    Mirror mirror = wall({uniform(-2, 2), uniform(-2, 2), uniform(-8, -2)}, uniform(-60, 60), {1.5, 1});
+    const Scene scene = sceneWith({mirror}, {door});
+    const SceneState state = evaluate(scene, 0.0);
+    const FramePlan p = planFrame(scene, state, {}, width, height);
+    if (!isHidden(p, {0})) {
+      continue;
+    }
+    ++hidden;
+    const std::vector<glm::dvec3> visible = visiblePart(p.main.view, state.mirrors[0].polygon);
+    const Affine& place = state.instances[0].worldFromMesh;
+    const glm::dmat3 inverse = glm::inverse(place.linear);
+    for (const glm::dvec3& p0 : visible) {
+      const glm::dvec3 eye = inverse * (p.main.view.eye - place.translation);
+      const glm::dvec3 point = inverse * (p0 - place.translation);
+      const double t = eye.z / (eye.z - point.z);
+      const glm::dvec3 hit = eye + t * (point - eye);
+      EXPECT_TRUE(t > 0.0 && t < 1.0 && std::abs(hit.x) < 1.0 && std::abs(hit.y) < 1.0) << "round " << round;
+    }
+  }
+  EXPECT_GT(hidden, 200);
+}
+
+// Whether a convex polygon holds a point, both in device coordinates.
+bool holds(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
+  bool left = true;
+  bool right = true;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2 a = polygon[i];
+    const glm::dvec2 edge = polygon[(i + 1) % polygon.size()] - a;
+    const double side = edge.x * (p.y - a.y) - edge.y * (p.x - a.x);
+    left = left && side >= 0.0;
+    right = right && side <= 0.0;
+  }
+  return left || right;
+}
+
+TEST(PassMask, HoldsTheMirrorAndAsMuchAroundItAsIsReadAndNoMore) {
+  Mirror mirror = wall({0.2, -0.1, -5}, 30, {3, 2});
+  mirror.rotation = {20, 30, 25};
+  for (const double scale : {1.0, 0.5, 2.0}) {
+    Settings settings;
+    settings.reflection.scale = scale;
+    const FramePlan p = plan(sceneWith({mirror}, {}), settings);
+    ASSERT_EQ(p.passes.size(), 1u);
+    const PlannedPass& pass = p.passes[0];
+    const double reach = lookupReach(settings, false);
+    const std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, reach);
+    ASSERT_GE(mask.size(), 4u);
+    const std::vector<glm::dvec4> clip = toClip(p.main.view, p.projection, p.main.mirrors[0].polygon);
+    const glm::dvec2 texel = 2.0 / pass.view.pictureSize;
+    const PixelRect& rect = pass.view.rect;
+    const glm::dvec2 low = (glm::dvec2(rect.x, rect.y) + 1e-6) * texel - 1.0;
+    const glm::dvec2 high = low + (glm::dvec2(rect.width, rect.height) - 2e-6) * texel;
+    for (const glm::dvec4& v : clip) {
+      for (int i = 0; i < 4; ++i) {
+        const glm::dvec2 off(i % 4 < 2 ? 1 : -1, i % 2 == 0 ? 1 : -1);
+        const glm::dvec2 near = glm::dvec2(v) / v.w + 0.99 * reach * texel * off;
+        EXPECT_TRUE(holds(mask, glm::clamp(near, low, high))) << scale;
+      }
+    }
+    double area = 0.0;
+    for (size_t i = 1; i + 1 < mask.size(); ++i) {
+      const glm::dvec2 a = mask[i] - mask[0];
+      const glm::dvec2 b = mask[i + 1] - mask[0];
+      area += 0.5 * std::abs(a.x * b.y - a.y * b.x);
+    }
+    const double pixels = area / (texel.x * texel.y) / (scale * scale);
+    EXPECT_LT(pixels, pass.areaPx * (scale < 1.0 ? 1.2 : 1.12)) << scale;
+    EXPECT_LT(pixels, 0.75 * pass.view.rect.area() / (scale * scale)) << "the mirror is tilted";
+  }
+}
+
+TEST(PassMask, IsNoneWhereTheMirrorCoversItsRectangle) {
+  const FramePlan p = plan(sceneWith({wall({0, 0, -1}, 0, {20, 20})}, {}));
+  ASSERT_EQ(p.passes.size(), 1u);
+  EXPECT_TRUE(passMask(p.passes[0].view, p.projection, 1.5).empty());
+}
+
+TEST(PassMask, ReachesAsFarAsLookupsDo) {
+  Settings settings;
+  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 0.75) << "4 samples, 1/8 from the texel's border";
+  EXPECT_DOUBLE_EQ(lookupReach(settings, false), 1.0) << "a whole texel";
+  settings.reflection.samples = 1;
+  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 0.375);
+  settings.view.samples = 1;
+  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 0.0);
+  settings.reflection.updateInterval = 2;
+  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 2.0);
+  settings.reflection.scale = 4.0;
+  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 5.0);
+}
+
+TEST(PassMask, FollowsTheMarginOfAHeldImage) {
+  const Scene scene = sceneWith({wall({0, 0, -5}, 20, {2, 2})}, {});
+  View view = plan(scene).passes[0].view;
+  const Projection projection = plan(scene).projection;
+  const std::vector<glm::dvec2> narrow = passMask(view, projection, 1.5);
+  widen(view, projection, 20);
+  const std::vector<glm::dvec2> wide = passMask(view, projection, 1.5);
+  for (const glm::dvec2& p : narrow) {
+    EXPECT_TRUE(holds(wide, p + glm::dvec2(19.0, 0.0) * 2.0 / view.pictureSize));
+    EXPECT_TRUE(holds(wide, p - glm::dvec2(19.0, 0.0) * 2.0 / view.pictureSize));
+  }
+}
+
+TEST(BoxVisible, IsAsTightAsTheBoxAndNeverTooTight) {
+  const Scene scene = sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {});
+  const FramePlan p = plan(scene);
+  std::mt19937 engine(5);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  int culled = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const View& view = round % 2 == 0 ? p.main.view : p.passes[0].view;
+    const glm::dvec3 half(uniform(0.01, 2), uniform(0.01, 2), uniform(0.01, 0.05));
+    const Affine place{rotationFromDegrees({uniform(0, 360), uniform(0, 360), 0}) * uniform(0.2, 2),
+                       {uniform(-8, 8), uniform(-6, 6), uniform(-12, 12)}};
+    const glm::dvec3 point = place.point(half * glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+    const bool visible = boxVisible(view, place, half);
+    if (sphereVisible(view, point, 0.0)) {
+      EXPECT_TRUE(visible) << "round " << round;
+    }
+    culled += !visible && sphereVisible(view, place.translation, glm::length(place.linear * half));
+  }
+  EXPECT_GT(culled, 500) << "spheres are no tighter";
+}
+
+TEST(DrawOrder, NearFirstByMeshAndWhatSurroundsLast) {
+  SceneState state;
+  const auto add = [&](int mesh, double z, double radius) {
+    state.instances.push_back({.mesh = mesh, .center = {0, 0, z}, .radius = radius});
+  };
+  add(0, -9, 1);
+  add(0, -3, 1);
+  add(1, -2, 1);
+  add(1, -8, 1);
+  add(2, -4, 30);
+  add(3, -2, 1);
+  const std::vector<int> all = {0, 1, 2, 3, 4, 5};
+  EXPECT_EQ(frontToBack(View(), all, state), (std::vector<int>{2, 3, 5, 1, 0, 4}));
+  EXPECT_EQ(frontToBack(View(), std::vector<int>{0, 5}, state), (std::vector<int>{5, 0}));
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,240 @@
+// Pictures do not show what was left out of them: hidden mirrors, and parts of mirror images that nobody looks up.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "app/stats.hpp"
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{160, 90};
+constexpr int cells = 3;          // along each side of the floor
+constexpr double cellSide = 3.0;  // metres
+
+// Rooms on a lattice, with walls between most of them and a mirror on each side of some walls.
+std::filesystem::path roomsScene() {
+  std::ostringstream toml;
+  toml << R"(
+[environment]
+sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [1.5, 1.5, 1.5]
+target = [1.5, 1.4, -4]
+vertical_fov = 70
+[settings]
+"reflection.max_passes" = 4000
+[[object]]
+model = "MODELS/tile.obj"
+position = [4.5, -0.02, 4.5]
+scale = [9, 1, 9]
+color = [0.3, 0.25, 0.2]
+)";
+  std::mt19937 engine(3);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  for (int line = 0; line <= cells; ++line) {
+    for (int cell = 0; cell < cells; ++cell) {
+      for (const bool alongX : {true, false}) {
+        if (line > 0 && line < cells && uniform(0, 1) < 0.3) {
+          continue;
+        }
+        const double across = line * cellSide;
+        const double middle = (cell + 0.5) * cellSide;
+        const auto place = [&](double a, double y, double b) {
+          toml << "position = [" << (alongX ? a : b) << ", " << y << ", " << (alongX ? b : a) << "]\n";
+        };
+        toml << "[[object]]\nname = \"wall " << line << cell << alongX << "\"\nmodel = \"MODELS/box.obj\"\n";
+        place(middle, 0.0, across);
+        toml << "scale = [" << (alongX ? cellSide : 0.1) << ", 2.6, " << (alongX ? 0.1 : cellSide) << "]\ncolor = ["
+             << uniform(0.2, 0.9) << ", " << uniform(0.2, 0.9) << ", " << uniform(0.2, 0.9) << "]\n";
+        for (const double side : {-1.0, 1.0}) {
+          if (uniform(0, 1) < 0.6) {
+            const double yaw = alongX ? (side > 0 ? 0 : 180) : (side > 0 ? 90 : -90);
+            toml << "[[mirror]]\n";
+            place(middle + uniform(-0.5, 0.5), uniform(1.2, 1.5), across + side * 0.06);
+            toml << "rotation = [0.0, " << yaw << ", " << uniform(-8, 8) << "]\nsize = [" << uniform(0.6, 1.6) << ", "
+                 << uniform(0.5, 1.4) << "]\nreflectance = [0.9, 0.9, 0.85]\n";
+            toml << (uniform(0, 1) < 0.3 ? "base_color = [0.1, 0.05, 0.02]\n" : "");
+          }
+        }
+      }
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    toml << "[[object]]\nmodel = \"MODELS/pawn.obj\"\nposition = [" << uniform(1, 8) << ", 0, " << uniform(1, 8)
+         << "]\nscale = 2\n";
+  }
+  toml << "[[light]]\nposition = [4.5, 2.4, 4.5]\nintensity = 20\n";
+  return writeScene("rooms", toml.str());
+}
+
+Image8 pictureWith(Session& session, const Settings& settings) {
+  session.setSettings(settings);
+  session.draw(0.0, true);
+  return session.picture();
+}
+
+int hiddenIn(const FramePlan& plan) {
+  return static_cast<int>(std::count_if(plan.skipped.begin(), plan.skipped.end(),
+                                        [](const SkippedMirror& s) { return s.reason == SkipReason::hidden; }));
+}
+
+// SPECULUM_CAMERA_CUTS in the environment asks for another number of them.
+int cutCount() {
+  const char* wanted = std::getenv("SPECULUM_CAMERA_CUTS");
+  return wanted ? std::atoi(wanted) : 60;
+}
+
+TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
+  Session session(headless(roomsScene(), size));
+  std::mt19937 engine(11);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  const int cuts = cutCount();
+  int hidden = 0;
+  size_t passes = 0;
+  size_t passesOfAll = 0;
+  for (int cut = 0; cut < cuts; ++cut) {
+    const double side = cells * cellSide;
+    const glm::dvec3 eye(uniform(0.05, side), uniform(0.2, cut % 4 == 0 ? 5.0 : 2.4), uniform(0.05, side));
+    const glm::dvec3 target(uniform(0.0, side), uniform(0.2, 2.2), uniform(0.0, side));
+    session.setCamera(lookAt(eye, target, {0, 1, 0}, uniform(30, 100), 0.001));
+    Settings settings = session.settings();
+    settings.reflection.maxDepth = 2 + cut % 2;
+    settings.reflection.scale = cut % 5 == 3 ? 0.5 : cut % 5 == 4 ? 2.0 : 1.0;
+    settings.debug.skipHidden = true;
+    const Image8 skipping = pictureWith(session, settings);
+    hidden += hiddenIn(session.lastFrame().plan);
+    passes += session.lastFrame().plan.passes.size();
+    settings.debug.skipHidden = false;
+    settings.debug.maskPasses = false;
+    const Image8 all = pictureWith(session, settings);
+    passesOfAll += session.lastFrame().plan.passes.size();
+    settings.debug.maskPasses = true;
+    session.setSettings(settings);
+    ASSERT_EQ(skipping.rgba, all.rgba) << "cut " << cut;
+  }
+  expectQuiet(session);
+  EXPECT_GT(hidden, cuts);
+  EXPECT_LT(passes, passesOfAll);
+  std::printf("%d cuts, %d hidden mirrors, %zu passes for %zu\n", cuts, hidden, passes, passesOfAll);
+}
+
+TEST(Skipping, HeldImagesShowTheSameWithAndWithoutTheMask) {
+  Options options = headless(roomsScene(), size);
+  set(options, {{"reflection.update_interval", "3"}});
+  std::vector<Image8> pictures;
+  for (const bool masked : {true, false}) {
+    Session session(options);
+    Settings settings = session.settings();
+    settings.debug.maskPasses = masked;
+    for (int frame = 0; frame < 6; ++frame) {
+      const glm::dvec3 eye(1.4 + 0.01 * frame, 1.5, 1.6);
+      session.setCamera(lookAt(eye, {1.2, 1.3, 0.0}, {0, 1, 0}, 60, 0.001));
+      pictures.push_back(pictureWith(session, settings));
+    }
+    expectQuiet(session);
+  }
+  for (size_t frame = 0; frame < 6; ++frame) {
+    EXPECT_EQ(pictures[frame].rgba, pictures[frame + 6].rgba) << "frame " << frame;
+  }
+}
+
+nlohmann::ordered_json statsWith(Session& session, const Settings& settings) {
+  session.setSettings(settings);
+  session.draw(0.0, false);
+  session.finish();
+  return frameStats(session, session.renderer().timings());
+}
+
+// A tilted mirror in a closed room, and the same under a sky; walls and floor fill the image.
+std::filesystem::path tiltedScene(bool closed) {
+  return writeScene(closed ? "tilted_closed" : "tilted_sky", std::string(R"(
+[environment]
+sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1.6, 1.5]
+target = [0.2, 1.6, -1.5]
+[[mirror]]
+position = [0.2, 1.6, -1.5]
+rotation = [5, 10, 30]
+size = [3.2, 1.8]
+[[object]]
+model = "MODELS/box.obj"
+position = [-1, 0, 4.2]
+scale = [0.8, 1.6, 0.8]
+color = [0.8, 0.4, 0.2]
+[[light]]
+position = [0, 2.9, 1]
+intensity = 20
+glow = 0
+)") + (closed ? R"([[object]]
+model = "MODELS/room.obj"
+position = [0, 0, 2]
+scale = 1.0
+)"
+              : ""));
+}
+
+TEST(Skipping, MirrorPassesDrawNoMoreThanIsSeen) {
+  for (const bool closed : {false, true}) {
+    Session session(headless(tiltedScene(closed), {640, 360}));
+    for (const int samples : {1, 4}) {
+      Settings settings;
+      settings.reflection.samples = samples;
+      const nlohmann::ordered_json masked = statsWith(session, settings)["passes"][0];
+      settings.debug.maskPasses = false;
+      const nlohmann::ordered_json whole = statsWith(session, settings)["passes"][0];
+      ASSERT_TRUE(masked["samples_drawn"].is_number()) << "the device counts no samples";
+      const double seen = masked["area_px"].get<double>() * samples;
+      EXPECT_GT(seen, 20000.0 * samples);
+      EXPECT_LE(masked["samples_drawn"].get<double>(), 1.15 * seen) << closed << samples;
+      EXPECT_GE(masked["samples_drawn"].get<double>(), seen) << closed << samples;
+      EXPECT_GT(whole["samples_drawn"].get<double>(), 1.4 * seen) << closed << samples;
+    }
+    expectQuiet(session);
+  }
+}
+
+// The tree of passes, from their figures alone.
+TEST(Skipping, FiguresOfPassesNameTheParent) {
+  Options options = headless(roomsScene(), size);
+  set(options, {{"reflection.update_interval", "2"}, {"reflection.max_depth", "3"}});
+  Session session(options);
+  session.setCamera(lookAt({1.4, 1.5, 1.6}, {1.2, 1.3, 0.0}, {0, 1, 0}, 100, 0.001));
+  std::vector<nlohmann::ordered_json> frames;
+  for (int frame = 0; frame < 4; ++frame) {
+    frames.push_back(statsWith(session, session.settings()));
+  }
+  frames.push_back(mergeStats(frames));
+  int mirrors = 0;
+  for (const nlohmann::ordered_json& frame : frames) {
+    for (const auto& pass : frame["passes"]) {
+      if (pass["depth"].is_null()) {
+        EXPECT_TRUE(pass["parent"].is_null());
+        continue;
+      }
+      ++mirrors;
+      nlohmann::ordered_json path = frame["passes"][pass["parent"].get<size_t>()]["path"];
+      path.push_back(pass["mirror"]);
+      EXPECT_EQ(path, pass["path"]);
+    }
+  }
+  EXPECT_GT(mirrors, 8);
+  EXPECT_LT(frames[1]["passes"].size(), frames.back()["passes"].size()) << "some images were held";
+  expectQuiet(session);
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include "ui/pass_tree.hpp"
+
+namespace speculum {
+namespace {
+
+TEST(PassTree, MirrorsHangBelowWhatTheyAreSeenIn) {
+  // In the order of recording: children before their parent.
+  const std::vector<UiPass> passes = {{"mirror a > b", {0, 1}, 1}, {"mirror a", {0}, 0}, {"mirror b > a", {1, 0}, 1},
+                                      {"mirror b", {1}, 0},        {"main view"},        {"display"}};
+  const std::vector<UiSkipped> skipped = {{"c", "hidden", "", {2}},
+                                          {"a > c", "outside", "", {0, 2}},
+                                          {"a > b > a", "max_depth", "", {0, 1, 0}},
+                                          {"d > a", "outside", "", {3, 0}}};
+  const std::vector<PassNode> roots = passTree(passes, skipped);
+  ASSERT_EQ(roots.size(), 2u);
+  EXPECT_EQ(roots[1].pass, 5);
+  EXPECT_TRUE(roots[1].children.empty());
+  const PassNode& main = roots[0];
+  EXPECT_EQ(main.pass, 4);
+  EXPECT_EQ(main.skipped, std::vector<int>{0});
+  ASSERT_EQ(main.children.size(), 2u);
+  EXPECT_EQ(main.children[0].pass, 1);
+  EXPECT_EQ(main.children[0].skipped, std::vector<int>{1});
+  ASSERT_EQ(main.children[0].children.size(), 1u);
+  EXPECT_EQ(main.children[0].children[0].pass, 0);
+  EXPECT_EQ(main.children[0].children[0].skipped, std::vector<int>{2});
+  ASSERT_EQ(main.children[1].children.size(), 1u);
+  EXPECT_EQ(main.children[1].children[0].pass, 2);
+}
+
+TEST(PassTree, OfNothingIsEmpty) {
+  EXPECT_TRUE(passTree({}, {}).empty());
+}
+
+}  // namespace
+}  // namespace speculum
