@@ -110,7 +110,7 @@ void main() {
 #ifdef TRACED
   uint traceInstance = uint(instances[instanceIndex].shininess.y);
   Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none,
-                   nearOf(views[draw.viewIndex], relativePosition));
+                   nearOf(relativePosition));
 #ifndef CURVED
   if (shadows)
 #endif

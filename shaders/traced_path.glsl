@@ -122,7 +122,7 @@ Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
   surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
   surface.emission = material.emission.rgb;
   Bounce bounce =
-      Bounce(surface, Skip(hit.instance, triangle.triangle, none, none, nearOf(view, surface.position)), false, away ? -geometric : geometric,
+      Bounce(surface, Skip(hit.instance, triangle.triangle, none, none, nearOf(surface.position)), false, away ? -geometric : geometric,
              vec3(0.0), 0.0);
   applyCurvedMirror(hit.instance, direction, bounce);
   return bounce;

@@ -94,7 +94,8 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
   limits_.largestSide =
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
                                  device.limits().maxViewportDimensions[1]}));
-  limits_.tracesRays = device.caps().primitiveId;
+  limits_.tracesRays =
+      device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,

@@ -30,6 +30,9 @@ class TraceFrame {
  public:
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
+  // That a fragment shader reads, with those of FrameData.
+  static constexpr uint32_t storageBuffers = 18;
+
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if none is called for.
   void build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects);
