@@ -92,8 +92,9 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
     fitted.settings.effects = {
         .shadows = false, .roughness = false, .ripple = false, .castsLight = false, .curved = false};
     fitted.message +=
-        (fitted.message.empty() ? "" : "; ") +
-        std::string("effects.* that trace rays are left out: the device lacks geometryShader or storage buffers");
+        (fitted.message.empty() ? "" : "; ") + std::string(
+                                                   "effects.* that trace rays are left out: the device lacks "
+                                                   "geometryShader, storage buffers, or room in them for the scene");
     fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
   }
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
