@@ -157,13 +157,9 @@ vec2 pixelOf(ViewData view, vec3 point) {
   return vec2(dot(onPlane, x) / dot(x, x), dot(onPlane, y) / dot(y, y));
 }
 
-bool inImage(MirrorData mirror, vec2 texel) {
-  return all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(mirror.image.xy)));
-}
-
 // The mean over microfacets of a rough mirror, looked up where the image of the smooth mirror shows what lies in their
-// directions: at the distance of what is found there, from a first guess of what the smooth mirror shows here. What the
-// image does not show is left out of the mean.
+// directions: at the distance of what is found there, from a first guess of what the smooth mirror shows here. Beside the
+// image the background stands for what it does not show.
 vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
   float alpha = mirror.reproject[0].x;
   int wanted = int(mirror.reproject[0].y);
@@ -184,21 +180,20 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
     }
     vec3 behind = direction - 2.0 * dot(direction, normal) * normal;
     float far = guess;
-    vec2 texel;
-    for (int i = 0; i < 2; ++i) {
+    vec3 found = vec3(0.0);
+    for (int i = 0; i < 3; ++i) {
       vec2 pixel = pixelOf(view, position + far * behind);
-      texel = pixel * mirror.lookup.xy + mirror.lookup.zw;
-      if (!inImage(mirror, texel)) {
+      vec2 texel = pixel * mirror.lookup.xy + mirror.lookup.zw;
+      if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.image.xy)))) {
+        found = backgroundRadiance(view, direction);
         break;
       }
-      vec3 sight = rayThrough(view, pixel);
-      float disparity = texelMean(reflection, ivec2(texel)).a;
-      far = clamp(dot(sight / max(disparity, 1e-30) - position, behind), 0.0, farthest);
+      vec4 value = texelMean(reflection, ivec2(texel));
+      found = value.rgb;
+      far = clamp(dot(rayThrough(view, pixel) / max(value.a, 1e-30) - position, behind), 0.0, farthest);
     }
-    if (inImage(mirror, texel)) {
-      sum += texelMean(reflection, ivec2(texel)).rgb;
-      ++taken;
-    }
+    sum += found;
+    ++taken;
   }
   return taken > 0 ? vec4(sum / float(taken), smooth_.a) : smooth_;
 }
