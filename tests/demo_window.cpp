@@ -181,9 +181,9 @@ class DemoWindowWithNegativeLight : protected NegativeLight, public DemoWindow {
 TEST_F(DemoWindowWithNegativeLight, SaysWhereItIsUntilItIsGone) {
   EXPECT_EQ(demo_->model().message.rfind("mirror wall: pixel ", 0), 0u) << demo_->model().message;
   EXPECT_GT(demo_->nonFinite(), 0u);
-  const std::filesystem::path shader = shaders.path() / "scene.frag";
+  const std::filesystem::path shader = shaders.path() / "scene_shading.glsl";
   const auto written = std::filesystem::last_write_time(shader);
-  std::filesystem::copy_file(sourceFile("shaders/scene.frag"), shader,
+  std::filesystem::copy_file(sourceFile("shaders/scene_shading.glsl"), shader,
                              std::filesystem::copy_options::overwrite_existing);
   std::filesystem::last_write_time(shader, written + std::chrono::seconds(1));
   run(6);

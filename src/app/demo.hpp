@@ -15,7 +15,8 @@ class Demo {
  public:
   explicit Demo(const Options& options);
 
-  // Handles events and draws one frame, none while the window is paused. False once the window is to be closed.
+  // Handles events and draws one frame; none while the window is paused, or nothing has changed or moves, but then it
+  // sleeps for a while. False once the window is to be closed.
   bool step();
 
   Window& window() { return window_; }
@@ -35,6 +36,9 @@ class Demo {
   void findScenes();
   void chooseScene(int index);
   void moveCamera(double seconds);
+  glm::dvec3 heldDirection() const;
+  bool changing();
+  bool rest();
   void drawFrame(double seconds);
   std::optional<DebugView> debugView(const FramePlan& plan);
   void fillEffects(const FramePlan& plan, const SceneState& state);
@@ -65,6 +69,10 @@ class Demo {
   double cursorY_ = 0.0;
   double time_ = 0.0;  // seconds of animation
   Clock::time_point last_;
+  int framesDue_ = 0;     // to draw, although nothing changes any more
+  bool rested_ = true;    // before the frame that is drawn next
+  bool working_ = false;  // in the background, for the panel
+  std::string shaderErrors_;
   bool capture_ = false;
   int framesDrawn_ = 0;
 };

@@ -2,13 +2,17 @@
 
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 namespace speculum {
 
 namespace {
+
+constexpr float gamepadRest = 0.25f;  // of a stick's way
 
 constexpr std::array<std::pair<Key, int>, 17> keyCodes{{
     {Key::escape, GLFW_KEY_ESCAPE},
@@ -83,24 +87,35 @@ Window* Window::of(GLFWwindow* window) {
 
 void Window::installCallbacks() {
   glfwSetWindowUserPointer(window_.get(), this);
-  glfwSetFramebufferSizeCallback(window_.get(), [](GLFWwindow* w, int, int) { of(w)->resized_ = true; });
+  glfwSetFramebufferSizeCallback(window_.get(),
+                                 [](GLFWwindow* w, int, int) { of(w)->resized_ = of(w)->active_ = true; });
+  glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
+  glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetWindowIconifyCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
+  glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetCharCallback(window_.get(), [](GLFWwindow* w, unsigned) { of(w)->active_ = true; });
   glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int) {
+    of(w)->active_ = true;
     if (const auto& key = of(w)->callbacks_.key) {
       key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT});
     }
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {
+    of(w)->active_ = true;
     const auto& mouseButton = of(w)->callbacks_.mouseButton;
     if (mouseButton && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
       mouseButton({static_cast<MouseButton>(button), action == GLFW_PRESS});
     }
   });
   glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* w, double x, double y) {
+    of(w)->active_ = true;
     if (const auto& cursor = of(w)->callbacks_.cursor) {
       cursor(x, y);
     }
   });
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
+    of(w)->active_ = true;
     if (const auto& scroll = of(w)->callbacks_.scroll) {
       scroll(dx, dy);
     }
@@ -160,6 +175,22 @@ bool Window::paused() const {
 
 bool Window::takeResized() {
   return std::exchange(resized_, false);
+}
+
+bool Window::takeActivity() {
+  return std::exchange(active_, false);
+}
+
+bool Window::gamepadUsed() const {
+  GLFWgamepadstate state{};
+  if (!glfwGetGamepadState(GLFW_JOYSTICK_1, &state)) {
+    return false;
+  }
+  const auto out = [](float axis) { return std::abs(axis) > gamepadRest; };
+  // A trigger rests at -1.
+  return std::any_of(std::begin(state.buttons), std::end(state.buttons), [](auto b) { return b == GLFW_PRESS; }) ||
+         std::any_of(state.axes, state.axes + GLFW_GAMEPAD_AXIS_LEFT_TRIGGER, out) ||
+         state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] > 0.0f || state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] > 0.0f;
 }
 
 float Window::contentScale() const {

@@ -49,7 +49,7 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   void pollEvents();
-  void waitEvents(double timeoutSeconds);  // for a paused window: sleeps until something happens
+  void waitEvents(double timeoutSeconds);  // sleeps until something happens
   bool shouldClose() const;
   void requestClose();
 
@@ -62,6 +62,9 @@ class Window {
   bool iconified() const;
   bool paused() const;  // iconified, or without a pixel
   bool takeResized();   // whether the framebuffer changed its size since the last call
+  // Whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
+  bool takeActivity();
+  bool gamepadUsed() const;  // a button of the first gamepad is down, or a stick out of its rest
   float contentScale() const;
   void setTitle(const std::string& title);
   bool keyDown(Key key) const;
@@ -86,6 +89,7 @@ class Window {
   std::unique_ptr<GLFWwindow, Destroy> window_;
   WindowCallbacks callbacks_;
   bool resized_ = false;
+  bool active_ = true;
 };
 
 }  // namespace speculum

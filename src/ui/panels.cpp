@@ -82,6 +82,9 @@ void viewSettings(UiModel& model) {
   choiceCombo(model, "texture filter", v.textureFilter, filters, "view.texture_filter");
   ImGui::Checkbox("wireframe", &v.wireframe);
   describe(model, "view.wireframe");
+  ImGui::SameLine();
+  ImGui::Checkbox("draw continuously", &v.continuous);
+  describe(model, "view.continuous");
 }
 
 }  // namespace
@@ -133,6 +136,7 @@ void scene(UiModel& model) {
   model.resetCamera = ImGui::Button("reset camera");
   ImGui::SameLine();
   ImGui::Checkbox("pause", &model.paused);
+  notePlace(model, "pause");
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("drag: look   WASD QE: move   wheel: zoom   F1: hide this panel   Esc: quit");
   ImGui::PopStyleColor();

@@ -208,4 +208,8 @@ bool SimpleUI::wantsKeyboard() const {
   return ImGui::GetIO().WantTextInput;
 }
 
+bool SimpleUI::wantsFrames() const {
+  return wantsKeyboard() || ImGui::IsAnyMouseDown();
+}
+
 }  // namespace speculum
