@@ -60,14 +60,15 @@ TEST_F(DemoWindow, SettingsEditedInThePanelChangeThePicture) {
 
 TEST_F(DemoWindow, KeysHideThePanelAndQuit) {
   const Pixels with = picture();
-  xdotool({"key", "--window", windowId(), "F1"});
+  xdotool({"key", "--window", windowId(), "Tab"});
   run(5);
   const Pixels without = picture();
   EXPECT_NE(with.rgba, without.rgba);
   const size_t inPanel = 4 * (static_cast<size_t>(300) * width + 30);
   EXPECT_NE(with.rgba[inPanel], without.rgba[inPanel]);
-  xdotool({"key", "--window", windowId(), "F1"});
+  xdotool({"key", "--window", windowId(), "Tab"});
   run(5);
+  EXPECT_EQ(picture().rgba[inPanel], with.rgba[inPanel]);
   xdotool({"key", "--window", windowId(), "Escape"});
   const auto end = Clock::now() + std::chrono::seconds(10);
   while (demo_->step() && Clock::now() < end) {

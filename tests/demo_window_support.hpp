@@ -89,6 +89,11 @@ class DemoWindow : public testing::Test {
     return found.output.substr(0, found.output.find('\n'));
   }
 
+  void press(const std::string& key) {
+    xdotool({"key", "--window", windowId(), key});
+    run(4);
+  }
+
   void moveTo(int x, int y) {
     xdotool({"mousemove", "--window", windowId(), std::to_string(x), std::to_string(y)});
     run(3);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/screenshot.hpp"
 #include "core/platform.hpp"
 
 namespace speculum {
@@ -93,14 +94,27 @@ void Demo::applyModel() {
   if (model_.scene != shownScene_) {
     chooseScene(model_.scene);
   }
+  if (model_.seek) {
+    goTo(*model_.seek);
+  }
   accuracy_.apply(model_, [this] { return sweepRequest(); });
 }
 
+void Demo::saveShot() {
+  if (std::exchange(shot_, Shot::none) == Shot::none) {
+    return;
+  }
+  try {
+    const std::filesystem::path file = newPictureFile(loaded_->scene.file.stem().string());
+    writePng(file, pictureOf(renderer_.readback()));
+    model_.picture = "saved " + file.string();
+  } catch (const std::exception& error) {
+    model_.picture = "not saved: " + std::string(error.what());
+  }
+}
+
 SweepRequest Demo::sweepRequest() {
-  SweepRequest request{.options = options_,
-                       .base = model_.settings,
-                       .camera = camera_.pose(evaluate(loaded_->scene, time_).camera),
-                       .time = time_};
+  SweepRequest request{.options = options_, .base = model_.settings, .camera = camera(), .time = time_};
   request.options.scene = loaded_->scene.file.string();
   request.options.gpu = std::to_string(device_.info().index);
   const VkExtent2D extent = renderer_.displayExtent();
@@ -112,7 +126,7 @@ void Demo::drawFrame(double seconds) {
   moveCamera(seconds);
   ui_->build(model_);
   applyModel();
-  time_ += model_.paused ? 0.0 : seconds;
+  time_ += model_.paused ? 0.0 : seconds * model_.timeSpeed;
   const Clock::time_point start = Clock::now();
   std::optional<Frame> frame = renderer_.beginFrame();
   if (!frame) {
@@ -128,14 +142,15 @@ void Demo::drawFrame(double seconds) {
   const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
                                           static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
   const FramePlan& plan = fitted.plan;
-  sceneRenderer_->record(*frame, state, fitted.settings, plan, debugView(plan));
-  {
+  sceneRenderer_->record(*frame, state, fitted.settings, plan, shot_ == Shot::picture ? std::nullopt : debugView(plan));
+  if (shot_ != Shot::picture) {
     const PassScope scope = renderer_.beginOverlay(*frame);
     ui_->record(scope);
   }
   model_.cpuMs += smoothing * (std::chrono::duration<double, std::milli>(Clock::now() - start).count() - model_.cpuMs);
-  frame->capture = capture_;
+  frame->capture = capture_ || shot_ != Shot::none;
   renderer_.endFrame(*frame);
+  saveShot();
   ++framesDrawn_;
   framesDue_ = std::max(0, framesDue_ - 1);
   fillModel(plan, state, fitted.settings.reflection.updateInterval);

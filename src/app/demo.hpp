@@ -22,6 +22,8 @@ class Demo {
   Window& window() { return window_; }
   Device& device() { return device_; }
   Renderer& renderer() { return renderer_; }
+  // As the next frame would show it.
+  CameraPose camera() { return camera_.pose(evaluate(loaded_->scene, time_).camera); }
   const UiModel& model() const { return model_; }
   // Samples that debug.check_finite found in the frames that have finished, of every scene that was shown.
   uint64_t nonFinite() { return nonFinite_ + sceneRenderer_->finiteWatch().count(); }
@@ -47,6 +49,10 @@ class Demo {
   void applyModel();
   SweepRequest sweepRequest();
   void handleKey(const KeyEvent& event);
+  void handleSingleKey(const KeyEvent& event);
+  void goTo(double time);
+  void frameScene();
+  void saveShot();
 
   Options options_;
   std::unique_ptr<LoadedScene> loaded_;
@@ -74,6 +80,8 @@ class Demo {
   bool working_ = false;  // in the background, for the panel
   std::string shaderErrors_;
   bool capture_ = false;
+  enum class Shot { none, window, picture };
+  Shot shot_ = Shot::none;  // to be saved of the next frame
   int framesDrawn_ = 0;
 };
 

@@ -39,13 +39,57 @@ void Demo::installInput() {
 }
 
 void Demo::handleKey(const KeyEvent& event) {
-  if (!event.pressed || event.repeat) {
+  if (!event.pressed || !ui_ || ui_->wantsKeyboard()) {
     return;
   }
-  if (event.key == Key::escape) {
-    window_.requestClose();
-  } else if (event.key == Key::f1) {
-    ui_->setVisible(!ui_->visible());
+  if (event.key == Key::period || event.key == Key::comma) {
+    model_.paused = true;
+    goTo(time_ + (event.key == Key::period ? timeStep : -timeStep));
+  }
+  if (!event.repeat) {
+    handleSingleKey(event);
+  }
+}
+
+void Demo::handleSingleKey(const KeyEvent& event) {
+  switch (event.key) {
+    case Key::escape:
+      return window_.requestClose();
+    case Key::f1:
+      model_.help = !model_.help;
+      return ui_->setVisible(ui_->visible() || model_.help);
+    case Key::tab:
+      return ui_->setVisible(!ui_->visible());
+    case Key::f11:
+      return window_.setFullScreen(!window_.fullScreen());
+    case Key::f12:
+      shot_ = event.shift ? Shot::picture : Shot::window;
+      return;
+    case Key::f:
+      return frameScene();
+    case Key::space:
+      model_.paused = ui_->wantsSpace() ? model_.paused : !model_.paused;
+      return;
+    case Key::leftBracket:
+      model_.timeSpeed = std::max(slowestTime, 0.5 * model_.timeSpeed);
+      return;
+    case Key::rightBracket:
+      model_.timeSpeed = std::min(fastestTime, 2.0 * model_.timeSpeed);
+      return;
+    default:
+      return;
+  }
+}
+
+void Demo::goTo(double time) {
+  time_ = std::max(0.0, time);
+}
+
+void Demo::frameScene() {
+  const Sphere bounds = boundsOf(evaluate(loaded_->scene, time_));
+  const VkExtent2D extent = renderer_.displayExtent();
+  if (bounds.radius > 0.0 && extent.height > 0) {
+    camera_.frame(bounds, static_cast<double>(extent.width) / extent.height);
   }
 }
 

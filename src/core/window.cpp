@@ -14,7 +14,7 @@ namespace {
 
 constexpr float gamepadRest = 0.25f;  // of a stick's way
 
-constexpr std::array<std::pair<Key, int>, 17> keyCodes{{
+constexpr std::array<std::pair<Key, int>, 22> keyCodes{{
     {Key::escape, GLFW_KEY_ESCAPE},
     {Key::enter, GLFW_KEY_ENTER},
     {Key::tab, GLFW_KEY_TAB},
@@ -28,6 +28,11 @@ constexpr std::array<std::pair<Key, int>, 17> keyCodes{{
     {Key::q, GLFW_KEY_Q},
     {Key::e, GLFW_KEY_E},
     {Key::r, GLFW_KEY_R},
+    {Key::f, GLFW_KEY_F},
+    {Key::comma, GLFW_KEY_COMMA},
+    {Key::period, GLFW_KEY_PERIOD},
+    {Key::leftBracket, GLFW_KEY_LEFT_BRACKET},
+    {Key::rightBracket, GLFW_KEY_RIGHT_BRACKET},
     {Key::f1, GLFW_KEY_F1},
     {Key::f2, GLFW_KEY_F2},
     {Key::f11, GLFW_KEY_F11},
@@ -41,6 +46,22 @@ Key keyOf(int code) {
     }
   }
   return Key::unknown;
+}
+
+// The first one if none shows that point; null without monitors.
+GLFWmonitor* monitorAt(int x, int y) {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    int left = 0;
+    int top = 0;
+    glfwGetMonitorPos(monitors[i], &left, &top);
+    const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+    if (mode && x >= left && y >= top && x < left + mode->width && y < top + mode->height) {
+      return monitors[i];
+    }
+  }
+  return count > 0 ? monitors[0] : nullptr;
 }
 
 [[noreturn]] void fail(const std::string& what, const std::string& remedy) {
@@ -95,10 +116,10 @@ void Window::installCallbacks() {
   glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
   glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
   glfwSetCharCallback(window_.get(), [](GLFWwindow* w, unsigned) { of(w)->active_ = true; });
-  glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int) {
+  glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int modifiers) {
     of(w)->active_ = true;
     if (const auto& key = of(w)->callbacks_.key) {
-      key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT});
+      key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0});
     }
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {
@@ -154,6 +175,28 @@ VkExtent2D Window::size() const {
 
 void Window::resize(int width, int height) {
   glfwSetWindowSize(window_.get(), width, height);
+}
+
+bool Window::fullScreen() const {
+  return glfwGetWindowMonitor(window_.get()) != nullptr;
+}
+
+void Window::setFullScreen(bool on) {
+  auto& [x, y, width, height] = windowed_;
+  if (on == fullScreen()) {
+    return;
+  }
+  if (!on) {
+    glfwSetWindowMonitor(window_.get(), nullptr, x, y, width, height, GLFW_DONT_CARE);
+    return;
+  }
+  glfwGetWindowPos(window_.get(), &x, &y);
+  glfwGetWindowSize(window_.get(), &width, &height);
+  GLFWmonitor* monitor = monitorAt(x + width / 2, y + height / 2);
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  if (mode) {
+    glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
 }
 
 void Window::iconify() {

@@ -134,11 +134,12 @@ void scene(UiModel& model) {
   model.cameraMode = static_cast<CameraMode>(mode);
   ImGui::SameLine();
   model.resetCamera = ImGui::Button("reset camera");
-  ImGui::SameLine();
-  ImGui::Checkbox("pause", &model.paused);
-  notePlace(model, "pause");
+  time(model);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("drag: look   WASD QE: move   wheel: zoom   F1: hide this panel   Esc: quit");
+  ImGui::TextWrapped("drag: look   WASD QE: move   F12: save a picture   Tab: hide this panel   F1: all keys");
+  if (!model.picture.empty()) {
+    ImGui::TextWrapped("%s", model.picture.c_str());
+  }
   ImGui::PopStyleColor();
 }
 
