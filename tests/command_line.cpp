@@ -78,7 +78,13 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"render", "--out", "x.png", "--log-level", "loud"}, "--log-level"},
         UsageCase{{"render", "--out", "x.png", "--gpu", "No Such GPU"}, "No Such GPU"},
         UsageCase{{"render", "--out", "x.png", "--shader-dir", "/nowhere"}, "/nowhere"},
-        UsageCase{{"render", "--out", "x.png", "--bogus"}, "--bogus"},
+        UsageCase{{"render", "--out", "x.png", "--bogus"}, "'--bogus' is not an option of render (see speculum render"},
+        UsageCase{{"render", "--out", "x.png", "--szie", "9x9"}, "'--szie' is not an option of render (did you mean"},
+        UsageCase{{"render", "--szie", "9x9", "--out", "x.png"}, "did you mean '--size'?"},
+        UsageCase{{"render", "--outt=x.png"}, "did you mean '--out'?"},
+        UsageCase{{"--secne", "gallery"}, "'--secne' is not an option of speculum (did you mean '--scene'?)"},
+        UsageCase{{"rendr", "--out", "x.png"}, "'rendr' is not a command (did you mean 'render'?)"},
+        UsageCase{{"frobnicate"}, "'frobnicate' is not a command (one of: demo render"},
         UsageCase{{"render", "--out", "/nowhere/at/all.png"}, "/nowhere/at/all.png"},
         UsageCase{{"bench", "--frames", "0"}, "--frames"}, UsageCase{{"bench", "--warmup", "-1"}, "--warmup"}));
 

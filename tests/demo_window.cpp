@@ -60,14 +60,15 @@ TEST_F(DemoWindow, SettingsEditedInThePanelChangeThePicture) {
 
 TEST_F(DemoWindow, KeysHideThePanelAndQuit) {
   const Pixels with = picture();
-  xdotool({"key", "--window", windowId(), "F1"});
+  xdotool({"key", "--window", windowId(), "Tab"});
   run(5);
   const Pixels without = picture();
   EXPECT_NE(with.rgba, without.rgba);
   const size_t inPanel = 4 * (static_cast<size_t>(300) * width + 30);
   EXPECT_NE(with.rgba[inPanel], without.rgba[inPanel]);
-  xdotool({"key", "--window", windowId(), "F1"});
+  xdotool({"key", "--window", windowId(), "Tab"});
   run(5);
+  EXPECT_EQ(picture().rgba[inPanel], with.rgba[inPanel]);
   xdotool({"key", "--window", windowId(), "Escape"});
   const auto end = Clock::now() + std::chrono::seconds(10);
   while (demo_->step() && Clock::now() < end) {
@@ -181,9 +182,9 @@ class DemoWindowWithNegativeLight : protected NegativeLight, public DemoWindow {
 TEST_F(DemoWindowWithNegativeLight, SaysWhereItIsUntilItIsGone) {
   EXPECT_EQ(demo_->model().message.rfind("mirror wall: pixel ", 0), 0u) << demo_->model().message;
   EXPECT_GT(demo_->nonFinite(), 0u);
-  const std::filesystem::path shader = shaders.path() / "scene.frag";
+  const std::filesystem::path shader = shaders.path() / "scene_shading.glsl";
   const auto written = std::filesystem::last_write_time(shader);
-  std::filesystem::copy_file(sourceFile("shaders/scene.frag"), shader,
+  std::filesystem::copy_file(sourceFile("shaders/scene_shading.glsl"), shader,
                              std::filesystem::copy_options::overwrite_existing);
   std::filesystem::last_write_time(shader, written + std::chrono::seconds(1));
   run(6);

@@ -41,7 +41,7 @@ size = [5, 3]
 // A demo window on a virtual display, driven by X events.
 class DemoWindow : public testing::Test {
  protected:
-  explicit DemoWindow(const std::string& toml = windowScene, const Options& more = {})
+  explicit DemoWindow(const std::string& toml = windowScene, const Options& more = {}, int frames = 10)
       : configHome_(environment("XDG_CONFIG_HOME")) {
     // A layout that somebody saved must not move the widgets.
     setEnvironment("XDG_CONFIG_HOME", config_.path().string());
@@ -51,9 +51,10 @@ class DemoWindow : public testing::Test {
     options.validation = true;
     options.presentMode = PresentMode::immediate;
     options.settings.emplace_back("debug.check_finite", "true");
+    options.settings.insert(options.settings.begin(), {"view.continuous", "true"});  // so that run() can count frames
     demo_ = std::make_unique<Demo>(options);
     demo_->setCapture(true);
-    run(10);
+    run(frames);
   }
   ~DemoWindow() override {
     demo_.reset();
@@ -86,6 +87,11 @@ class DemoWindow : public testing::Test {
   std::string windowId() {
     const ProcessResult found = runProcess({"xdotool", "search", "--name", "^Speculum$"});
     return found.output.substr(0, found.output.find('\n'));
+  }
+
+  void press(const std::string& key) {
+    xdotool({"key", "--window", windowId(), key});
+    run(4);
   }
 
   void moveTo(int x, int y) {

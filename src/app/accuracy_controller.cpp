@@ -127,6 +127,11 @@ void AccuracyController::update(UiModel& model, const DifferenceView::Look& look
   accuracy.difference = difference_.status();
 }
 
+bool AccuracyController::working(const UiModel& model) const {
+  const UiAccuracy& accuracy = model.accuracy;
+  return !accuracy.stage.empty() || (accuracy.open && accuracy.showDifference && difference_.working());
+}
+
 void AccuracyController::forgetScene(UiModel& model) {
   sweep_.cancel();
   difference_.end();

@@ -24,6 +24,8 @@ class AccuracyController {
   void apply(UiModel& model, const std::function<SweepRequest()>& view);
   // After the frame is drawn: fills the panel's figures and keeps the renderer's cover up to date.
   void update(UiModel& model, const DifferenceView::Look& look, SceneRenderer& sceneRenderer);
+  // Whether update() has more to show although nothing changes.
+  bool working(const UiModel& model) const;
   // Before the scene goes away.
   void forgetScene(UiModel& model);
 

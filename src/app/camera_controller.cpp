@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "optics/affine.hpp"
 
@@ -14,6 +15,36 @@ constexpr double zoomPerNotch = 0.88;
 constexpr double steepest = 0.995;  // cosine of view direction and up
 
 }  // namespace
+
+Sphere boundsOf(const SceneState& state) {
+  glm::dvec3 low(std::numeric_limits<double>::infinity());
+  glm::dvec3 high = -low;
+  const auto add = [&](const glm::dvec3& center, double radius) {
+    low = glm::min(low, center - radius);
+    high = glm::max(high, center + radius);
+  };
+  for (const InstanceState& instance : state.instances) {
+    add(instance.center, instance.radius);
+  }
+  for (const MirrorState& mirror : state.mirrors) {
+    for (const glm::dvec3& vertex : mirror.polygon) {
+      add(vertex, 0.0);
+    }
+  }
+  if (low.x > high.x) {
+    return {};
+  }
+  Sphere sphere{.center = 0.5 * (low + high)};
+  for (const InstanceState& instance : state.instances) {
+    sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, instance.center) + instance.radius);
+  }
+  for (const MirrorState& mirror : state.mirrors) {
+    for (const glm::dvec3& vertex : mirror.polygon) {
+      sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, vertex));
+    }
+  }
+  return sphere;
+}
 
 void CameraController::reset(const CameraSpec& spec) {
   spec_ = spec;
@@ -67,6 +98,15 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
   const glm::dvec3 step = glm::transpose(last_.worldToView) * direction * (speed * seconds);
   eye_ += step;
   target_ += step;
+}
+
+void CameraController::frame(const Sphere& sphere, double aspect) {
+  take(last_);
+  const double vertical = 0.5 * glm::radians(spec_.verticalFov);
+  const double narrower = std::min(vertical, std::atan(std::tan(vertical) * aspect));
+  const glm::dvec3 back = glm::transpose(last_.worldToView)[2];
+  target_ = sphere.center;
+  eye_ = sphere.center + back * (std::max(sphere.radius, 10.0 * spec_.near) / std::sin(narrower));
 }
 
 CameraPose CameraController::pose(const CameraPose& animated) {

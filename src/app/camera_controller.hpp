@@ -5,6 +5,13 @@
 
 namespace speculum {
 
+struct Sphere {
+  glm::dvec3 center{0.0};  // world
+  double radius = 0.0;     // metres
+};
+// Holds objects and mirrors as they are; of radius 0 if there are none.
+Sphere boundsOf(const SceneState& state);
+
 // Moves the camera by hand. Until it is first touched, the camera is the scene's, animation included.
 class CameraController {
  public:
@@ -17,6 +24,9 @@ class CameraController {
   void zoom(double notches);
   // Along right, up and backwards of the view, each in -1 .. 1, for `seconds`.
   void move(const glm::dvec3& direction, double seconds);
+
+  // Looks at all of the sphere, in the direction of now. `aspect`: width / height of the picture.
+  void frame(const Sphere& sphere, double aspect);
 
   CameraPose pose(const CameraPose& animated);
 

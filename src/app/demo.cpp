@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/screenshot.hpp"
 #include "core/platform.hpp"
 
 namespace speculum {
 
 namespace {
 
-constexpr double longestStep = 0.1;        // seconds: a pause of the program is none of the animation's business
-constexpr double pausedWaitSeconds = 0.1;  // between looks at a window that shows nothing
-constexpr double smoothing = 0.05;         // of the frame time shown
+constexpr double smoothing = 0.05;  // of the CPU time shown
 
 }  // namespace
 
@@ -37,39 +36,6 @@ Demo::Demo(const Options& options)
   model_.accuracy.choice = loaded_->quality ? loaded_->quality->why : "";
   camera_.reset(loaded_->scene.camera);
   last_ = Clock::now();
-}
-
-// Before the panel is made, whose callbacks then run first and pass everything on.
-void Demo::installInput() {
-  WindowCallbacks callbacks;
-  callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
-  callbacks.mouseButton = [this](const MouseButtonEvent& event) {
-    dragging_ = event.pressed && !(ui_ && ui_->wantsMouse());
-  };
-  callbacks.cursor = [this](double x, double y) {
-    if (dragging_) {
-      camera_.drag(x - cursorX_, y - cursorY_);
-    }
-    cursorX_ = x;
-    cursorY_ = y;
-  };
-  callbacks.scroll = [this](double, double dy) {
-    if (!(ui_ && ui_->wantsMouse())) {
-      camera_.zoom(dy);
-    }
-  };
-  window_.setCallbacks(std::move(callbacks));
-}
-
-void Demo::handleKey(const KeyEvent& event) {
-  if (!event.pressed || event.repeat) {
-    return;
-  }
-  if (event.key == Key::escape) {
-    window_.requestClose();
-  } else if (event.key == Key::f1) {
-    ui_->setVisible(!ui_->visible());
-  }
 }
 
 // Shipped scenes first; a file from elsewhere is added in front of them.
@@ -118,17 +84,6 @@ void Demo::chooseScene(int index) {
   }
 }
 
-void Demo::moveCamera(double seconds) {
-  camera_.setMode(model_.cameraMode);
-  if (ui_->wantsKeyboard()) {
-    return;
-  }
-  const auto axis = [&](Key positive, Key negative) {
-    return static_cast<double>(window_.keyDown(positive)) - static_cast<double>(window_.keyDown(negative));
-  };
-  camera_.move({axis(Key::d, Key::a), axis(Key::e, Key::q), axis(Key::s, Key::w)}, seconds);
-}
-
 void Demo::applyModel() {
   if (model_.resetSettings) {
     model_.settings = loaded_->settings;
@@ -139,14 +94,27 @@ void Demo::applyModel() {
   if (model_.scene != shownScene_) {
     chooseScene(model_.scene);
   }
+  if (model_.seek) {
+    goTo(*model_.seek);
+  }
   accuracy_.apply(model_, [this] { return sweepRequest(); });
 }
 
+void Demo::saveShot() {
+  if (std::exchange(shot_, Shot::none) == Shot::none) {
+    return;
+  }
+  try {
+    const std::filesystem::path file = newPictureFile(loaded_->scene.file.stem().string());
+    writePng(file, pictureOf(renderer_.readback()));
+    model_.picture = "saved " + file.string();
+  } catch (const std::exception& error) {
+    model_.picture = "not saved: " + std::string(error.what());
+  }
+}
+
 SweepRequest Demo::sweepRequest() {
-  SweepRequest request{.options = options_,
-                       .base = model_.settings,
-                       .camera = camera_.pose(evaluate(loaded_->scene, time_).camera),
-                       .time = time_};
+  SweepRequest request{.options = options_, .base = model_.settings, .camera = camera(), .time = time_};
   request.options.scene = loaded_->scene.file.string();
   request.options.gpu = std::to_string(device_.info().index);
   const VkExtent2D extent = renderer_.displayExtent();
@@ -158,8 +126,7 @@ void Demo::drawFrame(double seconds) {
   moveCamera(seconds);
   ui_->build(model_);
   applyModel();
-  time_ += model_.paused ? 0.0 : seconds;
-  renderer_.reloadShaders();
+  time_ += model_.paused ? 0.0 : seconds * model_.timeSpeed;
   const Clock::time_point start = Clock::now();
   std::optional<Frame> frame = renderer_.beginFrame();
   if (!frame) {
@@ -175,15 +142,17 @@ void Demo::drawFrame(double seconds) {
   const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
                                           static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
   const FramePlan& plan = fitted.plan;
-  sceneRenderer_->record(*frame, state, fitted.settings, plan, debugView(plan));
-  {
+  sceneRenderer_->record(*frame, state, fitted.settings, plan, shot_ == Shot::picture ? std::nullopt : debugView(plan));
+  if (shot_ != Shot::picture) {
     const PassScope scope = renderer_.beginOverlay(*frame);
     ui_->record(scope);
   }
   model_.cpuMs += smoothing * (std::chrono::duration<double, std::milli>(Clock::now() - start).count() - model_.cpuMs);
-  frame->capture = capture_;
+  frame->capture = capture_ || shot_ != Shot::none;
   renderer_.endFrame(*frame);
+  saveShot();
   ++framesDrawn_;
+  framesDue_ = std::max(0, framesDue_ - 1);
   fillModel(plan, state, fitted.settings);
   accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, *sceneRenderer_);
 }
@@ -270,20 +239,6 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Setti
     model_.skipped.push_back(
         {mirrorPathName(loaded_->scene, skip.path), std::string(skipReasonName(skip.reason)), skip.detail, skip.path});
   }
-}
-
-bool Demo::step() {
-  window_.pollEvents();
-  const Clock::time_point now = Clock::now();
-  const double seconds = std::chrono::duration<double>(now - last_).count();
-  last_ = now;
-  if (window_.paused()) {
-    window_.waitEvents(pausedWaitSeconds);
-    return !window_.shouldClose();
-  }
-  model_.frameMs += (model_.frameMs == 0.0 ? 1.0 : smoothing) * (1000.0 * seconds - model_.frameMs);
-  drawFrame(std::min(seconds, longestStep));
-  return !window_.shouldClose();
 }
 
 int runDemo(const Options& options) {

@@ -15,12 +15,15 @@ class Demo {
  public:
   explicit Demo(const Options& options);
 
-  // Handles events and draws one frame, none while the window is paused. False once the window is to be closed.
+  // Handles events and draws one frame; none while the window is paused, or nothing has changed or moves, but then it
+  // sleeps for a while. False once the window is to be closed.
   bool step();
 
   Window& window() { return window_; }
   Device& device() { return device_; }
   Renderer& renderer() { return renderer_; }
+  // As the next frame would show it.
+  CameraPose camera() { return camera_.pose(evaluate(loaded_->scene, time_).camera); }
   const UiModel& model() const { return model_; }
   // Samples that debug.check_finite found in the frames that have finished, of every scene that was shown.
   uint64_t nonFinite() { return nonFinite_ + sceneRenderer_->finiteWatch().count(); }
@@ -35,6 +38,9 @@ class Demo {
   void findScenes();
   void chooseScene(int index);
   void moveCamera(double seconds);
+  glm::dvec3 heldDirection() const;
+  bool changing();
+  bool rest();
   void drawFrame(double seconds);
   std::optional<DebugView> debugView(const FramePlan& plan);
   void fillEffects(const FramePlan& plan, const SceneState& state, const Settings& drawn);
@@ -43,6 +49,10 @@ class Demo {
   void applyModel();
   SweepRequest sweepRequest();
   void handleKey(const KeyEvent& event);
+  void handleSingleKey(const KeyEvent& event);
+  void goTo(double time);
+  void frameScene();
+  void saveShot();
 
   Options options_;
   std::unique_ptr<LoadedScene> loaded_;
@@ -65,7 +75,13 @@ class Demo {
   double cursorY_ = 0.0;
   double time_ = 0.0;  // seconds of animation
   Clock::time_point last_;
+  int framesDue_ = 0;     // to draw, although nothing changes any more
+  bool rested_ = true;    // before the frame that is drawn next
+  bool working_ = false;  // in the background, for the panel
+  std::string shaderErrors_;
   bool capture_ = false;
+  enum class Shot { none, window, picture };
+  Shot shot_ = Shot::none;  // to be saved of the next frame
   int framesDrawn_ = 0;
 };
 

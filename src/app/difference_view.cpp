@@ -147,6 +147,10 @@ bool DifferenceView::update(const Look& look, const std::function<Image8()>& pic
   return fresh;
 }
 
+bool DifferenceView::working() const {
+  return problem_.empty() && (tracing_.valid() || comparing_.valid() || traced_ < references.size());
+}
+
 std::string DifferenceView::status() const {
   if (!problem_.empty()) {
     return problem_;

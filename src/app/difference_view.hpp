@@ -36,6 +36,8 @@ class DifferenceView {
 
   // Of the picture as it is now; without pixels until there is one.
   const Image8& heatMap() const { return heatMap_; }
+  // Whether update() has more to do although nothing changes.
+  bool working() const;
   // For people: what is shown or waited for.
   std::string status() const;
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 
+#include "app/usage.hpp"
 #include "app/version.hpp"
 #include "frame/settings.hpp"
 
@@ -173,6 +174,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
   const auto command = [&](const std::string& name, const std::string& help) {
     CLI::App* sub = app.add_subcommand(name, help);
     addCommon(*sub, options, raw);
+    sub->footer(examplesText(name));
     return sub;
   };
   addDemo(*command("demo", "open the window (the default)"), options, raw);
@@ -188,7 +190,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     keys += "  " + std::string(info.key) + std::string(30 - std::min<size_t>(29, info.key.size()), ' ') +
             std::string(info.help) + " (" + std::string(info.range) + ")\n";
   }
-  app.footer(keys);
+  app.footer(keys + "\n" + examplesText("demo") + examplesText("render").substr(std::string("Examples:\n").size()));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -196,7 +198,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
       app.exit(error);
       return std::nullopt;
     }
-    throw UsageError(oneLine(error.what()) + " (see speculum --help)");
+    const std::string unknown = unknownArgument(app);
+    throw UsageError(oneLine(unknown.empty() ? error.what() + std::string(" (see speculum --help)") : unknown));
   }
   if (!app.get_subcommands().empty()) {
     options.command = app.get_subcommands().front()->get_name();

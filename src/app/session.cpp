@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/screenshot.hpp"
 #include "core/platform.hpp"
 
 namespace speculum {
@@ -155,15 +156,7 @@ void Session::finish() {
 }
 
 Image8 Session::picture() {
-  Pixels pixels = renderer_.readback();
-  Image8 image;
-  image.width = static_cast<int>(pixels.extent.width);
-  image.height = static_cast<int>(pixels.extent.height);
-  image.rgba = std::move(pixels.rgba);
-  for (size_t i = 3; i < image.rgba.size(); i += 4) {
-    image.rgba[i] = 255;
-  }
-  return image;
+  return pictureOf(renderer_.readback());
 }
 
 }  // namespace speculum

@@ -34,6 +34,21 @@ fs::path userDir(const char* variable, const char* fallback) {
   return (home.empty() ? fs::temp_directory_path() : fs::path(home) / fallback) / "speculum";
 }
 
+// The folder that xdg-user-dirs has noted: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
+fs::path notedPicturesDir(const std::string& home) {
+  std::ifstream file(userConfigDir().parent_path() / "user-dirs.dirs");
+  const std::string key = "XDG_PICTURES_DIR=\"";
+  for (std::string line; std::getline(file, line);) {
+    const size_t end = line.rfind('"');
+    if (line.rfind(key, 0) != 0 || end < key.size()) {
+      continue;
+    }
+    const std::string value = line.substr(key.size(), end - key.size());
+    return value.rfind("$HOME/", 0) == 0 ? fs::path(home) / value.substr(6) : fs::path(value);
+  }
+  return {};
+}
+
 std::string readAll(int descriptor) {
   std::string text;
   char block[4096];
@@ -69,6 +84,16 @@ fs::path userCacheDir() {
 
 fs::path userConfigDir() {
   return userDir("XDG_CONFIG_HOME", ".config");
+}
+
+fs::path picturesDir() {
+  const std::string home = environment("HOME");
+  for (const fs::path& folder : {fs::path(environment("XDG_PICTURES_DIR")), notedPicturesDir(home)}) {
+    if (folder.is_absolute()) {
+      return folder;
+    }
+  }
+  return home.empty() ? fs::temp_directory_path() : fs::path(home) / "Pictures";
 }
 
 fs::path dataDirectory(std::string_view name) {

@@ -2,7 +2,9 @@
 
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -10,7 +12,9 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array<std::pair<Key, int>, 17> keyCodes{{
+constexpr float gamepadRest = 0.25f;  // of a stick's way
+
+constexpr std::array<std::pair<Key, int>, 22> keyCodes{{
     {Key::escape, GLFW_KEY_ESCAPE},
     {Key::enter, GLFW_KEY_ENTER},
     {Key::tab, GLFW_KEY_TAB},
@@ -24,6 +28,11 @@ constexpr std::array<std::pair<Key, int>, 17> keyCodes{{
     {Key::q, GLFW_KEY_Q},
     {Key::e, GLFW_KEY_E},
     {Key::r, GLFW_KEY_R},
+    {Key::f, GLFW_KEY_F},
+    {Key::comma, GLFW_KEY_COMMA},
+    {Key::period, GLFW_KEY_PERIOD},
+    {Key::leftBracket, GLFW_KEY_LEFT_BRACKET},
+    {Key::rightBracket, GLFW_KEY_RIGHT_BRACKET},
     {Key::f1, GLFW_KEY_F1},
     {Key::f2, GLFW_KEY_F2},
     {Key::f11, GLFW_KEY_F11},
@@ -37,6 +46,22 @@ Key keyOf(int code) {
     }
   }
   return Key::unknown;
+}
+
+// The first one if none shows that point; null without monitors.
+GLFWmonitor* monitorAt(int x, int y) {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    int left = 0;
+    int top = 0;
+    glfwGetMonitorPos(monitors[i], &left, &top);
+    const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+    if (mode && x >= left && y >= top && x < left + mode->width && y < top + mode->height) {
+      return monitors[i];
+    }
+  }
+  return count > 0 ? monitors[0] : nullptr;
 }
 
 [[noreturn]] void fail(const std::string& what, const std::string& remedy) {
@@ -83,24 +108,35 @@ Window* Window::of(GLFWwindow* window) {
 
 void Window::installCallbacks() {
   glfwSetWindowUserPointer(window_.get(), this);
-  glfwSetFramebufferSizeCallback(window_.get(), [](GLFWwindow* w, int, int) { of(w)->resized_ = true; });
-  glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int) {
+  glfwSetFramebufferSizeCallback(window_.get(),
+                                 [](GLFWwindow* w, int, int) { of(w)->resized_ = of(w)->active_ = true; });
+  glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
+  glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetWindowIconifyCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
+  glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetCharCallback(window_.get(), [](GLFWwindow* w, unsigned) { of(w)->active_ = true; });
+  glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int modifiers) {
+    of(w)->active_ = true;
     if (const auto& key = of(w)->callbacks_.key) {
-      key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT});
+      key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0});
     }
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {
+    of(w)->active_ = true;
     const auto& mouseButton = of(w)->callbacks_.mouseButton;
     if (mouseButton && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
       mouseButton({static_cast<MouseButton>(button), action == GLFW_PRESS});
     }
   });
   glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* w, double x, double y) {
+    of(w)->active_ = true;
     if (const auto& cursor = of(w)->callbacks_.cursor) {
       cursor(x, y);
     }
   });
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
+    of(w)->active_ = true;
     if (const auto& scroll = of(w)->callbacks_.scroll) {
       scroll(dx, dy);
     }
@@ -141,6 +177,28 @@ void Window::resize(int width, int height) {
   glfwSetWindowSize(window_.get(), width, height);
 }
 
+bool Window::fullScreen() const {
+  return glfwGetWindowMonitor(window_.get()) != nullptr;
+}
+
+void Window::setFullScreen(bool on) {
+  auto& [x, y, width, height] = windowed_;
+  if (on == fullScreen()) {
+    return;
+  }
+  if (!on) {
+    glfwSetWindowMonitor(window_.get(), nullptr, x, y, width, height, GLFW_DONT_CARE);
+    return;
+  }
+  glfwGetWindowPos(window_.get(), &x, &y);
+  glfwGetWindowSize(window_.get(), &width, &height);
+  GLFWmonitor* monitor = monitorAt(x + width / 2, y + height / 2);
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  if (mode) {
+    glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+}
+
 void Window::iconify() {
   glfwIconifyWindow(window_.get());
 }
@@ -160,6 +218,22 @@ bool Window::paused() const {
 
 bool Window::takeResized() {
   return std::exchange(resized_, false);
+}
+
+bool Window::takeActivity() {
+  return std::exchange(active_, false);
+}
+
+bool Window::gamepadUsed() const {
+  GLFWgamepadstate state{};
+  if (!glfwGetGamepadState(GLFW_JOYSTICK_1, &state)) {
+    return false;
+  }
+  const auto out = [](float axis) { return std::abs(axis) > gamepadRest; };
+  // A trigger rests at -1.
+  return std::any_of(std::begin(state.buttons), std::end(state.buttons), [](auto b) { return b == GLFW_PRESS; }) ||
+         std::any_of(state.axes, state.axes + GLFW_GAMEPAD_AXIS_LEFT_TRIGGER, out) ||
+         state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] > 0.0f || state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] > 0.0f;
 }
 
 float Window::contentScale() const {

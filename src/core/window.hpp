@@ -2,6 +2,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,13 +12,38 @@ struct GLFWwindow;
 
 namespace speculum {
 
-enum class Key { unknown, escape, enter, tab, space, leftShift, leftControl, w, a, s, d, q, e, r, f1, f2, f11, f12 };
+enum class Key {
+  unknown,
+  escape,
+  enter,
+  tab,
+  space,
+  leftShift,
+  leftControl,
+  w,
+  a,
+  s,
+  d,
+  q,
+  e,
+  r,
+  f,
+  comma,
+  period,
+  leftBracket,
+  rightBracket,
+  f1,
+  f2,
+  f11,
+  f12
+};
 enum class MouseButton { left, right, middle };
 
 struct KeyEvent {
   Key key = Key::unknown;
   bool pressed = false;
   bool repeat = false;
+  bool shift = false;
 };
 struct MouseButtonEvent {
   MouseButton button = MouseButton::left;
@@ -49,19 +75,25 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   void pollEvents();
-  void waitEvents(double timeoutSeconds);  // for a paused window: sleeps until something happens
+  void waitEvents(double timeoutSeconds);  // sleeps until something happens
   bool shouldClose() const;
   void requestClose();
 
   VkExtent2D framebufferExtent() const;  // pixels; 0x0 is possible
   VkExtent2D size() const;               // screen coordinates
   void resize(int width, int height);    // screen coordinates
+  // Covers the monitor that holds the window's centre, or goes back to place and size as they were.
+  void setFullScreen(bool on);
+  bool fullScreen() const;
   void iconify();
   void restore();
   // X11 keeps the size of an iconified window, so the size alone does not tell.
   bool iconified() const;
   bool paused() const;  // iconified, or without a pixel
   bool takeResized();   // whether the framebuffer changed its size since the last call
+  // Whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
+  bool takeActivity();
+  bool gamepadUsed() const;  // a button of the first gamepad is down, or a stick out of its rest
   float contentScale() const;
   void setTitle(const std::string& title);
   bool keyDown(Key key) const;
@@ -85,7 +117,9 @@ class Window {
   Library library_;
   std::unique_ptr<GLFWwindow, Destroy> window_;
   WindowCallbacks callbacks_;
+  std::array<int, 4> windowed_{};  // place and size before full screen, screen coordinates
   bool resized_ = false;
+  bool active_ = true;
 };
 
 }  // namespace speculum

@@ -192,6 +192,8 @@ std::vector<Setting> viewTable() {
                                &V::textureFilter,
                                {{"bilinear", TextureFilter::bilinear}, {"trilinear", TextureFilter::trilinear}}),
       boolean<V>({"view.wireframe", "true | false", "edges of triangles only"}, group, &V::wireframe),
+      boolean<V>({"view.continuous", "true | false", "the window goes on drawing when nothing changes"}, group,
+                 &V::continuous),
   };
 }
 
@@ -340,6 +342,7 @@ bool sameMirrorImages(const Settings& a, const Settings& b) {
   c.view.samples = a.view.samples;
   c.view.exposure = a.view.exposure;
   c.view.toneMap = a.view.toneMap;
+  c.view.continuous = a.view.continuous;
   return a.reflection == c.reflection && a.view == c.view && a.effects == c.effects;
 }
 

@@ -36,6 +36,7 @@ struct ViewSettings {
   std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene
   TextureFilter textureFilter = TextureFilter::bilinear;
   bool wireframe = false;
+  bool continuous = false;  // the window draws what does not change as well
 
   bool operator==(const ViewSettings&) const = default;
 };

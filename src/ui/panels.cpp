@@ -82,6 +82,9 @@ void viewSettings(UiModel& model) {
   choiceCombo(model, "texture filter", v.textureFilter, filters, "view.texture_filter");
   ImGui::Checkbox("wireframe", &v.wireframe);
   describe(model, "view.wireframe");
+  ImGui::SameLine();
+  ImGui::Checkbox("draw continuously", &v.continuous);
+  describe(model, "view.continuous");
 }
 
 }  // namespace
@@ -131,10 +134,12 @@ void scene(UiModel& model) {
   model.cameraMode = static_cast<CameraMode>(mode);
   ImGui::SameLine();
   model.resetCamera = ImGui::Button("reset camera");
-  ImGui::SameLine();
-  ImGui::Checkbox("pause", &model.paused);
+  time(model);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("drag: look   WASD QE: move   wheel: zoom   F1: hide this panel   Esc: quit");
+  ImGui::TextWrapped("drag: look   WASD QE: move   F12: save a picture   Tab: hide this panel   F1: all keys");
+  if (!model.picture.empty()) {
+    ImGui::TextWrapped("%s", model.picture.c_str());
+  }
   ImGui::PopStyleColor();
 }
 

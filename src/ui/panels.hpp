@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "ui/ui_model.hpp"
 
 namespace speculum::panels {
@@ -7,11 +9,20 @@ namespace speculum::panels {
 // The sections of the panel, each within the current ImGui window.
 void message(const UiModel& model);
 void scene(UiModel& model);
+void time(UiModel& model);
+void help(UiModel& model);
 void settings(UiModel& model);
 void passes(UiModel& model);
 void effects(UiModel& model);
 void device(UiModel& model);
 void accuracy(UiModel& model);
+
+// What a key or a movement of the pointer does in the window.
+struct KeyHelp {
+  const char* keys;
+  const char* what;
+};
+std::span<const KeyHelp> keyHelp();
 
 // After each widget of a setting: notes its place and explains it.
 void describe(UiModel& model, std::string_view key);

@@ -45,6 +45,9 @@ SimpleUI::Context::Context() {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
+#if IMGUI_VERSION_NUM < 18700
+  io.KeyMap[ImGuiKey_Tab] = -1;  // hides the panel instead of walking through it, as the arrow keys do as well
+#endif
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
   // The layout is the person's, not the working directory's.
   std::error_code error;
@@ -116,6 +119,7 @@ void SimpleUI::build(UiModel& model) {
   model.debugArea.reset();
   model.resetCamera = false;
   model.resetSettings = false;
+  model.seek.reset();
   model.accuracy.measure = false;
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
@@ -123,6 +127,7 @@ void SimpleUI::build(UiModel& model) {
     buildPanel(model);
     buildDebugView(model);
     buildAccuracy(model);
+    panels::help(model);
     if (showDemoWindow_) {
       ImGui::ShowDemoWindow(&showDemoWindow_);
     }
@@ -206,6 +211,14 @@ bool SimpleUI::wantsMouse() const {
 
 bool SimpleUI::wantsKeyboard() const {
   return ImGui::GetIO().WantTextInput;
+}
+
+bool SimpleUI::wantsSpace() const {
+  return visible_ && ImGui::GetIO().NavVisible;
+}
+
+bool SimpleUI::wantsFrames() const {
+  return wantsKeyboard() || ImGui::IsAnyMouseDown();
 }
 
 }  // namespace speculum

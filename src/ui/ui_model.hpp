@@ -66,6 +66,10 @@ struct UiAccuracy {
   bool showDifference = false;     // changed by the person
 };
 
+inline constexpr double timeStep = 1.0 / 60.0;  // seconds, of a single step
+inline constexpr double slowestTime = 1.0 / 64.0;
+inline constexpr double fastestTime = 64.0;
+
 enum class CameraMode { fly, orbit };
 
 // What the panel shows and edits. The application fills it before every frame and reads back what was changed.
@@ -82,6 +86,8 @@ struct UiModel {
   bool resetCamera = false;    // set by the panel
   bool resetSettings = false;  // set by the panel
   double time = 0.0;           // seconds of animation
+  double timeSpeed = 1.0;      // seconds of animation a second; changed by the person
+  std::optional<double> seek;  // set by the panel: seconds of animation to go to
   double frameMs = 0.0;        // smoothed
   double cpuMs = 0.0;
   double gpuMs = 0.0;
@@ -94,6 +100,8 @@ struct UiModel {
   int debugPass = -1;                  // index into passes of the image to show; -1: none. Changed by the person.
   std::optional<PixelRect> debugArea;  // pixels of the display image where it is to be drawn; set by the panel
   UiAccuracy accuracy;
+  bool help = false;    // the list of keys is open; changed by the person
+  std::string picture;  // where the last screenshot is, or why it is not
   std::string message;  // an error to show until the next one, e.g. of a shader or a scene
 };
 

@@ -1,0 +1,152 @@
+// The part of the window that decides when to draw, and what keys and pointer do.
+#include <algorithm>
+#include <utility>
+
+#include "app/demo.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double longestStep = 0.1;  // seconds: a pause of the program is none of the animation's business
+constexpr double restSeconds = 0.1;  // between looks at a window in which nothing changes
+constexpr double smoothing = 0.05;   // of the frame time shown
+// The panel takes up what happened in one frame, settles in a second, and shows figures of the frame two before.
+constexpr int framesAfterChange = 4;
+
+}  // namespace
+
+// Before the panel is made, whose callbacks then run first and pass everything on.
+void Demo::installInput() {
+  WindowCallbacks callbacks;
+  callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
+  callbacks.mouseButton = [this](const MouseButtonEvent& event) {
+    dragging_ = event.pressed && !(ui_ && ui_->wantsMouse());
+  };
+  callbacks.cursor = [this](double x, double y) {
+    if (dragging_) {
+      camera_.drag(x - cursorX_, y - cursorY_);
+    }
+    cursorX_ = x;
+    cursorY_ = y;
+  };
+  callbacks.scroll = [this](double, double dy) {
+    if (!(ui_ && ui_->wantsMouse())) {
+      camera_.zoom(dy);
+    }
+  };
+  window_.setCallbacks(std::move(callbacks));
+}
+
+void Demo::handleKey(const KeyEvent& event) {
+  if (!event.pressed || !ui_ || ui_->wantsKeyboard()) {
+    return;
+  }
+  if (event.key == Key::period || event.key == Key::comma) {
+    model_.paused = true;
+    goTo(time_ + (event.key == Key::period ? timeStep : -timeStep));
+  }
+  if (!event.repeat) {
+    handleSingleKey(event);
+  }
+}
+
+void Demo::handleSingleKey(const KeyEvent& event) {
+  switch (event.key) {
+    case Key::escape:
+      return window_.requestClose();
+    case Key::f1:
+      model_.help = !model_.help;
+      return ui_->setVisible(ui_->visible() || model_.help);
+    case Key::tab:
+      return ui_->setVisible(!ui_->visible());
+    case Key::f11:
+      return window_.setFullScreen(!window_.fullScreen());
+    case Key::f12:
+      shot_ = event.shift ? Shot::picture : Shot::window;
+      return;
+    case Key::f:
+      return frameScene();
+    case Key::space:
+      model_.paused = ui_->wantsSpace() ? model_.paused : !model_.paused;
+      return;
+    case Key::leftBracket:
+      model_.timeSpeed = std::max(slowestTime, 0.5 * model_.timeSpeed);
+      return;
+    case Key::rightBracket:
+      model_.timeSpeed = std::min(fastestTime, 2.0 * model_.timeSpeed);
+      return;
+    default:
+      return;
+  }
+}
+
+void Demo::goTo(double time) {
+  time_ = std::max(0.0, time);
+}
+
+void Demo::frameScene() {
+  const Sphere bounds = boundsOf(evaluate(loaded_->scene, time_));
+  const VkExtent2D extent = renderer_.displayExtent();
+  if (bounds.radius > 0.0 && extent.height > 0) {
+    camera_.frame(bounds, static_cast<double>(extent.width) / extent.height);
+  }
+}
+
+void Demo::moveCamera(double seconds) {
+  camera_.setMode(model_.cameraMode);
+  camera_.move(heldDirection(), seconds);
+}
+
+// Along right, up and backwards of the view.
+glm::dvec3 Demo::heldDirection() const {
+  if (ui_->wantsKeyboard()) {
+    return glm::dvec3(0.0);
+  }
+  const auto axis = [&](Key positive, Key negative) {
+    return static_cast<double>(window_.keyDown(positive)) - static_cast<double>(window_.keyDown(negative));
+  };
+  return {axis(Key::d, Key::a), axis(Key::e, Key::q), axis(Key::s, Key::w)};
+}
+
+// Whether the next frame could differ from the last one.
+bool Demo::changing() {
+  const bool rebuilt = renderer_.reloadShaders();
+  const std::string& errors = renderer_.pipelines().errors();
+  const bool shaders = std::exchange(shaderErrors_, errors) != errors || rebuilt;
+  const bool working = accuracy_.working(model_);
+  const bool finished = std::exchange(working_, working) && !working;
+  return window_.takeActivity() || shaders || finished || window_.gamepadUsed() || heldDirection() != glm::dvec3(0.0) ||
+         model_.settings.view.continuous || options_.frames > 0 || (!model_.paused && moves(loaded_->scene));
+}
+
+// Nothing changes: sleeps. True if a frame is to be drawn all the same, for what changes slowly.
+bool Demo::rest() {
+  rested_ = true;
+  window_.waitEvents(restSeconds);
+  return ui_->wantsFrames() || working_;
+}
+
+bool Demo::step() {
+  window_.pollEvents();
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+  if (window_.paused()) {
+    window_.waitEvents(restSeconds);
+    return !window_.shouldClose();
+  }
+  if (changing()) {
+    framesDue_ = framesAfterChange + model_.settings.reflection.updateInterval;
+  }
+  if (framesDue_ == 0 && !rest()) {
+    return !window_.shouldClose();
+  }
+  if (!std::exchange(rested_, false)) {
+    model_.frameMs += (model_.frameMs == 0.0 ? 1.0 : smoothing) * (1000.0 * seconds - model_.frameMs);
+  }
+  drawFrame(std::min(seconds, longestStep));
+  return !window_.shouldClose();
+}
+
+}  // namespace speculum

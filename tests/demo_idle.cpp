@@ -1,0 +1,180 @@
+// The window draws when something changes, and only then.
+#include <fstream>
+
+#include "demo_window_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+Options idleOptions(Options options = {}) {
+  options.settings.emplace_back("view.continuous", "false");
+  return options;
+}
+
+class IdleWindow : public DemoWindow {
+ protected:
+  explicit IdleWindow(const std::string& toml = windowScene, const Options& more = {})
+      : DemoWindow(toml, idleOptions(more), 1) {}
+
+  // Frames drawn within so many seconds, and how often the loop went round.
+  struct Drawn {
+    int frames = 0;
+    int steps = 0;
+  };
+  Drawn during(double seconds) {
+    const int before = demo_->framesDrawn();
+    Drawn drawn;
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    while (Clock::now() < end) {
+      EXPECT_TRUE(demo_->step());
+      ++drawn.steps;
+    }
+    drawn.frames = demo_->framesDrawn() - before;
+    return drawn;
+  }
+  // Until half a second has gone by without a frame.
+  void settle() {
+    const auto end = Clock::now() + std::chrono::seconds(20);
+    while (during(0.5).frames > 0) {
+      ASSERT_LT(Clock::now(), end) << "something goes on drawing";
+    }
+  }
+  // Without the figures of the panel, which differ from frame to frame.
+  std::vector<uint8_t> rightOfThePanel() {
+    const Pixels pixels = picture();
+    std::vector<uint8_t> right;
+    for (size_t y = 0; y < pixels.extent.height; ++y) {
+      const auto row = pixels.rgba.begin() + static_cast<std::ptrdiff_t>(4 * y * pixels.extent.width);
+      right.insert(right.end(), row + 4 * 450, row + 4 * static_cast<std::ptrdiff_t>(pixels.extent.width));
+    }
+    return right;
+  }
+  void pointAt(int x, int y) { xdotool({"mousemove", "--window", windowId(), std::to_string(x), std::to_string(y)}); }
+};
+
+TEST_F(IdleWindow, DrawsNothingUntilThePointerMoves) {
+  settle();
+  const Drawn idle = during(1.5);
+  EXPECT_EQ(idle.frames, 0);
+  EXPECT_LE(idle.steps, 40) << "it must sleep, not spin";
+  pointAt(width - 100, 80);
+  EXPECT_GT(during(0.5).frames, 2);
+  settle();
+  EXPECT_EQ(during(1.0).frames, 0);
+  expectQuiet();
+}
+
+TEST_F(IdleWindow, ThePanelFollowsThePointer) {
+  settle();
+  const Pixels before = picture();
+  const PixelRect box = widget("view.wireframe");
+  pointAt(box.x + 5, box.y + 5);
+  during(0.5);
+  settle();
+  const Pixels hovered = picture();
+  EXPECT_NE(before.rgba, hovered.rgba) << "the tooltip is shown";
+  xdotool({"mousedown", "1"});
+  during(0.3);
+  xdotool({"mouseup", "1"});
+  during(0.3);
+  EXPECT_TRUE(demo_->model().settings.view.wireframe);
+  settle();
+  EXPECT_EQ(demo_->model().passes.size(), 3u);
+  expectQuiet();
+}
+
+TEST_F(IdleWindow, KeysAndSizeAreFollowed) {
+  settle();
+  const Pixels before = picture();
+  xdotool({"keydown", "--window", windowId(), "d"});
+  const int held = during(1.0).frames;
+  xdotool({"keyup", "--window", windowId(), "d"});
+  EXPECT_GT(held, 10) << "the camera moves as long as the key is held";
+  settle();
+  EXPECT_NE(before.rgba, picture().rgba);
+  demo_->window().resize(500, 400);
+  EXPECT_GT(during(0.5).frames, 0);
+  settle();
+  EXPECT_EQ(picture().extent.width, 500u);
+  expectQuiet();
+}
+
+TEST_F(IdleWindow, HeldImagesAreRenewedBeforeItRests) {
+  settle();
+  demo_->setCapture(true);
+  const PixelRect interval = widget("reflection.update_interval");
+  pointAt(interval.x + 5, interval.y + 5);
+  during(0.3);
+  xdotool({"mousedown", "1"});
+  during(0.3);
+  pointAt(interval.x + interval.width / 2, interval.y + 5);
+  during(0.3);
+  xdotool({"mouseup", "1"});
+  settle();
+  ASSERT_GT(demo_->model().settings.reflection.updateInterval, 4);
+  pointAt(width - 100, 80);
+  xdotool({"mousedown", "1"});
+  during(0.2);
+  pointAt(width - 160, 100);
+  xdotool({"mouseup", "1"});
+  settle();
+  const std::vector<uint8_t> rested = rightOfThePanel();
+  pointAt(width - 161, 100);
+  settle();
+  EXPECT_EQ(rested, rightOfThePanel()) << "the mirror's image was not the newest";
+  expectQuiet();
+}
+
+class IdleWindowThatMoves : public IdleWindow {
+ protected:
+  IdleWindowThatMoves()
+      : IdleWindow(std::string(windowScene).replace(windowScene.find("[[light]]"), 0, "spin = [0, 90, 0]\n")) {}
+};
+
+TEST_F(IdleWindowThatMoves, DrawsUntilItIsPaused) {
+  EXPECT_GT(during(1.0).frames, 10);
+  const PixelRect pause = widget("pause");
+  pointAt(pause.x + 5, pause.y + 5);
+  during(0.2);
+  xdotool({"mousedown", "1"});
+  during(0.2);
+  xdotool({"mouseup", "1"});
+  during(0.2);
+  ASSERT_TRUE(demo_->model().paused);
+  settle();
+  EXPECT_EQ(during(1.0).frames, 0);
+  expectQuiet();
+}
+
+struct OwnShaders {
+  OwnShaders() { writeShaders(shaders.path(), "scene_shading.glsl", ""); }
+  Options options() const {
+    Options options;
+    options.shaderDir = shaders.path();
+    return options;
+  }
+  TemporaryDirectory shaders;
+};
+
+class IdleWindowWithShaders : protected OwnShaders, public IdleWindow {
+ protected:
+  IdleWindowWithShaders() : IdleWindow(windowScene, options()) {}
+};
+
+TEST_F(IdleWindowWithShaders, AShaderThatBreaksIsReported) {
+  settle();
+  const auto before = background();
+  const std::filesystem::path file = shaders.path() / "scene.frag";
+  std::ofstream(file, std::ios::app) << "\nthis is not GLSL\n";
+  std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(1));
+  EXPECT_GT(during(3.0).frames, 0);
+  EXPECT_NE(demo_->model().message.find("scene.frag"), std::string::npos) << demo_->model().message;
+  EXPECT_EQ(background(), before);
+  settle();
+  EXPECT_EQ(demo_->device().validationMessages(), 0);
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,200 @@
+// What the keys of the window do, pressed as X events.
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "app/screenshot.hpp"
+#include "demo_window_support.hpp"
+#include "ui/panels.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+class DemoKeys : public DemoWindow {
+ protected:
+  DemoKeys() : before_(environment("XDG_PICTURES_DIR")) {
+    setEnvironment("XDG_PICTURES_DIR", (config_.path() / "pictures").string());
+  }
+  ~DemoKeys() override { setEnvironment("XDG_PICTURES_DIR", before_); }
+
+  // The one that is there more than before.
+  Image8 newPicture(const std::string& key) {
+    std::vector<std::filesystem::path> had = pictures();
+    press(key);
+    for (const std::filesystem::path& file : pictures()) {
+      if (std::find(had.begin(), had.end(), file) == had.end()) {
+        EXPECT_EQ(demo_->model().picture, "saved " + file.string());
+        return readImage8(file);
+      }
+    }
+    ADD_FAILURE() << key << " saved no picture: " << demo_->model().picture;
+    return {};
+  }
+  std::vector<std::filesystem::path> pictures() {
+    std::error_code none;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(config_.path() / "pictures" / "Speculum", none)) {
+      files.push_back(entry.path());
+    }
+    return files;
+  }
+
+  std::string before_;
+};
+
+TEST_F(DemoKeys, PicturesAreSavedWithAndWithoutThePanel) {
+  const Image8 window = newPicture("F12");
+  const Image8 bare = newPicture("shift+F12");
+  ASSERT_EQ(window.width, width);
+  ASSERT_EQ(bare.height, height);
+  EXPECT_NE(window.rgba, bare.rgba);
+  press("Tab");
+  EXPECT_EQ(bare.rgba, pictureOf(picture()).rgba) << "what the window shows with its panel hidden";
+  EXPECT_EQ(pictures().size(), 2u);
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, APictureThatCannotBeSavedSaysSo) {
+  std::ofstream(config_.path() / "pictures") << "a file in the folder's place";
+  press("F12");
+  EXPECT_EQ(demo_->model().picture.rfind("not saved: ", 0), 0u) << demo_->model().picture;
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, FullScreenAndBack) {
+  const auto waitFor = [&](uint32_t wanted) {
+    const auto end = Clock::now() + std::chrono::seconds(5);
+    while (demo_->renderer().displayExtent().width != wanted && Clock::now() < end) {
+      ASSERT_TRUE(demo_->step());
+    }
+    EXPECT_EQ(demo_->renderer().displayExtent().width, wanted);
+  };
+  press("F11");
+  waitFor(1280);
+  EXPECT_TRUE(demo_->window().fullScreen());
+  press("F11");
+  waitFor(width);
+  EXPECT_EQ(demo_->renderer().displayExtent().height, static_cast<uint32_t>(height));
+  EXPECT_FALSE(demo_->window().fullScreen());
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, TimeIsPausedSteppedAndScaled) {
+  const UiModel& model = demo_->model();
+  press("space");
+  ASSERT_TRUE(model.paused);
+  const double start = model.time;
+  run(5);
+  EXPECT_EQ(model.time, start);
+  press("period");
+  press("period");
+  EXPECT_NEAR(model.time, start + 2.0 / 60.0, 1e-12);
+  press("comma");
+  EXPECT_NEAR(model.time, start + 1.0 / 60.0, 1e-12);
+  press("bracketleft");
+  EXPECT_EQ(model.timeSpeed, 0.5);
+  press("bracketright");
+  press("bracketright");
+  press("bracketright");
+  EXPECT_EQ(model.timeSpeed, 4.0);
+  press("space");
+  EXPECT_FALSE(model.paused);
+  const double going = model.time;
+  const auto begun = Clock::now();
+  run(20);
+  const double passed = std::chrono::duration<double>(Clock::now() - begun).count();
+  EXPECT_GT(model.time - going, 2.0 * passed);
+  EXPECT_LT(model.time - going, 6.0 * passed);
+  press("period");
+  EXPECT_TRUE(model.paused) << "a step pauses";
+  for (int i = 0; i < 20; ++i) {
+    press("bracketleft");
+  }
+  EXPECT_EQ(model.timeSpeed, slowestTime);
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, TheTimeRowScrubsAndSteps) {
+  const UiModel& model = demo_->model();
+  click("pause");
+  ASSERT_TRUE(model.paused);
+  drag("time", 0.05, 150);
+  const double there = model.time;
+  EXPECT_GT(there, 5.0);
+  EXPECT_LT(there, 20.0);
+  click("time.on");
+  EXPECT_NEAR(model.time, there + 1.0 / 60.0, 1e-12);
+  click("time.back");
+  click("time.back");
+  EXPECT_NEAR(model.time, there - 1.0 / 60.0, 1e-12);
+  drag("time.speed", 0.5, 30);
+  EXPECT_GT(model.timeSpeed, 1.0);
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, FLooksAtTheWholeScene) {
+  const glm::dvec3 before = demo_->camera().eye;
+  press("f");
+  const CameraPose camera = demo_->camera();
+  EXPECT_GT(glm::distance(camera.eye, before), 0.1);
+  // The ends of the wall mirror, 5 m x 3 m at (0, 1, -2).
+  const double half = std::tan(0.5 * camera.verticalFov);
+  for (const glm::dvec3& corner : {glm::dvec3(-2.5, -0.5, -2.0), glm::dvec3(2.5, 2.5, -2.0)}) {
+    const glm::dvec3 seen = camera.worldToView * (corner - camera.eye);
+    EXPECT_LT(seen.z, 0.0);
+    EXPECT_LT(std::abs(seen.y / seen.z), half);
+    EXPECT_LT(std::abs(seen.x / seen.z), half * width / height);
+  }
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, HelpListsTheKeys) {
+  const Pixels before = picture();
+  press("F1");
+  EXPECT_TRUE(demo_->model().help);
+  const size_t middle = 4 * (static_cast<size_t>(height / 2) * width + width / 2);
+  const Pixels with = picture();
+  EXPECT_FALSE(std::equal(before.rgba.begin() + middle, before.rgba.begin() + middle + 40, with.rgba.begin() + middle));
+  press("F1");
+  EXPECT_FALSE(demo_->model().help);
+  expectQuiet();
+}
+
+TEST(KeyHelpList, IsInTheReadme) {
+  std::ifstream file(sourceFile("README.md"));
+  std::stringstream readme;
+  readme << file.rdbuf();
+  ASSERT_GT(panels::keyHelp().size(), 10u);
+  for (const panels::KeyHelp& key : panels::keyHelp()) {
+    EXPECT_NE(readme.str().find("| `" + std::string(key.keys) + "` | " + key.what + " |"), std::string::npos)
+        << "| `" << key.keys << "` | " << key.what << " |";
+  }
+}
+
+TEST(CameraControl, FramesASphereInPicturesOfAnyShape) {
+  CameraSpec spec;
+  spec.position = {1.0, 2.0, 3.0};
+  spec.target = {0.0, 0.5, 0.0};
+  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
+  const Sphere sphere{{5.0, -2.0, 1.0}, 3.0};
+  for (const double aspect : {0.25, 1.0, 4.0}) {
+    CameraController camera;
+    camera.reset(spec);
+    camera.pose(start);
+    camera.frame(sphere, aspect);
+    const CameraPose pose = camera.pose(start);
+    const glm::dvec3 seen = pose.worldToView * (sphere.center - pose.eye);
+    EXPECT_NEAR(seen.x, 0.0, 1e-9);
+    EXPECT_NEAR(seen.y, 0.0, 1e-9);
+    // The sphere touches the nearer pair of the frustum's sides.
+    const double half = 0.5 * pose.verticalFov;
+    const double narrower = std::min(half, std::atan(std::tan(half) * aspect));
+    EXPECT_NEAR(-seen.z * std::sin(narrower), sphere.radius, 1e-9);
+    EXPECT_NEAR(glm::distance(pose.worldToView[0], start.worldToView[0]), 0.0, 1e-9) << "the direction stays";
+  }
+}
+
+}  // namespace
+}  // namespace speculum
