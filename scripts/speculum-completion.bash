@@ -8,11 +8,11 @@ _speculum_options() {
       echo "--scene --size --frames --sweep-results --present-mode $common"
       [ -n "$1" ] || echo "--version"
       ;;
-    render) echo "--scene --size --time --out --sweep-results --stats --frames --fps $common" ;;
-    reference) echo "--scene --size --time --out --samples $common" ;;
+    render) echo "--scene --size --time --camera --out --sweep-results --stats --frames --fps $common" ;;
+    reference) echo "--scene --size --time --camera --out --samples $common" ;;
     compare) echo "--mask --heatmap --json --max-flip --max-diff $common" ;;
     accuracy) echo "--scene --size --time --out --sweep $common" ;;
-    bench) echo "--scene --size --time --frames --warmup --json --sweep-results --prices --reference $common" ;;
+    bench) echo "--scene --size --time --camera --frames --warmup --json --sweep-results --prices --reference $common" ;;
     info | scenes) echo "$common" ;;
   esac
 }
@@ -46,7 +46,7 @@ _speculum() {
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$word") && return ;;
     --sweep) mapfile -t COMPREPLY < <(compgen -W "quick full" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
     --shader-dir) mapfile -t COMPREPLY < <(compgen -d -- "$word") && return ;;
-    --size | --time | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff) return ;;
+    --size | --time | --camera | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff) return ;;
     --out | --stats | --json | --mask | --heatmap | --sweep-results)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return

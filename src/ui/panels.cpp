@@ -135,8 +135,16 @@ void scene(UiModel& model) {
   ImGui::SameLine();
   model.resetCamera = ImGui::Button("reset camera");
   time(model);
+  model.copyCommand = ImGui::Button("copy command line");
+  notePlace(model, "copy");
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("the call of speculum render that draws this view to the same bytes");
+  }
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("drag: look   WASD QE: move   F12: save a picture   Tab: hide this panel   F1: all keys");
+  if (!model.command.empty()) {
+    ImGui::TextWrapped("copied: %s", model.command.c_str());
+  }
   if (!model.picture.empty()) {
     ImGui::TextWrapped("%s", model.picture.c_str());
   }

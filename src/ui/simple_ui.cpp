@@ -120,6 +120,7 @@ void SimpleUI::build(UiModel& model) {
   model.resetCamera = false;
   model.resetSettings = false;
   model.seek.reset();
+  model.copyCommand = false;
   model.accuracy.measure = false;
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
