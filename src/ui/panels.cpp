@@ -111,7 +111,7 @@ void notePlace(UiModel& model, std::string_view key) {
 
 void message(const UiModel& model) {
   if (!model.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
     ImGui::TextWrapped("%s", model.message.c_str());
     ImGui::PopStyleColor();
   }
