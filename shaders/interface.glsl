@@ -7,12 +7,13 @@ struct ViewData {
   vec4 rayY;
   vec4 rayOrigin;
   vec4 clipPlane;  // (n, h): a point p (relative) is drawn where n.p + h >= 0
-  vec4 ambient;     // w: throughput below which a bounce is dropped
+  vec4 ambient;
   vec4 background;  // w: 1 with a sky, else 0
   vec4 zenith;
   vec4 horizon;
   vec4 ground;
-  vec4 traceOffset;  // from relative to trace space (trace.glsl); w: throughput of the mirrors up to this view
+  vec4 traceOffset;  // from relative to trace space (trace.glsl)
+  vec4 throughput;   // of the mirrors up to this view; w: that below which a bounce is dropped
   uint firstLight;
   uint lightCount;
   uint depth;     // of the mirrors seen in this view
@@ -48,7 +49,8 @@ struct MirrorData {
   vec4 lookup;       // texel of the image = pixel of the pass * xy + zw
   ivec4 image;       // width and height of the image's used part in texels; z: one of the lookup* constants; w: index into traceMirrors
   vec4 reproject[3]; // columns 0, 1, 2 of a matrix and in their w a vector: homogeneous texel of an image of an earlier
-                     // frame = matrix * (pixel of the pass, 1) + vector * disparity
+                     // frame = matrix * (pixel of the pass, 1) + vector * disparity;
+                     // or of a rough mirror: alpha of GGX and number of look-ups in the first one
 };
 
 const float mirrorImage = 0.0;

@@ -4,6 +4,7 @@
 #include "shading.glsl"
 #include "trace.glsl"
 #include "traced_light.glsl"
+#include "microfacet.glsl"
 #include "traced_path.glsl"
 
 layout(location = 0) out vec4 color;
@@ -15,7 +16,9 @@ void main() {
   vec3 ray = rayThrough(view, gl_FragCoord.xy);
   float inward = min(dot(mirror.plane.xyz, ray), -1e-7 * length(ray));
   vec3 position = ray * (-mirror.plane.w / inward);
-  Bounce bounce =
-      mirrorBounce(view, uint(mirror.image.w), position + view.traceOffset.xyz, safeNormalize(ray));
+  uint index = uint(mirror.image.w);
+  // The plane is turned to the eye in double; at the horizon the ray itself may not tell.
+  bool front = dot(traceMirrors[index].normal, mirror.plane.xyz) > 0.0;
+  Bounce bounce = mirrorBounce(view, index, position + view.traceOffset.xyz, safeNormalize(ray), front);
   color = storable(tracedRadiance(view, bounce, safeNormalize(ray)), inward / min(-mirror.plane.w, -1e-30));
 }

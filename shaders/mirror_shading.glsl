@@ -4,6 +4,7 @@
 #include "interface.glsl"
 #include "shading.glsl"
 #include "texels.glsl"
+#include "microfacet.glsl"
 #ifdef TRACED
 #include "trace.glsl"
 #include "traced_light.glsl"
@@ -11,6 +12,7 @@
 
 layout(constant_id = 0) const bool baseOnly = false;   // the share of the layer under the reflection
 layout(constant_id = 1) const bool reprojects = false; // the image is one of an earlier frame, and something moved
+layout(constant_id = 6) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 
@@ -145,16 +147,62 @@ vec4 reprojected(MirrorData mirror, float nearest) {
   return weights > 0.05 ? sum / weights : farthest;
 }
 
+#ifndef MIRROR_OWN_SAMPLE
+// Pixel of the view at which a point behind the mirror is seen; relative, in front of the eye.
+vec2 pixelOf(ViewData view, vec3 point) {
+  vec3 x = view.rayX.xyz;
+  vec3 y = view.rayY.xyz;
+  vec3 axis = cross(x, y);
+  vec3 onPlane = point * (dot(view.rayOrigin.xyz, axis) / dot(point, axis)) - view.rayOrigin.xyz;
+  return vec2(dot(onPlane, x) / dot(x, x), dot(onPlane, y) / dot(y, y));
+}
+
+// The mean over microfacets of a rough mirror, looked up where the image of the smooth mirror shows what lies in their
+// directions: at the distance of what is found there, from a first guess of what the smooth mirror shows here. Beside the
+// image the background stands for what it does not show.
+vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
+  float alpha = mirror.reproject[0].x;
+  int wanted = int(mirror.reproject[0].y);
+  vec3 normal = mirror.plane.xyz;
+  vec3 incoming = safeNormalize(ray);
+  vec4 smooth_ = reflected(mirror);
+  float farthest = 1e4 * (length(position) + 1.0);
+  float guess = clamp(length(ray) / max(smooth_.a, 1e-30) - length(position), 0.0, farthest);
+  uint seed = pixelSeed();
+  vec2 shift = pixelShift(seed);
+  vec3 sum = vec3(0.0);
+  int taken = 0;
+  for (int drawn = 1; drawn <= wanted; ++drawn) {
+    vec3 m = microfacet(normal, alpha, latticePoint(shift, drawn));
+    vec3 direction = incoming - 2.0 * dot(incoming, m) * m;
+    if (dot(m, incoming) >= 0.0 || dot(direction, normal) <= 0.0) {
+      continue;
+    }
+    vec3 behind = direction - 2.0 * dot(direction, normal) * normal;
+    float far = guess;
+    vec3 found = vec3(0.0);
+    for (int i = 0; i < 3; ++i) {
+      vec2 pixel = pixelOf(view, position + far * behind);
+      vec2 texel = pixel * mirror.lookup.xy + mirror.lookup.zw;
+      if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.image.xy)))) {
+        found = backgroundRadiance(view, direction);
+        break;
+      }
+      vec4 value = texelMean(reflection, ivec2(texel));
+      found = value.rgb;
+      far = clamp(dot(rayThrough(view, pixel) / max(value.a, 1e-30) - position, behind), 0.0, farthest);
+    }
+    sum += found;
+    ++taken;
+  }
+  return taken > 0 ? vec4(sum / float(taken), smooth_.a) : smooth_;
+}
+#endif
+
 // F of docs/picture.md; `inward` is the ray's component along the normal, below zero.
 vec3 reflectance(MirrorData mirror, vec3 ray, float inward) {
   vec3 f = mirror.reflectance.rgb;
-  if (mirror.reflectance.w > 0.0) {
-    float cosine = clamp(-inward * inversesqrt(max(dot(ray, ray), 1e-30)), 0.0, 1.0);
-    float grazing = 1.0 - cosine;
-    float grazing2 = grazing * grazing;
-    f += (1.0 - f) * (grazing2 * grazing2 * grazing);
-  }
-  return f;
+  return mirror.reflectance.w > 0.0 ? schlick(f, -inward * inversesqrt(max(dot(ray, ray), 1e-30))) : f;
 }
 
 vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
@@ -203,7 +251,11 @@ void main() {
   }
   vec4 image = vec4(0.0);
   if (mirror.baseColor.w == mirrorImage) {
-    image = reprojects ? reprojected(mirror, ownDisparity) : reflected(mirror);
+    if (blurs) {
+      image = blurred(mirror, view, ray, ray * (-mirror.plane.w / inward));
+    } else {
+      image = reprojects ? reprojected(mirror, ownDisparity) : reflected(mirror);
+    }
   } else {
     image.rgb = backgroundRadiance(view, reflect(ray, mirror.plane.xyz));
   }

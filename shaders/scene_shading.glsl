@@ -6,6 +6,7 @@
 #include "traced_light.glsl"
 #endif
 #ifdef CURVED
+#include "microfacet.glsl"
 #include "traced_path.glsl"
 #endif
 
@@ -58,7 +59,7 @@ vec3 weightsOnTriangle(vec3 point, Corners corners) {
   c.xy -= sight.shear.xy * c.z;
   vec3 weights = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
   float area = weights.x + weights.y + weights.z;
-  weights = area == 0.0 ? vec3(1.0, 0.0, 0.0) : max(weights / area, vec3(0.0));
+  weights = abs(area) < 1e-30 ? vec3(1.0, 0.0, 0.0) : max(weights / area, vec3(0.0));
   return weights / (weights.x + weights.y + weights.z);
 }
 
@@ -73,8 +74,10 @@ vec3 relativeVertex(uint instance, uint triangle, uint corner) {
 void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surface) {
   Corners corners = Corners(relativeVertex(instance, triangle, 0), relativeVertex(instance, triangle, 1),
                             relativeVertex(instance, triangle, 2));
-  vec3 sight = perSample ? rayThrough(views[draw.viewIndex], gl_FragCoord.xy) : relativePosition;
-  vec3 point = safeNormalize(sight) * length(relativePosition);
+  vec3 point = relativePosition;
+  if (perSample) {
+    point = safeNormalize(rayThrough(views[draw.viewIndex], gl_FragCoord.xy)) * length(relativePosition);
+  }
   vec3 w = weightsOnTriangle(point, corners);
   surface.position = point + w.x * (corners.a - point) + w.y * (corners.b - point) + w.z * (corners.c - point);
   if (perSample) {
@@ -110,7 +113,7 @@ void main() {
 #ifdef TRACED
   uint traceInstance = uint(instances[instanceIndex].shininess.y);
   Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none,
-                   nearOf(views[draw.viewIndex], relativePosition));
+                   nearOf(relativePosition));
 #ifndef CURVED
   if (shadows)
 #endif

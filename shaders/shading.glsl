@@ -44,6 +44,13 @@ vec3 surfaceRadiance(ViewData view, Surface surface) {
   return radiance;
 }
 
+// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
+vec3 schlick(vec3 reflectance, float cosine) {
+  float grazing = 1.0 - clamp(cosine, 0.0, 1.0);
+  float grazing2 = grazing * grazing;
+  return reflectance + (1.0 - reflectance) * (grazing2 * grazing2 * grazing);
+}
+
 vec3 backgroundRadiance(ViewData view, vec3 direction) {
   if (view.background.w == 0.0) {
     return view.background.rgb;

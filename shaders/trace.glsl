@@ -107,9 +107,9 @@ struct Skip {
   float near;  // metres; within them the rest of the instance is not seen either
 };
 
-// A fragment may lie beside its triangle by what the rasteriser rounds, 1/256 of a pixel and more where the triangle is
-// steep: beyond a crease that is inside the object. A quarter of a pixel at the point's distance is out of that.
-float nearOf(ViewData view, vec3 position) { return 0.25 * length(view.rayX.xyz) * length(position); }
+// Where triangles meet, rounding puts a point beyond its own, which in a crease is inside the object: by some 1e-7 of its
+// distance from the eye, and more along a ray that leaves at grazing angle.
+float nearOf(vec3 position) { return 2e-5 * length(position); }
 
 struct Hit {
   float t;

@@ -17,12 +17,6 @@ struct Incoming {
   Skip skip[2];
 };
 
-vec3 schlick(vec3 reflectance, float cosine) {
-  float grazing = 1.0 - clamp(cosine, 0.0, 1.0);
-  float grazing2 = grazing * grazing;
-  return reflectance + (1.0 - reflectance) * (grazing2 * grazing2 * grazing);
-}
-
 vec3 mirrorReflectance(uint mirror, float cosine) {
   vec4 f = traceMirrors[mirror].reflectance;
   return f.w > 0.0 ? schlick(f.rgb, cosine) : f.rgb;
@@ -85,11 +79,12 @@ bool unobstructed(Incoming incoming) {
   return true;
 }
 
-// Of all lights, and of their images in mirrors. `self` is what the surface is part of.
-vec3 tracedLight(ViewData view, Surface surface, vec3 toViewer, Skip self) {
+// surfaceRadiance with all lights and their images in mirrors, added in the same order. `self` is what the surface is
+// part of.
+vec3 tracedSurfaceRadiance(ViewData view, Surface surface, vec3 toViewer, Skip self) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? lightPathCount : 0);
-  vec3 radiance = vec3(0.0);
+  vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
   for (uint i = 0; i < paths; ++i) {
     Incoming incoming;
     if (i < view.lightCount) {
@@ -107,8 +102,4 @@ vec3 tracedLight(ViewData view, Surface surface, vec3 toViewer, Skip self) {
     }
   }
   return radiance;
-}
-
-vec3 tracedSurfaceRadiance(ViewData view, Surface surface, vec3 toViewer, Skip self) {
-  return surface.emission + view.ambient.rgb * surface.diffuse + tracedLight(view, surface, toViewer, self);
 }

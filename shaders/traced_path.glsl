@@ -1,5 +1,6 @@
 // Radiance of what a surface reflects, by following rays from mirror to mirror as docs/picture.md defines them: ripples,
-// rough mirrors and curved ones, which no image of a plane can show. Needs trace.glsl and traced_light.glsl.
+// rough mirrors and curved ones, which no image of a plane can show. Needs trace.glsl, traced_light.glsl
+// and microfacet.glsl.
 
 struct Bounce {
   Surface surface;  // relative; of a mirror, the layer under the reflection
@@ -31,8 +32,7 @@ vec3 rippled(uint mirror, vec3 tracePosition) {
 }
 
 // A mirror seen along `direction`, from its front or its back.
-Bounce mirrorBounce(ViewData view, uint mirror, vec3 tracePosition, vec3 direction) {
-  bool front = dot(traceMirrors[mirror].normal, direction) < 0.0;
+Bounce mirrorBounce(ViewData view, uint mirror, vec3 tracePosition, vec3 direction, bool front) {
   float side = front ? 1.0 : -1.0;
   vec3 position = tracePosition - view.traceOffset.xyz;
   Bounce bounce;
@@ -122,7 +122,7 @@ Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
   surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
   surface.emission = material.emission.rgb;
   Bounce bounce =
-      Bounce(surface, Skip(hit.instance, triangle.triangle, none, none, nearOf(view, surface.position)), false, away ? -geometric : geometric,
+      Bounce(surface, Skip(hit.instance, triangle.triangle, none, none, nearOf(surface.position)), false, away ? -geometric : geometric,
              vec3(0.0), 0.0);
   applyCurvedMirror(hit.instance, direction, bounce);
   return bounce;
@@ -150,27 +150,6 @@ vec3 glyphRadiance(ViewData view, vec3 origin, vec3 direction, inout float t) {
   return glow;
 }
 
-uint mixedBits(uint x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
-float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
-
-// A normal of GGX with density D(m)(n.m) about n: Walter et al., "Microfacet Models for Refraction through Rough
-// Surfaces" (2007), equations 35 and 36.
-vec3 microfacet(vec3 n, float alpha, vec2 u) {
-  float cosine2 = (1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x);
-  float sine = sqrt(max(0.0, 1.0 - cosine2));
-  float angle = 2.0 * pi * u.y;
-  vec3 x = safeNormalize(cross(abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), n));
-  vec3 y = cross(n, x);
-  return sine * cos(angle) * x + sine * sin(angle) * y + sqrt(cosine2) * n;
-}
-
 // The direction mirrored about m, turned back above the plane if it went below.
 vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
   vec3 d = direction - 2.0 * dot(direction, m) * m;
@@ -182,8 +161,8 @@ struct Path {
   vec3 direction;  // unit, towards `bounce`
   Bounce bounce;
   vec3 m;            // normal that it is mirrored about
-  uint depth;        // of the bounce
-  float throughput;  // of the bounces before, largest channel
+  uint depth;       // of the bounce
+  vec3 throughput;  // of the bounces before
 };
 
 // Follows a path from its first bounce, whose own layer goes to `layer` if `withLayer`.
@@ -205,8 +184,9 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
       return sum;
     }
     weight *= path.bounce.reflectance;
-    float through = path.throughput * max(weight.r, max(weight.g, weight.b));
-    bool last = path.depth >= view.maxDepth || through < view.ambient.w || through == 0.0;
+    vec3 channels = path.throughput * weight;
+    float through = max(channels.r, max(channels.g, channels.b));
+    bool last = path.depth >= view.maxDepth || through < view.throughput.w || through == 0.0;
     path.direction = mirrored(path.direction, last ? surface.normal : path.m, path.bounce.planeNormal);
     if (last) {
       return sum + weight * backgroundRadiance(view, path.direction);
@@ -223,7 +203,8 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
       return sum + weight * backgroundRadiance(view, path.direction);
     }
     if (hit.mirror != none) {
-      path.bounce = mirrorBounce(view, hit.mirror, origin + hit.t * path.direction, path.direction);
+      bool front = dot(traceMirrors[hit.mirror].normal, path.direction) < 0.0;
+      path.bounce = mirrorBounce(view, hit.mirror, origin + hit.t * path.direction, path.direction, front);
     } else {
       path.bounce = objectBounce(view, hit, origin, path.direction);
     }
@@ -242,8 +223,8 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
 // microfacets on the additive recurrence of the plastic number, shifted for each pixel; those that face away, or that
 // mirror the ray below the plane, are left out.
 vec3 tracedRadiance(ViewData view, Bounce bounce, vec3 direction) {
-  uint seed = mixedBits(uint(gl_FragCoord.x) + mixedBits(uint(gl_FragCoord.y)));
-  vec2 shift = vec2(unitInterval(seed), unitInterval(mixedBits(seed + 1)));
+  uint seed = pixelSeed();
+  vec2 shift = pixelShift(seed);
   int wanted = bounce.alpha > 0.0 ? int(roughSamples) : 1;
   int most = 4 * wanted + 16;
   int taken = 0;
@@ -252,13 +233,13 @@ vec3 tracedRadiance(ViewData view, Bounce bounce, vec3 direction) {
   for (int drawn = 1; taken < wanted && drawn <= most; ++drawn) {
     vec3 m = bounce.surface.normal;
     if (bounce.alpha > 0.0 && (taken > 0 || drawn < most)) {
-      m = microfacet(m, bounce.alpha, fract(shift + float(drawn) * vec2(0.7548776662466927, 0.5698402909980532)));
+      m = microfacet(m, bounce.alpha, latticePoint(shift, drawn));
       vec3 next = direction - 2.0 * dot(direction, m) * m;
       if (dot(m, direction) >= 0.0 || dot(next, bounce.planeNormal) <= 0.0) {
         continue;
       }
     }
-    Path path = Path(direction, bounce, m, view.depth, view.traceOffset.w);
+    Path path = Path(direction, bounce, m, view.depth, view.throughput.rgb);
     sum += follow(view, path, seed + uint(drawn), taken == 0, layer);
     ++taken;
   }

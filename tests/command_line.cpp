@@ -305,14 +305,15 @@ TEST_F(CommandLine, SmallestAndFlattestPicturesAreDrawn) {
 }
 
 TEST_F(CommandLine, BenchSaysWhatEachEffectCosts) {
-  const std::string scene = writeScene("effects", smallScene + "roughness = 0.2\n");
+  const std::string scene = writeScene(
+      "effects", smallScene + "[[mirror]]\nname = 'rough'\nposition = [1, 1, -1]\nsize = [1, 1]\nroughness = 0.2\n");
   const ProcessResult result = speculum({"bench", "--scene", scene, "--size", "32x18", "--frames", "2", "--warmup", "0",
                                          "--prices", "--json", out("e.json")});
   EXPECT_EQ(result.exitCode, 0) << result.output;
   EXPECT_NE(result.output.find("roughness"), std::string::npos) << result.output;
   for (const auto& effect : readJson(out("e.json"))["effects"]) {
     if (effect["name"] == "roughness") {
-      EXPECT_EQ(effect["why"], "mirror 'wall'");
+      EXPECT_EQ(effect["why"], "mirror 'rough'");
       EXPECT_TRUE(effect["gpu_ms"].contains("median")) << effect;
     } else if (effect["name"] == "shadows") {
       EXPECT_EQ(effect["called_for"], false);

@@ -208,6 +208,54 @@ INSTANTIATE_TEST_SUITE_P(
              "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\nmirror = {}\n"}),
     [](const auto& info) { return std::string(info.param.effect); });
 
+// One of two effects goes: what only it needed goes with it.
+TEST(Ledger, EachEffectGivesBackItsOwn) {
+  const std::filesystem::path file =
+      sceneWith("two_effects",
+                "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n[[light]]\n"
+                "position = [0, 2, 1]\nintensity = 9\n[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\n"
+                "casts_light = true\n");
+  const auto run = [&](Session& session, const char* shadows, int frames) {
+    Settings settings = session.settings();
+    EXPECT_EQ(setSetting(settings, "effects.shadows", shadows), std::nullopt);
+    session.setSettings(settings);
+    for (int i = 0; i < frames; ++i) {
+      session.draw(0.0, true);
+      session.finish();
+    }
+  };
+  counts = {};
+  int buffers = 0;
+  int pipelines = 0;
+  {
+    Session never(without(optionsFor(file), "shadows"));
+    run(never, "false", 3);
+    buffers = counts.alive.at("Buffer");
+    pipelines = counts.alive.at("Pipeline");
+  }
+  counts = {};
+  Session session(optionsFor(file));
+  run(session, "true", 3);
+  EXPECT_GT(session.sceneRenderer().ledger()[EffectKind::shadows].pipelines, 0u);
+  EXPECT_GT(counts.alive.at("Buffer"), buffers);
+  run(session, "false", 130);
+  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::shadows].pipelines, 0u);
+  EXPECT_GT(session.sceneRenderer().ledger()[EffectKind::castsLight].pipelines, 0u);
+  EXPECT_EQ(counts.alive.at("Buffer"), buffers);
+  EXPECT_EQ(counts.alive.at("Pipeline"), pipelines);
+}
+
+// At a limit of depth a rough mirror reflects nothing that could be blurred.
+TEST(Ledger, RoughnessWithoutReflectionCostsNothing) {
+  Options options = optionsFor(sceneWith(
+      "rough_deep", "[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\nroughness = 0.3\nbase_color = [0.3, 0, 0]\n"));
+  set(options, {{"reflection.max_depth", "0"}});
+  const Outcome asked = run(options);
+  const Outcome none = run(without(options, "roughness"));
+  EXPECT_EQ(asked.counts.created, none.counts.created);
+  EXPECT_EQ(asked.picture.rgba, none.picture.rgba);
+}
+
 // The camera turns away from what the light falls on.
 TEST(Ledger, TurningAwayGivesTheCostBack) {
   const std::filesystem::path file =

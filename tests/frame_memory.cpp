@@ -54,6 +54,23 @@ TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
   EXPECT_NE(fitted.message.find("lowered reflection.scale to 2.5"), std::string::npos) << fitted.message;
 }
 
+// Then a mirror with ripples is a plane again, with a pass.
+TEST(MemoryFit, EffectsThatTraceRaysAreLeftOutWhereTheDeviceCannot) {
+  Scene scene = wallScene();
+  scene.mirrors[0].ripple = Ripple{.amplitude = 0.01};
+  const SceneState state = evaluate(scene, 0.0);
+  const auto plan = [&](bool tracesRays) {
+    return planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .tracesRays = tracesRays}, scene, state, {}, 100,
+                      100);
+  };
+  EXPECT_TRUE(plan(true).message.empty());
+  EXPECT_TRUE(plan(true).plan.passes.empty());
+  const FittedPlan without = plan(false);
+  EXPECT_NE(without.message.find("effects.*"), std::string::npos) << without.message;
+  EXPECT_FALSE(without.settings.effects.ripple);
+  EXPECT_EQ(without.plan.passes.size(), 1u);
+}
+
 TEST(MemoryFit, PlansAsItIsWhenNothingIsLeftToLower) {
   const FittedPlan least = fit(1);
   EXPECT_EQ(least.settings.reflection.scale, 0.125);

@@ -63,7 +63,7 @@ TEST(Hidden, BehindAnObjectNeitherPassNorDraw) {
   EXPECT_TRUE(p.passes.empty());
   EXPECT_TRUE(p.main.mirrors.empty());
   ASSERT_TRUE(isHidden(p, {0}));
-  EXPECT_EQ(skipOf(p, {0})->detail, "behind object door");
+  EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'door'");
 }
 
 TEST(Hidden, BehindAnotherMirrorFrontAndBack) {
@@ -72,7 +72,7 @@ TEST(Hidden, BehindAnotherMirrorFrontAndBack) {
     screen.name = "screen";
     const FramePlan p = plan(sceneWith({wall({0, 0, -5}, 0, {2, 2}), screen}, {}));
     ASSERT_TRUE(isHidden(p, {0})) << yaw;
-    EXPECT_EQ(skipOf(p, {0})->detail, "behind mirror screen");
+    EXPECT_EQ(skipOf(p, {0})->detail, "behind mirror 'screen'");
     ASSERT_EQ(p.main.mirrors.size(), 1u);
     EXPECT_EQ(p.main.mirrors[0].mirror, 1);
   }

@@ -22,7 +22,7 @@ TEST_P(SceneTruth, IsDrawn) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneTruth,
                          testing::Values("gallery", "single_plane", "facing_mirrors", "many_mirrors", "mirror_maze",
-                                         "no_mirror", "outdoors"),
+                                         "no_mirror", "outdoors", "pool", "shadows", "bounced_light", "mirror_ball"),
                          [](const auto& info) { return std::string(info.param); });
 
 INSTANTIATE_TEST_SUITE_P(HardScenes, SceneTruth,

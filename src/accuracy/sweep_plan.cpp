@@ -93,6 +93,11 @@ void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool ful
                              .theorySlope = -0.5},
                   .theory = Theory::fixed},
                  rays, best(context));
+  if (context.mirrors) {
+    for (const std::string& lookups : rays) {
+      planner.add({{"effects.rough_lookup", "image"}, {"effects.rough_samples", lookups}});
+    }
+  }
 }
 
 void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {

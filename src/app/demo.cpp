@@ -170,7 +170,7 @@ void Demo::drawFrame(double seconds) {
   saveShot();
   ++framesDrawn_;
   framesDue_ = std::max(0, framesDue_ - 1);
-  fillModel(plan, state, fitted.settings.reflection.updateInterval);
+  fillModel(plan, state, fitted.settings);
   accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, *sceneRenderer_);
 }
 
@@ -225,16 +225,16 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
   model_.debugPass = shown != model_.passes.end() ? static_cast<int>(shown - model_.passes.begin()) : -1;
 }
 
-void Demo::fillEffects(const FramePlan& plan, const SceneState& state) {
+void Demo::fillEffects(const FramePlan& plan, const SceneState& state, const Settings& drawn) {
   model_.effects.clear();
   const EffectLedger& ledger = sceneRenderer_->ledger();
-  for (const Effect& effect : effectsOf(loaded_->scene, state, model_.settings, plan)) {
+  for (const Effect& effect : effectsOf(loaded_->scene, state, drawn, plan)) {
     const EffectCost& cost = ledger[static_cast<EffectKind>(model_.effects.size())];
     model_.effects.push_back({effect.name, effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
   }
 }
 
-void Demo::fillModel(const FramePlan& plan, const SceneState& state, int updateInterval) {
+void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Settings& drawn) {
   const FrameTimings& timings = renderer_.timings();
   model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
   model_.gpuMs = timings.gpuMs;
@@ -249,8 +249,8 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, int updateI
     model_.message = planner_.message();
   }
   model_.time = time_;
-  fillPasses(plan, state, updateInterval);
-  fillEffects(plan, state);
+  fillPasses(plan, state, drawn.reflection.updateInterval);
+  fillEffects(plan, state, drawn);
   model_.skipped.clear();
   for (const SkippedMirror& skip : plan.skipped) {
     model_.skipped.push_back(

@@ -43,8 +43,8 @@ class Demo {
   bool rest();
   void drawFrame(double seconds);
   std::optional<DebugView> debugView(const FramePlan& plan);
-  void fillEffects(const FramePlan& plan, const SceneState& state);
-  void fillModel(const FramePlan& plan, const SceneState& state, int updateInterval);
+  void fillEffects(const FramePlan& plan, const SceneState& state, const Settings& drawn);
+  void fillModel(const FramePlan& plan, const SceneState& state, const Settings& drawn);
   void fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval);
   void applyModel();
   SweepRequest sweepRequest();

@@ -107,7 +107,9 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
   limits_.largestSide =
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
                                  device.limits().maxViewportDimensions[1]}));
-  limits_.tracesRays = device.caps().primitiveId;
+  tracesRays_ =
+      device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
+  largestBuffer_ = device.limits().maxStorageBufferRange;
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
@@ -117,6 +119,7 @@ FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, cons
                      " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
                      " pixels a side)");
   }
+  limits_.tracesRays = tracesRays_ && largestTraceBuffer(scene, state.instances.size()) <= largestBuffer_;
   FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, held);
   if (!fitted.message.empty() && message_.empty()) {
     spdlog::warn("{}", fitted.message);

@@ -49,6 +49,8 @@ class BudgetPlanner {
 
  private:
   TargetLimits limits_;
+  bool tracesRays_ = true;      // the device, if the scene fits
+  uint64_t largestBuffer_ = 0;  // bytes
   std::string message_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "frame/scene_names.hpp"
 #include "frame/traced_effects.hpp"
 
 namespace speculum {
@@ -32,14 +33,20 @@ Visible visibleIn(const FramePlan& plan) {
   return visible;
 }
 
-template <typename Predicate>
-Effect mirrorEffect(const std::string& name, const Scene& scene, const Visible& visible, Predicate wants) {
-  for (const int i : visible.mirrorFronts) {
-    if (wants(scene.mirrors[i])) {
-      return {name, true, nameOf("mirror", scene.mirrors[i].name, i)};
+Effect fresnel(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
+  for (const int i : visible.instances) {
+    const int object = state.instances[i].object;
+    const std::optional<ObjectMirror>& mirror = scene.objects[object].mirror;
+    if (settings.effects.curved && mirror && mirror->fresnel == Fresnel::schlick) {
+      return {"fresnel", true, nameOf("object", scene.objects[object].name, object)};
     }
   }
-  return {name, false, "no visible mirror asks for it"};
+  for (const int i : visible.mirrorFronts) {
+    if (scene.mirrors[i].fresnel == Fresnel::schlick) {
+      return {"fresnel", true, nameOf("mirror", scene.mirrors[i].name, i)};
+    }
+  }
+  return {"fresnel", false, "no visible mirror asks for it"};
 }
 
 Effect tracedEffect(const std::string& name, const std::string& caller, const std::string& otherwise) {
@@ -117,7 +124,7 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
       tracedEffect("roughness", traced.roughness, "no visible mirror is rough"),
       tracedEffect("ripple", traced.ripple, "no visible mirror has ripples"),
       tracedEffect("casts_light", traced.castsLight, "no mirror casts light on what is drawn"),
-      mirrorEffect("fresnel", scene, visible, [](const Mirror& m) { return m.fresnel == Fresnel::schlick; }),
+      fresnel(scene, state, settings, visible),
       textures(scene, state, visible),
       multisampling(settings, plan),
       {"tone_map", aces, aces ? "view.tone_map = aces" : "view.tone_map = clamp"},

@@ -18,7 +18,6 @@ constexpr double largestNear = 0.001;  // metres
 // A pass before its place in the order of recording is known.
 struct Node {
   PlannedPass pass;
-  glm::dvec3 throughput{1.0};     // per channel
   std::vector<int> children;      // nodes
   std::optional<HeldImage> held;  // its image, if it is to be held; rendered by the pass if `earlier` is -1
   bool moved = false;             // since the earlier image
@@ -64,8 +63,14 @@ double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
   return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
 }
 
-bool scatters(const Mirror& mirror, const EffectSettings& effects) {
-  return (effects.roughness && mirror.roughness > 0.0) || (effects.ripple && mirror.ripple);
+bool isRough(const Mirror& mirror, const EffectSettings& effects) {
+  return effects.roughness && mirror.roughness > 0.0;
+}
+
+// Without reflection, at a limit of depth or throughput, only ripples show.
+bool scatters(const Mirror& mirror, const EffectSettings& effects, bool reflects) {
+  const bool roughRays = isRough(mirror, effects) && effects.roughLookup == RoughLookup::traced;
+  return (reflects && roughRays) || (effects.ripple && mirror.ripple);
 }
 
 std::string number(double value) {
@@ -139,14 +144,14 @@ void Planner::fill(int node) {
   }
   for (size_t i = 0; i < state_.instances.size(); ++i) {
     const InstanceState& instance = state_.instances[i];
-    if (sphereVisible(view, instance.center, instance.radius) &&
+    if (sphereVisible(readable, instance.center, instance.radius) &&
         boxVisible(readable, instance.worldFromMesh, scene_.meshes[instance.mesh].halfExtent)) {
       nodes_[node].pass.instances.push_back(static_cast<int>(i));
     }
   }
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
     const PointLight& light = scene_.lights[i];
-    if (light.glow > 0.0 && sphereVisible(view, state_.lights[i].position, light.radius)) {
+    if (light.glow > 0.0 && sphereVisible(readable, state_.lights[i].position, light.radius)) {
       nodes_[node].pass.lights.push_back(static_cast<int>(i));
     }
   }
@@ -201,12 +206,15 @@ void Planner::consider(int node, int mirror, const View& readable) {
   if (occluder) {
     return skip(view, mirror, SkipReason::hidden, "behind " + *occluder);
   }
-  draw.scatters = scatters(material, allSettings_.effects);
-  const bool needsPass = !draw.scatters;
   const double area = screenArea(toClip(view, plan_.projection, visible), plan_.width, plan_.height);
-  const glm::dvec3 throughput = nodes_[node].throughput * reflectanceBound(material, draw.plane, view.eye, visible);
+  const glm::dvec3 throughput = pass.channels * reflectanceBound(material, draw.plane, view.eye, visible);
+  const bool deep = static_cast<int>(view.path.size()) >= settings_.maxDepth;
+  const bool reflects = !deep && largest(throughput) >= settings_.minThroughput;
+  draw.scatters = scatters(material, allSettings_.effects, reflects);
+  draw.blurs = reflects && !draw.scatters && isRough(material, allSettings_.effects);
+  const bool needsPass = !draw.scatters;
   pass.mirrors.push_back(std::move(draw));
-  if (static_cast<int>(view.path.size()) >= settings_.maxDepth) {
+  if (deep) {
     return skip(view, mirror, SkipReason::maxDepth, "max_depth " + std::to_string(settings_.maxDepth));
   }
   if (needsPass && area < settings_.minPixels) {
@@ -245,9 +253,9 @@ void Planner::expand(const Candidate& candidate) {
   node.pass.depth = static_cast<int>(parent.path.size());
   node.pass.areaPx = candidate.areaPx;
   node.pass.throughput = largest(candidate.throughput);
+  node.pass.channels = candidate.throughput;
   node.pass.parent = static_cast<int>(candidate.draw);  // until record() knows the order
-  node.throughput = candidate.throughput;
-  if (node.pass.depth == 0 && settings_.updateInterval > 1) {
+  if (node.pass.depth == 0 && settings_.updateInterval > 1 && !draw.blurs) {
     hold(node, candidate);
   }
   const int index = static_cast<int>(nodes_.size());

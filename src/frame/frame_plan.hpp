@@ -28,6 +28,7 @@ struct MirrorDraw {
   int mirror = 0;                   // index into Scene::mirrors
   bool back = false;                // its painted back is seen
   bool scatters = false;            // rippled or rough: rays are traced, an image of its plane would not show it
+  bool blurs = false;               // rough: the image of its plane is blurred
   int pass = -1;                    // index into FramePlan::passes of its image; -1: it has none of this frame
   std::optional<HeldLookup> held;   // of its image of an earlier frame; with neither it shows the background
   std::vector<glm::dvec3> polygon;  // world, cut to what the view shows, counter-clockwise for the view's eye
@@ -41,6 +42,7 @@ struct PlannedPass {
   int depth = -1;                   // of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
   double areaPx = 0.0;              // of the mirror's visible part, in screen pixels
   double throughput = 1.0;          // upper bound over that part, largest channel, with this mirror's own reflectance
+  glm::dvec3 channels{1.0};         // the same for each channel
   std::vector<int> instances;       // visible, indices into SceneState::instances, ascending
   std::vector<int> lights;          // whose glyphs are visible, indices into Scene::lights
   std::vector<MirrorDraw> mirrors;  // in the order of Scene::mirrors

@@ -91,10 +91,10 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   if (!limits.tracesRays && tracedEffects(scene, state, fitted.settings, fitted.plan).any()) {
     fitted.settings.effects = {
         .shadows = false, .roughness = false, .ripple = false, .castsLight = false, .curved = false};
-    fitted.message += (fitted.message.empty() ? "" : "; ") +
-                      std::string(
-                          "effects.* that trace rays are left out: the device's shaders do not know their "
-                          "triangle (no geometryShader)");
+    fitted.message +=
+        (fitted.message.empty() ? "" : "; ") + std::string(
+                                                   "effects.* that trace rays are left out: the device lacks "
+                                                   "geometryShader, storage buffers, or room in them for the scene");
     fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
   }
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);

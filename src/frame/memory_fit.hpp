@@ -14,7 +14,7 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 struct TargetLimits {
   uint64_t budgetBytes = 0;  // for all render targets together
   int largestSide = 0;       // pixels of a picture, at any resolution
-  bool tracesRays = true;    // shaders can tell on which triangle a ray starts
+  bool tracesRays = true;    // shaders can tell on which triangle a ray starts, and the scene fits their buffers
 };
 
 struct FittedPlan {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/scene_names.hpp"
+
 namespace speculum {
 
 namespace {
@@ -41,10 +43,6 @@ glm::dvec3 centroid(std::span<const glm::dvec3> polygon) {
     sum += p - polygon[0];
   }
   return polygon[0] + sum / static_cast<double>(polygon.size());
-}
-
-std::string named(const char* kind, const std::string& name, int index) {
-  return std::string(kind) + " " + (name.empty() ? std::to_string(index) : name);
 }
 
 }  // namespace
@@ -101,7 +99,7 @@ std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const
   }
   for (size_t i = 0; i < mirrors_.size(); ++i) {
     if (static_cast<int>(i) != mirror && covers(mirrors_[i], view, polygon)) {
-      return named("mirror", scene_.mirrors[i].name, static_cast<int>(i));
+      return nameOf("mirror", scene_.mirrors[i].name, static_cast<int>(i));
     }
   }
   for (const int i : instances) {
@@ -112,7 +110,7 @@ std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const
     }
     const std::vector<Occluder>& faces = facesOf(i);
     if (std::any_of(faces.begin(), faces.end(), [&](const Occluder& face) { return covers(face, view, polygon); })) {
-      return named("object", scene_.objects[instance.object].name, instance.object);
+      return nameOf("object", scene_.objects[instance.object].name, instance.object);
     }
   }
   return std::nullopt;

@@ -203,8 +203,11 @@ std::vector<Setting> effectTable() {
   return {
       boolean<E>({"effects.shadows", "true | false", "shadows of lights that cast them"}, group, &E::shadows),
       boolean<E>({"effects.roughness", "true | false", "blur of rough mirrors"}, group, &E::roughness),
-      integer<E>({"effects.rough_samples", "1 .. 4096", "rays a pixel of rough mirrors"}, group, &E::roughSamples, 1,
-                 4096),
+      integer<E>({"effects.rough_samples", "1 .. 4096", "rays or look-ups a pixel of rough mirrors"}, group,
+                 &E::roughSamples, 1, 4096),
+      choice<E, RoughLookup>({"effects.rough_lookup", "traced | image",
+                              "what rough mirrors look up: rays, or the image of the mirror as if it were smooth"},
+                             group, &E::roughLookup, {{"traced", RoughLookup::traced}, {"image", RoughLookup::image}}),
       boolean<E>({"effects.per_sample", "true | false", "shadows and curved mirrors at every sample of a pixel"}, group,
                  &E::perSample),
       boolean<E>({"effects.ripple", "true | false", "ripples of mirrors"}, group, &E::ripple),

@@ -41,6 +41,9 @@ struct ViewSettings {
   bool operator==(const ViewSettings&) const = default;
 };
 
+// What a rough mirror looks up: rays, or the image of the mirror as if it were smooth.
+enum class RoughLookup { traced, image };
+
 // Effects are drawn where the scene calls for them, unless they are switched off here.
 struct EffectSettings {
   bool shadows = true;
@@ -48,7 +51,8 @@ struct EffectSettings {
   bool ripple = true;
   bool castsLight = true;
   bool curved = true;
-  int roughSamples = 16;   // rays a pixel of rough mirrors
+  int roughSamples = 16;  // rays a pixel of rough mirrors
+  RoughLookup roughLookup = RoughLookup::traced;
   bool perSample = false;  // rays at each sample of a pixel, not once
 
   bool operator==(const EffectSettings&) const = default;

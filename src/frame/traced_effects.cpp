@@ -1,7 +1,8 @@
 #include "frame/traced_effects.hpp"
 
 #include <algorithm>
-#include <set>
+
+#include "frame/scene_names.hpp"
 
 namespace speculum {
 
@@ -11,21 +12,33 @@ bool isBlack(const glm::dvec3& color) {
   return color == glm::dvec3(0.0);
 }
 
+bool asksForRays(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const PointLight& l) { return l.castsShadow; }) ||
+         std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const Object& o) { return o.mirror.has_value(); }) ||
+         std::any_of(scene.mirrors.begin(), scene.mirrors.end(),
+                     [](const Mirror& m) { return m.roughness > 0.0 || m.ripple || m.castsLight; });
+}
+
 // What the passes draw that light falls on.
 struct Lit {
-  std::set<int> instances;
-  bool mirrors = false;  // a layer under a reflection, or a back
+  std::vector<bool> instances;  // by index into SceneState::instances
+  bool any = false;             // of them
+  bool mirrors = false;         // a layer under a reflection, or a back
 };
 
 // Adds the pass's own calls for effects, and what in it is lit.
 class Collector {
  public:
   Collector(const Scene& scene, const SceneState& state, const EffectSettings& settings)
-      : scene_(scene), state_(state), settings_(settings) {}
+      : scene_(scene), state_(state), settings_(settings) {
+    lit_.instances.resize(state.instances.size());
+  }
 
   void add(const PlannedPass& pass) {
     for (const int i : pass.instances) {
-      lit_.instances.insert(i);
+      lit_.instances[static_cast<size_t>(i)] = true;
+      lit_.any = true;
       const int object = state_.instances[i].object;
       if (settings_.curved && scene_.objects[object].mirror && effects_.curved.empty()) {
         effects_.curved = nameOf("object", scene_.objects[object].name, object);
@@ -47,7 +60,9 @@ class Collector {
     const Mirror& mirror = scene_.mirrors[draw.mirror];
     lit_.mirrors = lit_.mirrors || !isBlack(draw.back ? mirror.backColor : mirror.baseColor);
     const std::string name = nameOf("mirror", mirror.name, draw.mirror);
-    if (draw.scatters && settings_.roughness && mirror.roughness > 0.0 && effects_.roughness.empty()) {
+    const bool rough = settings_.roughness && mirror.roughness > 0.0 && (draw.scatters || draw.blurs);
+    effects_.roughRays = effects_.roughRays || (rough && draw.scatters);
+    if (rough && effects_.roughness.empty()) {
       effects_.roughness = name;
     }
     if (draw.scatters && settings_.ripple && mirror.ripple && effects_.ripple.empty()) {
@@ -56,10 +71,8 @@ class Collector {
   }
 
   // What such rays meet may be anything in the scene.
-  bool reflectsRays() const {
-    return !(effects_.roughness.empty() && effects_.ripple.empty() && effects_.curved.empty());
-  }
-  bool anythingLit() const { return lit_.mirrors || !lit_.instances.empty() || reflectsRays(); }
+  bool reflectsRays() const { return effects_.roughRays || !(effects_.ripple.empty() && effects_.curved.empty()); }
+  bool anythingLit() const { return lit_.mirrors || lit_.any || reflectsRays(); }
 
   void addShadows() {
     for (size_t i = 0; settings_.shadows && anythingLit() && i < scene_.lights.size(); ++i) {
@@ -108,18 +121,24 @@ class Collector {
     const double height = heightOf(path);
     const glm::dvec3 image = state_.lights[path.light].position - 2.0 * height * mirror.normal;
     const double side = height > 0.0 ? 1.0 : -1.0;
-    return std::any_of(lit_.instances.begin(), lit_.instances.end(), [&](int i) {
-      const InstanceState& instance = state_.instances[i];
-      bool inside = side * glm::dot(mirror.normal, instance.center - mirror.origin) > -instance.radius;
-      for (size_t k = 0; inside && k < mirror.polygon.size(); ++k) {
-        const glm::dvec3 a = mirror.polygon[k] - image;
-        const glm::dvec3 b = mirror.polygon[(k + 1) % mirror.polygon.size()] - image;
-        // Towards the polygon's inside: it is counter-clockwise seen from the front, the image lies behind it.
-        const glm::dvec3 normal = side * glm::cross(a, b);
-        inside = glm::dot(normal, instance.center - image) >= -instance.radius * glm::length(normal);
+    for (size_t i = 0; i < lit_.instances.size(); ++i) {
+      if (lit_.instances[i] && shinesOn(state_.instances[i], mirror, image, side)) {
+        return true;
       }
-      return inside;
-    });
+    }
+    return false;
+  }
+
+  static bool shinesOn(const InstanceState& instance, const MirrorState& mirror, const glm::dvec3& image, double side) {
+    bool inside = side * glm::dot(mirror.normal, instance.center - mirror.origin) > -instance.radius;
+    for (size_t k = 0; inside && k < mirror.polygon.size(); ++k) {
+      const glm::dvec3 a = mirror.polygon[k] - image;
+      const glm::dvec3 b = mirror.polygon[(k + 1) % mirror.polygon.size()] - image;
+      // Towards the polygon's inside: it is counter-clockwise seen from the front, the image lies behind it.
+      const glm::dvec3 normal = side * glm::cross(a, b);
+      inside = glm::dot(normal, instance.center - image) >= -instance.radius * glm::length(normal);
+    }
+    return inside;
   }
 
   const Scene& scene_;
@@ -133,16 +152,15 @@ class Collector {
 
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
                             const FramePlan& plan) {
+  if (!asksForRays(scene)) {
+    return {};
+  }
   Collector collector(scene, state, settings.effects);
   for (const PlannedPass& pass : plan.passes) {
     collector.add(pass);
   }
   collector.add(plan.main);
   return collector.finish();
-}
-
-std::string nameOf(const std::string& kind, const std::string& name, int index) {
-  return kind + " " + (name.empty() ? std::to_string(index) : "'" + name + "'");
 }
 
 }  // namespace speculum

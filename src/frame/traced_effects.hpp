@@ -18,21 +18,19 @@ struct MirroredLight {
 struct TracedEffects {
   std::string shadows;
   std::string roughness;
+  bool roughRays = false;  // roughness is traced, not looked up in images
   std::string ripple;
   std::string castsLight;
   std::string curved;
   std::vector<MirroredLight> mirroredLights;
 
   // Whether any ray is traced through the scene's triangles.
-  bool traces() const { return !(shadows.empty() && roughness.empty() && ripple.empty() && curved.empty()); }
+  bool traces() const { return roughRays || !(shadows.empty() && ripple.empty() && curved.empty()); }
   bool any() const { return traces() || !castsLight.empty(); }
 };
 
 // What the passes of a plan call for, under settings.effects. Pure.
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
                             const FramePlan& plan);
-
-// "mirror 'floor'", or "mirror 2" for one without a name.
-std::string nameOf(const std::string& kind, const std::string& name, int index);
 
 }  // namespace speculum

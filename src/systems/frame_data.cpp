@@ -188,8 +188,8 @@ void FrameData::addPass(const PlannedPass& pass, const FramePlan& plan, const Sc
   view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
   setRays(view, pass.view, plan.projection);
   setBackground(view, environment);
-  view.ambient.w = static_cast<float>(settings.reflection.minThroughput);
-  view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, pass.throughput));
+  view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, 0.0));
+  view.throughput = glm::vec4(glm::dvec4(pass.channels, settings.reflection.minThroughput));
   view.depth = static_cast<uint32_t>(pass.view.path.size());
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
   addLights(pass, scene, state, view);
@@ -221,10 +221,21 @@ void FrameData::addLights(const PlannedPass& pass, const Scene& scene, const Sce
 void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene,
                              const SceneState& state, const EffectSettings& effects, PassData& data) {
   const glm::dmat4 clipFromRelative = projection * relativeToView(pass.view);
-  for (const int i : frontToBack(pass.view, pass.instances, state)) {
+  const auto isCurved = [&](int i) {
+    return effects.curved && scene.objects[static_cast<size_t>(state.instances[i].object)].mirror.has_value();
+  };
+  std::vector<int> order = frontToBack(pass.view, pass.instances, state);
+  // Plain instances of a mesh are one draw, curved mirrors of the same mesh another.
+  for (auto first = order.begin(); first != order.end();) {
+    const int mesh = state.instances[*first].mesh;
+    const auto last = std::find_if(first, order.end(), [&](int i) { return state.instances[i].mesh != mesh; });
+    std::stable_partition(first, last, [&](int i) { return !isCurved(i); });
+    first = last;
+  }
+  for (const int i : order) {
     const InstanceState& instance = state.instances[i];
     const Object& object = scene.objects[instance.object];
-    const bool curved = effects.curved && object.mirror;
+    const bool curved = isCurved(i);
     if (data.batches.empty() || data.batches.back().mesh != instance.mesh || data.batches.back().curved != curved) {
       data.batches.push_back({instance.mesh, static_cast<uint32_t>(instances_.size()), 0, curved});
     }
@@ -274,13 +285,18 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
                       .pass = draw.pass,
                       .held = draw.held ? draw.held->image : -1,
                       .reprojected = draw.held && draw.held->moved,
+                      .blurs = draw.blurs,
                       .scatters = draw.scatters,
                       .rippled = draw.scatters && effects.ripple && mirror.ripple,
-                      .rough = draw.scatters && effects.roughness && mirror.roughness > 0.0,
+                      .rough = draw.blurs || (draw.scatters && effects.roughness && mirror.roughness > 0.0),
                       .fresnel = !draw.back && mirror.fresnel != Fresnel::none,
                       .base = mirror.baseColor != glm::dvec3(0.0)};
     mirrors_.push_back(mirrorData(draw, mirror, pass.view, imageView(draw, plan)));
     range.lookup = static_cast<Lookup>(mirrors_.back().image.z);
+    if (draw.blurs) {
+      mirrors_.back().reproject[0] = glm::vec4(static_cast<float>(mirror.roughness * mirror.roughness),
+                                               static_cast<float>(effects.roughSamples), 0.0f, 0.0f);
+    }
     std::vector<glm::dvec4> clip;
     for (const glm::dvec3& p : draw.polygon) {
       clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));

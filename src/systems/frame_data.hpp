@@ -32,6 +32,7 @@ struct MirrorRange {
   int held = -1;  // index into FramePlan::held of its image of an earlier frame; -1: none
   bool reprojected = false;
   Lookup lookup = Lookup::fetch;
+  bool blurs = false;     // its image is blurred
   bool scatters = false;  // its reflection is traced
   bool rippled = false;
   bool rough = false;

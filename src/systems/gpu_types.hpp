@@ -20,6 +20,7 @@ struct ViewData {
   glm::vec4 horizon;
   glm::vec4 ground;
   glm::vec4 traceOffset;
+  glm::vec4 throughput;
   uint32_t firstLight;
   uint32_t lightCount;
   uint32_t depth;
@@ -27,7 +28,7 @@ struct ViewData {
 };
 static_assert(offsetof(ViewData, rayX) == 64 && offsetof(ViewData, clipPlane) == 112 &&
               offsetof(ViewData, background) == 144 && offsetof(ViewData, traceOffset) == 208 &&
-              offsetof(ViewData, firstLight) == 224 && sizeof(ViewData) == 240);
+              offsetof(ViewData, firstLight) == 240 && sizeof(ViewData) == 256);
 
 struct LightData {
   glm::vec4 position;

@@ -38,8 +38,9 @@ bool MirrorSystem::tracesRays(Shading shading, const TraceVariant& trace) {
 }
 
 const Pipeline& MirrorSystem::pipeline(const Variant& variant, VkDescriptorSetLayout traceLayout) {
-  std::unique_ptr<Pipeline>& pipeline = pipelines_[variant];
-  if (!pipeline) {
+  Entry& entry = pipelines_[variant];
+  entry.idleFrames = 0;
+  if (!entry.pipeline) {
     const Shading shading = variant.shading;
     GraphicsPipelineDesc desc{.name = "mirror", .vert = "mirror.vert", .frag = "mirror.frag"};
     desc.setLayouts = {frameLayout_, imageLayout_.get()};
@@ -63,26 +64,32 @@ const Pipeline& MirrorSystem::pipeline(const Variant& variant, VkDescriptorSetLa
       desc.frag = scattered                     ? "mirror_scattered.frag"
                   : shading == Shading::average ? "mirror_average_traced.frag"
                                                 : "mirror_traced.frag";
-      desc.sampleShading = shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered);
+      desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT &&
+                           (shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered));
       desc.setLayouts.push_back(traceLayout);
       addConstants(variant.trace, desc.fragConstants);
     }
-    pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
+    desc.fragConstants.resize(6, 0);
+    desc.fragConstants.push_back(variant.blurs);
+    entry.pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
   }
-  return *pipeline;
+  return *entry.pipeline;
 }
 
 void MirrorSystem::countPipelines(EffectLedger& ledger) const {
-  for (const auto& [variant, pipeline] : pipelines_) {
+  for (const auto& [variant, entry] : pipelines_) {
     ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::ripple, variant.shading == Shading::scatteredBySample);
-    ledger.pipeline(EffectKind::roughness, variant.shading == Shading::scattered);
+    ledger.pipeline(EffectKind::roughness, variant.shading == Shading::scattered || variant.blurs);
   }
 }
 
-void MirrorSystem::dropTraced() {
-  std::erase_if(pipelines_, [](const auto& entry) { return tracesRays(entry.first.shading, entry.first.trace); });
+void MirrorSystem::endFrame() {
+  for (auto& [variant, entry] : pipelines_) {
+    entry.idleFrames += tracesRays(variant.shading, variant.trace);
+  }
+  std::erase_if(pipelines_, [](const auto& item) { return item.second.idleFrames > idleFramesKept; });
 }
 
 std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const MirrorImage* image,
@@ -93,7 +100,8 @@ std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mir
   if (!image || image->samples == VK_SAMPLE_COUNT_1_BIT) {
     return {Shading::single};
   }
-  if (image->samples != format.samples || mirror.lookup != Lookup::fetch || !device_.caps().sampleRateShading) {
+  if (mirror.blurs || image->samples != format.samples || mirror.lookup != Lookup::fetch ||
+      !device_.caps().sampleRateShading) {
     return {Shading::average};
   }
   if (mirror.base) {
@@ -110,8 +118,11 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
   for (const MirrorRange& mirror : data.mirrors) {
     const MirrorImage* image = imageOf(mirror, info);
     for (const Shading shading : shadings(mirror, image, format)) {
-      Variant variant{
-          .shading = shading, .samples = format.samples, .clampDepth = !oblique, .reprojected = mirror.reprojected};
+      Variant variant{.shading = shading,
+                      .samples = format.samples,
+                      .clampDepth = !oblique,
+                      .reprojected = mirror.reprojected,
+                      .blurs = mirror.blurs};
       const bool traces = tracesRays(shading, info.trace.variant());
       variant.trace = traces ? info.trace.variant() : TraceVariant{};
       const Pipeline& drawn = pipeline(variant, info.trace.layout());

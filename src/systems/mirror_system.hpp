@@ -18,8 +18,8 @@ class MirrorSystem {
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops the pipelines that trace rays.
-  void dropTraced();
+  // Drops pipelines that trace rays and have not been used for some frames.
+  void endFrame();
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
@@ -29,6 +29,7 @@ class MirrorSystem {
     VkSampleCountFlagBits samples;
     bool clampDepth;
     bool reprojected;
+    bool blurs;
     TraceVariant trace;
     auto operator<=>(const Variant&) const = default;
   };
@@ -43,7 +44,11 @@ class MirrorSystem {
   DescriptorSetLayoutHandle imageLayout_;
   SamplerHandle sampler_;
   Image noImage_;  // bound where a mirror has none: every set that a shader names must be bound
-  std::map<Variant, std::unique_ptr<Pipeline>> pipelines_;
+  struct Entry {
+    std::unique_ptr<Pipeline> pipeline;
+    int idleFrames = 0;
+  };
+  std::map<Variant, Entry> pipelines_;
 };
 
 }  // namespace speculum

@@ -7,8 +7,9 @@ RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frame
     : factory_(factory), frameLayout_(frameLayout), textureLayout_(textureLayout) {}
 
 const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLayout traceLayout) {
-  std::unique_ptr<Pipeline>& pipeline = objects_[variant];
-  if (!pipeline) {
+  Entry& entry = objects_[variant];
+  entry.idleFrames = 0;
+  if (!entry.pipeline) {
     GraphicsPipelineDesc desc{.name = "scene", .vert = "scene.vert", .frag = "scene.frag"};
     desc.vertConstants = {variant.clipDistance};
     desc.fragConstants = {variant.trilinear};
@@ -27,9 +28,9 @@ const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLay
     desc.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, position)},
                              {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, normal)},
                              {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(GpuVertex, uv)}};
-    pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
+    entry.pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
   }
-  return *pipeline;
+  return *entry.pipeline;
 }
 
 const Pipeline& RenderSystem::sky(VkSampleCountFlagBits samples) {
@@ -83,17 +84,19 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
 }
 
 void RenderSystem::countPipelines(EffectLedger& ledger) const {
-  for (const auto& [variant, pipeline] : objects_) {
-    const bool lit = variant.curved || variant.trace.traced;
-    ledger.pipeline(EffectKind::shadows, lit && variant.trace.shadows);
-    ledger.pipeline(EffectKind::castsLight, lit && variant.trace.castsLight);
+  for (const auto& [variant, entry] : objects_) {
+    ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
+    ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::curved, variant.curved);
     ledger.pipeline(EffectKind::wireframe, variant.wireframe);
   }
 }
 
-void RenderSystem::dropTraced() {
-  std::erase_if(objects_, [](const auto& entry) { return entry.first.curved || entry.first.trace.traced; });
+void RenderSystem::endFrame() {
+  for (auto& [variant, entry] : objects_) {
+    entry.idleFrames += variant.curved || variant.trace.traced;
+  }
+  std::erase_if(objects_, [](const auto& item) { return item.second.idleFrames > idleFramesKept; });
 }
 
 uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {

@@ -15,8 +15,8 @@ class RenderSystem {
   // Records pass `pass` of info.data; returns the number of draws.
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops the pipelines that trace rays.
-  void dropTraced();
+  // Drops pipelines that trace rays and have not been used for some frames.
+  void endFrame();
   size_t pipelineCount() const { return objects_.size() + skies_.size(); }
 
  private:
@@ -37,7 +37,11 @@ class RenderSystem {
   PipelineFactory& factory_;
   VkDescriptorSetLayout frameLayout_;
   VkDescriptorSetLayout textureLayout_;
-  std::map<Variant, std::unique_ptr<Pipeline>> objects_;
+  struct Entry {
+    std::unique_ptr<Pipeline> pipeline;
+    int idleFrames = 0;
+  };
+  std::map<Variant, Entry> objects_;
   std::map<VkSampleCountFlagBits, std::unique_ptr<Pipeline>> skies_;
 };
 

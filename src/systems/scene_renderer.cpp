@@ -92,10 +92,6 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   const TracedEffects effects = tracedEffects(scene_, state, settings, plan);
   trace_.build(frame, state, settings, effects);
   ledger_ = {};
-  if (!trace_.exists()) {
-    renderSystem_.dropTraced();
-    mirrorSystem_.dropTraced();
-  }
   targets_.assign(plan.passes.size(), nullptr);
   images_.assign(plan.passes.size(), {});
   recorded_.clear();
@@ -124,6 +120,8 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
       pool_->release(*targets_[debug->pass]);
     }
   }
+  renderSystem_.endFrame();
+  mirrorSystem_.endFrame();
   finishLedger(settings, plan, effects);
   keepHeldImages(plan);
   if (pool_) {
@@ -147,7 +145,8 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
        {std::pair(EffectKind::shadows, &effects.shadows), std::pair(EffectKind::roughness, &effects.roughness),
         std::pair(EffectKind::ripple, &effects.ripple), std::pair(EffectKind::castsLight, &effects.castsLight),
         std::pair(EffectKind::curved, &effects.curved)}) {
-    ledger_[kind].bytes = caller->empty() ? 0 : trace_.bytes();
+    const bool traces = !caller->empty() && (kind != EffectKind::roughness || effects.roughRays);
+    ledger_[kind].bytes = traces ? trace_.bytes() : 0;
   }
   ledger_[EffectKind::glyphs].pipelines = static_cast<uint32_t>(pointLightSystem_.pipelineCount());
   for (const auto& [variant, pipeline] : displayPipelines_) {

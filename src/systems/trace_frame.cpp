@@ -14,7 +14,7 @@ namespace speculum {
 namespace {
 
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
-constexpr int idleFramesKept = 120;
+constexpr uint32_t frameDataBindings = 6;
 
 glm::vec4 row(const glm::dmat3& m, int r, double w) {
   return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], w));
@@ -90,6 +90,7 @@ TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
     : device_(device), uploader_(uploader), scene_(scene) {}
 
 void TraceFrame::create() {
+  static_assert(storageBuffers == frameDataBindings + sceneBindings + kindCount);
   nothing_ = Buffer(device_, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host, "no trace scene");
   if (layout_) {
     return;
@@ -106,6 +107,7 @@ void TraceFrame::release(RetireQueue& retired) {
     retired.retire(std::move(*traceScene_));
     traceScene_.reset();
   }
+  stackSize_ = 1;
   retired.retire(std::exchange(nothing_, {}));
   for (auto& buffers : buffers_) {
     for (Buffer& buffer : buffers) {
@@ -127,11 +129,7 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   if (!nothing_) {
     create();
   }
-  if (effects.traces() && !traceScene_) {
-    // An upload waits for its own fence; frames in flight are waited for first, as in SceneRenderer::setCover.
-    check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
-    traceScene_.emplace(device_, uploader_, scene_);
-  }
+  prepareScene(frame, effects.traces());
   variant_ = {.traced = !effects.shadows.empty() || !effects.castsLight.empty(),
               .shadows = !effects.shadows.empty(),
               .castsLight = !effects.castsLight.empty(),
@@ -144,7 +142,24 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   upload(frame, mirrors, std::as_bytes(std::span(mirrors_)));
   upload(frame, mirrorVertices, std::as_bytes(std::span(mirrorVertices_)));
   upload(frame, lightPaths, lightPathBytes(state, settings, effects));
+  allocateSet(frame);
+}
 
+void TraceFrame::prepareScene(Frame& frame, bool traces) {
+  if (traces) {
+    sceneIdleFrames_ = 0;
+    if (!traceScene_) {
+      // An upload waits for its own fence; frames in flight are waited for first, as in SceneRenderer::setCover.
+      check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
+      traceScene_.emplace(device_, uploader_, scene_);
+    }
+  } else if (traceScene_ && ++sceneIdleFrames_ > idleFramesKept) {
+    frame.retired->retire(std::move(*traceScene_));
+    traceScene_.reset();
+  }
+}
+
+void TraceFrame::allocateSet(Frame& frame) {
   set_ = frame.descriptors->allocate(layout_.get());
   DescriptorWriter writer;
   constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -201,7 +216,8 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings,
   }
   // One entry for each level, of the top and of the deepest mesh; rounded up, for fewer pipelines.
   const int depth = top.depth() + (traceScene_ ? traceScene_->depth() : 0);
-  variant_.stackSize = static_cast<uint32_t>(depth + 8) / 8 * 8;
+  stackSize_ = std::max(stackSize_, static_cast<uint32_t>(depth + 8) / 8 * 8);
+  variant_.stackSize = stackSize_;
 }
 
 void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {

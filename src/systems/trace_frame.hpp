@@ -10,6 +10,9 @@
 
 namespace speculum {
 
+// After so many frames without a call for it, what only traced effects need is given back.
+inline constexpr int idleFramesKept = 120;
+
 // What a pipeline needs to know of the traced effects of a frame: its specialisation constants.
 struct TraceVariant {
   bool traced = false;  // there is light that needs rays, or a mirror's bounce of light
@@ -30,6 +33,9 @@ class TraceFrame {
  public:
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
+  // That a fragment shader reads, with those of FrameData.
+  static constexpr uint32_t storageBuffers = 18;  // 6 + 6 of the scene + 6 of the frame
+
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if none is called for.
   void build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects);
@@ -37,14 +43,15 @@ class TraceFrame {
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   VkDescriptorSet set() const { return set_; }
   const TraceVariant& variant() const { return variant_; }
-  bool exists() const { return static_cast<bool>(nothing_); }  // whether anything is kept on the GPU
-  uint64_t bytes() const;                                      // of all its buffers
+  uint64_t bytes() const;  // of all its buffers
 
  private:
   enum Kind { topNodes, items, instances, mirrors, mirrorVertices, lightPaths, kindCount };
 
   void create();
   void release(RetireQueue& retired);
+  void prepareScene(Frame& frame, bool traces);
+  void allocateSet(Frame& frame);
   void addInstances(const SceneState& state, const Settings& settings, bool meetsObjects);
   void addMirrors(const SceneState& state, const Settings& settings);
   std::vector<std::byte> lightPathBytes(const SceneState& state, const Settings& settings,
@@ -65,7 +72,9 @@ class TraceFrame {
   std::vector<glm::vec2> mirrorVertices_;
   TraceVariant variant_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
-  int idleFrames_ = 0;
+  uint32_t stackSize_ = 1;   // only grows, so that pipelines stay
+  int idleFrames_ = 0;       // without any effect
+  int sceneIdleFrames_ = 0;  // without one that traces rays
 };
 
 }  // namespace speculum

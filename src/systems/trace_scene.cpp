@@ -42,6 +42,23 @@ Bvh hierarchyOf(const Mesh& mesh) {
 
 }  // namespace
 
+uint64_t largestTraceBuffer(const Scene& scene, size_t instances) {
+  uint64_t triangles = 0;
+  uint64_t vertices = 0;
+  uint64_t texels = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    triangles += mesh.indices.size() / 3;
+    vertices += mesh.vertices.size();
+  }
+  for (const Texture& texture : scene.textures) {
+    texels += texture.texels.size();
+  }
+  // A binary tree has less than twice as many nodes as leaves, and leaves may hold a single triangle.
+  return std::max({2 * triangles * sizeof(TraceNode), triangles * sizeof(TraceTriangle), vertices * sizeof(TraceVertex),
+                   texels * sizeof(uint64_t), instances * sizeof(TraceInstance),
+                   2 * (instances + scene.mirrors.size()) * sizeof(TraceNode)});
+}
+
 TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
   Content content;
   for (const Mesh& mesh : scene.meshes) {

@@ -6,6 +6,9 @@
 
 namespace speculum {
 
+// No buffer of a scene's rays, placed or not, is larger. `instances` with all copies.
+uint64_t largestTraceBuffer(const Scene& scene, size_t instances);
+
 // What rays meet of a scene as long as it is shown: triangles of its meshes under hierarchies of boxes, attributes of
 // their vertices, texels. Finished on return.
 class TraceScene {

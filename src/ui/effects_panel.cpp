@@ -22,6 +22,10 @@ void switches(UiModel& model) {
   ImGui::SameLine();
   effectSwitch(model, "curved mirrors", e.curved, "effects.curved");
   effectSwitch(model, "rays at every sample", e.perSample, "effects.per_sample");
+  int lookup = static_cast<int>(e.roughLookup);
+  ImGui::Combo("rough look-up", &lookup, "traced\0image\0");
+  e.roughLookup = static_cast<RoughLookup>(lookup);
+  describe(model, "effects.rough_lookup");
   ImGui::SliderInt("rough samples", &e.roughSamples, 1, 256, "%d",
                    ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   describe(model, "effects.rough_samples");

@@ -192,25 +192,44 @@ void depthResolution(const UiPass& pass, ClipMethod inUse) {
 
 namespace {
 
+// In the tree the last mirror of a path says enough.
+std::string ownName(const std::string& path) {
+  constexpr std::string_view kind = "mirror ";
+  const size_t last = path.rfind(" > ");
+  return last != std::string::npos ? path.substr(last + 3) : path.starts_with(kind) ? path.substr(kind.size()) : path;
+}
+
+// From the cell on over those to its right, which are empty, to the window's edge.
+void textAcrossColumns(const std::string& text) {
+  const ImVec2 corner = ImGui::GetWindowPos();
+  const ImVec2 size = ImGui::GetWindowSize();
+  const float top = corner.y + ImGui::GetFrameHeight();  // below the title
+  ImGui::PushClipRect({ImGui::GetCursorScreenPos().x, top}, {corner.x + size.x, corner.y + size.y}, false);
+  ImGui::TextDisabled("%s", text.c_str());
+  ImGui::PopClipRect();
+}
+
 void skippedRows(const UiModel& model, const PassNode& node) {
   if (node.skipped.empty()) {
     return;
   }
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string title = std::to_string(node.skipped.size()) + " without a pass###skipped";
+  const std::string title = std::to_string(node.skipped.size()) + " skipped###skipped";
   if (!ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth)) {
     return;
   }
   for (const int i : node.skipped) {
     const UiSkipped& skip = model.skipped[static_cast<size_t>(i)];
-    const size_t last = skip.path.rfind(" > ");
-    const std::string name = last == std::string::npos ? skip.path : skip.path.substr(last + 3);
+    const std::string name = ownName(skip.path);
     const std::string why = skip.reason + (skip.detail.empty() ? "" : " (" + skip.detail + ")");
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s: %s", name.c_str(), why.c_str());
-    if (ImGui::IsItemHovered()) {
+    ImGui::TextDisabled("%s", name.c_str());
+    const bool nameHovered = ImGui::IsItemHovered();
+    ImGui::TableNextColumn();
+    textAcrossColumns(why);
+    if (nameHovered || ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s\n%s", skip.path.c_str(), why.c_str());
     }
   }
@@ -226,9 +245,7 @@ void passRow(UiModel& model, const PassNode& node) {
   flags |= model.debugPass == node.pass ? ImGuiTreeNodeFlags_Selected : 0;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  // In the tree the mirror's own name says enough.
-  const size_t last = pass.name.rfind(" > ");
-  const std::string name = last == std::string::npos ? pass.name : pass.name.substr(last + 3);
+  const std::string name = ownName(pass.name);
   const std::string id = pass.name + "/" + std::to_string(node.pass);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
   if (pass.depth >= 0 && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
@@ -271,9 +288,11 @@ void passes(UiModel& model) {
   ImGui::TableSetupColumn("pixels", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableSetupColumn("depth m", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableHeadersRow();
+  ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.6f * ImGui::GetFontSize());
   for (const PassNode& node : passTree(model.passes, model.skipped)) {
     passRow(model, node);
   }
+  ImGui::PopStyleVar();
   ImGui::EndTable();
 }
 

@@ -1,0 +1,33 @@
+// Directions of rough mirrors, the same on every run. Needs shading.glsl.
+
+uint mixedBits(uint x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
+
+// Of the pixel, or of the sample where each has an invocation.
+uint pixelSeed() { return mixedBits(uint(gl_FragCoord.x * 16.0) + mixedBits(uint(gl_FragCoord.y * 16.0))); }
+
+vec2 pixelShift(uint seed) { return vec2(unitInterval(seed), unitInterval(mixedBits(seed + 1))); }
+
+// The additive recurrence of the plastic number: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences"
+// (2018).
+vec2 latticePoint(vec2 shift, int index) {
+  return fract(shift + float(index) * vec2(0.7548776662466927, 0.5698402909980532));
+}
+
+// A normal of GGX with density D(m)(n.m) about n: Walter et al., "Microfacet Models for Refraction through Rough
+// Surfaces" (2007), equations 35 and 36.
+vec3 microfacet(vec3 n, float alpha, vec2 u) {
+  float cosine2 = (1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x);
+  float sine = sqrt(max(0.0, 1.0 - cosine2));
+  float angle = 2.0 * pi * u.y;
+  vec3 x = safeNormalize(cross(abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), n));
+  vec3 y = cross(n, x);
+  return sine * cos(angle) * x + sine * sin(angle) * y + sqrt(cosine2) * n;
+}
