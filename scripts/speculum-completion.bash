@@ -8,11 +8,11 @@ _speculum_options() {
       echo "--scene --size --frames --sweep-results --present-mode $common"
       [ -n "$1" ] || echo "--version"
       ;;
-    render) echo "--scene --size --time --out --sweep-results --stats --frames --fps $common" ;;
-    reference) echo "--scene --size --time --out --samples $common" ;;
+    render) echo "--scene --size --time --camera --out --sweep-results --stats --frames --fps $common" ;;
+    reference) echo "--scene --size --time --camera --out --samples $common" ;;
     compare) echo "--mask --heatmap --json --max-flip --max-diff $common" ;;
     accuracy) echo "--scene --size --time --out --sweep $common" ;;
-    bench) echo "--scene --size --time --frames --warmup --json --sweep-results --prices --reference $common" ;;
+    bench) echo "--scene --size --time --camera --frames --warmup --json --sweep-results --prices --reference $common" ;;
     info | scenes) echo "$common" ;;
   esac
 }
@@ -20,8 +20,8 @@ _speculum_options() {
 _speculum_settings() {
   echo "reflection.scale reflection.samples reflection.max_depth reflection.min_pixels reflection.min_throughput
     reflection.max_passes reflection.update_interval reflection.clip view.samples view.exposure view.tone_map
-    view.clear_color view.texture_filter view.wireframe view.continuous effects.shadows effects.roughness effects.rough_samples
-    effects.per_sample effects.ripple effects.casts_light effects.curved quality.budget_ms quality.max_error
+    view.clear_color view.texture_filter view.wireframe view.continuous effects.shadows effects.roughness
+    effects.rough_samples effects.rough_lookup effects.per_sample effects.ripple effects.casts_light effects.curved quality.budget_ms quality.max_error
     debug.omit_barrier debug.check_finite debug.skip_hidden debug.mask_passes"
 }
 
@@ -46,7 +46,7 @@ _speculum() {
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$word") && return ;;
     --sweep) mapfile -t COMPREPLY < <(compgen -W "quick full" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
     --shader-dir) mapfile -t COMPREPLY < <(compgen -d -- "$word") && return ;;
-    --size | --time | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff) return ;;
+    --size | --time | --camera | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff) return ;;
     --out | --stats | --json | --mask | --heatmap | --sweep-results)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return

@@ -68,6 +68,11 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"render", "--out", "x.png", "--size", "99999x9"}, "--size: '99999x9' is not a size"},
         UsageCase{{"render", "--out", "x.png", "--time", "soon"}, "--time"},
         UsageCase{{"render", "--out", "x.png", "--time", "nan"}, "--time"},
+        UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4"}, "--camera: '0,1,4' is not a camera"},
+        UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,nan"}, "such as 0,1,4:0,1,0"},
+        UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,0:"}, "is not a camera"},
+        UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,4"}, "--camera: the camera's target is its"},
+        UsageCase{{"reference", "--out", "x.png", "--camera", "0,1,4:0,2,4"}, "lies along its up vector"},
         UsageCase{{"render", "--out", "x.png", "--fps", "0", "--frames", "1"}, "--fps"},
         UsageCase{{"render", "--out", "x.png", "--scene", "nowhere.toml"}, "there is no file 'nowhere.toml'"},
         UsageCase{{"render", "--out", "x.png", "--set", "view.exposure"}, "has no value (key=value)"},
@@ -244,6 +249,26 @@ TEST_F(CommandLine, CompareTellsEqualFromDifferent) {
   ASSERT_EQ(speculum({"render", "--scene", scene_, "--size", "32x18", "--out", out("small.png")}).exitCode, 0);
   EXPECT_EQ(speculum({"compare", out("a.png"), out("small.png")}).exitCode, 2);
   EXPECT_EQ(speculum({"compare", out("a.png"), out("missing.png")}).exitCode, 2);
+}
+
+TEST_F(CommandLine, ACameraTakesThePlaceOfTheScenes) {
+  const auto render = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "--scene", scene_, "--size", "64x36", "--out", out(name)});
+    const ProcessResult result = speculum(more);
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    return readImage8(out(name)).rgba;
+  };
+  const auto own = render("own.png", {});
+  EXPECT_EQ(render("same.png", {"--camera", "0,1,4:0,1,0"}), own);
+  EXPECT_EQ(render("up.png", {"--camera", "0,1,4:0,1,0:0,2,0"}), own);
+  const auto other =
+      render("other.png", {"--camera", "1,2,4:0,1,0", "--set", "view.samples=1", "--set", "reflection.samples=1"});
+  EXPECT_NE(other, own);
+  ASSERT_EQ(speculum({"reference", "--scene", scene_, "--size", "64x36", "--samples", "1", "--camera", "1,2,4:0,1,0",
+                      "--out", out("traced.png")})
+                .exitCode,
+            0);
+  expectAlike(readImage8(out("other.png")), readImage8(out("traced.png")), 2, "command_line_camera");
 }
 
 TEST_F(CommandLine, ReferenceIsThePictureThatTheRendererDraws) {

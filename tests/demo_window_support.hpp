@@ -45,20 +45,25 @@ class DemoWindow : public testing::Test {
       : configHome_(environment("XDG_CONFIG_HOME")) {
     // A layout that somebody saved must not move the widgets.
     setEnvironment("XDG_CONFIG_HOME", config_.path().string());
-    Options options = more;
+    Options& options = options_;
+    options = more;
     options.scene = writeScene("demo_window", toml).string();
     options.size = {width, height};
     options.validation = true;
     options.presentMode = PresentMode::immediate;
     options.settings.emplace_back("debug.check_finite", "true");
     options.settings.insert(options.settings.begin(), {"view.continuous", "true"});  // so that run() can count frames
-    demo_ = std::make_unique<Demo>(options);
-    demo_->setCapture(true);
-    run(frames);
+    start(frames);
   }
   ~DemoWindow() override {
     demo_.reset();
     setEnvironment("XDG_CONFIG_HOME", configHome_);
+  }
+
+  void start(int frames = 10) {
+    demo_ = std::make_unique<Demo>(options_);
+    demo_->setCapture(true);
+    run(frames);
   }
 
   void run(int frames) {
@@ -141,6 +146,7 @@ class DemoWindow : public testing::Test {
   test::VirtualDisplay display_{1280, 900};
   TemporaryDirectory config_;
   std::string configHome_;
+  Options options_;
   std::unique_ptr<Demo> demo_;
 };
 

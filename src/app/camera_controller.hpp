@@ -28,6 +28,13 @@ class CameraController {
   // Looks at all of the sphere, in the direction of now. `aspect`: width / height of the picture.
   void frame(const Sphere& sphere, double aspect);
 
+  // Where it stands by hand; nothing while it is the scene's.
+  struct Place {
+    glm::dvec3 eye{0.0};     // world
+    glm::dvec3 target{0.0};  // world
+  };
+  std::optional<Place> place() const { return touched_ ? std::optional(Place{eye_, target_}) : std::nullopt; }
+
   CameraPose pose(const CameraPose& animated);
 
  private:

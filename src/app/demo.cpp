@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/screenshot.hpp"
+#include "app/view_command.hpp"
 #include "core/platform.hpp"
 
 namespace speculum {
@@ -94,6 +95,10 @@ void Demo::applyModel() {
   if (model_.scene != shownScene_) {
     chooseScene(model_.scene);
   }
+  if (model_.copyCommand) {
+    model_.command = command();
+    window_.setClipboard(model_.command);
+  }
   if (model_.seek) {
     goTo(*model_.seek);
   }
@@ -111,6 +116,18 @@ void Demo::saveShot() {
   } catch (const std::exception& error) {
     model_.picture = "not saved: " + std::string(error.what());
   }
+}
+
+// Of the frame that was drawn last.
+std::string Demo::command() {
+  Options options = options_;
+  const VkExtent2D extent = renderer_.displayExtent();
+  options.size = {static_cast<int>(extent.width), static_cast<int>(extent.height)};
+  options.time = time_;
+  if (const auto place = camera_.place()) {
+    options.camera = CameraPlace{place->eye, place->target, std::nullopt};
+  }
+  return viewCommand(options, loaded_->scene, model_.settings);
 }
 
 SweepRequest Demo::sweepRequest() {

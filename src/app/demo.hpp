@@ -53,6 +53,7 @@ class Demo {
   void goTo(double time);
   void frameScene();
   void saveShot();
+  std::string command();
 
   Options options_;
   std::unique_ptr<LoadedScene> loaded_;

@@ -29,9 +29,44 @@ PictureSize parseSize(const std::string& text) {
   return size;
 }
 
+std::optional<glm::dvec3> parsePoint(std::string_view text) {
+  glm::dvec3 point(0.0);
+  const char* at = text.data();
+  const char* end = at + text.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [next, error] = std::from_chars(at, end, point[axis]);
+    const bool ended = axis < 2 ? next != end && *next == ',' : next == end;
+    if (error != std::errc() || !ended || !std::isfinite(point[axis])) {
+      return std::nullopt;
+    }
+    at = next + (axis < 2 ? 1 : 0);
+  }
+  return point;
+}
+
+CameraPlace parseCamera(const std::string& text) {
+  std::vector<glm::dvec3> points;
+  for (size_t start = 0; start <= text.size();) {
+    const size_t colon = std::min(text.find(':', start), text.size());
+    const std::optional<glm::dvec3> point = parsePoint(std::string_view(text).substr(start, colon - start));
+    if (!point || points.size() == 3) {
+      points.clear();
+      break;
+    }
+    points.push_back(*point);
+    start = colon + 1;
+  }
+  if (points.size() < 2) {
+    throw UsageError("--camera: '" + text +
+                     "' is not a camera (position:target or position:target:up, such as 0,1,4:0,1,0)");
+  }
+  return {points[0], points[1], points.size() == 3 ? std::optional(points[2]) : std::nullopt};
+}
+
 // Collected as text by the parser and checked afterwards, where messages can say what would be right.
 struct Raw {
   std::string size;
+  std::string camera;
   std::vector<std::string> settings;
   std::string renderPath = "auto";
   std::string presentMode = "fifo";
@@ -70,9 +105,14 @@ void addTime(CLI::App& app, Options& options) {
   app.add_option("--time", options.time, "seconds of animation")->check(CLI::Number);
 }
 
+void addCamera(CLI::App& app, Raw& raw) {
+  app.add_option("--camera", raw.camera, "X,Y,Z:X,Y,Z[:X,Y,Z]: position, target and up in the place of the scene's");
+}
+
 void addRender(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw);
   addTime(app, options);
+  addCamera(app, raw);
   app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
   addSweepResults(app, options);
   app.add_option("--stats", options.stats, "JSON: passes, skipped mirrors, effects, totals");
@@ -83,6 +123,7 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
 void addReference(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw);
   addTime(app, options);
+  addCamera(app, raw);
   app.add_option("--out", options.out, "F.png or F.exr")->required();
   app.add_option("--samples", options.samples, "rays a pixel, a square number")->check(CLI::Range(1, 65536));
 }
@@ -90,6 +131,7 @@ void addReference(CLI::App& app, Options& options, Raw& raw) {
 void addBench(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw);
   addTime(app, options);
+  addCamera(app, raw);
   app.add_option("--frames", options.frames, "measured frames")->check(CLI::Range(1, 1000000));
   app.add_option("--warmup", options.warmup, "frames before")->check(CLI::Range(0, 1000000));
   app.add_option("--json", options.json, "write the figures to F");
@@ -121,6 +163,9 @@ void applyRaw(const Raw& raw, Options& options) {
     options.size = parseSize(raw.size);
   } else if (options.command == "accuracy") {
     options.size = {640, 360};
+  }
+  if (!raw.camera.empty()) {
+    options.camera = parseCamera(raw.camera);
   }
   if (!std::isfinite(options.time)) {
     throw UsageError("--time: not a finite number (seconds of animation, such as 2.5)");

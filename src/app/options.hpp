@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,13 @@ struct PictureSize {
   int height = 720;
 };
 
+// --camera. World space, metres.
+struct CameraPlace {
+  glm::dvec3 eye{0.0};
+  glm::dvec3 target{0.0};
+  std::optional<glm::dvec3> up;  // the scene's unless given
+};
+
 // The command line, parsed and checked; what the scene's [settings] say is added when the scene is loaded.
 struct Options {
   std::string command = "demo";
@@ -24,8 +32,9 @@ struct Options {
   std::filesystem::path out;
   std::filesystem::path stats;
   std::filesystem::path json;
-  double time = 0.0;  // seconds
-  int frames = 0;     // 0: the command's default
+  double time = 0.0;                  // seconds
+  std::optional<CameraPlace> camera;  // in the place of the scene's
+  int frames = 0;                     // 0: the command's default
   double fps = 30.0;
   int warmup = 10;
   int samples = 64;

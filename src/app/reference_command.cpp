@@ -32,7 +32,8 @@ int runReference(const Options& options) {
   checkSamples(options.samples);
   const PictureFiles files(options.out, 0);
   const LoadedScene loaded = loadSceneWithSettings(options);
-  const SceneState state = evaluate(loaded.scene, options.time);
+  SceneState state = evaluate(loaded.scene, options.time);
+  state.camera = cameraOf(options, loaded.scene).value_or(state.camera);
   const RayTracer tracer(loaded.scene, state);
   installInterruptHandler();
   Progress progress("reference", 1.0);

@@ -54,6 +54,18 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
   return loaded;
 }
 
+std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene) {
+  if (!options.camera) {
+    return std::nullopt;
+  }
+  const auto& [eye, target, up] = *options.camera;
+  try {
+    return lookAt(eye, target, up.value_or(scene.camera.up), scene.camera.verticalFov, scene.camera.near);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError("--camera: " + std::string(error.what()) + " (position:target:up, of which the three differ)");
+  }
+}
+
 DeviceOptions deviceOptions(const Options& options, Window* window) {
   return {.gpu = options.gpu, .validation = options.validation, .window = window, .renderPath = options.renderPath};
 }
@@ -119,6 +131,7 @@ FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, cons
 Session::Session(const Options& options)
     : size_(options.size),
       loaded_(loadSceneWithSettings(options)),
+      camera_(cameraOf(options, loaded_.scene)),
       device_(deviceOptions(options, nullptr)),
       renderer_(device_, rendererOptions(options, nullptr)),
       sceneRenderer_(renderer_, loaded_.scene),

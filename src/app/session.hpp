@@ -26,6 +26,9 @@ struct LoadedScene {
 LoadedScene loadSceneWithSettings(const Options& options);
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options);
 
+// The camera of --camera; nothing if it is not given. Throws UsageError for one that looks nowhere.
+std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene);
+
 DeviceOptions deviceOptions(const Options& options, Window* window);
 RendererOptions rendererOptions(const Options& options, Window* window);
 

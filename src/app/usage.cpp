@@ -17,7 +17,7 @@ const std::map<std::string, std::vector<std::string>>& examples() {
       {"render",
        {"--scene gallery --size 1920x1080 --time 3 --out gallery.png --stats gallery.json",
         "--scene outdoors --frames 120 --fps 30 --out 'frames/%04d.png'",
-        "--scene gallery --set view.samples=8 --out radiance.exr"}},
+        "--scene gallery --camera 0,1.5,3:0,1,0 --set view.samples=8 --out radiance.exr"}},
       {"reference", {"--scene gallery --size 640x360 --samples 64 --out truth.png"}},
       {"compare",
        {"truth.png gallery.png", "truth.png gallery.png --heatmap error.png --json error.json --max-flip 0.05"}},

@@ -256,6 +256,15 @@ bool Window::keyDown(Key key) const {
   return false;
 }
 
+void Window::setClipboard(const std::string& text) {
+  glfwSetClipboardString(window_.get(), text.c_str());
+}
+
+std::string Window::clipboard() const {
+  const char* text = glfwGetClipboardString(window_.get());
+  return text ? text : "";
+}
+
 void Window::setCallbacks(WindowCallbacks callbacks) {
   callbacks_ = std::move(callbacks);
 }

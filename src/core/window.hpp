@@ -97,6 +97,8 @@ class Window {
   float contentScale() const;
   void setTitle(const std::string& title);
   bool keyDown(Key key) const;
+  void setClipboard(const std::string& text);
+  std::string clipboard() const;  // empty if it holds no text
   void setCallbacks(WindowCallbacks callbacks);
 
   GLFWwindow* native() const { return window_.get(); }

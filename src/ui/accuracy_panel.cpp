@@ -13,9 +13,7 @@ namespace {
 
 constexpr ImU32 frontColor = IM_COL32(250, 190, 70, 255);
 constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
-constexpr ImU32 currentColor = IM_COL32(255, 255, 255, 255);
-constexpr ImU32 gridColor = IM_COL32(255, 255, 255, 40);
-constexpr ImU32 textColor = IM_COL32(200, 205, 215, 255);
+constexpr float gridOpacity = 0.16f;
 constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
 
 // Logarithmic axes over what there is to show, in screen coordinates.
@@ -74,23 +72,26 @@ std::string figure(double value) {
 
 void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   const ImVec2 end(plot.corner.x + plot.size.x, plot.corner.y + plot.size.y);
-  list.AddRect(plot.corner, end, gridColor);
+  list.AddRect(plot.corner, end, ImGui::GetColorU32(ImGuiCol_Text, gridOpacity));
   forTicks(plot.lowMs, plot.highMs, [&](double ms) {
-    list.AddLine({plot.x(ms), plot.corner.y}, {plot.x(ms), end.y}, gridColor);
-    list.AddText({plot.x(ms) + 2.0f, end.y - ImGui::GetFontSize()}, textColor, figure(ms).c_str());
+    list.AddLine({plot.x(ms), plot.corner.y}, {plot.x(ms), end.y}, ImGui::GetColorU32(ImGuiCol_Text, gridOpacity));
+    list.AddText({plot.x(ms) + 2.0f, end.y - ImGui::GetFontSize()}, ImGui::GetColorU32(ImGuiCol_Text),
+                 figure(ms).c_str());
   });
   forTicks(plot.lowError, plot.highError, [&](double error) {
-    list.AddLine({plot.corner.x, plot.y(error)}, {end.x, plot.y(error)}, gridColor);
+    list.AddLine({plot.corner.x, plot.y(error)}, {end.x, plot.y(error)},
+                 ImGui::GetColorU32(ImGuiCol_Text, gridOpacity));
     if (plot.y(error) < end.y - 2.0f * ImGui::GetFontSize()) {
-      list.AddText({plot.corner.x + 2.0f, plot.y(error)}, textColor, figure(error).c_str());
+      list.AddText({plot.corner.x + 2.0f, plot.y(error)}, ImGui::GetColorU32(ImGuiCol_Text), figure(error).c_str());
     }
   });
   if (noiseFloor > 0.0) {
     const float y = plot.y(noiseFloor);
     for (float x = plot.corner.x; x < end.x; x += 8.0f) {
-      list.AddLine({x, y}, {std::min(x + 4.0f, end.x), y}, textColor);
+      list.AddLine({x, y}, {std::min(x + 4.0f, end.x), y}, ImGui::GetColorU32(ImGuiCol_Text));
     }
-    list.AddText({end.x - 7.0f * ImGui::GetFontSize(), y - ImGui::GetFontSize()}, textColor, "noise floor");
+    list.AddText({end.x - 7.0f * ImGui::GetFontSize(), y - ImGui::GetFontSize()}, ImGui::GetColorU32(ImGuiCol_Text),
+                 "noise floor");
   }
 }
 
@@ -107,7 +108,7 @@ void drawPoints(ImDrawList& list, const Plot& plot, const UiAccuracy& accuracy, 
     list.AddLine({plot.x(point.lowerMs), place.y}, {plot.x(point.upperMs), place.y}, color);
     list.AddCircleFilled(place, i == hovered ? 6.0f : 4.0f, color);
     if (i == accuracy.current) {
-      list.AddCircle(place, 8.0f, currentColor, 0, 2.0f);
+      list.AddCircle(place, 8.0f, ImGui::GetColorU32(ImGuiCol_Text), 0, 2.0f);
     }
   }
 }

@@ -111,7 +111,7 @@ void notePlace(UiModel& model, std::string_view key) {
 
 void message(const UiModel& model) {
   if (!model.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0f, 0.5f, 0.4f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
     ImGui::TextWrapped("%s", model.message.c_str());
     ImGui::PopStyleColor();
   }
@@ -135,8 +135,16 @@ void scene(UiModel& model) {
   ImGui::SameLine();
   model.resetCamera = ImGui::Button("reset camera");
   time(model);
+  model.copyCommand = ImGui::Button("copy command line");
+  notePlace(model, "copy");
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("the call of speculum render that draws this view to the same bytes");
+  }
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("drag: look   WASD QE: move   F12: save a picture   Tab: hide this panel   F1: all keys");
+  if (!model.command.empty()) {
+    ImGui::TextWrapped("copied: %s", model.command.c_str());
+  }
   if (!model.picture.empty()) {
     ImGui::TextWrapped("%s", model.picture.c_str());
   }

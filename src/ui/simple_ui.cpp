@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 #include "core/platform.hpp"
 #include "ui/panels.hpp"
@@ -27,16 +28,6 @@ DescriptorPoolHandle createPool(Device& device) {
   check(vkCreateDescriptorPool(device.get(), &info, nullptr, &pool), "vkCreateDescriptorPool for the panel");
   device.setName(pool, "panel");
   return DescriptorPoolHandle(device.get(), pool);
-}
-
-void applyStyle(float scale) {
-  ImGui::StyleColorsDark();
-  ImGuiStyle& style = ImGui::GetStyle();
-  style.WindowRounding = 6.0f;
-  style.FrameRounding = 3.0f;
-  style.GrabRounding = 3.0f;
-  style.Colors[ImGuiCol_WindowBg].w = 0.88f;
-  style.ScaleAllSizes(scale);
 }
 
 }  // namespace
@@ -73,11 +64,14 @@ struct SimpleUI::Backend {
 };
 
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
-    : renderer_(renderer), pool_(createPool(renderer.device())), backend_(std::make_unique<Backend>(window)) {
-  const float scale = window.contentScale();
-  applyStyle(scale);
+    : renderer_(renderer),
+      theme_(savedTheme()),
+      scale_(window.contentScale()),
+      pool_(createPool(renderer.device())),
+      backend_(std::make_unique<Backend>(window)) {
+  applyLook(theme_, scale_);
   ImFontConfig font;
-  font.SizePixels = fontPixels * scale;
+  font.SizePixels = fontPixels * scale_;
   ImGui::GetIO().Fonts->AddFontDefault(&font);
   initVulkan();
 }
@@ -112,6 +106,12 @@ void SimpleUI::initVulkan() {
 }
 
 void SimpleUI::build(UiModel& model) {
+  // Between frames: what is laid out already keeps its sizes and colours.
+  if (chosenTheme_ != theme_) {
+    theme_ = chosenTheme_;
+    applyLook(theme_, scale_);
+    saveTheme(theme_);
+  }
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
@@ -120,6 +120,7 @@ void SimpleUI::build(UiModel& model) {
   model.resetCamera = false;
   model.resetSettings = false;
   model.seek.reset();
+  model.copyCommand = false;
   model.accuracy.measure = false;
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
@@ -150,6 +151,7 @@ void SimpleUI::buildPanel(UiModel& model) {
     panels::notePlace(model, "accuracy");
     ImGui::SameLine();
     ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
+    themeChoice(model);
     if (showSettings_) {
       panels::settings(model);
     }
@@ -159,6 +161,18 @@ void SimpleUI::buildPanel(UiModel& model) {
     ImGui::PopItemWidth();
   }
   ImGui::End();
+}
+
+void SimpleUI::themeChoice(UiModel& model) {
+  int theme = static_cast<int>(theme_);
+  ImGui::TextUnformatted("theme");
+  for (const auto& [name, place, value] :
+       {std::tuple("dark", "theme.dark", Theme::dark), std::tuple("light", "theme.light", Theme::light)}) {
+    ImGui::SameLine();
+    ImGui::RadioButton(name, &theme, static_cast<int>(value));
+    panels::notePlace(model, place);
+  }
+  chosenTheme_ = static_cast<Theme>(theme);
 }
 
 void SimpleUI::buildAccuracy(UiModel& model) {

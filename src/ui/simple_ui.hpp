@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/renderer.hpp"
+#include "ui/look.hpp"
 #include "ui/ui_model.hpp"
 
 namespace speculum {
@@ -30,6 +31,7 @@ class SimpleUI {
  private:
   void initVulkan();
   void buildPanel(UiModel& model);
+  void themeChoice(UiModel& model);
   void buildDebugView(UiModel& model);
   void buildAccuracy(UiModel& model);
 
@@ -42,6 +44,9 @@ class SimpleUI {
 
   Renderer& renderer_;
   Context context_;
+  Theme theme_;
+  Theme chosenTheme_ = theme_;
+  float scale_;  // of the monitor's content, that fonts and sizes follow
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
   bool visible_ = true;

@@ -1,0 +1,80 @@
+// The command line that the window copies draws what the window shows.
+#include "app/screenshot.hpp"
+#include "demo_window_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+// The mirror turns, and every reflection with it.
+const std::string turning = windowScene + "spin = [0, 90, 0]\n";
+
+class CopiedCommand : public DemoWindow {
+ protected:
+  CopiedCommand() : DemoWindow(turning) {}
+
+  // What the copied command draws, run as a person would.
+  Image8 drawn() {
+    click("copy");
+    const std::string command = demo_->window().clipboard();
+    EXPECT_EQ(command, demo_->model().command);
+    const ProcessResult result = runProcess(
+        {"bash", "-c", "cd '" + out_.path().string() + "' && PATH=" SPECULUM_BINARY_DIR ":$PATH && " + command});
+    EXPECT_EQ(result.exitCode, 0) << command << "\n" << result.output;
+    const std::filesystem::path file = out_.path() / "demo_window.png";
+    EXPECT_TRUE(std::filesystem::exists(file)) << command;
+    return readImage8(file);
+  }
+  // What the window shows without its panel.
+  Image8 shown() {
+    press("Tab");
+    Image8 image = pictureOf(picture());
+    press("Tab");
+    return image;
+  }
+  void expectSame() {
+    const Image8 window = shown();
+    const Image8 command = drawn();
+    ASSERT_EQ(command.width, window.width) << demo_->model().command;
+    EXPECT_EQ(command.rgba, window.rgba) << demo_->model().command;
+  }
+
+  TemporaryDirectory out_;
+};
+
+TEST_F(CopiedCommand, DrawsTheSceneAtThatTime) {
+  press("space");
+  expectSame();
+  EXPECT_EQ(demo_->model().command.find("--camera"), std::string::npos) << "the camera is the scene's";
+  expectQuiet();
+}
+
+TEST_F(CopiedCommand, DrawsTheCameraTheSizeAndTheSettings) {
+  press("space");
+  drag("view.exposure", 0.5, -12);
+  drag("view.clear_color", 0.1, 30);
+  moveTo(width - 100, 80);
+  xdotool({"mousedown", "1"});
+  run(2);
+  moveTo(width - 180, 110);
+  xdotool({"mouseup", "1"});
+  demo_->window().resize(777, 555);
+  run(5);
+  const Image8 before = shown();
+  expectSame();
+  const std::string& command = demo_->model().command;
+  for (const char* part : {"--size 777x555", "--camera ", "view.exposure=", "view.clear_color="}) {
+    EXPECT_NE(command.find(part), std::string::npos) << part << " in " << command;
+  }
+  EXPECT_EQ(command.find("view.continuous"), std::string::npos) << "that is the window's own";
+  for (int i = 0; i < 6; ++i) {
+    press("period");
+  }
+  EXPECT_NE(before.rgba, shown().rgba);
+  expectSame();
+  expectQuiet();
+}
+
+}  // namespace
+}  // namespace speculum

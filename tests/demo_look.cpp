@@ -1,0 +1,68 @@
+// What the window remembers of how it looks, and what it takes from the monitor.
+#include "demo_window_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+class DemoLook : public DemoWindow {
+ protected:
+  // Of the panel's background, right above its lower edge.
+  int panelBrightness() {
+    const Pixels pixels = picture();
+    const uint8_t* p = &pixels.rgba[4 * (static_cast<size_t>(662) * pixels.extent.width + 40)];
+    return p[0] + p[1] + p[2];
+  }
+};
+
+TEST_F(DemoLook, TheLayoutIsTheUsersAndNotTheDirectorys) {
+  const PixelRect before = widget("time");
+  moveTo(200, 22);
+  xdotool({"mousedown", "1"});
+  run(3);
+  moveTo(260, 62);
+  moveTo(330, 102);
+  xdotool({"mouseup", "1"});
+  run(3);
+  const PixelRect moved = widget("time");
+  EXPECT_EQ(moved.x - before.x, 130);
+  EXPECT_EQ(moved.y - before.y, 80);
+  demo_.reset();
+  EXPECT_TRUE(std::filesystem::exists(config_.path() / "speculum" / "layout.ini"));
+  EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
+  start();
+  EXPECT_EQ(widget("time"), moved);
+  expectQuiet();
+}
+
+TEST_F(DemoLook, TheThemeIsChosenAndRemembered) {
+  EXPECT_LT(panelBrightness(), 200);
+  click("theme.light");
+  EXPECT_GT(panelBrightness(), 500);
+  demo_.reset();
+  start();
+  EXPECT_GT(panelBrightness(), 500);
+  click("theme.dark");
+  EXPECT_LT(panelBrightness(), 200);
+  demo_.reset();
+  start();
+  EXPECT_LT(panelBrightness(), 200);
+  expectQuiet();
+}
+
+TEST_F(DemoLook, SizesFollowTheScaleOfTheMonitor) {
+  const PixelRect before = widget("time");
+  demo_.reset();
+  std::filesystem::remove(config_.path() / "speculum" / "layout.ini");
+  const ProcessResult set =
+      runProcess({"xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", "Xft.dpi:\t192\n"});
+  ASSERT_EQ(set.exitCode, 0) << set.output;
+  start();
+  ASSERT_EQ(demo_->window().contentScale(), 2.0f);
+  EXPECT_NEAR(widget("time").height, 2 * before.height, 2);
+  expectQuiet();
+}
+
+}  // namespace
+}  // namespace speculum
