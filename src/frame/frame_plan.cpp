@@ -137,10 +137,13 @@ class Planner {
 // What is drawn in a node's view, and which of its mirrors are candidates for passes.
 void Planner::fill(int node) {
   const View view = nodes_[node].pass.view;
-  // A mirror image is read a little beyond the edge of what is seen of it.
+  // A mirror image is read a little beyond the edge of what is seen of it. As far as a held one in any case, so that
+  // what is drawn, and in which order, is the same with every update interval.
   View readable = view;
   if (!view.path.empty()) {
-    widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(allSettings_, false))) + 1);
+    Settings held = allSettings_;
+    held.reflection.updateInterval = std::max(held.reflection.updateInterval, 2);
+    widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(held, false))) + 1);
   }
   for (size_t i = 0; i < state_.instances.size(); ++i) {
     const InstanceState& instance = state_.instances[i];
