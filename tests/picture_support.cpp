@@ -87,10 +87,19 @@ Image8 draw(const Options& options, double time) {
   return picture;
 }
 
-std::filesystem::path writeScene(const std::string& name, const std::string& toml) {
-  const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "speculum_scenes";
+std::filesystem::path sceneDirectory() {
+  std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "speculum_scenes";
+  if (const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info()) {
+    std::string name = std::string(test->test_suite_name()) + "." + test->name();
+    std::replace(name.begin(), name.end(), '/', '_');
+    directory /= name;
+  }
   std::filesystem::create_directories(directory);
-  const std::filesystem::path file = directory / (name + ".toml");
+  return directory;
+}
+
+std::filesystem::path writeScene(const std::string& name, const std::string& toml) {
+  const std::filesystem::path file = sceneDirectory() / (name + ".toml");
   std::string text = toml;
   const std::string models = sourceFile("models").string() + "/";
   for (size_t at = text.find("MODELS/"); at != std::string::npos; at = text.find("MODELS/", at)) {

@@ -30,7 +30,10 @@ void expectQuiet(Session& session);
 // Draws one picture that is quiet.
 Image8 draw(const Options& options, double time = 0.0);
 
-// Writes a scene file into the test's temporary directory; model paths in it are relative to the project's models/.
+// A temporary directory of the running test's own: tests run side by side and may use the same names.
+std::filesystem::path sceneDirectory();
+
+// Writes a scene file into sceneDirectory(); model paths in it are relative to the project's models/.
 std::filesystem::path writeScene(const std::string& name, const std::string& toml);
 
 // The program's shaders, one of them with `code` at the end of its main(), for Options::shaderDir.

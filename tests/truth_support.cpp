@@ -66,9 +66,7 @@ std::string Random::vec(double low, double high) {
 
 std::string writeRandomMesh(unsigned seed) {
   Random random(seed + 1000);
-  const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "speculum_scenes";
-  std::filesystem::create_directories(directory);
-  const std::filesystem::path file = directory / ("lump_" + std::to_string(seed) + ".obj");
+  const std::filesystem::path file = sceneDirectory() / ("lump_" + std::to_string(seed) + ".obj");
   std::ofstream out(file);
   out << "# no material library\n";
   constexpr int rings = 14;
