@@ -30,8 +30,7 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
 
 // Some drivers can be loaded only some 30 times by one process; while an instance stays they are not unloaded.
 void keepDriverLoaded() {
-  static const Instance* const kept = new Instance(DeviceOptions{});
-  (void)kept;
+  static const Instance kept{DeviceOptions{}};
 }
 
 }  // namespace
