@@ -31,3 +31,8 @@ vec3 microfacet(vec3 n, float alpha, vec2 u) {
   vec3 y = cross(n, x);
   return sine * cos(angle) * x + sine * sin(angle) * y + sqrt(cosine2) * n;
 }
+
+// Whether m faces the viewer along `direction` and mirrors it to the plane's own side.
+bool staysAbove(vec3 direction, vec3 m, vec3 planeNormal) {
+  return dot(m, direction) < 0.0 && dot(direction - 2.0 * dot(direction, m) * m, planeNormal) > 0.0;
+}

@@ -165,19 +165,19 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
   int wanted = int(mirror.reproject[0].y);
   vec3 normal = mirror.plane.xyz;
   vec3 incoming = safeNormalize(ray);
-  vec4 smooth_ = reflected(mirror);
+  vec4 sharp = reflected(mirror);
   float farthest = 1e4 * (length(position) + 1.0);
-  float guess = clamp(length(ray) / max(smooth_.a, 1e-30) - length(position), 0.0, farthest);
+  float guess = clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, farthest);
   uint seed = pixelSeed();
   vec2 shift = pixelShift(seed);
   vec3 sum = vec3(0.0);
   int taken = 0;
   for (int drawn = 1; drawn <= wanted; ++drawn) {
     vec3 m = microfacet(normal, alpha, latticePoint(shift, drawn));
-    vec3 direction = incoming - 2.0 * dot(incoming, m) * m;
-    if (dot(m, incoming) >= 0.0 || dot(direction, normal) <= 0.0) {
+    if (!staysAbove(incoming, m, normal)) {
       continue;
     }
+    vec3 direction = incoming - 2.0 * dot(incoming, m) * m;
     vec3 behind = direction - 2.0 * dot(direction, normal) * normal;
     float far = guess;
     vec3 found = vec3(0.0);
@@ -195,7 +195,7 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
     sum += found;
     ++taken;
   }
-  return taken > 0 ? vec4(sum / float(taken), smooth_.a) : smooth_;
+  return taken > 0 ? vec4(sum / float(taken), sharp.a) : sharp;
 }
 #endif
 
@@ -206,13 +206,7 @@ vec3 reflectance(MirrorData mirror, vec3 ray, float inward) {
 }
 
 vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
-  Surface base;
-  base.position = position;
-  base.normal = mirror.plane.xyz;
-  base.diffuse = mirror.baseColor.rgb;
-  base.specular = vec3(0.0);
-  base.emission = vec3(0.0);
-  base.shininess = 1.0;
+  Surface base = mirrorLayer(position, mirror.plane.xyz, mirror.baseColor.rgb);
   bool back = mirror.baseColor.w == mirrorBack;
   if (!back && all(equal(base.diffuse, vec3(0.0)))) {
     return vec3(0.0);

@@ -93,23 +93,15 @@ void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surf
 
 void main() {
   MaterialData material = materials[draw.drawIndex];
-  vec4 diffuse = instances[instanceIndex].diffuse;
-  vec4 specular = instances[instanceIndex].specular;
-  float shininess = instances[instanceIndex].shininess.x;
-
-  Surface surface;
-  surface.position = relativePosition;
   // The side that faces the viewer is lit, by the winding in the model file: front faces already turn with the view's
   // handedness, the sign of the instance's determinant turns them back.
   bool front = gl_FrontFacing == (instances[instanceIndex].normalFromMesh[0].w > 0.0);
-  surface.normal = safeNormalize(front ? relativeNormal : -relativeNormal);
-  surface.diffuse = diffuse.w > 0.0 ? diffuse.rgb : material.diffuse.rgb;
+  Surface surface = objectSurface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), material,
+                                  instances[instanceIndex].diffuse, instances[instanceIndex].specular,
+                                  instances[instanceIndex].shininess.x);
   if (material.diffuse.w > 0.0) {
     surface.diffuse *= diffuseFactor();
   }
-  surface.specular = specular.w > 0.0 ? specular.rgb : material.specular.rgb;
-  surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
-  surface.emission = material.emission.rgb;
 #ifdef TRACED
   uint traceInstance = uint(instances[instanceIndex].shininess.y);
   Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none,

@@ -51,6 +51,18 @@ vec3 schlick(vec3 reflectance, float cosine) {
   return reflectance + (1.0 - reflectance) * (grazing2 * grazing2 * grazing);
 }
 
+// The layer under a mirror's reflection, or its back.
+Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
+  return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0);
+}
+
+// An object's, with what the scene replaces of its material; its texture is still to be multiplied in.
+Surface objectSurface(vec3 position, vec3 normal, MaterialData material, vec4 diffuse, vec4 specular, float shininess) {
+  return Surface(position, normal, diffuse.w > 0.0 ? diffuse.rgb : material.diffuse.rgb,
+                 specular.w > 0.0 ? specular.rgb : material.specular.rgb, material.emission.rgb,
+                 shininess > 0.0 ? shininess : material.specular.w);
+}
+
 vec3 backgroundRadiance(ViewData view, vec3 direction) {
   if (view.background.w == 0.0) {
     return view.background.rgb;

@@ -11,10 +11,6 @@ struct Bounce {
   float alpha;  // of GGX; 0: smooth
 };
 
-Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
-  return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0);
-}
-
 vec3 rippled(uint mirror, vec3 tracePosition) {
   vec3 normal = traceMirrors[mirror].normal;
   vec4 ripple = traceMirrors[mirror].ripple;
@@ -107,23 +103,15 @@ Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
   vec3 normal = safeNormalize(normalFromMesh(hit.instance, w.x * a.normal + w.y * b.normal + w.z * c.normal));
   bool away = dot(geometric, direction) > 0.0;
   MaterialData material = materials[triangle.material];
-  vec4 diffuse = traceInstances[hit.instance].diffuse;
-  vec4 specular = traceInstances[hit.instance].specular;
-  float shininess = traceInstances[hit.instance].shininess;
-  Surface surface;
-  surface.position = traceOrigin + hit.t * direction - view.traceOffset.xyz;
-  surface.normal = away ? -normal : normal;
-  surface.diffuse = diffuse.w > 0.0 ? diffuse.rgb : material.diffuse.rgb;
+  Surface surface = objectSurface(traceOrigin + hit.t * direction - view.traceOffset.xyz, away ? -normal : normal,
+                                  material, traceInstances[hit.instance].diffuse, traceInstances[hit.instance].specular,
+                                  traceInstances[hit.instance].shininess);
   if (material.diffuse.w > 0.0) {
     vec2 uv = w.x * vec2(a.u, a.v) + w.y * vec2(b.u, b.v) + w.z * vec2(c.u, c.v);
     surface.diffuse *= textureColor(uint(material.diffuse.w) - 1, uv);
   }
-  surface.specular = specular.w > 0.0 ? specular.rgb : material.specular.rgb;
-  surface.shininess = shininess > 0.0 ? shininess : material.specular.w;
-  surface.emission = material.emission.rgb;
-  Bounce bounce =
-      Bounce(surface, Skip(hit.instance, triangle.triangle, none, none, nearOf(surface.position)), false, away ? -geometric : geometric,
-             vec3(0.0), 0.0);
+  Skip self = Skip(hit.instance, triangle.triangle, none, none, nearOf(surface.position));
+  Bounce bounce = Bounce(surface, self, false, away ? -geometric : geometric, vec3(0.0), 0.0);
   applyCurvedMirror(hit.instance, direction, bounce);
   return bounce;
 }
@@ -213,8 +201,7 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
       // One microfacet on each further bounce; one that faces away gives way to the mirror's own normal.
       seed = mixedBits(seed + 0x9e3779b9u);
       vec3 m = microfacet(path.m, path.bounce.alpha, vec2(unitInterval(seed), unitInterval(mixedBits(seed))));
-      vec3 next = path.direction - 2.0 * dot(path.direction, m) * m;
-      path.m = dot(m, path.direction) < 0.0 && dot(next, path.bounce.planeNormal) > 0.0 ? m : path.m;
+      path.m = staysAbove(path.direction, m, path.bounce.planeNormal) ? m : path.m;
     }
   }
 }
@@ -234,8 +221,7 @@ vec3 tracedRadiance(ViewData view, Bounce bounce, vec3 direction) {
     vec3 m = bounce.surface.normal;
     if (bounce.alpha > 0.0 && (taken > 0 || drawn < most)) {
       m = microfacet(m, bounce.alpha, latticePoint(shift, drawn));
-      vec3 next = direction - 2.0 * dot(direction, m) * m;
-      if (dot(m, direction) >= 0.0 || dot(next, bounce.planeNormal) <= 0.0) {
+      if (!staysAbove(direction, m, bounce.planeNormal)) {
         continue;
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frame/scene_names.hpp"
+#include "optics/reflection.hpp"
 
 namespace speculum {
 
@@ -118,9 +119,8 @@ class Collector {
       return true;
     }
     const MirrorState& mirror = state_.mirrors[path.mirror];
-    const double height = heightOf(path);
-    const glm::dvec3 image = state_.lights[path.light].position - 2.0 * height * mirror.normal;
-    const double side = height > 0.0 ? 1.0 : -1.0;
+    const glm::dvec3 image = reflectPoint(state_.lights[path.light].position, {mirror.origin, mirror.normal});
+    const double side = heightOf(path) > 0.0 ? 1.0 : -1.0;
     for (size_t i = 0; i < lit_.instances.size(); ++i) {
       if (lit_.instances[i] && shinesOn(state_.instances[i], mirror, image, side)) {
         return true;

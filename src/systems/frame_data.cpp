@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 
 #include "frame/draw_order.hpp"
 #include "frame/pass_mask.hpp"
+#include "systems/gpu_data.hpp"
 
 namespace speculum {
 
@@ -45,14 +45,6 @@ void setBackground(ViewData& data, const Environment& environment) {
   data.ground = glm::vec4(glm::vec3(sky.ground), 0.0f);
 }
 
-glm::vec4 row(const glm::dmat3& m, int r, double w) {
-  return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], w));
-}
-
-glm::vec4 replacement(const std::optional<glm::dvec3>& value) {
-  return value ? glm::vec4(glm::vec3(*value), 1.0f) : glm::vec4(0.0f);
-}
-
 }  // namespace
 
 InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
@@ -61,10 +53,7 @@ InstanceData instanceData(const InstanceState& instance, const Object& object, c
   const glm::dvec3 offset = instance.worldFromMesh.translation - view.eye;
   glm::dmat4 relativeFromMesh(linear);
   relativeFromMesh[3] = glm::dvec4(offset, 1.0);
-  // Scaled to unit size first: the shader normalises, and a float would overflow at the extremes.
-  glm::dmat3 normals = normalMatrix(linear);
-  const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});
-  normals = size > 0.0 ? normals * (1.0 / size) : normals;
+  const glm::dmat3 normals = unitNormalMatrix(linear);
   const double handedness = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
   const glm::dvec4 plane = relativeClipPlane(view);
   const glm::dvec3 normal(plane);
@@ -325,18 +314,8 @@ void FrameData::addMask(const PlannedPass& pass, const FramePlan& plan, const Se
 void FrameData::upload(Frame& frame, Kind kind, std::span<const std::byte> data) {
   static constexpr std::array<const char*, kindCount> names = {"views", "lights", "instances", "mirrors",
                                                                "mirror vertices"};
-  const uint64_t limit = device_.limits().maxStorageBufferRange;
-  if (data.size() > limit) {
-    throw std::runtime_error("a frame has " + std::to_string(data.size() >> 20) + " MiB of " + names[kind] +
-                             ", the device takes " + std::to_string(limit >> 20) +
-                             " (fewer copies of objects, or a lower reflection.max_passes)");
-  }
-  Buffer& buffer = buffers_[frame.index][kind];
-  if (!buffer || buffer.bytes() < data.size()) {
-    buffer = Buffer(device_, data.size() + data.size() / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
-                    names[kind]);
-  }
-  buffer.write(data);
+  writeGrown(device_, buffers_[frame.index][kind], data, names[kind],
+             "fewer copies of objects, or a lower reflection.max_passes");
 }
 
 }  // namespace speculum

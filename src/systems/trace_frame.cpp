@@ -4,9 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
+#include "optics/reflection.hpp"
+#include "systems/gpu_data.hpp"
 #include "systems/trace_nodes.hpp"
 
 namespace speculum {
@@ -15,14 +16,6 @@ namespace {
 
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
 constexpr uint32_t frameDataBindings = 6;
-
-glm::vec4 row(const glm::dmat3& m, int r, double w) {
-  return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], w));
-}
-
-glm::vec4 replacement(const std::optional<glm::dvec3>& value) {
-  return value ? glm::vec4(glm::vec3(*value), 1.0f) : glm::vec4(0.0f);
-}
 
 void setMirror(const std::optional<ObjectMirror>& mirror, TraceInstance& data) {
   CurvedMirror kind = CurvedMirror::none;
@@ -37,9 +30,7 @@ TraceInstance instanceData(const InstanceState& instance, const Object& object, 
   const glm::dmat3& linear = instance.worldFromMesh.linear;
   const glm::dmat3 inverse = glm::inverse(linear);
   const glm::dvec3 offset = inverse * (eye - instance.worldFromMesh.translation);
-  glm::dmat3 normals = normalMatrix(linear);
-  const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});
-  normals = size > 0.0 ? normals * (1.0 / size) : normals;
+  const glm::dmat3 normals = unitNormalMatrix(linear);
   TraceInstance data{};
   for (int r = 0; r < 3; ++r) {
     data.meshFromTrace[r] = row(inverse, r, offset[r]);
@@ -258,7 +249,7 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
     const PointLight& light = scene_.lights[mirrored.light];
     const glm::dvec3& position = state.lights[mirrored.light].position;
     const MirrorState& mirror = state.mirrors[mirrored.mirror];
-    const glm::dvec3 image = position - 2.0 * glm::dot(mirror.normal, position - mirror.origin) * mirror.normal;
+    const glm::dvec3 image = reflectPoint(position, {mirror.origin, mirror.normal});
     paths.push_back({.image = glm::vec3(image - state.camera.eye),
                      .radius = static_cast<float>(light.radius),
                      .irradiance = glm::vec3(light.color * light.intensity),
@@ -277,16 +268,7 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
 void TraceFrame::upload(Frame& frame, Kind kind, std::span<const std::byte> data) {
   static constexpr std::array<const char*, kindCount> names = {
       "trace boxes", "trace items", "trace instances", "trace mirrors", "trace mirror vertices", "light paths"};
-  if (data.size() > device_.limits().maxStorageBufferRange) {
-    throw std::runtime_error("a frame has " + std::to_string(data.size() >> 20) + " MiB of " + names[kind] +
-                             ", more than the device takes (fewer copies of objects)");
-  }
-  Buffer& buffer = buffers_[frame.index][kind];
-  if (!buffer || buffer.bytes() < data.size()) {
-    buffer = Buffer(device_, data.size() + data.size() / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
-                    names[kind]);
-  }
-  buffer.write(data);
+  writeGrown(device_, buffers_[frame.index][kind], data, names[kind], "fewer copies of objects");
 }
 
 }  // namespace speculum
