@@ -54,6 +54,18 @@ class IdleWindow : public DemoWindow {
   void pointAt(int x, int y) { xdotool({"mousemove", "--window", windowId(), std::to_string(x), std::to_string(y)}); }
 };
 
+TEST_F(IdleWindow, AHeldStickKeepsItDrawing) {
+  settle();
+  std::optional<GamepadState> pad = GamepadState{};
+  demo_->setGamepadSource([&] { return pad; });
+  EXPECT_EQ(during(0.5).frames, 0) << "a gamepad at rest";
+  pad->leftX = 1.0f;
+  EXPECT_GT(during(1.0).frames, 5);
+  pad.reset();
+  settle();
+  demo_->setGamepadSource([] { return std::nullopt; });
+}
+
 TEST_F(IdleWindow, DrawsNothingUntilThePointerMoves) {
   settle();
   const Drawn idle = during(1.5);

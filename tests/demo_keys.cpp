@@ -167,7 +167,9 @@ TEST(KeyHelpList, IsInTheReadme) {
   std::stringstream readme;
   readme << file.rdbuf();
   ASSERT_GT(panels::keyHelp().size(), 10u);
-  for (const panels::KeyHelp& key : panels::keyHelp()) {
+  std::vector<panels::KeyHelp> all(panels::keyHelp().begin(), panels::keyHelp().end());
+  all.insert(all.end(), panels::gamepadHelp().begin(), panels::gamepadHelp().end());
+  for (const panels::KeyHelp& key : all) {
     EXPECT_NE(readme.str().find("| `" + std::string(key.keys) + "` | " + key.what + " |"), std::string::npos)
         << "| `" << key.keys << "` | " << key.what << " |";
   }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double degreesPerPixel = 0.25;
 constexpr double zoomPerNotch = 0.88;
+constexpr double lean = 0.15;       // tangent of an angle
 constexpr double steepest = 0.995;  // cosine of view direction and up
 
 }  // namespace
@@ -60,14 +61,26 @@ void CameraController::take(const CameraPose& pose) {
 }
 
 void CameraController::drag(double dx, double dy) {
+  turn(dx * degreesPerPixel, dy * degreesPerPixel);
+}
+
+void CameraController::pan(double dx, double dy, double pictureHeight) {
+  take(last_);
+  const double metresPerPixel = 2.0 * std::tan(0.5 * last_.verticalFov) * glm::distance(eye_, target_) / pictureHeight;
+  const glm::dvec3 step = glm::transpose(last_.worldToView) * glm::dvec3(-dx, dy, 0.0) * metresPerPixel;
+  eye_ += step;
+  target_ += step;
+}
+
+void CameraController::turn(double yawDegrees, double pitchDegrees) {
   take(last_);
   const glm::dvec3 up = glm::normalize(spec_.up);
   const bool orbit = mode_ == CameraMode::orbit;
   const glm::dvec3 arm = orbit ? eye_ - target_ : target_ - eye_;
   const glm::dvec3 right = glm::dvec3(glm::transpose(last_.worldToView)[0]);
-  const glm::dmat3 yaw = rotationAboutAxis(up, -dx * degreesPerPixel);
+  const glm::dmat3 yaw = rotationAboutAxis(up, -yawDegrees);
   glm::dvec3 turned = yaw * arm;
-  const glm::dvec3 pitched = rotationAboutAxis(yaw * right, -dy * degreesPerPixel) * turned;
+  const glm::dvec3 pitched = rotationAboutAxis(yaw * right, -pitchDegrees) * turned;
   const auto steepness = [&](const glm::dvec3& v) { return std::abs(glm::dot(glm::normalize(v), up)); };
   // A scene may start steeper than that; back from there must be possible.
   if (steepness(pitched) < std::max(steepest, steepness(turned))) {
@@ -100,13 +113,41 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
   target_ += step;
 }
 
+// Of the picture, in radians.
+double CameraController::narrowerHalfAngle(double aspect) const {
+  const double vertical = 0.5 * glm::radians(spec_.verticalFov);
+  return std::min(vertical, std::atan(std::tan(vertical) * aspect));
+}
+
 void CameraController::frame(const Sphere& sphere, double aspect) {
   take(last_);
-  const double vertical = 0.5 * glm::radians(spec_.verticalFov);
-  const double narrower = std::min(vertical, std::atan(std::tan(vertical) * aspect));
   const glm::dvec3 back = glm::transpose(last_.worldToView)[2];
   target_ = sphere.center;
-  eye_ = sphere.center + back * (std::max(sphere.radius, 10.0 * spec_.near) / std::sin(narrower));
+  eye_ = sphere.center + back * (std::max(sphere.radius, 10.0 * spec_.near) / std::sin(narrowerHalfAngle(aspect)));
+}
+
+void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, double aspect) {
+  take(last_);
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& vertex : mirror.polygon) {
+    middle += vertex / static_cast<double>(mirror.polygon.size());
+  }
+  double radius = 0.0;
+  for (const glm::dvec3& vertex : mirror.polygon) {
+    radius = std::max(radius, glm::distance(middle, vertex));
+  }
+  const glm::dvec3 up = glm::normalize(spec_.up);
+  glm::dvec3 forward = mirror.normal;
+  if (std::abs(glm::dot(forward, up)) > steepest) {
+    // A floor's or a ceiling's normal leaves open what is up in the picture: lean the way that the camera looks.
+    const glm::dvec3 back = glm::transpose(last_.worldToView)[2];
+    const glm::dvec3 level = -back + glm::dot(back, up) * up;
+    forward = glm::normalize(forward + lean * (glm::length(level) > 1e-6 ? glm::normalize(level) : mirror.axisX));
+  }
+  const double distance = side == MirrorSide::back ? radius / std::sin(narrowerHalfAngle(aspect)) : 0.0;
+  // On the plane itself, whether the mirror shows its front would be up to rounding.
+  eye_ = side == MirrorSide::back ? middle - forward * distance : middle + mirror.normal * (10.0 * spec_.near);
+  target_ = eye_ + forward * std::max(distance, radius);
 }
 
 CameraPose CameraController::pose(const CameraPose& animated) {

@@ -20,6 +20,10 @@ class CameraController {
 
   // Drag of the pointer in pixels; fly: turns the view, orbit: turns about the target.
   void drag(double dx, double dy);
+  // Drag of the pointer in pixels of a picture of that height: what is as far as the target follows the pointer.
+  void pan(double dx, double dy, double pictureHeight);
+  // Degrees, to the right and downwards: as drag does.
+  void turn(double yaw, double pitch);
   // Notches of the wheel; orbit: nearer to the target, fly: along the view.
   void zoom(double notches);
   // Along right, up and backwards of the view, each in -1 .. 1, for `seconds`.
@@ -27,6 +31,11 @@ class CameraController {
 
   // Looks at all of the sphere, in the direction of now. `aspect`: width / height of the picture.
   void frame(const Sphere& sphere, double aspect);
+
+  // Stands behind the mirror or at its surface, before its middle, and looks where its front looks. From behind it is
+  // as far off as shows all of its back. `aspect` as above.
+  enum class MirrorSide { back, front };
+  void lookFrom(const MirrorState& mirror, MirrorSide side, double aspect);
 
   // Where it stands by hand; nothing while it is the scene's.
   struct Place {
@@ -39,6 +48,7 @@ class CameraController {
 
  private:
   void take(const CameraPose& pose);
+  double narrowerHalfAngle(double aspect) const;
 
   CameraSpec spec_;
   CameraMode mode_ = CameraMode::orbit;

@@ -78,6 +78,7 @@ void Demo::chooseScene(int index) {
     model_.debugPass = -1;
     model_.passes.clear();
     camera_.reset(loaded_->scene.camera);
+    lookedFrom_ = -1;
     time_ = 0.0;
     sceneError_.clear();
   } catch (const InputError& error) {
@@ -106,6 +107,10 @@ void Demo::applyModel() {
 }
 
 void Demo::saveShot() {
+  if (recorder_.running()) {
+    recorder_.add(pictureOf(renderer_.readback()));
+    model_.picture = recorder_.message();
+  }
   if (std::exchange(shot_, Shot::none) == Shot::none) {
     return;
   }
@@ -140,6 +145,7 @@ SweepRequest Demo::sweepRequest() {
 }
 
 void Demo::drawFrame(double seconds) {
+  seconds = recorder_.running() ? 1.0 / Recorder::framesPerSecond : seconds;
   moveCamera(seconds);
   ui_->build(model_);
   applyModel();
@@ -159,13 +165,14 @@ void Demo::drawFrame(double seconds) {
   const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
                                           static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
   const FramePlan& plan = fitted.plan;
-  sceneRenderer_->record(*frame, state, fitted.settings, plan, shot_ == Shot::picture ? std::nullopt : debugView(plan));
-  if (shot_ != Shot::picture) {
+  const bool bare = shot_ == Shot::picture || recorder_.bare();
+  sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debugView(plan));
+  if (!bare) {
     const PassScope scope = renderer_.beginOverlay(*frame);
     ui_->record(scope);
   }
   model_.cpuMs += smoothing * (std::chrono::duration<double, std::milli>(Clock::now() - start).count() - model_.cpuMs);
-  frame->capture = capture_ || shot_ != Shot::none;
+  frame->capture = capture_ || shot_ != Shot::none || recorder_.running();
   renderer_.endFrame(*frame);
   saveShot();
   ++framesDrawn_;

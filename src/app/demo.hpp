@@ -1,10 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 
 #include "app/accuracy_controller.hpp"
 #include "app/camera_controller.hpp"
 #include "app/options.hpp"
+#include "app/recorder.hpp"
 #include "app/session.hpp"
 #include "ui/simple_ui.hpp"
 
@@ -28,6 +30,8 @@ class Demo {
   // Samples that debug.check_finite found in the frames that have finished, of every scene that was shown.
   uint64_t nonFinite() { return nonFinite_ + sceneRenderer_->finiteWatch().count(); }
   int framesDrawn() const { return framesDrawn_; }
+  // In the place of the first gamepad that is connected.
+  void setGamepadSource(std::function<std::optional<GamepadState>()> source) { gamepadSource_ = std::move(source); }
   // Makes frames from now on readable by Renderer::readback, panel included.
   void setCapture(bool capture) { capture_ = capture; }
 
@@ -50,7 +54,14 @@ class Demo {
   SweepRequest sweepRequest();
   void handleKey(const KeyEvent& event);
   void handleSingleKey(const KeyEvent& event);
+  void takeGamepad();
+  void moveByGamepad(double seconds);
   void goTo(double time);
+  void stepTime(int steps);
+  void lookFromMirror(CameraController::MirrorSide side);
+  int mirrorOfInterest() const;
+  double aspect() const;
+  void toggleRecording(bool bare);
   void frameScene();
   void saveShot();
   std::string command();
@@ -71,9 +82,15 @@ class Demo {
   std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
   std::string sceneError_;
   uint64_t nonFinite_ = 0;  // of scenes shown before
-  bool dragging_ = false;
+  enum class Drag { none, look, pan };
+  Drag drag_ = Drag::none;
   double cursorX_ = 0.0;
   double cursorY_ = 0.0;
+  std::function<std::optional<GamepadState>()> gamepadSource_ = [this] { return window_.gamepad(); };
+  GamepadState gamepad_;
+  bool gamepadChanged_ = false;  // since the last step
+  int lookedFrom_ = -1;          // the mirror, index into Scene::mirrors; -1: none yet
+  Recorder recorder_;
   double time_ = 0.0;  // seconds of animation
   Clock::time_point last_;
   int framesDue_ = 0;     // to draw, although nothing changes any more

@@ -21,11 +21,14 @@ void Demo::installInput() {
   WindowCallbacks callbacks;
   callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
   callbacks.mouseButton = [this](const MouseButtonEvent& event) {
-    dragging_ = event.pressed && !(ui_ && ui_->wantsMouse());
+    const bool picture = event.pressed && !(ui_ && ui_->wantsMouse());
+    drag_ = !picture ? Drag::none : event.button == MouseButton::left ? Drag::look : Drag::pan;
   };
   callbacks.cursor = [this](double x, double y) {
-    if (dragging_) {
+    if (drag_ == Drag::look) {
       camera_.drag(x - cursorX_, y - cursorY_);
+    } else if (drag_ == Drag::pan) {
+      camera_.pan(x - cursorX_, y - cursorY_, window_.size().height);
     }
     cursorX_ = x;
     cursorY_ = y;
@@ -43,8 +46,7 @@ void Demo::handleKey(const KeyEvent& event) {
     return;
   }
   if (event.key == Key::period || event.key == Key::comma) {
-    model_.paused = true;
-    goTo(time_ + (event.key == Key::period ? timeStep : -timeStep));
+    stepTime(event.key == Key::period ? 1 : -1);
   }
   if (!event.repeat) {
     handleSingleKey(event);
@@ -60,6 +62,10 @@ void Demo::handleSingleKey(const KeyEvent& event) {
       return ui_->setVisible(ui_->visible() || model_.help);
     case Key::tab:
       return ui_->setVisible(!ui_->visible());
+    case Key::b:
+      return lookFromMirror(event.shift ? CameraController::MirrorSide::front : CameraController::MirrorSide::back);
+    case Key::f10:
+      return toggleRecording(event.shift);
     case Key::f11:
       return window_.setFullScreen(!window_.fullScreen());
     case Key::f12:
@@ -68,7 +74,7 @@ void Demo::handleSingleKey(const KeyEvent& event) {
     case Key::f:
       return frameScene();
     case Key::space:
-      model_.paused = ui_->wantsSpace() ? model_.paused : !model_.paused;
+      model_.paused = ui_->navigating() ? model_.paused : !model_.paused;
       return;
     case Key::leftBracket:
       model_.timeSpeed = std::max(slowestTime, 0.5 * model_.timeSpeed);
@@ -85,17 +91,58 @@ void Demo::goTo(double time) {
   time_ = std::max(0.0, time);
 }
 
+void Demo::stepTime(int steps) {
+  model_.paused = true;
+  goTo(time_ + steps * timeStep);
+}
+
+void Demo::toggleRecording(bool bare) {
+  if (recorder_.running()) {
+    return recorder_.stop();
+  }
+  try {
+    recorder_.start(loaded_->scene.file.stem().string(), bare);
+  } catch (const std::filesystem::filesystem_error& error) {
+    model_.picture = "not recorded: " + std::string(error.what());
+  }
+}
+
+double Demo::aspect() const {
+  const VkExtent2D extent = renderer_.displayExtent();
+  return extent.height > 0 ? static_cast<double>(extent.width) / extent.height : 1.0;
+}
+
+// The one that fills most of the picture; the one before if none shows its front.
+int Demo::mirrorOfInterest() const {
+  int mirror = lookedFrom_;
+  double area = 0.0;
+  for (const UiPass& pass : model_.passes) {
+    if (pass.path.size() == 1 && pass.areaPx > area) {
+      mirror = pass.path[0];
+      area = pass.areaPx;
+    }
+  }
+  return mirror >= 0 || loaded_->scene.mirrors.empty() ? mirror : 0;
+}
+
+void Demo::lookFromMirror(CameraController::MirrorSide side) {
+  lookedFrom_ = mirrorOfInterest();
+  if (lookedFrom_ >= 0) {
+    camera_.lookFrom(evaluate(loaded_->scene, time_).mirrors[lookedFrom_], side, aspect());
+  }
+}
+
 void Demo::frameScene() {
   const Sphere bounds = boundsOf(evaluate(loaded_->scene, time_));
-  const VkExtent2D extent = renderer_.displayExtent();
-  if (bounds.radius > 0.0 && extent.height > 0) {
-    camera_.frame(bounds, static_cast<double>(extent.width) / extent.height);
+  if (bounds.radius > 0.0) {
+    camera_.frame(bounds, aspect());
   }
 }
 
 void Demo::moveCamera(double seconds) {
   camera_.setMode(model_.cameraMode);
   camera_.move(heldDirection(), seconds);
+  moveByGamepad(seconds);
 }
 
 // Along right, up and backwards of the view.
@@ -116,8 +163,9 @@ bool Demo::changing() {
   const bool shaders = std::exchange(shaderErrors_, errors) != errors || rebuilt;
   const bool working = accuracy_.working(model_);
   const bool finished = std::exchange(working_, working) && !working;
-  return window_.takeActivity() || shaders || finished || window_.gamepadUsed() || heldDirection() != glm::dvec3(0.0) ||
-         model_.settings.view.continuous || options_.frames > 0 || (!model_.paused && moves(loaded_->scene));
+  return window_.takeActivity() || shaders || finished || gamepadChanged_ || gamepad_.used() || recorder_.running() ||
+         heldDirection() != glm::dvec3(0.0) || model_.settings.view.continuous || options_.frames > 0 ||
+         (!model_.paused && moves(loaded_->scene));
 }
 
 // Nothing changes: sleeps. True if a frame is to be drawn all the same, for what changes slowly.
@@ -129,6 +177,7 @@ bool Demo::rest() {
 
 bool Demo::step() {
   window_.pollEvents();
+  takeGamepad();
   const Clock::time_point now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - last_).count();
   last_ = now;

@@ -7,6 +7,25 @@
 
 namespace speculum {
 
+namespace {
+
+// A path that nothing has, in Speculum's folder of the user's pictures, which is created.
+std::filesystem::path newPath(const std::string& scene, const std::string& ending) {
+  const std::filesystem::path folder = picturesDir() / "Speculum";
+  std::filesystem::create_directories(folder);
+  const std::time_t now = std::time(nullptr);
+  std::array<char, 32> when{};
+  std::strftime(when.data(), when.size(), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
+  const std::string name = scene + "_" + when.data();
+  std::filesystem::path path = folder / (name + ending);
+  for (int number = 2; std::filesystem::exists(path); ++number) {
+    path = folder / (name + "_" + std::to_string(number) + ending);
+  }
+  return path;
+}
+
+}  // namespace
+
 Image8 pictureOf(Pixels pixels) {
   Image8 image;
   image.width = static_cast<int>(pixels.extent.width);
@@ -19,17 +38,13 @@ Image8 pictureOf(Pixels pixels) {
 }
 
 std::filesystem::path newPictureFile(const std::string& scene) {
-  const std::filesystem::path folder = picturesDir() / "Speculum";
-  std::filesystem::create_directories(folder);
-  const std::time_t now = std::time(nullptr);
-  std::array<char, 32> when{};
-  std::strftime(when.data(), when.size(), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
-  const std::string name = scene + "_" + when.data();
-  std::filesystem::path file = folder / (name + ".png");
-  for (int number = 2; std::filesystem::exists(file); ++number) {
-    file = folder / (name + "_" + std::to_string(number) + ".png");
-  }
-  return file;
+  return newPath(scene, ".png");
+}
+
+std::filesystem::path newRecordingFolder(const std::string& scene) {
+  const std::filesystem::path folder = newPath(scene, "");
+  std::filesystem::create_directory(folder);
+  return folder;
 }
 
 }  // namespace speculum

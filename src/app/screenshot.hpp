@@ -15,4 +15,7 @@ Image8 pictureOf(Pixels pixels);
 // Throws std::filesystem::filesystem_error if that fails.
 std::filesystem::path newPictureFile(const std::string& scene);
 
+// Likewise a new, empty folder.
+std::filesystem::path newRecordingFolder(const std::string& scene);
+
 }  // namespace speculum

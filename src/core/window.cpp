@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -12,9 +11,14 @@ namespace speculum {
 
 namespace {
 
-constexpr float gamepadRest = 0.25f;  // of a stick's way
+// In the order of GamepadButton.
+constexpr std::array<int, static_cast<size_t>(GamepadButton::count)> buttonCodes{
+    GLFW_GAMEPAD_BUTTON_A,          GLFW_GAMEPAD_BUTTON_B,           GLFW_GAMEPAD_BUTTON_X,
+    GLFW_GAMEPAD_BUTTON_Y,          GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER,
+    GLFW_GAMEPAD_BUTTON_BACK,       GLFW_GAMEPAD_BUTTON_START,       GLFW_GAMEPAD_BUTTON_LEFT_THUMB,
+    GLFW_GAMEPAD_BUTTON_RIGHT_THUMB};
 
-constexpr std::array<std::pair<Key, int>, 22> keyCodes{{
+constexpr std::array<std::pair<Key, int>, 24> keyCodes{{
     {Key::escape, GLFW_KEY_ESCAPE},
     {Key::enter, GLFW_KEY_ENTER},
     {Key::tab, GLFW_KEY_TAB},
@@ -27,6 +31,7 @@ constexpr std::array<std::pair<Key, int>, 22> keyCodes{{
     {Key::d, GLFW_KEY_D},
     {Key::q, GLFW_KEY_Q},
     {Key::e, GLFW_KEY_E},
+    {Key::b, GLFW_KEY_B},
     {Key::r, GLFW_KEY_R},
     {Key::f, GLFW_KEY_F},
     {Key::comma, GLFW_KEY_COMMA},
@@ -35,6 +40,7 @@ constexpr std::array<std::pair<Key, int>, 22> keyCodes{{
     {Key::rightBracket, GLFW_KEY_RIGHT_BRACKET},
     {Key::f1, GLFW_KEY_F1},
     {Key::f2, GLFW_KEY_F2},
+    {Key::f10, GLFW_KEY_F10},
     {Key::f11, GLFW_KEY_F11},
     {Key::f12, GLFW_KEY_F12},
 }};
@@ -224,16 +230,27 @@ bool Window::takeActivity() {
   return std::exchange(active_, false);
 }
 
-bool Window::gamepadUsed() const {
+std::optional<GamepadState> Window::gamepad() const {
   GLFWgamepadstate state{};
   if (!glfwGetGamepadState(GLFW_JOYSTICK_1, &state)) {
-    return false;
+    return std::nullopt;
   }
-  const auto out = [](float axis) { return std::abs(axis) > gamepadRest; };
-  // A trigger rests at -1.
-  return std::any_of(std::begin(state.buttons), std::end(state.buttons), [](auto b) { return b == GLFW_PRESS; }) ||
-         std::any_of(state.axes, state.axes + GLFW_GAMEPAD_AXIS_LEFT_TRIGGER, out) ||
-         state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] > 0.0f || state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] > 0.0f;
+  const auto stick = [&](int axis) { return outOfRest(state.axes[axis]); };
+  // Rests at -1.
+  const auto trigger = [&](int axis) { return outOfRest(0.5f * (state.axes[axis] + 1.0f)); };
+  GamepadState pad{.leftX = stick(GLFW_GAMEPAD_AXIS_LEFT_X),
+                   .leftY = stick(GLFW_GAMEPAD_AXIS_LEFT_Y),
+                   .rightX = stick(GLFW_GAMEPAD_AXIS_RIGHT_X),
+                   .rightY = stick(GLFW_GAMEPAD_AXIS_RIGHT_Y),
+                   .leftTrigger = trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER),
+                   .rightTrigger = trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER)};
+  for (size_t i = 0; i < pad.buttons.size(); ++i) {
+    pad.buttons[i] = state.buttons[buttonCodes[i]] == GLFW_PRESS;
+  }
+  pad.directionPad =
+      std::any_of(state.buttons + GLFW_GAMEPAD_BUTTON_DPAD_UP, state.buttons + GLFW_GAMEPAD_BUTTON_DPAD_LEFT + 1,
+                  [](unsigned char button) { return button == GLFW_PRESS; });
+  return pad;
 }
 
 float Window::contentScale() const {

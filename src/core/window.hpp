@@ -5,8 +5,11 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "core/gamepad.hpp"
 
 struct GLFWwindow;
 
@@ -26,6 +29,7 @@ enum class Key {
   d,
   q,
   e,
+  b,
   r,
   f,
   comma,
@@ -34,6 +38,7 @@ enum class Key {
   rightBracket,
   f1,
   f2,
+  f10,
   f11,
   f12
 };
@@ -93,7 +98,7 @@ class Window {
   bool takeResized();   // whether the framebuffer changed its size since the last call
   // Whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
   bool takeActivity();
-  bool gamepadUsed() const;  // a button of the first gamepad is down, or a stick out of its rest
+  std::optional<GamepadState> gamepad() const;  // the first one; nothing if there is none
   float contentScale() const;
   void setTitle(const std::string& title);
   bool keyDown(Key key) const;

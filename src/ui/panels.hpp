@@ -23,6 +23,7 @@ struct KeyHelp {
   const char* what;
 };
 std::span<const KeyHelp> keyHelp();
+std::span<const KeyHelp> gamepadHelp();
 
 // After each widget of a setting: notes its place and explains it.
 void describe(UiModel& model, std::string_view key);

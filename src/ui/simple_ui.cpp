@@ -227,7 +227,7 @@ bool SimpleUI::wantsKeyboard() const {
   return ImGui::GetIO().WantTextInput;
 }
 
-bool SimpleUI::wantsSpace() const {
+bool SimpleUI::navigating() const {
   return visible_ && ImGui::GetIO().NavVisible;
 }
 

@@ -23,7 +23,7 @@ class SimpleUI {
 
   bool wantsMouse() const;     // the pointer is over the panel or holds one of its widgets
   bool wantsKeyboard() const;  // a text field is being edited
-  bool wantsSpace() const;     // a widget is chosen by keyboard or gamepad, which the space bar would press
+  bool navigating() const;     // a widget is chosen by keyboard or gamepad
   bool wantsFrames() const;    // something of the panel changes by itself: a text cursor, a button that is held
   bool visible() const { return visible_; }
   void setVisible(bool visible) { visible_ = visible; }

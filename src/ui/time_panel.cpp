@@ -12,12 +12,15 @@ namespace {
 
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
-constexpr std::array<KeyHelp, 16> keys{{
+constexpr std::array<KeyHelp, 21> keys{{
     {"drag", "look around: about the target (orbit) or from where you are (fly)"},
+    {"drag middle or right", "move sideways and up or down"},
     {"wheel", "nearer or farther"},
     {"W A S D", "forwards, left, back, right"},
     {"Q E", "down, up"},
     {"F", "look at the whole scene"},
+    {"B", "look from behind the mirror that fills most of the picture"},
+    {"Shift+B", "look out of that mirror"},
     {"Space", "pause the animation and let it go on"},
     {".", "pause, 1/60 s onwards"},
     {",", "pause, 1/60 s back"},
@@ -25,16 +28,48 @@ constexpr std::array<KeyHelp, 16> keys{{
     {"]", "twice the speed of time"},
     {"F12", "save the window as a picture"},
     {"Shift+F12", "the same without the panel"},
+    {"F10", "record the window as numbered pictures, and end it"},
+    {"Shift+F10", "the same without the panel"},
     {"F11", "full screen and back"},
     {"Tab", "hide or show the panel"},
     {"F1", "this list"},
     {"Esc", "quit"},
 }};
 
+constexpr std::array<KeyHelp, 9> gamepad{{
+    {"left stick", "forwards, back, left, right"},
+    {"triggers", "down, up"},
+    {"right stick", "look around"},
+    {"direction pad", "into the panel, where A presses and B leaves"},
+    {"A, B", "look at the whole scene; orbit or fly"},
+    {"Y, X", "look from behind a mirror; look out of it"},
+    {"bumpers", "pause, 1/60 s back or onwards"},
+    {"sticks pressed", "left: the scene's camera, right: save the window as a picture"},
+    {"Start, Back", "pause the animation; hide or show the panel"},
+}};
+
+void helpTable(const char* title, std::span<const KeyHelp> rows) {
+  if (!ImGui::BeginTable(title, 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
+    return;
+  }
+  for (const KeyHelp& row : rows) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(row.keys);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(row.what);
+  }
+  ImGui::EndTable();
+}
+
 }  // namespace
 
 std::span<const KeyHelp> keyHelp() {
   return keys;
+}
+
+std::span<const KeyHelp> gamepadHelp() {
+  return gamepad;
 }
 
 void time(UiModel& model) {
@@ -76,16 +111,10 @@ void help(UiModel& model) {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowBgAlpha(1.0f);  // text over text cannot be read
   if (ImGui::Begin("Keys", &model.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
-      for (const KeyHelp& key : keys) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(key.keys);
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(key.what);
-      }
-      ImGui::EndTable();
-    }
+    helpTable("keys", keys);
+    ImGui::Spacing();
+    ImGui::TextDisabled("gamepad");
+    helpTable("gamepad", gamepad);
   }
   ImGui::End();
 }
