@@ -34,6 +34,16 @@ class IdleWindow : public DemoWindow {
     drawn.frames = demo_->framesDrawn() - before;
     return drawn;
   }
+  // Whether it goes on drawing: so many frames more, however slow the machine is. What changes once draws fewer
+  // than 10.
+  bool draws(int frames) {
+    const int last = demo_->framesDrawn() + frames;
+    const auto end = Clock::now() + std::chrono::seconds(20);
+    while (demo_->framesDrawn() < last && Clock::now() < end) {
+      EXPECT_TRUE(demo_->step());
+    }
+    return demo_->framesDrawn() >= last;
+  }
   // Until half a second has gone by without a frame.
   void settle() {
     const auto end = Clock::now() + std::chrono::seconds(20);
@@ -60,7 +70,7 @@ TEST_F(IdleWindow, AHeldStickKeepsItDrawing) {
   demo_->setGamepadSource([&] { return pad; });
   EXPECT_EQ(during(0.5).frames, 0) << "a gamepad at rest";
   pad->leftX = 1.0f;
-  EXPECT_GT(during(1.0).frames, 5);
+  EXPECT_TRUE(draws(15));
   pad.reset();
   settle();
   demo_->setGamepadSource([] { return std::nullopt; });
@@ -72,7 +82,7 @@ TEST_F(IdleWindow, DrawsNothingUntilThePointerMoves) {
   EXPECT_EQ(idle.frames, 0);
   EXPECT_LE(idle.steps, 40) << "it must sleep, not spin";
   pointAt(width - 100, 80);
-  EXPECT_GT(during(0.5).frames, 2);
+  EXPECT_TRUE(draws(3));
   settle();
   EXPECT_EQ(during(1.0).frames, 0);
   expectQuiet();
@@ -101,13 +111,12 @@ TEST_F(IdleWindow, KeysAndSizeAreFollowed) {
   settle();
   const Pixels before = picture();
   xdotool({"keydown", "--window", windowId(), "d"});
-  const int held = during(1.0).frames;
+  EXPECT_TRUE(draws(15)) << "the camera moves as long as the key is held";
   xdotool({"keyup", "--window", windowId(), "d"});
-  EXPECT_GT(held, 10) << "the camera moves as long as the key is held";
   settle();
   EXPECT_NE(before.rgba, picture().rgba);
   demo_->window().resize(500, 400);
-  EXPECT_GT(during(0.5).frames, 0);
+  EXPECT_TRUE(draws(1));
   settle();
   EXPECT_EQ(picture().extent.width, 500u);
   expectQuiet();
@@ -146,7 +155,7 @@ class IdleWindowThatMoves : public IdleWindow {
 };
 
 TEST_F(IdleWindowThatMoves, DrawsUntilItIsPaused) {
-  EXPECT_GT(during(1.0).frames, 10);
+  EXPECT_TRUE(draws(15));
   const PixelRect pause = widget("pause");
   pointAt(pause.x + 5, pause.y + 5);
   during(0.2);
