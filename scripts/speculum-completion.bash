@@ -22,7 +22,7 @@ _speculum_settings() {
     reflection.max_passes reflection.update_interval reflection.clip view.samples view.exposure view.tone_map
     view.clear_color view.texture_filter view.wireframe view.continuous effects.shadows effects.roughness
     effects.rough_samples effects.rough_lookup effects.per_sample effects.ripple effects.casts_light effects.curved quality.budget_ms quality.max_error
-    debug.omit_barrier debug.check_finite debug.skip_hidden debug.mask_passes"
+    debug.omit_barrier debug.check_finite debug.skip_hidden debug.cull_clusters debug.mask_passes"
 }
 
 _speculum() {

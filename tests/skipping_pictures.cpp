@@ -83,6 +83,13 @@ Image8 pictureWith(Session& session, const Settings& settings) {
   return session.picture();
 }
 
+nlohmann::ordered_json statsWith(Session& session, const Settings& settings) {
+  session.setSettings(settings);
+  session.draw(0.0, false);
+  session.finish();
+  return frameStats(session, session.renderer().timings());
+}
+
 int hiddenIn(const FramePlan& plan) {
   return static_cast<int>(std::count_if(plan.skipped.begin(), plan.skipped.end(),
                                         [](const SkippedMirror& s) { return s.reason == SkipReason::hidden; }));
@@ -112,12 +119,11 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
     Settings settings = session.settings();
     settings.reflection.maxDepth = 2 + cut % 2;
     settings.reflection.scale = cut % 5 == 3 ? 0.5 : cut % 5 == 4 ? 2.0 : 1.0;
-    settings.debug.skipHidden = true;
+    settings.debug.skipHidden = settings.debug.cullClusters = true;
     const Image8 skipping = pictureWith(session, settings);
     hidden += hiddenIn(session.lastFrame().plan);
     passes += session.lastFrame().plan.passes.size();
-    settings.debug.skipHidden = false;
-    settings.debug.maskPasses = false;
+    settings.debug.skipHidden = settings.debug.maskPasses = settings.debug.cullClusters = false;
     const Image8 all = pictureWith(session, settings);
     passesOfAll += session.lastFrame().plan.passes.size();
     settings.debug.maskPasses = true;
@@ -128,6 +134,44 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   EXPECT_GT(hidden, cuts);
   EXPECT_LT(passes, passesOfAll);
   std::printf("%d cuts, %d hidden mirrors, %zu passes for %zu\n", cuts, hidden, passes, passesOfAll);
+}
+
+// 12 mirrors of a sixteenth of the picture's height before 24 knots of 2 496 triangles.
+std::filesystem::path smallMirrorsScene() {
+  std::ostringstream toml;
+  toml << "[camera]\nposition = [0, 0, 6]\ntarget = [0, 0, 0]\nvertical_fov = 40\n[[light]]\nposition = [2, 4, 5]\n"
+          "intensity = 90\n";
+  for (int i = 0; i < 24; ++i) {
+    toml << "[[object]]\nmodel = \"MODELS/torus_knot.obj\"\nposition = [" << (i % 6 - 2.5) * 1.2 << ", "
+         << (i / 6 - 1.5) * 0.8 << ", " << -1.0 + 0.4 * (i * 5 % 7) << "]\nrotation = [0, " << 25 * i << ", 0]\n"
+         << "scale = 0.75\n";
+  }
+  for (int i = 0; i < 12; ++i) {
+    toml << "[[mirror]]\nposition = [" << (i % 4 - 1.5) * 3.0 << ", " << (i / 4 - 1) * 2.0
+         << ", -6]\nsize = [0.9, 0.5]\n";
+  }
+  return writeScene("small_mirrors", toml.str());
+}
+
+TEST(Skipping, SmallMirrorsDrawSmallPartsOfObjects) {
+  Session session(headless(smallMirrorsScene(), {320, 180}));
+  const auto mirrorTriangles = [&](const nlohmann::ordered_json& stats) {
+    double triangles = 0.0;
+    for (const auto& pass : stats["passes"]) {
+      triangles += pass["depth"].is_null() ? 0.0 : pass["triangles"].get<double>();
+    }
+    return triangles;
+  };
+  for (const int samples : {1, 4}) {
+    Settings settings = session.settings();
+    settings.reflection.samples = settings.view.samples = samples;
+    const Image8 parts = pictureWith(session, settings);
+    const double drawn = mirrorTriangles(statsWith(session, settings));
+    settings.debug.cullClusters = false;
+    EXPECT_EQ(parts.rgba, pictureWith(session, settings).rgba) << samples << " samples";
+    EXPECT_LT(drawn, 0.5 * mirrorTriangles(statsWith(session, settings)));
+  }
+  expectQuiet(session);
 }
 
 TEST(Skipping, HeldImagesShowTheSameWithAndWithoutTheMask) {
@@ -148,13 +192,6 @@ TEST(Skipping, HeldImagesShowTheSameWithAndWithoutTheMask) {
   for (size_t frame = 0; frame < 6; ++frame) {
     EXPECT_EQ(pictures[frame].rgba, pictures[frame + 6].rgba) << "frame " << frame;
   }
-}
-
-nlohmann::ordered_json statsWith(Session& session, const Settings& settings) {
-  session.setSettings(settings);
-  session.draw(0.0, false);
-  session.finish();
-  return frameStats(session, session.renderer().timings());
 }
 
 // A tilted mirror in a closed room, and the same under a sky; walls and floor fill the image.

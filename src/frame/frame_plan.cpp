@@ -111,6 +111,7 @@ class Planner {
 
  private:
   void fill(int node);
+  void addInstance(PlannedPass& pass, const View& readable, int i);
   void consider(int node, int mirror, const View& readable);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
@@ -134,6 +135,20 @@ class Planner {
   int discovered_ = 0;
 };
 
+void Planner::addInstance(PlannedPass& pass, const View& readable, int i) {
+  const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
+  const Mesh& mesh = scene_.meshes[instance.mesh];
+  const std::vector<IndexRange> ranges =
+      allSettings_.debug.cullClusters ? visibleRanges(readable, instance, mesh) : std::vector<IndexRange>{allOf(mesh)};
+  if (ranges.empty()) {
+    return;
+  }
+  pass.instances.push_back(i);
+  if (ranges.front() != allOf(mesh)) {
+    pass.partial.push_back({i, ranges});
+  }
+}
+
 // What is drawn in a node's view, and which of its mirrors are candidates for passes.
 void Planner::fill(int node) {
   const View view = nodes_[node].pass.view;
@@ -149,7 +164,7 @@ void Planner::fill(int node) {
     const InstanceState& instance = state_.instances[i];
     if (sphereVisible(readable, instance.center, instance.radius) &&
         boxVisible(readable, instance.worldFromMesh, scene_.meshes[instance.mesh].halfExtent)) {
-      nodes_[node].pass.instances.push_back(static_cast<int>(i));
+      addInstance(nodes_[node].pass, readable, static_cast<int>(i));
     }
   }
   for (size_t i = 0; i < scene_.lights.size(); ++i) {

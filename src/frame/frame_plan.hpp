@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/held_image.hpp"
+#include "frame/partial_instances.hpp"
 #include "frame/settings.hpp"
 #include "frame/view.hpp"
 
@@ -38,14 +39,15 @@ struct MirrorDraw {
 // One pass: a view and what is drawn in it.
 struct PlannedPass {
   View view;
-  int parent = -1;                  // index into FramePlan::passes; -1: the main view
-  int depth = -1;                   // of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
-  double areaPx = 0.0;              // of the mirror's visible part, in screen pixels
-  double throughput = 1.0;          // upper bound over that part, largest channel, with this mirror's own reflectance
-  glm::dvec3 channels{1.0};         // the same for each channel
-  std::vector<int> instances;       // visible, indices into SceneState::instances, ascending
-  std::vector<int> lights;          // whose glyphs are visible, indices into Scene::lights
-  std::vector<MirrorDraw> mirrors;  // in the order of Scene::mirrors
+  int parent = -1;             // index into FramePlan::passes; -1: the main view
+  int depth = -1;              // of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
+  double areaPx = 0.0;         // of the mirror's visible part, in screen pixels
+  double throughput = 1.0;     // upper bound over that part, largest channel, with this mirror's own reflectance
+  glm::dvec3 channels{1.0};    // the same for each channel
+  std::vector<int> instances;  // visible, indices into SceneState::instances, ascending
+  std::vector<PartialInstance> partial;  // those of them that are seen in part, ascending
+  std::vector<int> lights;               // whose glyphs are visible, indices into Scene::lights
+  std::vector<MirrorDraw> mirrors;       // in the order of Scene::mirrors
 };
 
 struct SkippedMirror {

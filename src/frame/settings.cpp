@@ -236,6 +236,9 @@ std::vector<Setting> debugTable() {
           &Settings::debug, &DebugSettings::checkFinite),
       boolean<DebugSettings>({"debug.skip_hidden", "true | false", "mirrors behind something flat have no pass"},
                              &Settings::debug, &DebugSettings::skipHidden),
+      boolean<DebugSettings>(
+          {"debug.cull_clusters", "true | false", "parts of objects that a view cannot see are not drawn"},
+          &Settings::debug, &DebugSettings::cullClusters),
       boolean<DebugSettings>({"debug.mask_passes", "true | false", "only what is seen of a mirror image is shaded"},
                              &Settings::debug, &DebugSettings::maskPasses),
   };

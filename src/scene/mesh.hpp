@@ -38,6 +38,14 @@ struct MeshPart {
   Material material;
 };
 
+// Consecutive triangles of one part and the box around them, relative to Mesh::center.
+struct MeshCluster {
+  uint32_t firstIndex = 0;
+  uint32_t indexCount = 0;
+  glm::dvec3 center{0.0};
+  glm::dvec3 halfExtent{0.0};
+};
+
 // Triangles in model space, counter-clockwise seen from outside. Positions are kept in double relative to the
 // centre of the bounding box, so that their conversion to float for the GPU loses nothing to a far-off origin.
 struct Mesh {
@@ -48,6 +56,7 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
   std::vector<MeshPart> parts;
+  std::vector<MeshCluster> clusters;  // of all triangles, in their order; none of a small mesh. See clustersOf
   std::vector<std::vector<glm::dvec3>>
       faces;  // flat and convex, the largest few; relative to `center`. See convexFaces
 };

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "optics/convex_faces.hpp"
+#include "scene/mesh_clusters.hpp"
 #include "scene/triangulate.hpp"
 
 namespace speculum {
@@ -215,6 +216,7 @@ Mesh buildMesh(const std::filesystem::path& file, const ObjGeometry& geometry, c
   Mesh mesh = builder.finish(materialOf);
   mesh.source = file;
   mesh.faces = largestFaces(mesh);
+  mesh.clusters = clustersOf(mesh);
   return mesh;
 }
 

@@ -213,8 +213,14 @@ void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projecti
   const auto isCurved = [&](int i) {
     return effects.curved && scene.objects[static_cast<size_t>(state.instances[i].object)].mirror.has_value();
   };
+  const auto partOf = [&](int i) -> const PartialInstance* {
+    const auto found = std::lower_bound(pass.partial.begin(), pass.partial.end(), i,
+                                        [](const PartialInstance& part, int wanted) { return part.instance < wanted; });
+    return found != pass.partial.end() && found->instance == i ? &*found : nullptr;
+  };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
-  // Plain instances of a mesh are one draw, curved mirrors of the same mesh another.
+  // Plain instances of a mesh are one draw, curved mirrors of the same mesh another, and each that is seen in part is
+  // its own.
   for (auto first = order.begin(); first != order.end();) {
     const int mesh = state.instances[*first].mesh;
     const auto last = std::find_if(first, order.end(), [&](int i) { return state.instances[i].mesh != mesh; });
@@ -225,8 +231,11 @@ void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projecti
     const InstanceState& instance = state.instances[i];
     const Object& object = scene.objects[instance.object];
     const bool curved = isCurved(i);
-    if (data.batches.empty() || data.batches.back().mesh != instance.mesh || data.batches.back().curved != curved) {
-      data.batches.push_back({instance.mesh, static_cast<uint32_t>(instances_.size()), 0, curved});
+    const PartialInstance* part = partOf(i);
+    if (data.batches.empty() || data.batches.back().mesh != instance.mesh || data.batches.back().curved != curved ||
+        part || !data.batches.back().ranges.empty()) {
+      data.batches.push_back({instance.mesh, static_cast<uint32_t>(instances_.size()), 0, curved,
+                              part ? part->ranges : std::vector<IndexRange>()});
     }
     ++data.batches.back().count;
     instances_.push_back(instanceData(instance, object, pass.view, clipFromRelative));

@@ -21,7 +21,8 @@ struct Batch {
   int mesh = 0;
   uint32_t firstInstance = 0;
   uint32_t count = 0;
-  bool curved = false;  // they are mirrors
+  bool curved = false;             // they are mirrors
+  std::vector<IndexRange> ranges;  // of the mesh's indices; none: all. Only a single instance has any
 };
 
 struct MirrorRange {

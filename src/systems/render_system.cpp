@@ -1,5 +1,7 @@
 #include "systems/render_system.hpp"
 
+#include <algorithm>
+
 namespace speculum {
 
 RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout,
@@ -47,6 +49,34 @@ const Pipeline& RenderSystem::sky(VkSampleCountFlagBits samples) {
   return *pipeline;
 }
 
+namespace {
+
+// The indices of a mesh's part that a batch draws.
+std::vector<IndexRange> drawnRanges(const SceneResources::Part& part, const Batch& batch) {
+  if (batch.ranges.empty()) {
+    return {{part.firstIndex, part.indexCount}};
+  }
+  std::vector<IndexRange> drawn;
+  for (const IndexRange& range : batch.ranges) {
+    const uint32_t first = std::max(range.first, part.firstIndex);
+    const uint32_t end = std::min(range.first + range.count, part.firstIndex + part.indexCount);
+    if (first < end) {
+      drawn.push_back({first, end - first});
+    }
+  }
+  return drawn;
+}
+
+}  // namespace
+
+void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant, const SceneResources::Part& part) {
+  ledger.draw(EffectKind::textures, part.textured);
+  ledger.draw(EffectKind::shadows, variant.trace.shadows);
+  ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
+  ledger.draw(EffectKind::curved, variant.curved);
+  ledger.draw(EffectKind::wireframe, variant.wireframe);
+}
+
 uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data,
                                      Variant variant) {
   const VkCommandBuffer commands = scope.commands();
@@ -69,14 +99,12 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
     for (const SceneResources::Part& part : mesh.parts) {
       pipeline.bindSet(commands, 1, part.texture);
-      pipeline.push(commands, DrawConstants{data.view, part.material, part.firstIndex / 3});
-      vkCmdDrawIndexed(commands, part.indexCount, batch.count, part.firstIndex, 0, batch.firstInstance);
-      ++draws;
-      info.ledger.draw(EffectKind::textures, part.textured);
-      info.ledger.draw(EffectKind::shadows, variant.trace.shadows);
-      info.ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
-      info.ledger.draw(EffectKind::curved, variant.curved);
-      info.ledger.draw(EffectKind::wireframe, variant.wireframe);
+      for (const IndexRange& range : drawnRanges(part, batch)) {
+        pipeline.push(commands, DrawConstants{data.view, part.material, range.first / 3});
+        vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
+        ++draws;
+        countDraw(info.ledger, variant, part);
+      }
     }
     scope.endLabel();
   }

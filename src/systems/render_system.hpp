@@ -32,6 +32,7 @@ class RenderSystem {
   };
   const Pipeline& objects(const Variant& variant, VkDescriptorSetLayout traceLayout);
   const Pipeline& sky(VkSampleCountFlagBits samples);
+  static void countDraw(EffectLedger& ledger, const Variant& variant, const SceneResources::Part& part);
   uint32_t recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data, Variant variant);
 
   PipelineFactory& factory_;

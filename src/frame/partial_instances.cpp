@@ -1,0 +1,78 @@
+#include "frame/partial_instances.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+// A draw call costs about as much as the vertices of so many triangles; shorter gaps are drawn.
+constexpr uint32_t shortestGap = 3 * 128;  // indices
+constexpr double leastSaved = 0.1;         // of the mesh's indices
+constexpr double rounding = 1e-5;          // of floats on the GPU, with room to spare; of the sizes involved
+
+// A plane in the space of Vertex::position: seen is what has dot(normal, p) + offset >= 0.
+struct LocalPlane {
+  glm::dvec3 normal{0.0};
+  double offset = 0.0;
+};
+
+// The planes that cut through the mesh's bounding box; those that it lies before as a whole decide nothing.
+std::vector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance, const Mesh& mesh) {
+  std::vector<LocalPlane> planes;
+  const auto add = [&](const glm::dvec3& normal, double distance) {
+    const glm::dvec3 local = normal * instance.worldFromMesh.linear;
+    const double reach = glm::dot(glm::abs(local), mesh.halfExtent);
+    if (distance < reach * (1.0 + rounding)) {
+      planes.push_back({local, distance + rounding * reach});
+    }
+  };
+  const glm::dvec3& center = instance.worldFromMesh.translation;
+  if (view.clip) {
+    add(view.clip->normal, view.clip->distance(center));
+  }
+  for (const glm::dvec3& normal : view.cone) {
+    add(normal, glm::dot(normal, center - view.eye));
+  }
+  return planes;
+}
+
+bool visible(const MeshCluster& cluster, const std::vector<LocalPlane>& planes) {
+  return std::all_of(planes.begin(), planes.end(), [&](const LocalPlane& plane) {
+    return glm::dot(plane.normal, cluster.center) + glm::dot(glm::abs(plane.normal), cluster.halfExtent) +
+               plane.offset >=
+           0.0;
+  });
+}
+
+}  // namespace
+
+IndexRange allOf(const Mesh& mesh) {
+  return {0, static_cast<uint32_t>(mesh.indices.size())};
+}
+
+std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh) {
+  const std::vector<LocalPlane> planes = cuttingPlanes(view, instance, mesh);
+  if (mesh.clusters.empty() || planes.empty()) {
+    return {allOf(mesh)};
+  }
+  std::vector<IndexRange> ranges;
+  for (const MeshCluster& cluster : mesh.clusters) {
+    if (!visible(cluster, planes)) {
+      continue;
+    }
+    if (!ranges.empty() && cluster.firstIndex - (ranges.back().first + ranges.back().count) < shortestGap) {
+      ranges.back().count = cluster.firstIndex + cluster.indexCount - ranges.back().first;
+    } else {
+      ranges.push_back({cluster.firstIndex, cluster.indexCount});
+    }
+  }
+  uint32_t drawn = 0;
+  for (const IndexRange& range : ranges) {
+    drawn += range.count;
+  }
+  return drawn > (1.0 - leastSaved) * allOf(mesh).count ? std::vector<IndexRange>{allOf(mesh)} : ranges;
+}
+
+}  // namespace speculum

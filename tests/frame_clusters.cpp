@@ -1,0 +1,171 @@
+// Of objects seen in part only that part is drawn, and never less than is seen.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "frame/frame_plan.hpp"
+#include "scene/mesh_clusters.hpp"
+
+namespace speculum {
+namespace {
+
+// A sheet of 32 x 32 squares of 1/16 m in the plane z = 0, row by row.
+Mesh sheet() {
+  Mesh mesh{.halfExtent = {1, 1, 0}, .radius = std::sqrt(2.0)};
+  for (int y = 0; y <= 32; ++y) {
+    for (int x = 0; x <= 32; ++x) {
+      mesh.vertices.push_back({{x / 16.0 - 1.0, y / 16.0 - 1.0, 0.0}, {0, 0, 1}, {}});
+    }
+  }
+  for (uint32_t y = 0; y < 32; ++y) {
+    for (uint32_t x = 0; x < 32; ++x) {
+      const uint32_t a = 33 * y + x;
+      mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + 34, a, a + 34, a + 33});
+    }
+  }
+  const uint32_t half = static_cast<uint32_t>(mesh.indices.size()) / 2;
+  mesh.parts = {{0, half - 300, {}}, {half - 300, half + 300, {}}};
+  mesh.clusters = clustersOf(mesh);
+  return mesh;
+}
+
+Scene sceneOf(const Object& object, const std::vector<Mirror>& mirrors = {}) {
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  scene.objects = {object};
+  scene.objects[0].mesh = 0;
+  scene.meshes = {sheet()};
+  scene.mirrors = mirrors;
+  return scene;
+}
+
+uint32_t countOf(const std::vector<IndexRange>& ranges) {
+  uint32_t count = 0;
+  for (const IndexRange& range : ranges) {
+    count += range.count;
+  }
+  return count;
+}
+
+TEST(Clusters, CoverEveryPartInItsOrder) {
+  const Mesh mesh = sheet();
+  uint32_t next = 0;
+  size_t part = 0;
+  for (const MeshCluster& cluster : mesh.clusters) {
+    ASSERT_EQ(cluster.firstIndex, next);
+    next += cluster.indexCount;
+    ASSERT_EQ(cluster.indexCount % 3, 0u);
+    if (cluster.firstIndex >= mesh.parts[part].firstIndex + mesh.parts[part].indexCount) {
+      ++part;
+    }
+    EXPECT_LE(next, mesh.parts[part].firstIndex + mesh.parts[part].indexCount) << "a cluster is of one part";
+    for (uint32_t i = cluster.firstIndex; i < next; ++i) {
+      const glm::dvec3 off = glm::abs(mesh.vertices[mesh.indices[i]].position - cluster.center);
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(off, cluster.halfExtent + 1e-12)));
+    }
+  }
+  EXPECT_EQ(next, mesh.indices.size());
+}
+
+TEST(Clusters, SmallMeshesHaveNone) {
+  Mesh mesh = sheet();
+  mesh.indices.resize(300);
+  mesh.parts = {{0, 300, {}}};
+  EXPECT_TRUE(clustersOf(mesh).empty());
+}
+
+TEST(Clusters, WhatIsWhollyInThePictureIsDrawnWhole) {
+  Object object;
+  object.position = {0, 0, -5};
+  const Scene scene = sceneOf(object);
+  const FramePlan plan = planFrame(scene, evaluate(scene, 0.0), {}, 640, 360);
+  EXPECT_EQ(plan.main.instances, std::vector<int>{0});
+  EXPECT_TRUE(plan.main.partial.empty());
+}
+
+TEST(Clusters, OfWhatLeavesThePictureAPartIsDrawn) {
+  Object object;
+  object.position = {0, 1.2, -1.5};  // the picture ends 0.87 m above the middle there
+  const Scene scene = sceneOf(object);
+  Settings settings;
+  const FramePlan plan = planFrame(scene, evaluate(scene, 0.0), settings, 640, 360);
+  ASSERT_EQ(plan.main.partial.size(), 1u);
+  const std::vector<IndexRange>& ranges = plan.main.partial[0].ranges;
+  ASSERT_EQ(ranges.size(), 1u);
+  EXPECT_EQ(ranges[0].first, 0u);
+  // The lowest 0.67 m of 2 m, and the rest of its last cluster.
+  EXPECT_GE(ranges[0].count, 6u * 32u * 10u);
+  EXPECT_LE(ranges[0].count, 6u * 32u * 13u);
+  settings.debug.cullClusters = false;
+  EXPECT_TRUE(planFrame(scene, evaluate(scene, 0.0), settings, 640, 360).main.partial.empty());
+}
+
+TEST(Clusters, ObjectsOfWhichOnlyTheBoxIsSeenAreNotDrawn) {
+  // A corner of the box, where the mesh has nothing: an L of clusters.
+  Scene scene = sceneOf({});
+  Mesh& mesh = scene.meshes[0];
+  std::erase_if(mesh.clusters, [](const MeshCluster& c) { return c.center.y > -0.5; });
+  Object& object = scene.objects[0];
+  object.position = {0, -1.2, -1.5};
+  const FramePlan plan = planFrame(scene, evaluate(scene, 0.0), {}, 640, 360);
+  EXPECT_TRUE(plan.main.instances.empty());
+}
+
+// Against every triangle itself, from random places, in mirrors too.
+TEST(Clusters, NeverLeaveOutWhatIsSeen) {
+  std::mt19937 engine(7);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  const Mesh mesh = sheet();
+  uint64_t drawn = 0;
+  uint64_t seen = 0;
+  uint64_t whole = 0;
+  int partial = 0;
+  for (int round = 0; round < 400; ++round) {
+    Object object;
+    object.position = {uniform(-1.5, 1.5), uniform(-1.5, 1.5), uniform(-4, 1)};
+    object.rotation = {uniform(-180, 180), uniform(-180, 180), uniform(-180, 180)};
+    object.scale = {uniform(0.2, 3), uniform(0.2, 3), uniform(0.2, 3)};
+    Mirror mirror;
+    mirror.position = {uniform(-1, 1), uniform(-1, 1), -3};
+    mirror.rotation = {uniform(-30, 30), uniform(-30, 30), 0};
+    mirror.size = {uniform(0.1, 2), uniform(0.1, 2)};
+    const Scene scene = sceneOf(object, {mirror});
+    const SceneState state = evaluate(scene, 0.0);
+    const FramePlan plan = planFrame(scene, state, {}, 640, 360);
+    std::vector<const PlannedPass*> passes{&plan.main};
+    for (const PlannedPass& pass : plan.passes) {
+      passes.push_back(&pass);
+    }
+    for (const PlannedPass* pass : passes) {
+      const InstanceState& instance = state.instances[0];
+      std::vector<IndexRange> ranges = pass->instances.empty() ? std::vector<IndexRange>() : std::vector{allOf(mesh)};
+      if (!pass->partial.empty()) {
+        ranges = pass->partial[0].ranges;
+        ++partial;
+      }
+      drawn += countOf(ranges);
+      whole += pass->instances.empty() ? 0 : mesh.indices.size();
+      for (uint32_t i = 0; i < mesh.indices.size(); i += 3) {
+        std::array<glm::dvec3, 3> triangle;
+        for (int k = 0; k < 3; ++k) {
+          triangle[k] = instance.worldFromMesh.point(mesh.vertices[mesh.indices[i + k]].position);
+        }
+        if (visiblePart(pass->view, triangle).empty()) {
+          continue;
+        }
+        seen += 3;
+        EXPECT_TRUE(std::any_of(
+            ranges.begin(), ranges.end(),
+            [&](const IndexRange& range) { return i >= range.first && i + 3 <= range.first + range.count; }))
+            << "round " << round << ", triangle " << i / 3;
+      }
+    }
+  }
+  EXPECT_GT(partial, 200);
+  EXPECT_LT(4 * (drawn - seen), 3 * (whole - seen)) << "of what is not seen at least a quarter is left out";
+}
+
+}  // namespace
+}  // namespace speculum
