@@ -60,7 +60,7 @@ TEST(GizmoOfMoving, EveryHandleIsFoundWhereItIsDrawn) {
   const PictureView picture = lookingAt({3, 2, 4}, {0, 0, 0});
   for (const GizmoMode mode : {GizmoMode::move, GizmoMode::turn}) {
     const Gizmo gizmo(mode, {0.2, 0.1, 0.0}, arm);
-    std::vector<Handle> drawn;
+    std::vector<Grip> drawn;
     for (const GizmoShape& shape : gizmo.shapes(picture)) {
       ASSERT_GE(shape.points.size(), 2u);
       glm::dvec2 middle(0.0);
@@ -75,7 +75,7 @@ TEST(GizmoOfMoving, EveryHandleIsFoundWhereItIsDrawn) {
       }
     }
     EXPECT_GE(drawn.size(), mode == GizmoMode::turn ? 3u : 7u);
-    EXPECT_EQ(gizmo.at(picture, picture.pixel(gizmo.pivot()).value() + glm::dvec2(300.0, 0.0), 6.0), Handle::none);
+    EXPECT_EQ(gizmo.at(picture, picture.pixel(gizmo.pivot()).value() + glm::dvec2(300.0, 0.0), 6.0), Grip::none);
   }
 }
 
@@ -95,9 +95,9 @@ TEST(GizmoOfMoving, IsAsLargeAtEveryDistance) {
 TEST(GizmoOfMoving, WhatPointsAtTheEyeIsLeftOut) {
   const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
   for (const GizmoShape& shape : Gizmo(GizmoMode::move, {0, 0, 0}, arm).shapes(picture)) {
-    EXPECT_NE(shape.handle, Handle::moveZ);
-    EXPECT_NE(shape.handle, Handle::moveYZ);
-    EXPECT_NE(shape.handle, Handle::moveZX);
+    EXPECT_NE(shape.handle, Grip::moveZ);
+    EXPECT_NE(shape.handle, Grip::moveYZ);
+    EXPECT_NE(shape.handle, Grip::moveZX);
   }
 }
 
@@ -113,7 +113,7 @@ TEST(GizmoDragging, AnAxisFollowsThePointer) {
     const auto to = picture.pixel(pivot + by);
     const glm::dvec3 sight = glm::normalize(pivot - eye);
     RC_PRE(from && to && std::abs(sight[axis]) < 0.95);
-    GizmoDrag drag(picture, Gizmo(GizmoMode::move, pivot, arm), static_cast<Handle>(axis + 1), *from);
+    GizmoDrag drag(picture, Gizmo(GizmoMode::move, pivot, arm), static_cast<Grip>(axis + 1), *from);
     const glm::dvec3 moved = drag.to(*to, false).translation;
     RC_ASSERT(glm::distance(moved, by) < 0.2 * picture.metresPerPixel(pivot));
     const glm::dvec3 snapped = drag.to(*to, true).translation;
@@ -131,7 +131,7 @@ TEST(GizmoDragging, ThroughAMirrorTheImageFollowsThePointer) {
   const glm::dvec3 by(0.0, 0.25, 0.4);
   for (const std::vector<int>& path : {std::vector<int>{0}, std::vector<int>{0, 1}}) {
     const PictureView picture = lookingAt({0.5, 0.4, 3.0}, {0, 0, -2}).through(scene, state, path).value();
-    GizmoDrag drag(picture, Gizmo(GizmoMode::move, pivot, arm), Handle::moveYZ, picture.pixel(pivot).value());
+    GizmoDrag drag(picture, Gizmo(GizmoMode::move, pivot, arm), Grip::moveYZ, picture.pixel(pivot).value());
     const glm::dvec3 moved = drag.to(picture.pixel(pivot + by).value(), false).translation;
     EXPECT_NEAR(glm::distance(moved, by), 0.0, 0.3 * picture.metresPerPixel(pivot));
   }
@@ -146,14 +146,14 @@ TEST(GizmoDragging, PlanesAndRingsFollowThePointer) {
     glm::dvec3 by = inBox(0.5);
     by[axis] = 0.0;
     const double pixel = picture.metresPerPixel(pivot);
-    GizmoDrag plane(picture, moving, static_cast<Handle>(axis + 4), *picture.pixel(pivot));
+    GizmoDrag plane(picture, moving, static_cast<Grip>(axis + 4), *picture.pixel(pivot));
     RC_ASSERT(glm::distance(plane.to(*picture.pixel(pivot + by), false).translation, by) < 0.2 * pixel);
 
     glm::dvec3 radius(0.0);
     radius[(axis + 1) % 3] = arm * pixel;
     glm::dvec3 unit(0.0);
     unit[axis] = 1.0;
-    GizmoDrag ring(picture, Gizmo(GizmoMode::turn, pivot, arm), static_cast<Handle>(axis + 8),
+    GizmoDrag ring(picture, Gizmo(GizmoMode::turn, pivot, arm), static_cast<Grip>(axis + 8),
                    *picture.pixel(pivot + radius));
     const double total = uniform(-700.0, 700.0);
     double degrees = 0.0;
@@ -171,7 +171,7 @@ TEST(GizmoDragging, PlanesAndRingsFollowThePointer) {
 TEST(GizmoDragging, ARingSeenFromItsEdgeCountsPixels) {
   const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
   const glm::dvec2 start(450.0, 350.0);
-  GizmoDrag ring(picture, Gizmo(GizmoMode::turn, {0, 0, 0}, arm), Handle::turnY, start);
+  GizmoDrag ring(picture, Gizmo(GizmoMode::turn, {0, 0, 0}, arm), Grip::turnY, start);
   EXPECT_NEAR(ring.to(start + glm::dvec2(arm, 0.0), false).degrees, glm::degrees(1.0), 0.1)
       << "to the right is counter-clockwise seen from above";
   EXPECT_NEAR(ring.to(start + glm::dvec2(arm, 50.0), false).degrees, glm::degrees(1.0), 0.1);
@@ -179,7 +179,7 @@ TEST(GizmoDragging, ARingSeenFromItsEdgeCountsPixels) {
 
 TEST(GizmoDragging, BeyondTheHorizonTheLastChangeStays) {
   const PictureView picture = lookingAt({0, 1, 4}, {0, 1, 0});
-  GizmoDrag drag(picture, Gizmo(GizmoMode::move, {0, 0, 0}, arm), Handle::moveZX, {450.0, 500.0});
+  GizmoDrag drag(picture, Gizmo(GizmoMode::move, {0, 0, 0}, arm), Grip::moveZX, {450.0, 500.0});
   const glm::dvec3 low = drag.to({450.0, 450.0}, false).translation;
   EXPECT_LT(low.z, -0.1);
   EXPECT_EQ(drag.to({450.0, 340.0}, false).translation, low);

@@ -20,16 +20,8 @@ constexpr int framesAfterChange = 4;
 void Demo::installInput() {
   WindowCallbacks callbacks;
   callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
-  callbacks.mouseButton = [this](const MouseButtonEvent& event) {
-    dragging_ = event.pressed && !(ui_ && ui_->wantsMouse());
-  };
-  callbacks.cursor = [this](double x, double y) {
-    if (dragging_) {
-      camera_.drag(x - cursorX_, y - cursorY_);
-    }
-    cursorX_ = x;
-    cursorY_ = y;
-  };
+  callbacks.mouseButton = [this](const MouseButtonEvent& event) { pressPointer(event); };
+  callbacks.cursor = [this](double x, double y) { movePointer(x, y); };
   callbacks.scroll = [this](double, double dy) {
     if (!(ui_ && ui_->wantsMouse())) {
       camera_.zoom(dy);
@@ -39,7 +31,7 @@ void Demo::installInput() {
 }
 
 void Demo::handleKey(const KeyEvent& event) {
-  if (!event.pressed || !ui_ || ui_->wantsKeyboard()) {
+  if (!event.pressed || !ui_ || ui_->wantsKeyboard() || handleEditKey(event)) {
     return;
   }
   if (event.key == Key::period || event.key == Key::comma) {
@@ -100,7 +92,7 @@ void Demo::moveCamera(double seconds) {
 
 // Along right, up and backwards of the view.
 glm::dvec3 Demo::heldDirection() const {
-  if (ui_->wantsKeyboard()) {
+  if (ui_->wantsKeyboard() || window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl)) {
     return glm::dvec3(0.0);
   }
   const auto axis = [&](Key positive, Key negative) {
@@ -134,19 +126,19 @@ bool Demo::step() {
   last_ = now;
   if (window_.paused()) {
     window_.waitEvents(restSeconds);
-    return !window_.shouldClose();
+    return !closes();
   }
   if (changing()) {
     framesDue_ = framesAfterChange + model_.settings.reflection.updateInterval;
   }
   if (framesDue_ == 0 && !rest()) {
-    return !window_.shouldClose();
+    return !closes();
   }
   if (!std::exchange(rested_, false)) {
     model_.frameMs += (model_.frameMs == 0.0 ? 1.0 : smoothing) * (1000.0 * seconds - model_.frameMs);
   }
   drawFrame(std::min(seconds, longestStep));
-  return !window_.shouldClose();
+  return !closes();
 }
 
 }  // namespace speculum

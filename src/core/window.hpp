@@ -18,8 +18,11 @@ enum class Key {
   enter,
   tab,
   space,
+  del,
   leftShift,
+  rightShift,
   leftControl,
+  rightControl,
   w,
   a,
   s,
@@ -28,6 +31,10 @@ enum class Key {
   e,
   r,
   f,
+  g,
+  n,
+  y,
+  z,
   comma,
   period,
   leftBracket,
@@ -44,6 +51,7 @@ struct KeyEvent {
   bool pressed = false;
   bool repeat = false;
   bool shift = false;
+  bool control = false;
 };
 struct MouseButtonEvent {
   MouseButton button = MouseButton::left;
@@ -78,6 +86,7 @@ class Window {
   void waitEvents(double timeoutSeconds);  // sleeps until something happens
   bool shouldClose() const;
   void requestClose();
+  void refuseClose();  // takes back what asked for it
 
   VkExtent2D framebufferExtent() const;  // pixels; 0x0 is possible
   VkExtent2D size() const;               // screen coordinates

@@ -23,16 +23,16 @@ constexpr double steepestAxis = 0.15;
 constexpr double flattestPlane = 0.12;
 constexpr double flattestRing = 0.15;  // below it, turning counts pixels along the ring's edge
 
-constexpr std::array moveAxes = {Handle::moveX, Handle::moveY, Handle::moveZ};
-constexpr std::array movePlanes = {Handle::moveYZ, Handle::moveZX, Handle::moveXY};
-constexpr std::array rings = {Handle::turnX, Handle::turnY, Handle::turnZ};
+constexpr std::array moveAxes = {Grip::moveX, Grip::moveY, Grip::moveZ};
+constexpr std::array movePlanes = {Grip::moveYZ, Grip::moveZX, Grip::moveXY};
+constexpr std::array rings = {Grip::turnX, Grip::turnY, Grip::turnZ};
 
-bool isPlane(Handle handle) {
-  return handle >= Handle::moveYZ && handle <= Handle::moveXY;
+bool isPlane(Grip handle) {
+  return handle >= Grip::moveYZ && handle <= Grip::moveXY;
 }
 
-bool isRing(Handle handle) {
-  return handle >= Handle::turnX;
+bool isRing(Grip handle) {
+  return handle >= Grip::turnX;
 }
 
 glm::dvec3 unit(int axis) {
@@ -57,7 +57,7 @@ void addLine(GizmoShape& shape, const std::optional<PixelLine>& line) {
 }
 
 // Nothing if a corner is not on the picture.
-std::optional<GizmoShape> filled(const PictureView& picture, Handle handle, std::span<const glm::dvec3> corners) {
+std::optional<GizmoShape> filled(const PictureView& picture, Grip handle, std::span<const glm::dvec3> corners) {
   GizmoShape shape{.handle = handle, .filled = true};
   for (const glm::dvec3& corner : corners) {
     const auto pixel = picture.pixel(corner);
@@ -112,7 +112,7 @@ double rounded(double value, double step) {
 // An arrow as lines, its head as a triangle of so many pixels.
 void addArrow(const PictureView& picture, const glm::dvec3& pivot, int axis, double length,
               std::vector<GizmoShape>& shapes) {
-  const Handle handle = moveAxes[static_cast<size_t>(axis)];
+  const Grip handle = moveAxes[static_cast<size_t>(axis)];
   GizmoShape shaft{.handle = handle};
   addLine(shaft, picture.line(pivot + axisStart * length * unit(axis), pivot + length * unit(axis)));
   const auto tail = picture.pixel(pivot);
@@ -128,7 +128,7 @@ void addArrow(const PictureView& picture, const glm::dvec3& pivot, int axis, dou
 }
 
 void addCenter(const glm::dvec2& center, std::vector<GizmoShape>& shapes) {
-  GizmoShape circle{.handle = Handle::moveView, .filled = true};
+  GizmoShape circle{.handle = Grip::moveView, .filled = true};
   for (int i = 0; i < 20; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / 20.0;
     circle.points.push_back(center + centerPixels * glm::dvec2(std::cos(angle), std::sin(angle)));
@@ -154,11 +154,11 @@ void addRing(const PictureView& picture, const glm::dvec3& pivot, int axis, doub
 
 }  // namespace
 
-int axisOf(Handle handle) {
-  if (handle == Handle::none || handle == Handle::moveView) {
+int axisOf(Grip handle) {
+  if (handle == Grip::none || handle == Grip::moveView) {
     return -1;
   }
-  const Handle first = isRing(handle) ? Handle::turnX : isPlane(handle) ? Handle::moveYZ : Handle::moveX;
+  const Grip first = isRing(handle) ? Grip::turnX : isPlane(handle) ? Grip::moveYZ : Grip::moveX;
   return static_cast<int>(handle) - static_cast<int>(first);
 }
 
@@ -195,8 +195,8 @@ std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
 }
 
 // Of what is equally near, what is drawn on top.
-Handle Gizmo::at(const PictureView& picture, const glm::dvec2& pixel, double reach) const {
-  Handle found = Handle::none;
+Grip Gizmo::at(const PictureView& picture, const glm::dvec2& pixel, double reach) const {
+  Grip found = Grip::none;
   double nearest = reach;
   for (const GizmoShape& shape : shapes(picture)) {
     const double distance = distanceTo(shape, pixel) + (shape.behind ? 0.5 * reach : 0.0);
@@ -208,12 +208,12 @@ Handle Gizmo::at(const PictureView& picture, const glm::dvec2& pixel, double rea
   return found;
 }
 
-GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Handle handle, const glm::dvec2& pixel)
+GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle, const glm::dvec2& pixel)
     : picture_(picture), handle_(handle), pivot_(gizmo.pivot()), arm_(gizmo.arm()), pressed_(pixel) {
   const glm::dvec3 sight = towards(picture, pivot_);
   const int axis = axisOf(handle);
   axis_ = axis >= 0 ? unit(axis) : glm::dvec3(0.0);
-  if (handle == Handle::moveView) {
+  if (handle == Grip::moveView) {
     normal_ = picture.forward();
   } else if (isRing(handle)) {
     normal_ = axis_;
@@ -249,7 +249,7 @@ std::optional<glm::dvec3> GizmoDrag::moveAt(const glm::dvec2& pixel) const {
     return std::nullopt;
   }
   const glm::dvec3 by = *met - start_;
-  return handle_ == Handle::moveView || isPlane(handle_) ? by : axis_ * glm::dot(axis_, by);
+  return handle_ == Grip::moveView || isPlane(handle_) ? by : axis_ * glm::dot(axis_, by);
 }
 
 // Degrees, unbounded in the second case only.

@@ -7,14 +7,14 @@ namespace speculum {
 enum class GizmoMode { move, turn };
 
 // What the pointer takes hold of. Planes are named by the axes along which they move.
-enum class Handle { none, moveX, moveY, moveZ, moveYZ, moveZX, moveXY, moveView, turnX, turnY, turnZ };
+enum class Grip { none, moveX, moveY, moveZ, moveYZ, moveZX, moveXY, moveView, turnX, turnY, turnZ };
 
 // The axis of the world that a handle stands for: 0, 1, 2; of a plane its normal. -1 for the view's plane and none.
-int axisOf(Handle handle);
+int axisOf(Grip handle);
 
 // A part of the gizmo over the picture.
 struct GizmoShape {
-  Handle handle = Handle::none;
+  Grip handle = Grip::none;
   std::vector<glm::dvec2> points;  // pixels; a polygon if it is filled, otherwise pairs of ends of lines
   bool filled = false;
   bool behind = false;  // the far half of a ring
@@ -30,7 +30,7 @@ class Gizmo {
   // Nothing for a point that the picture cannot show.
   std::vector<GizmoShape> shapes(const PictureView& picture) const;
   // The handle within `reach` pixels of a point of the picture.
-  Handle at(const PictureView& picture, const glm::dvec2& pixel, double reach) const;
+  Grip at(const PictureView& picture, const glm::dvec2& pixel, double reach) const;
 
   double arm() const { return arm_; }
   const glm::dvec3& pivot() const { return pivot_; }
@@ -52,9 +52,9 @@ class GizmoDrag {
   static constexpr double moveSnap = 0.1;   // metres
   static constexpr double turnSnap = 15.0;  // degrees
 
-  GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Handle handle, const glm::dvec2& pixel);
+  GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle, const glm::dvec2& pixel);
 
-  Handle handle() const { return handle_; }
+  Grip handle() const { return handle_; }
   // What the pointer asks for in all since the press. Where its ray meets nothing, say above the horizon of a plane,
   // the last change stays. Without `snap` it is rounded to less than a tenth of a pixel, for short numbers.
   Change to(const glm::dvec2& pixel, bool snap);
@@ -65,7 +65,7 @@ class GizmoDrag {
   std::optional<glm::dvec3> meet(const glm::dvec2& pixel) const;
 
   PictureView picture_;
-  Handle handle_;
+  Grip handle_;
   glm::dvec3 pivot_;
   double arm_;
   glm::dvec3 axis_{0.0};    // of the handle

@@ -12,7 +12,17 @@ namespace {
 
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
-constexpr std::array<KeyHelp, 16> keys{{
+constexpr std::array<KeyHelp, 26> keys{{
+    {"click", "select what is there, in mirrors too; again: the mirror it is seen in"},
+    {"G", "handles that move, handles that turn (Ctrl while dragging: steps)"},
+    {"N Shift+N", "select the next thing, the one before"},
+    {"F2", "inspector: everything in the scene, with its numbers"},
+    {"Ctrl+D", "duplicate the selected thing"},
+    {"Del", "delete it"},
+    {"Ctrl+Z", "undo"},
+    {"Ctrl+Shift+Z", "redo, as Ctrl+Y"},
+    {"Ctrl+S", "save the scene"},
+    {"Ctrl+Shift+S", "save it as another file"},
     {"drag", "look around: about the target (orbit) or from where you are (fly)"},
     {"wheel", "nearer or farther"},
     {"W A S D", "forwards, left, back, right"},
@@ -28,7 +38,7 @@ constexpr std::array<KeyHelp, 16> keys{{
     {"F11", "full screen and back"},
     {"Tab", "hide or show the panel"},
     {"F1", "this list"},
-    {"Esc", "quit"},
+    {"Esc", "stop dragging, deselect, quit"},
 }};
 
 }  // namespace
