@@ -37,7 +37,7 @@ int whole(int low, int high) {
 }
 
 double number() {
-  const double size = std::pow(10.0, whole(-9, 9)) * whole(0, 1 << 30) / 7.0;
+  const double size = std::pow(10.0, whole(-16, 3)) * whole(0, 1 << 30) / 7.0;
   return std::array{0.0, 1.0, size, -size}[whole(0, 4)];
 }
 
@@ -145,7 +145,7 @@ void editMirror(Mirror& mirror) {
       mirror.ripple = Ripple{share() + 0.001, share() + 0.001, number()};
       break;
     case 6:
-      mirror = Mirror{.name = mirror.name, .position = color(), .size = {positive(), positive()}};
+      mirror = Mirror{.name = mirror.name, .position = color(), .size = {share() + 0.25, share() + 0.25}};
       break;
     default:
       mirror = Mirror{.name = mirror.name};

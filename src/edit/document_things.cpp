@@ -76,7 +76,7 @@ void moveBeside(Mirror& mirror, const MirrorState& state) {
     high = std::max(high, x);
   }
   const glm::dvec3 step = 1.1 * (high - low) * state.axisX;
-  mirror.position += step;
+  mirror.position += mirror.polygon.empty() ? step : glm::dvec3(0.0);
   for (glm::dvec3& vertex : mirror.polygon) {
     vertex += step;
   }

@@ -274,7 +274,7 @@ void TomlEditor::addBlock(size_t at, const std::string& header, const std::vecto
     text += keyValue(key, width, broken(value, std::max(width, key.size() + 1) + 2, lineBreak_)) + lineBreak_;
   }
   const bool blankBelow = at == text_.size() || line(at).empty();
-  edits_.push_back({{at, at}, text + (blankBelow ? "" : lineBreak_)});
+  edits_.push_back({{at, at}, text + (blankBelow ? "" : lineBreak_), true});
 }
 
 void TomlEditor::addSection(const std::string& name, const std::vector<std::string>& after,
@@ -353,7 +353,9 @@ std::string TomlEditor::text() const {
     if (edit.range.begin < at) {
       throw std::logic_error("changes of a text overlap");
     }
-    result.append(text_, at, edit.range.begin - at).append(edit.text);
+    result.append(text_, at, edit.range.begin - at);
+    const bool blankAbove = result.ends_with(lineBreak_ + lineBreak_);
+    result.append(edit.text, edit.block && blankAbove ? lineBreak_.size() : 0);
     at = edit.range.end;
   }
   result.append(text_, at);

@@ -40,6 +40,7 @@ class TomlEditor {
   struct Edit {
     TextRange range;
     std::string text;
+    bool block = false;  // begins with a blank line
   };
   // What becomes of braces or brackets.
   struct ListChange {
