@@ -219,7 +219,7 @@ TEST(EditedText, AddedAndRemovedInBrackets) {
 }
 
 TEST(EditedText, SettingsWhereverTheyStand) {
-  const auto saved = [](const std::string& text, const std::vector<SettingChange>& changes) {
+  const auto saved = [](const std::string& text, const std::vector<SavedSetting>& changes) {
     return TextScene(text).saved(changes);
   };
   const std::string quoted = std::string(kCamera) + "[settings]\n\"view.exposure\" = 1.50 # bright\n";

@@ -294,7 +294,7 @@ TEST(SaveScene, SettingsOfTheWindowAreSavedToo) {
   after.view.toneMap = ToneMap::aces;
   after.view.clearColor = glm::dvec3(0.1, 0.2, 0.3);
   after.reflection.maxDepth = 2;
-  const std::vector<SettingChange> changes = settingChanges(before, after);
+  const std::vector<SavedSetting> changes = settingChanges(before, after);
   EXPECT_EQ(changes.size(), 4u);
   text.document.save(text.file, changes);
   EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(after));
@@ -336,7 +336,7 @@ TEST(SaveScene, EverySettingReadsBack) {
     ASSERT_EQ(setSetting(other, key, value), std::nullopt);
   }
   TextScene text(kText);
-  const std::vector<SettingChange> changes = settingChanges(Settings(), other);
+  const std::vector<SavedSetting> changes = settingChanges(Settings(), other);
   EXPECT_EQ(changes.size(), settingInfos().size()) << "a setting is not tried";
   text.document.save(text.file, changes);
   EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(other));

@@ -209,11 +209,11 @@ fs::path SceneDocument::usualFile() const {
   return isModel(scene_.file) ? fs::path(scene_.file).replace_extension(".toml") : scene_.file;
 }
 
-std::string SceneDocument::text(const fs::path& file, std::span<const SettingChange> settings) const {
+std::string SceneDocument::text(const fs::path& file, std::span<const SavedSetting> settings) const {
   return editedText(loaded_, content(), scene_.meshes, settings, file);
 }
 
-void SceneDocument::save(const fs::path& file, std::span<const SettingChange> settings, bool overwrite) {
+void SceneDocument::save(const fs::path& file, std::span<const SavedSetting> settings, bool overwrite) {
   endGesture();
   if (isModel(file)) {
     throw SaveError(oneLine(file.string() + ": not saved: it is the name of a model (name a file such as " +
@@ -229,8 +229,8 @@ void SceneDocument::save(const fs::path& file, std::span<const SettingChange> se
   savedText_ = std::move(text);
 }
 
-std::vector<SettingChange> settingChanges(const Settings& from, const Settings& to) {
-  std::vector<SettingChange> changes;
+std::vector<SavedSetting> settingChanges(const Settings& from, const Settings& to) {
+  std::vector<SavedSetting> changes;
   for (const SettingInfo& info : settingInfos()) {
     std::string value = settingValue(to, info.key);
     if (settingValue(from, info.key) != value) {

@@ -76,9 +76,9 @@ class SceneDocument {
   std::filesystem::path usualFile() const;
   // Writes the scene with the changes of settings since it was loaded. The file is the scene's from then on. Throws
   // SaveError; see writeSceneFile for `overwrite`.
-  void save(const std::filesystem::path& file, std::span<const SettingChange> settings, bool overwrite = false);
+  void save(const std::filesystem::path& file, std::span<const SavedSetting> settings, bool overwrite = false);
   // As save() would write it.
-  std::string text(const std::filesystem::path& file, std::span<const SettingChange> settings) const;
+  std::string text(const std::filesystem::path& file, std::span<const SavedSetting> settings) const;
 
  private:
   // What undo or redo brings back, and what is selected before and after the step.
@@ -115,6 +115,6 @@ class SceneDocument {
 };
 
 // What differs between the two, for save().
-std::vector<SettingChange> settingChanges(const Settings& from, const Settings& to);
+std::vector<SavedSetting> settingChanges(const Settings& from, const Settings& to);
 
 }  // namespace speculum

@@ -97,7 +97,7 @@ std::vector<TomlNode*> findSetting(TomlNode& table, std::string_view key) {
   return {};
 }
 
-std::string settingText(const SettingChange& change) {
+std::string settingText(const SavedSetting& change) {
   const nlohmann::ordered_json usual = settingsJson(Settings())[change.key];
   if (usual.is_string()) {
     return tomlText(std::string_view(change.value));
@@ -109,9 +109,9 @@ std::string settingText(const SettingChange& change) {
   return text;
 }
 
-void editSettings(TomlEditor& editor, const Settings& loaded, std::span<const SettingChange> changes) {
+void editSettings(TomlEditor& editor, const Settings& loaded, std::span<const SavedSetting> changes) {
   std::vector<KeyText> fresh;
-  for (const SettingChange& change : changes) {
+  for (const SavedSetting& change : changes) {
     TomlNode* settings = editor.outline().child("settings");
     const std::vector<TomlNode*> found = settings ? findSetting(*settings, change.key) : std::vector<TomlNode*>();
     if (settingValue(loaded, change.key) == change.value) {
@@ -203,12 +203,12 @@ SceneContent contentOf(const Scene& scene) {
 }
 
 std::string editedText(const Scene& loaded, const SceneContent& edited, std::span<const Mesh> meshes,
-                       std::span<const SettingChange> settings, const fs::path& file) {
+                       std::span<const SavedSetting> settings, const fs::path& file) {
   SceneContent content = edited;
   namesModels(loaded, meshes, file, content);
   Settings wanted = settingsOf(loaded);
   const Settings before = wanted;
-  for (const SettingChange& change : settings) {
+  for (const SavedSetting& change : settings) {
     if (change.value.empty() && change.key == "view.clear_color") {
       wanted.view.clearColor.reset();
     } else if (const auto problem = setSetting(wanted, change.key, change.value)) {

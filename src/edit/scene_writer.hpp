@@ -11,7 +11,7 @@
 namespace speculum {
 
 // A key of [settings] with its value as settingValue() gives it; empty: not set.
-struct SettingChange {
+struct SavedSetting {
   std::string key;
   std::string value;
 };
@@ -26,7 +26,7 @@ class SaveError : public std::runtime_error {
 // means. Whatever did not change keeps its text, comments and order. Paths of models are relative to the folder of
 // `file`. Throws SaveError if the text would not read back as exactly this content.
 std::string editedText(const Scene& loaded, const SceneContent& content, std::span<const Mesh> meshes,
-                       std::span<const SettingChange> settings, const std::filesystem::path& file);
+                       std::span<const SavedSetting> settings, const std::filesystem::path& file);
 
 // Writes `text` in the place of the file, whole or not at all. Throws SaveError if that fails, or if the file holds
 // anything but `expected` by now (nothing: if there is a file); `overwrite` takes that for granted.
