@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "image/image.hpp"
+#include "scene/scene_state.hpp"
 #include "scene_support.hpp"
 
 namespace speculum {
@@ -205,6 +206,24 @@ TEST(SceneLoader, ReadsMirrors) {
   EXPECT_EQ(mirror.backColor, glm::dvec3(0, 1, 2));
   EXPECT_TRUE(mirror.castsLight);
   EXPECT_EQ(scene.mirrors[1].polygon, (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+}
+
+TEST(SceneLoader, ReadsBookmarks) {
+  const Scene scene = load(
+      "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nup = [0, 2, 0]\nvertical_fov = 40\n"
+      "[[bookmark]]\nname = 'door'\nposition = [1, 2, 3]\ntarget = [0, 2, 0]\n"
+      "[[bookmark]]\nname = 'Tür'\nposition = [1, 9, 1]\ntarget = [1, 0, 1]\nup = [0, 0, -1]\n"
+      "vertical_fov = 90\n");
+  ASSERT_EQ(scene.bookmarks.size(), 2u);
+  EXPECT_EQ(scene.bookmarks[1].name, "Tür");
+  const CameraSpec door = cameraOf(scene.bookmarks[0], scene.camera);
+  EXPECT_EQ(door.position, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(door.target, glm::dvec3(0, 2, 0));
+  EXPECT_EQ(door.up, glm::dvec3(0, 2, 0));
+  EXPECT_EQ(door.verticalFov, 40.0);
+  const CameraSpec above = cameraOf(scene.bookmarks[1], scene.camera);
+  EXPECT_EQ(above.up, glm::dvec3(0, 0, -1));
+  EXPECT_EQ(above.verticalFov, 90.0);
 }
 
 TEST(SceneLoader, OneScaleStandsForThree) {

@@ -191,6 +191,26 @@ INSTANTIATE_TEST_SUITE_P(
               "7: mirror[a?b].fresnel:", "is an integer"}),
     nameOf);
 
+const std::string kBookmark = "[[bookmark]]\nname = 'door'\n";
+const std::string kDoor = kBookmark + "position = [0, 1, 4]\ntarget = [0, 1, 0]\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Bookmark, SceneFault,
+    testing::Values(
+        Fault{"WithoutName", "[[bookmark]]\nposition = [0, 0, 1]\n", "4: bookmark[0].name:", "is missing"},
+        Fault{"NameIsEmpty", "[[bookmark]]\nname = ''\n", "5: bookmark[0].name:", "is empty"},
+        Fault{"NameOfAnother", kDoor + kDoor, "9: bookmark[door].name:", "another bookmark's"},
+        Fault{"WithoutPosition", kBookmark + "target = [0, 0, 1]\n", "4: bookmark[door].position:", "is missing"},
+        Fault{"WithoutTarget", kBookmark + "position = [0, 0, 1]\n", "4: bookmark[door].target:", "is missing"},
+        Fault{"TargetIsPosition", kBookmark + "position = [0, 0, 1]\ntarget = [0, 0, 1]\n",
+              "7: bookmark[door].target:", "away from position"},
+        Fault{"AlongTheUpOfTheCamera", kBookmark + "position = [0, 5, 1]\ntarget = [0, 0, 1]\n",
+              "7: bookmark[door].target:", "parallel"},
+        Fault{"UpIsZero", kDoor + "up = [0, 0, 0]\n", "8: bookmark[door].up:", "has no direction"},
+        Fault{"FieldOfView", kDoor + "vertical_fov = 171\n", "8: bookmark[door].vertical_fov:", "1 .. 170"},
+        Fault{"UnknownKey", kDoor + "fov = 40\n", "8: bookmark[door].fov:", "one of: name"}),
+    nameOf);
+
 TEST(SceneFaults, CameraParts) {
   expectFault("", "1: camera:", "is missing");
   expectFault("title = 'x'\n\n[camera]\ntarget = [0, 0, 0]\n", "3: camera.position:", "is missing");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "optics/affine.hpp"
@@ -12,12 +13,11 @@ namespace {
 
 constexpr double degreesPerPixel = 0.25;
 constexpr double zoomPerNotch = 0.88;
-constexpr double lean = 0.15;       // tangent of an angle
-constexpr double steepest = 0.995;  // cosine of view direction and up
+constexpr double lean = 0.15;        // tangent of an angle
+constexpr double steepest = 0.995;   // cosine of view direction and up
+constexpr double leastLight = 0.25;  // metres around a light that are worth a look
 
-}  // namespace
-
-Sphere boundsOf(const SceneState& state) {
+Sphere boundsOfAll(const SceneState& state) {
   glm::dvec3 low(std::numeric_limits<double>::infinity());
   glm::dvec3 high = -low;
   const auto add = [&](const glm::dvec3& center, double radius) {
@@ -45,6 +45,26 @@ Sphere boundsOf(const SceneState& state) {
     }
   }
   return sphere;
+}
+
+}  // namespace
+
+Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& selection) {
+  SceneState shown;
+  switch (selection.kind) {
+    case Selection::Kind::none:
+      return boundsOfAll(state);
+    case Selection::Kind::light:
+      return {state.lights[selection.index].position, std::max(scene.lights[selection.index].radius, leastLight)};
+    case Selection::Kind::mirror:
+      shown.mirrors = {state.mirrors[selection.index]};
+      return boundsOfAll(shown);
+    case Selection::Kind::object:
+      std::copy_if(state.instances.begin(), state.instances.end(), std::back_inserter(shown.instances),
+                   [&](const InstanceState& i) { return i.object == selection.index && i.copy == selection.copy; });
+      return boundsOfAll(shown);
+  }
+  return {};
 }
 
 void CameraController::reset(const CameraSpec& spec) {

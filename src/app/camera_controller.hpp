@@ -1,5 +1,6 @@
 #pragma once
 
+#include "edit/selection.hpp"
 #include "scene/scene_state.hpp"
 #include "ui/ui_model.hpp"
 
@@ -9,8 +10,8 @@ struct Sphere {
   glm::dvec3 center{0.0};  // world
   double radius = 0.0;     // metres
 };
-// Holds objects and mirrors as they are; of radius 0 if there are none.
-Sphere boundsOf(const SceneState& state);
+// Holds the selected thing; with nothing selected objects and mirrors as they are, of radius 0 if there are none.
+Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& selection = {});
 
 // Moves the camera by hand. Until it is first touched, the camera is the scene's, animation included.
 class CameraController {

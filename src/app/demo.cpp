@@ -36,6 +36,7 @@ Demo::Demo(const Options& options)
   model_.renderPath = "render path: " + std::string(renderPathName(device_.renderPath()));
   model_.accuracy.choice = loaded_->quality ? loaded_->quality->why : "";
   camera_.reset(loaded_->scene.camera);
+  startEditing();
   last_ = Clock::now();
 }
 
@@ -72,7 +73,9 @@ void Demo::chooseScene(int index) {
     renderer_.waitIdle();
     nonFinite_ = nonFinite();
     sceneRenderer_.reset();
+    editor_.reset();
     loaded_ = std::move(next);
+    startEditing();
     sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
     model_.settings = loaded_->settings;
     model_.debugPass = -1;
@@ -93,9 +96,10 @@ void Demo::applyModel() {
   if (model_.resetCamera) {
     camera_.reset(loaded_->scene.camera);
   }
-  if (model_.scene != shownScene_) {
+  if (model_.scene != shownScene_ && mayChoose(model_.scene)) {
     chooseScene(model_.scene);
   }
+  applyEdit();
   if (model_.copyCommand) {
     model_.command = command();
     window_.setClipboard(model_.command);
@@ -147,6 +151,7 @@ SweepRequest Demo::sweepRequest() {
 void Demo::drawFrame(double seconds) {
   seconds = recorder_.running() ? 1.0 / Recorder::framesPerSecond : seconds;
   moveCamera(seconds);
+  showEdit(seconds);
   ui_->build(model_);
   applyModel();
   time_ += model_.paused ? 0.0 : seconds * model_.timeSpeed;
@@ -258,6 +263,7 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Setti
   model_.time = time_;
   fillPasses(plan, state, drawn.reflection.updateInterval);
   fillEffects(plan, state, drawn);
+  skipped_ = plan.skipped;
   model_.skipped.clear();
   for (const SkippedMirror& skip : plan.skipped) {
     model_.skipped.push_back(

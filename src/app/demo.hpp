@@ -7,6 +7,7 @@
 #include "app/camera_controller.hpp"
 #include "app/options.hpp"
 #include "app/recorder.hpp"
+#include "app/scene_editor.hpp"
 #include "app/session.hpp"
 #include "ui/simple_ui.hpp"
 
@@ -65,6 +66,26 @@ class Demo {
   void frameScene();
   void saveShot();
   std::string command();
+  // demo_edit.cpp
+  void startEditing();
+  bool lookAtScene(double time);
+  SceneEditor::Look look() const;
+  glm::dvec2 pointerPixel() const;
+  void pressPointer(const MouseButtonEvent& event);
+  void movePointer(double x, double y);
+  bool handleEditKey(const KeyEvent& event);
+  bool handleControlKey(const KeyEvent& event);
+  void showEdit(double seconds);
+  void applyEdit();
+  void actOn(EditAction action);
+  void answer(EditAction action);
+  void saveScene();
+  void askWhere();
+  bool saveSceneTo(const std::filesystem::path& file);
+  void goOn();
+  bool mayClose();
+  bool mayChoose(int scene);
+  bool closes();
 
   Options options_;
   std::unique_ptr<LoadedScene> loaded_;
@@ -81,9 +102,17 @@ class Demo {
   int shownScene_ = 0;
   std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
   std::string sceneError_;
-  uint64_t nonFinite_ = 0;  // of scenes shown before
-  enum class Drag { none, look, pan };
-  Drag drag_ = Drag::none;
+  uint64_t nonFinite_ = 0;               // of scenes shown before
+  std::unique_ptr<SceneEditor> editor_;  // of loaded_
+  SceneState look_;                      // what the person points into
+  std::vector<SkippedMirror> skipped_;   // in the last frame
+  MouseButton pressedButton_ = MouseButton::left;
+  std::optional<glm::dvec2> pressed_;  // screen coordinates; the pointer went down over the picture
+  std::optional<int> nextScene_;       // chosen, while unsaved changes are asked about
+  bool closing_ = false;               // likewise
+  bool leaves_ = false;                // with the answer
+  std::filesystem::path refused_;      // that was not overwritten; asked for again, it is
+  bool dragging_ = false;
   double cursorX_ = 0.0;
   double cursorY_ = 0.0;
   std::function<std::optional<GamepadState>()> gamepadSource_ = [this] { return window_.gamepad(); };

@@ -20,19 +20,8 @@ constexpr int framesAfterChange = 4;
 void Demo::installInput() {
   WindowCallbacks callbacks;
   callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
-  callbacks.mouseButton = [this](const MouseButtonEvent& event) {
-    const bool picture = event.pressed && !(ui_ && ui_->wantsMouse());
-    drag_ = !picture ? Drag::none : event.button == MouseButton::left ? Drag::look : Drag::pan;
-  };
-  callbacks.cursor = [this](double x, double y) {
-    if (drag_ == Drag::look) {
-      camera_.drag(x - cursorX_, y - cursorY_);
-    } else if (drag_ == Drag::pan) {
-      camera_.pan(x - cursorX_, y - cursorY_, window_.size().height);
-    }
-    cursorX_ = x;
-    cursorY_ = y;
-  };
+  callbacks.mouseButton = [this](const MouseButtonEvent& event) { pressPointer(event); };
+  callbacks.cursor = [this](double x, double y) { movePointer(x, y); };
   callbacks.scroll = [this](double, double dy) {
     if (!(ui_ && ui_->wantsMouse())) {
       camera_.zoom(dy);
@@ -42,7 +31,7 @@ void Demo::installInput() {
 }
 
 void Demo::handleKey(const KeyEvent& event) {
-  if (!event.pressed || !ui_ || ui_->wantsKeyboard()) {
+  if (!event.pressed || !ui_ || ui_->wantsKeyboard() || handleEditKey(event)) {
     return;
   }
   if (event.key == Key::period || event.key == Key::comma) {
@@ -112,8 +101,12 @@ double Demo::aspect() const {
   return extent.height > 0 ? static_cast<double>(extent.width) / extent.height : 1.0;
 }
 
-// The one that fills most of the picture; the one before if none shows its front.
+// The selected one; else the one that fills most of the picture; the one before if none shows its front.
 int Demo::mirrorOfInterest() const {
+  const Selection& selection = editor_->document().selection();
+  if (selection.kind == Selection::Kind::mirror) {
+    return selection.index;
+  }
   int mirror = lookedFrom_;
   double area = 0.0;
   for (const UiPass& pass : model_.passes) {
@@ -133,7 +126,7 @@ void Demo::lookFromMirror(CameraController::MirrorSide side) {
 }
 
 void Demo::frameScene() {
-  const Sphere bounds = boundsOf(evaluate(loaded_->scene, time_));
+  const Sphere bounds = boundsOf(loaded_->scene, evaluate(loaded_->scene, time_), editor_->document().selection());
   if (bounds.radius > 0.0) {
     camera_.frame(bounds, aspect());
   }
@@ -147,7 +140,7 @@ void Demo::moveCamera(double seconds) {
 
 // Along right, up and backwards of the view.
 glm::dvec3 Demo::heldDirection() const {
-  if (ui_->wantsKeyboard()) {
+  if (ui_->wantsKeyboard() || window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl)) {
     return glm::dvec3(0.0);
   }
   const auto axis = [&](Key positive, Key negative) {
@@ -183,19 +176,19 @@ bool Demo::step() {
   last_ = now;
   if (window_.paused()) {
     window_.waitEvents(restSeconds);
-    return !window_.shouldClose();
+    return !closes();
   }
   if (changing()) {
     framesDue_ = framesAfterChange + model_.settings.reflection.updateInterval;
   }
   if (framesDue_ == 0 && !rest()) {
-    return !window_.shouldClose();
+    return !closes();
   }
   if (!std::exchange(rested_, false)) {
     model_.frameMs += (model_.frameMs == 0.0 ? 1.0 : smoothing) * (1000.0 * seconds - model_.frameMs);
   }
   drawFrame(std::min(seconds, longestStep));
-  return !window_.shouldClose();
+  return !closes();
 }
 
 }  // namespace speculum

@@ -34,10 +34,10 @@ fs::path userDir(const char* variable, const char* fallback) {
   return (home.empty() ? fs::temp_directory_path() : fs::path(home) / fallback) / "speculum";
 }
 
-// The folder that xdg-user-dirs has noted: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
-fs::path notedPicturesDir(const std::string& home) {
+// The folder that xdg-user-dirs has noted, say XDG_PICTURES_DIR="$HOME/..." or an absolute path.
+fs::path notedDir(const std::string& variable, const std::string& home) {
   std::ifstream file(userConfigDir().parent_path() / "user-dirs.dirs");
-  const std::string key = "XDG_PICTURES_DIR=\"";
+  const std::string key = variable + "=\"";
   for (std::string line; std::getline(file, line);) {
     const size_t end = line.rfind('"');
     if (line.rfind(key, 0) != 0 || end < key.size()) {
@@ -72,6 +72,16 @@ int waitFor(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+fs::path desktopDir(const std::string& variable, const char* fallback) {
+  const std::string home = environment("HOME");
+  for (const fs::path& folder : {fs::path(environment(variable)), notedDir(variable, home)}) {
+    if (folder.is_absolute()) {
+      return folder;
+    }
+  }
+  return home.empty() ? fs::temp_directory_path() : fs::path(home) / fallback;
+}
+
 }  // namespace
 
 fs::path executablePath() {
@@ -87,13 +97,16 @@ fs::path userConfigDir() {
 }
 
 fs::path picturesDir() {
-  const std::string home = environment("HOME");
-  for (const fs::path& folder : {fs::path(environment("XDG_PICTURES_DIR")), notedPicturesDir(home)}) {
-    if (folder.is_absolute()) {
-      return folder;
-    }
-  }
-  return home.empty() ? fs::temp_directory_path() : fs::path(home) / "Pictures";
+  return desktopDir("XDG_PICTURES_DIR", "Pictures");
+}
+
+fs::path documentsDir() {
+  return desktopDir("XDG_DOCUMENTS_DIR", "Documents");
+}
+
+bool isWritable(const fs::path& file) {
+  std::error_code none;
+  return ::access((fs::exists(file, none) ? file : file.parent_path()).c_str(), W_OK) == 0;
 }
 
 fs::path dataDirectory(std::string_view name) {

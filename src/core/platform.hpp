@@ -17,6 +17,8 @@ std::filesystem::path userCacheDir();   // $XDG_CACHE_HOME/speculum or ~/.cache/
 std::filesystem::path userConfigDir();  // $XDG_CONFIG_HOME/speculum or ~/.config/speculum; not created
 // The user's folder for pictures: $XDG_PICTURES_DIR, what user-dirs.dirs of the configuration says, ~/Pictures.
 std::filesystem::path picturesDir();
+std::filesystem::path documentsDir();                // likewise $XDG_DOCUMENTS_DIR, ~/Documents
+bool isWritable(const std::filesystem::path& file);  // of one that does not exist, its folder
 
 // The directory of shipped data `name` ("shaders", "scenes", "models"): beside the executable, in
 // <prefix>/share/speculum, or up to three folders above the executable. Throws std::runtime_error that lists the places

@@ -18,13 +18,16 @@ constexpr std::array<int, static_cast<size_t>(GamepadButton::count)> buttonCodes
     GLFW_GAMEPAD_BUTTON_BACK,       GLFW_GAMEPAD_BUTTON_START,       GLFW_GAMEPAD_BUTTON_LEFT_THUMB,
     GLFW_GAMEPAD_BUTTON_RIGHT_THUMB};
 
-constexpr std::array<std::pair<Key, int>, 24> keyCodes{{
+constexpr std::array<std::pair<Key, int>, 31> keyCodes{{
     {Key::escape, GLFW_KEY_ESCAPE},
     {Key::enter, GLFW_KEY_ENTER},
     {Key::tab, GLFW_KEY_TAB},
     {Key::space, GLFW_KEY_SPACE},
+    {Key::del, GLFW_KEY_DELETE},
     {Key::leftShift, GLFW_KEY_LEFT_SHIFT},
+    {Key::rightShift, GLFW_KEY_RIGHT_SHIFT},
     {Key::leftControl, GLFW_KEY_LEFT_CONTROL},
+    {Key::rightControl, GLFW_KEY_RIGHT_CONTROL},
     {Key::w, GLFW_KEY_W},
     {Key::a, GLFW_KEY_A},
     {Key::s, GLFW_KEY_S},
@@ -34,6 +37,10 @@ constexpr std::array<std::pair<Key, int>, 24> keyCodes{{
     {Key::b, GLFW_KEY_B},
     {Key::r, GLFW_KEY_R},
     {Key::f, GLFW_KEY_F},
+    {Key::g, GLFW_KEY_G},
+    {Key::n, GLFW_KEY_N},
+    {Key::y, GLFW_KEY_Y},
+    {Key::z, GLFW_KEY_Z},
     {Key::comma, GLFW_KEY_COMMA},
     {Key::period, GLFW_KEY_PERIOD},
     {Key::leftBracket, GLFW_KEY_LEFT_BRACKET},
@@ -125,7 +132,8 @@ void Window::installCallbacks() {
   glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int modifiers) {
     of(w)->active_ = true;
     if (const auto& key = of(w)->callbacks_.key) {
-      key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0});
+      key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0,
+           (modifiers & GLFW_MOD_CONTROL) != 0});
     }
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {
@@ -163,6 +171,10 @@ bool Window::shouldClose() const {
 
 void Window::requestClose() {
   glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+}
+
+void Window::refuseClose() {
+  glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
 }
 
 VkExtent2D Window::framebufferExtent() const {

@@ -21,8 +21,11 @@ enum class Key {
   enter,
   tab,
   space,
+  del,
   leftShift,
+  rightShift,
   leftControl,
+  rightControl,
   w,
   a,
   s,
@@ -32,6 +35,10 @@ enum class Key {
   b,
   r,
   f,
+  g,
+  n,
+  y,
+  z,
   comma,
   period,
   leftBracket,
@@ -49,6 +56,7 @@ struct KeyEvent {
   bool pressed = false;
   bool repeat = false;
   bool shift = false;
+  bool control = false;
 };
 struct MouseButtonEvent {
   MouseButton button = MouseButton::left;
@@ -83,6 +91,7 @@ class Window {
   void waitEvents(double timeoutSeconds);  // sleeps until something happens
   bool shouldClose() const;
   void requestClose();
+  void refuseClose();  // takes back what asked for it
 
   VkExtent2D framebufferExtent() const;  // pixels; 0x0 is possible
   VkExtent2D size() const;               // screen coordinates

@@ -16,6 +16,8 @@ namespace speculum {
 
 struct Sky {
   glm::dvec3 zenith, horizon, ground;
+
+  bool operator==(const Sky&) const = default;
 };
 
 struct Environment {
@@ -25,6 +27,8 @@ struct Environment {
 
   // Radiance of a ray of unit direction `d` (world) that hits nothing.
   glm::dvec3 radiance(const glm::dvec3& d) const;
+
+  bool operator==(const Environment&) const = default;
 };
 
 struct CameraSpec {
@@ -34,11 +38,15 @@ struct CameraSpec {
   double verticalFov = 60.0;  // degrees
   double near = 0.001;        // metres; depth precision only
   double orbitSpeed = 0.0;    // degrees per second about `up` around `target`
+
+  bool operator==(const CameraSpec&) const = default;
 };
 
 struct Copies {
   int count = 1;
   glm::dvec3 step{0.0};
+
+  bool operator==(const Copies&) const = default;
 };
 
 enum class Fresnel { none, schlick };
@@ -48,11 +56,14 @@ struct ObjectMirror {
   glm::dvec3 reflectance{0.95};
   Fresnel fresnel = Fresnel::none;
   glm::dvec3 baseColor{0.0};
+
+  bool operator==(const ObjectMirror&) const = default;
 };
 
 struct Object {
   std::string name;
-  int mesh = -1;  // index into Scene::meshes
+  std::string model;  // as the scene file names it
+  int mesh = -1;      // index into Scene::meshes
   glm::dvec3 position{0.0};
   glm::dvec3 rotation{0.0};  // pitch, yaw, roll; R = Ry Rx Rz
   glm::dvec3 scale{1.0};
@@ -62,12 +73,16 @@ struct Object {
   std::optional<double> shininess;
   Copies copies;
   std::optional<ObjectMirror> mirror;
+
+  bool operator==(const Object&) const = default;
 };
 
 struct Orbit {
   glm::dvec3 center{0.0};
   glm::dvec3 axis{0.0, 1.0, 0.0};
   double speed = 0.0;  // degrees per second, right-hand rule
+
+  bool operator==(const Orbit&) const = default;
 };
 
 struct PointLight {
@@ -79,12 +94,16 @@ struct PointLight {
   double glow = 1.0;
   bool castsShadow = false;
   std::optional<Orbit> orbit;
+
+  bool operator==(const PointLight&) const = default;
 };
 
 struct Ripple {
   double amplitude = 0.0;  // metres
   double wavelength = 0.5;
   double speed = 0.2;
+
+  bool operator==(const Ripple&) const = default;
 };
 
 struct Mirror {
@@ -102,6 +121,19 @@ struct Mirror {
   bool twoSided = false;
   glm::dvec3 backColor{0.1};
   bool castsLight = false;
+
+  bool operator==(const Mirror&) const = default;
+};
+
+// A view that a person goes back to.
+struct Bookmark {
+  std::string name;  // not empty, and no other's
+  glm::dvec3 position{0.0};
+  glm::dvec3 target{0.0};
+  std::optional<glm::dvec3> up;       // the camera's unless given
+  std::optional<double> verticalFov;  // degrees; the camera's unless given
+
+  bool operator==(const Bookmark&) const = default;
 };
 
 // One entry of the scene's [settings] table, kept raw: the frame library knows the keys.
@@ -113,6 +145,7 @@ struct SettingEntry {
 
 struct Scene {
   std::filesystem::path file;
+  std::string text;  // of the file, as it was read
   std::string title;
   Environment environment;
   CameraSpec camera;
@@ -120,6 +153,7 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<PointLight> lights;
   std::vector<Mirror> mirrors;
+  std::vector<Bookmark> bookmarks;
   std::vector<Mesh> meshes;       // each model file once
   std::vector<Texture> textures;  // each picture file once
 };

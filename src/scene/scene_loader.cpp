@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "scene/input_error.hpp"
 #include "scene/scene_sections.hpp"
@@ -53,14 +54,23 @@ void checkExtent(const TableReader& table, const Object& object, const Mesh& mes
   }
 }
 
-}  // namespace
+constexpr std::array<std::string_view, 8> kKeys{"title",  "environment", "camera", "settings",
+                                                "object", "light",       "mirror", "bookmark"};
 
-Scene loadScene(const fs::path& file) {
-  static constexpr std::array<std::string_view, 7> kKeys{"title",  "environment", "camera", "settings",
-                                                         "object", "light",       "mirror"};
-  const toml::table root = readToml(file, "scene file");
-  const TableReader reader(file, "", root, 1, kKeys);
-  Scene scene{.file = file};
+void addBookmarks(const TableReader& reader, Scene& scene) {
+  std::set<std::string> names;
+  for (const TableReader& table : reader.tables("bookmark", bookmarkKeys())) {
+    Bookmark bookmark = readBookmark(table, scene.camera);
+    if (!names.insert(bookmark.name).second) {
+      table.fail("name", "'" + bookmark.name + "' is another bookmark's", "names that differ are needed");
+    }
+    scene.bookmarks.push_back(std::move(bookmark));
+  }
+}
+
+// All but the models.
+Scene readScene(const TableReader& reader, const fs::path& file, std::string text) {
+  Scene scene{.file = file, .text = std::move(text)};
   scene.title = reader.text("title", "");
   scene.environment = readEnvironment(reader);
   scene.camera = readCamera(reader);
@@ -71,15 +81,35 @@ Scene loadScene(const fs::path& file) {
   for (const TableReader& table : reader.tables("mirror", mirrorKeys())) {
     scene.mirrors.push_back(readMirror(table));
   }
-  // Last, so that a slip in the file is told before models are read.
+  addBookmarks(reader, scene);
   int instances = 0;
   for (const TableReader& table : reader.tables("object", objectKeys())) {
     Object object = readObject(table);
     checkCount(table, object, instances);
     instances += object.copies.count;
+    scene.objects.push_back(std::move(object));
+  }
+  return scene;
+}
+
+}  // namespace
+
+Scene parseScene(const fs::path& file, std::string text) {
+  const toml::table root = parseToml(file, text, "scene file");
+  return readScene({file, "", root, 1, kKeys}, file, std::move(text));
+}
+
+Scene loadScene(const fs::path& file) {
+  std::string text = readTomlText(file, "scene file");
+  const toml::table root = parseToml(file, text, "scene file");
+  const TableReader reader(file, "", root, 1, kKeys);
+  // First, so that a slip in the file is told before models are read.
+  Scene scene = readScene(reader, file, std::move(text));
+  size_t index = 0;
+  for (const TableReader& table : reader.tables("object", objectKeys())) {
+    Object& object = scene.objects[index++];
     object.mesh = meshIndex(table, scene);
     checkExtent(table, object, scene.meshes[object.mesh]);
-    scene.objects.push_back(std::move(object));
   }
   return scene;
 }

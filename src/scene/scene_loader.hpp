@@ -17,6 +17,9 @@ class InputError : public std::runtime_error {
 // Throws InputError.
 Scene loadScene(const std::filesystem::path& file);
 
+// What `text` says as the content of `file`, without the models: each Object::mesh is -1. Throws InputError.
+Scene parseScene(const std::filesystem::path& file, std::string text);
+
 // The OBJ file with its MTL; appends the textures it names to `textures`. Throws InputError.
 Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures);
 

@@ -22,6 +22,8 @@ bool hasDirection(const glm::dvec3& v) {
   return glm::length(v) >= kShortest;
 }
 
+constexpr Range kFieldOfView{.low = 1.0, .high = 170.0};  // degrees
+
 // Checking a polygon takes time in the square of this.
 constexpr size_t kMostVertices = 1000;
 
@@ -129,6 +131,21 @@ void readShape(const TableReader& table, Mirror& mirror) {
   checkSizeAtPosition(table, mirror);
 }
 
+void checkDirections(const TableReader& table, const CameraSpec& camera) {
+  if (!hasDirection(camera.target - camera.position)) {
+    table.fail("target", "has no direction from position", "a point away from position is needed");
+  }
+  if (!hasDirection(camera.up)) {
+    table.fail("up", "has no direction", "a vector that is not zero, such as [0, 1, 0], is needed");
+  }
+  try {
+    lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
+  } catch (const std::invalid_argument&) {
+    table.fail(table.has("up") ? "up" : "target", "the view direction is parallel to up",
+               "up and target - position must not be parallel");
+  }
+}
+
 SettingEntry readSetting(const TableReader& settings, const toml::node& node, const std::string& key, int line) {
   const Key wanted = "a boolean, number, string or array of numbers is needed";
   SettingEntry entry{.key = key, .value = false, .line = line};
@@ -209,21 +226,10 @@ CameraSpec readCamera(const TableReader& file) {
   camera.position = table->vec3("position", kCoordinate);
   camera.target = table->vec3("target", kCoordinate);
   camera.up = table->vec3("up", camera.up, kCoordinate);
-  camera.verticalFov = table->number("vertical_fov", camera.verticalFov, {.low = 1.0, .high = 170.0});
+  camera.verticalFov = table->number("vertical_fov", camera.verticalFov, kFieldOfView);
   camera.near = table->number("near", camera.near, kPositive);
   camera.orbitSpeed = table->number("orbit_speed", camera.orbitSpeed, kTurn);
-  if (!hasDirection(camera.target - camera.position)) {
-    table->fail("target", "has no direction from position", "a point away from position is needed");
-  }
-  if (!hasDirection(camera.up)) {
-    table->fail("up", "has no direction", "a vector that is not zero, such as [0, 1, 0], is needed");
-  }
-  try {
-    lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
-  } catch (const std::invalid_argument&) {
-    table->fail(table->has("up") ? "up" : "target", "the view direction is parallel to up",
-                "up and target - position must not be parallel");
-  }
+  checkDirections(*table, camera);
   return camera;
 }
 
@@ -246,6 +252,7 @@ std::vector<SettingEntry> readSettings(const TableReader& file) {
 Object readObject(const TableReader& table) {
   Object object;
   object.name = table.text("name", "");
+  object.model = table.text("model");
   object.position = table.vec3("position", object.position, kCoordinate);
   object.rotation = table.vec3("rotation", object.rotation, kCoordinate);
   object.scale = table.numberOrVec3("scale", object.scale);
@@ -300,6 +307,23 @@ Mirror readMirror(const TableReader& table) {
   return mirror;
 }
 
+Bookmark readBookmark(const TableReader& table, const CameraSpec& camera) {
+  Bookmark bookmark{.name = table.text("name")};
+  if (bookmark.name.empty()) {
+    table.fail("name", "is empty", "a name to choose the bookmark by is needed");
+  }
+  bookmark.position = table.vec3("position", kCoordinate);
+  bookmark.target = table.vec3("target", kCoordinate);
+  if (table.has("up")) {
+    bookmark.up = table.vec3("up", kCoordinate);
+  }
+  if (table.has("vertical_fov")) {
+    bookmark.verticalFov = table.number("vertical_fov", camera.verticalFov, kFieldOfView);
+  }
+  checkDirections(table, cameraOf(bookmark, camera));
+  return bookmark;
+}
+
 std::span<const std::string_view> objectKeys() {
   static constexpr std::array<Key, 11> kKeys{"name",  "model",    "position",  "rotation", "scale", "spin",
                                              "color", "specular", "shininess", "copies",   "mirror"};
@@ -316,6 +340,11 @@ std::span<const std::string_view> mirrorKeys() {
   static constexpr std::array<Key, 14> kKeys{"name",    "position",    "rotation",   "spin",       "size",
                                              "polygon", "reflectance", "fresnel",    "base_color", "roughness",
                                              "ripple",  "two_sided",   "back_color", "casts_light"};
+  return kKeys;
+}
+
+std::span<const std::string_view> bookmarkKeys() {
+  static constexpr std::array<Key, 5> kKeys{"name", "position", "target", "up", "vertical_fov"};
   return kKeys;
 }
 

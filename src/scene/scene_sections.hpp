@@ -12,9 +12,11 @@ std::vector<SettingEntry> readSettings(const TableReader& file);
 Object readObject(const TableReader& table);
 PointLight readLight(const TableReader& table);
 Mirror readMirror(const TableReader& table);
+Bookmark readBookmark(const TableReader& table, const CameraSpec& camera);
 
 std::span<const std::string_view> objectKeys();
 std::span<const std::string_view> lightKeys();
 std::span<const std::string_view> mirrorKeys();
+std::span<const std::string_view> bookmarkKeys();
 
 }  // namespace speculum

@@ -130,6 +130,14 @@ SceneState evaluate(const Scene& scene, double timeSeconds) {
   return state;
 }
 
+CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera) {
+  return {.position = bookmark.position,
+          .target = bookmark.target,
+          .up = bookmark.up.value_or(camera.up),
+          .verticalFov = bookmark.verticalFov.value_or(camera.verticalFov),
+          .near = camera.near};
+}
+
 bool moves(const Scene& scene) {
   const auto any = [](const auto& list, const auto& test) { return std::any_of(list.begin(), list.end(), test); };
   const glm::dvec3 still(0.0);

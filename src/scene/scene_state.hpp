@@ -55,6 +55,9 @@ struct SceneState {
 // Pure function of scene and time. Angles are reduced in double, so 1e6 s of animation is as exact as one.
 SceneState evaluate(const Scene& scene, double timeSeconds);
 
+// The camera at a bookmark, standing still.
+CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera);
+
 // Whether anything depends on the time.
 bool moves(const Scene& scene);
 

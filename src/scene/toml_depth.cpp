@@ -5,10 +5,7 @@
 
 namespace speculum {
 
-namespace {
-
-// The place after the string that starts at `start` with a quotation mark, or after what an unfinished one spans.
-size_t endOfString(std::string_view toml, size_t start) {
+size_t endOfTomlString(std::string_view toml, size_t start) {
   const char quote = toml[start];
   const bool multiLine = toml.substr(start, 3) == std::string_view(quote == '"' ? "\"\"\"" : "'''");
   const size_t marks = multiLine ? 3 : 1;
@@ -32,6 +29,8 @@ size_t endOfString(std::string_view toml, size_t start) {
   return toml.size();
 }
 
+namespace {
+
 // The line of the first character outside strings and comments that `stop` is true of, or 0.
 template <typename Stop>
 int lineOf(std::string_view toml, Stop stop) {
@@ -40,7 +39,7 @@ int lineOf(std::string_view toml, Stop stop) {
     const size_t start = i;
     const char c = toml[i++];
     if (c == '"' || c == '\'') {
-      i = endOfString(toml, start);
+      i = endOfTomlString(toml, start);
       for (const char skipped : toml.substr(start, i - start)) {
         line += skipped == '\n' ? 1 : 0;
       }

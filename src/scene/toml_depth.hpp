@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 namespace speculum {
+
+// The place after the string that starts at `start` with a quotation mark, or after what an unfinished one spans.
+size_t endOfTomlString(std::string_view toml, size_t start);
 
 // The line of the first dotted key or table header with more than 32 parts, or 0. The TOML library limits the nesting
 // of values but not the parts of a key, makes a table of each, and takes one of them apart inside the other: a hundred

@@ -15,7 +15,10 @@ namespace {
 // A device or pipe might never end, and nobody writes a larger scene by hand.
 constexpr uintmax_t kLargestFile = 16u << 20;
 
-std::string readText(const fs::path& file, const std::string& right) {
+}  // namespace
+
+std::string readTomlText(const fs::path& file, std::string_view kind) {
+  const std::string right = fmt::format("a {} is needed", kind);
   std::error_code error;
   if (fs::exists(file, error) && !fs::is_directory(file, error)) {
     const bool regular = fs::is_regular_file(file, error);
@@ -33,10 +36,11 @@ std::string readText(const fs::path& file, const std::string& right) {
   }
 }
 
-}  // namespace
-
 toml::table readToml(const fs::path& file, std::string_view kind) {
-  const std::string text = readText(file, fmt::format("a {} is needed", kind));
+  return parseToml(file, readTomlText(file, kind), kind);
+}
+
+toml::table parseToml(const fs::path& file, std::string_view text, std::string_view kind) {
   if (const int line = lineOfTooDeepKey(text)) {
     throwInputError(file, line, "toml", "a key has too many parts",
                     fmt::format("no key of a {} has more than 3", kind));

@@ -140,6 +140,8 @@ void scene(UiModel& model) {
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("the call of speculum render that draws this view to the same bytes");
   }
+  ImGui::SameLine();
+  inspectorButton(model);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("drag: look   WASD QE: move   F12: save a picture   Tab: hide this panel   F1: all keys");
   if (!model.command.empty()) {

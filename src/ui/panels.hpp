@@ -17,6 +17,10 @@ void effects(UiModel& model);
 void device(UiModel& model);
 void accuracy(UiModel& model);
 
+// What is drawn over the picture, the window that edits the scene, if `inspector`, and questions about saving it.
+void edit(UiModel& model, bool inspector);
+void inspectorButton(UiModel& model);
+
 // What a key or a movement of the pointer does in the window.
 struct KeyHelp {
   const char* keys;

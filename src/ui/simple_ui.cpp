@@ -133,6 +133,7 @@ void SimpleUI::build(UiModel& model) {
       ImGui::ShowDemoWindow(&showDemoWindow_);
     }
   }
+  panels::edit(model, visible_);
   ImGui::Render();
 }
 

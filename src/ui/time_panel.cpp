@@ -12,14 +12,24 @@ namespace {
 
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
-constexpr std::array<KeyHelp, 21> keys{{
+constexpr std::array<KeyHelp, 31> keys{{
+    {"click", "select what is there, in mirrors too; again: the mirror it is seen in"},
+    {"G", "handles that move, handles that turn (Ctrl while dragging: steps)"},
+    {"N Shift+N", "select the next thing, the one before"},
+    {"F2", "inspector: everything in the scene, with its numbers"},
+    {"Ctrl+D", "duplicate the selected thing"},
+    {"Del", "delete it"},
+    {"Ctrl+Z", "undo"},
+    {"Ctrl+Shift+Z", "redo, as Ctrl+Y"},
+    {"Ctrl+S", "save the scene"},
+    {"Ctrl+Shift+S", "save it as another file"},
     {"drag", "look around: about the target (orbit) or from where you are (fly)"},
     {"drag middle or right", "move sideways and up or down"},
     {"wheel", "nearer or farther"},
     {"W A S D", "forwards, left, back, right"},
     {"Q E", "down, up"},
-    {"F", "look at the whole scene"},
-    {"B", "look from behind the mirror that fills most of the picture"},
+    {"F", "look at the selected thing, or at the whole scene"},
+    {"B", "look from behind the selected mirror, or the one that fills most of the picture"},
     {"Shift+B", "look out of that mirror"},
     {"Space", "pause the animation and let it go on"},
     {".", "pause, 1/60 s onwards"},
@@ -33,7 +43,7 @@ constexpr std::array<KeyHelp, 21> keys{{
     {"F11", "full screen and back"},
     {"Tab", "hide or show the panel"},
     {"F1", "this list"},
-    {"Esc", "quit"},
+    {"Esc", "stop dragging, deselect, quit"},
 }};
 
 constexpr std::array<KeyHelp, 9> gamepad{{

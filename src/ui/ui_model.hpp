@@ -8,6 +8,7 @@
 #include "frame/depth_readout.hpp"
 #include "frame/settings.hpp"
 #include "optics/projection.hpp"
+#include "ui/edit_model.hpp"
 
 namespace speculum {
 
@@ -100,6 +101,7 @@ struct UiModel {
   int debugPass = -1;                  // index into passes of the image to show; -1: none. Changed by the person.
   std::optional<PixelRect> debugArea;  // pixels of the display image where it is to be drawn; set by the panel
   UiAccuracy accuracy;
+  UiEdit edit;
   bool copyCommand = false;  // set by the panel: put the command line of this view into the clipboard
   std::string command;       // that was copied last
   bool help = false;         // the list of keys is open; changed by the person

@@ -1,0 +1,298 @@
+// The part of the window that edits the scene: what pointer and keys do to it, saving, questions about unsaved changes.
+#include <algorithm>
+#include <utility>
+
+#include "app/demo.hpp"
+#include "core/platform.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double clickPixels = 4.0;  // screen coordinates that the pointer may move by between press and release
+
+// Whether the file is one of those that come with the program.
+bool isShipped(const std::filesystem::path& file) {
+  std::error_code none;
+  const std::filesystem::path below = std::filesystem::relative(file, dataDirectory("scenes"), none);
+  return !below.empty() && *below.begin() != "..";
+}
+
+}  // namespace
+
+void Demo::startEditing() {
+  // A scene that is being traced in the background must not change meanwhile.
+  editor_ = std::make_unique<SceneEditor>(loaded_->scene, [this] { accuracy_.forgetScene(model_); });
+  skipped_.clear();
+  nextScene_.reset();
+  pressed_.reset();
+  dragging_ = false;
+  refused_.clear();
+  model_.edit.note.clear();
+  model_.edit.asksSave = false;
+  model_.edit.asksWhere = false;
+}
+
+// Takes the scene as the window shows it at `time`; false while the window has no pixels.
+bool Demo::lookAtScene(double time) {
+  const VkExtent2D extent = renderer_.displayExtent();
+  if (extent.width == 0 || extent.height == 0) {
+    return false;
+  }
+  look_ = evaluate(loaded_->scene, time);
+  look_.camera = camera_.pose(look_.camera);
+  return true;
+}
+
+SceneEditor::Look Demo::look() const {
+  const VkExtent2D extent = renderer_.displayExtent();
+  const ReflectionSettings& r = model_.settings.reflection;
+  return {.state = look_,
+          .picture = PictureView(look_.camera, static_cast<int>(extent.width), static_cast<int>(extent.height)),
+          .limits = {r.maxDepth, r.minThroughput, skipped_},
+          .scale = window_.contentScale()};
+}
+
+glm::dvec2 Demo::pointerPixel() const {
+  const VkExtent2D size = window_.size();
+  const VkExtent2D extent = renderer_.displayExtent();
+  return glm::dvec2(cursorX_, cursorY_) * glm::dvec2(extent.width, extent.height) /
+         glm::max(glm::dvec2(size.width, size.height), 1.0);
+}
+
+void Demo::pressPointer(const MouseButtonEvent& event) {
+  if (!editor_) {
+    return;
+  }
+  const bool left = event.button == MouseButton::left;
+  if (event.pressed) {
+    const bool taken = !ui_ || ui_->wantsMouse() || editor_->dragging();
+    if (!taken && !(left && lookAtScene(time_) && editor_->press(look(), pointerPixel()))) {
+      pressed_ = {cursorX_, cursorY_};
+      pressedButton_ = event.button;
+    }
+    return;
+  }
+  if (left && editor_->dragging()) {
+    editor_->release();
+  } else if (left && pressed_ && !dragging_ && lookAtScene(time_)) {
+    editor_->click(look(), pointerPixel());
+    model_.edit.open = model_.edit.open || editor_->document().selection();
+  }
+  pressed_.reset();
+  dragging_ = false;
+}
+
+void Demo::movePointer(double x, double y) {
+  const glm::dvec2 from = pressed_ && !dragging_ ? *pressed_ : glm::dvec2(cursorX_, cursorY_);
+  cursorX_ = x;
+  cursorY_ = y;
+  if (editor_ && editor_->dragging()) {
+    editor_->drag(pointerPixel(), window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl));
+    return;
+  }
+  dragging_ = dragging_ || (pressed_ && glm::distance(*pressed_, glm::dvec2(x, y)) > clickPixels);
+  if (dragging_ && pressedButton_ == MouseButton::left) {
+    camera_.drag(x - from.x, y - from.y);
+  } else if (dragging_) {
+    camera_.pan(x - from.x, y - from.y, window_.size().height);
+  }
+}
+
+// True if nothing else is to be done with the key.
+bool Demo::handleEditKey(const KeyEvent& event) {
+  if (model_.edit.asksSave || model_.edit.asksWhere) {
+    return true;
+  }
+  if (event.control) {
+    return handleControlKey(event);
+  }
+  if (event.repeat && event.key != Key::n) {
+    return false;
+  }
+  switch (event.key) {
+    case Key::g:
+      return editor_->toggleMode(), true;
+    case Key::n:
+      editor_->selectNext(event.shift ? -1 : 1);
+      return model_.edit.open = true;
+    case Key::f2:
+      model_.edit.open = !model_.edit.open;
+      model_.edit.focus = model_.edit.open;
+      ui_->setVisible(ui_->visible() || model_.edit.open);
+      return true;
+    case Key::del:
+      return editor_->remove(), true;
+    case Key::escape:
+      if (editor_->dragging()) {
+        return editor_->cancelDrag(), true;
+      }
+      if (editor_->document().selection()) {
+        return editor_->select({}), true;
+      }
+      return false;
+    default:
+      return false;
+  }
+}
+
+bool Demo::handleControlKey(const KeyEvent& event) {
+  switch (event.key) {
+    case Key::z:
+      return event.shift ? editor_->redo() : editor_->undo(), true;
+    case Key::y:
+      return editor_->redo(), true;
+    case Key::d:
+      return event.repeat ? void() : editor_->duplicate(), true;
+    case Key::s:
+      return event.shift ? askWhere() : saveScene(), true;
+    default:
+      return false;
+  }
+}
+
+// As the frame that is drawn next shows it.
+void Demo::showEdit(double seconds) {
+  if (lookAtScene(time_ + (model_.paused ? 0.0 : seconds * model_.timeSpeed))) {
+    const bool over = !ui_->wantsMouse() && !dragging_;
+    editor_->show(look(), over ? std::optional(pointerPixel()) : std::nullopt, model_.edit);
+  }
+}
+
+void Demo::applyEdit() {
+  editor_->apply(model_.edit);
+  actOn(model_.edit.action);
+  if (editor_->takeChanged()) {
+    sceneRenderer_->restart();
+    if (model_.accuracy.showDifference) {
+      sceneRenderer_->setCover({});
+    }
+  }
+}
+
+void Demo::actOn(EditAction action) {
+  switch (action) {
+    case EditAction::addObject:
+    case EditAction::addLight:
+    case EditAction::addMirror:
+      return editor_->add(look(), action, loaded_->scene.meshes.empty() ? -1 : model_.edit.model);
+    case EditAction::duplicate:
+      return editor_->duplicate();
+    case EditAction::remove:
+      return editor_->remove();
+    case EditAction::undo:
+      return editor_->undo();
+    case EditAction::redo:
+      return editor_->redo();
+    default:
+      return answer(action);
+  }
+}
+
+void Demo::answer(EditAction action) {
+  switch (action) {
+    case EditAction::save:
+      model_.edit.asksSave = false;
+      return saveScene();
+    case EditAction::askWhere:
+      model_.edit.asksSave = false;
+      return askWhere();
+    case EditAction::saveAs:
+      if (saveSceneTo(model_.edit.saveAs)) {
+        model_.edit.asksWhere = false;
+        goOn();
+      }
+      return;
+    case EditAction::discard:
+      model_.edit.asksSave = false;
+      return goOn();
+    case EditAction::stay:
+      model_.edit.asksSave = false;
+      model_.edit.asksWhere = false;
+      closing_ = false;
+      nextScene_.reset();
+      return;
+    default:
+      return;
+  }
+}
+
+// Into its own file; one that comes with the program is not overwritten unasked.
+void Demo::saveScene() {
+  editor_->release();
+  const std::filesystem::path file = editor_->document().usualFile();
+  if (isShipped(file) || !isWritable(file)) {
+    return askWhere();
+  }
+  if (saveSceneTo(file)) {
+    goOn();
+  } else {
+    askWhere();
+  }
+}
+
+void Demo::askWhere() {
+  const std::filesystem::path file = editor_->document().usualFile();
+  model_.edit.saveAs = (isWritable(file) ? file : documentsDir() / "Speculum" / file.filename()).string();
+  model_.edit.asksWhere = true;
+}
+
+bool Demo::saveSceneTo(const std::filesystem::path& file) {
+  try {
+    std::error_code none;
+    std::filesystem::create_directories(file.parent_path(), none);
+    const bool own = std::filesystem::equivalent(file, loaded_->scene.file, none);
+    editor_->document().save(file, settingChanges(loaded_->settings, model_.settings), own || file == refused_);
+    model_.edit.note = "saved " + file.string();
+    loaded_->settings = model_.settings;
+    refused_.clear();
+    return true;
+  } catch (const SaveError& error) {
+    model_.edit.note = error.what();
+    refused_ = file;
+    return false;
+  }
+}
+
+// With what unsaved changes were asked about for.
+void Demo::goOn() {
+  const std::optional<int> scene = std::exchange(nextScene_, std::nullopt);
+  if (std::exchange(closing_, false)) {
+    leaves_ = true;
+    return window_.requestClose();
+  }
+  if (scene) {
+    model_.scene = *scene;
+    chooseScene(*scene);
+  }
+}
+
+bool Demo::mayChoose(int scene) {
+  if (options_.frames > 0 || !editor_->document().modified()) {
+    return true;
+  }
+  nextScene_ = scene;
+  model_.scene = shownScene_;
+  model_.edit.asksSave = true;
+  return false;
+}
+
+// Whether the window may go: it stays while unsaved changes are asked about.
+bool Demo::closes() {
+  if (!window_.shouldClose()) {
+    return false;
+  }
+  if (leaves_ || options_.frames > 0 || !editor_->document().modified()) {
+    return true;
+  }
+  window_.refuseClose();
+  if (window_.iconified()) {
+    window_.restore();
+  }
+  closing_ = true;
+  model_.edit.asksSave = !model_.edit.asksWhere;
+  framesDue_ = std::max(framesDue_, 4);
+  return false;
+}
+
+}  // namespace speculum

@@ -1,0 +1,327 @@
+#include "app/scene_editor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "edit/outline.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double armPixels = 92.0;     // of the handles
+constexpr double handleReach = 7.0;    // pixels within which one is taken hold of
+constexpr double sameSpot = 4.0;       // pixels within which a click repeats the last one
+constexpr double farthestAhead = 4.0;  // metres from the eye to where things are added
+
+std::vector<Selection> allThings(const Scene& scene) {
+  std::vector<Selection> things;
+  const auto add = [&](Selection::Kind kind, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      things.push_back({kind, static_cast<int>(i)});
+    }
+  };
+  add(Selection::Kind::mirror, scene.mirrors.size());
+  add(Selection::Kind::light, scene.lights.size());
+  add(Selection::Kind::object, scene.objects.size());
+  return things;
+}
+
+bool sameThing(const Selection& a, const Selection& b) {
+  return a.kind == b.kind && a.index == b.index;
+}
+
+template <typename Item>
+void replace(std::vector<Item>& items, int index, const Thing& thing) {
+  if (const Item* item = std::get_if<Item>(&thing)) {
+    items.at(static_cast<size_t>(index)) = *item;
+  }
+}
+
+std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
+  std::array<char, 96> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, a, b, c);
+  return buffer.data();
+}
+
+}  // namespace
+
+SceneEditor::SceneEditor(Scene& scene, std::function<void()> beforeChange)
+    : document_(scene), beforeChange_(std::move(beforeChange)), shownRevision_(document_.revision()) {}
+
+Picker& SceneEditor::picker() {
+  if (!picker_) {
+    picker_ = std::make_unique<Picker>(document_.scene());
+  }
+  return *picker_;
+}
+
+void SceneEditor::put(const std::string& verb, const Selection& what, const Thing& thing) {
+  beforeChange_();
+  document_.change(verb + " " + describe(document_.scene(), what), what, [&](Scene& scene) {
+    replace(scene.objects, what.index, thing);
+    replace(scene.lights, what.index, thing);
+    replace(scene.mirrors, what.index, thing);
+  });
+}
+
+void SceneEditor::forgetPath() {
+  path_.clear();
+  clicked_.reset();
+}
+
+void SceneEditor::select(const Selection& selection) {
+  forgetPath();
+  document_.select(selection);
+}
+
+void SceneEditor::selectNext(int step) {
+  const std::vector<Selection> things = allThings(document_.scene());
+  if (things.empty()) {
+    return;
+  }
+  const auto now = std::find_if(things.begin(), things.end(),
+                                [&](const Selection& thing) { return sameThing(thing, document_.selection()); });
+  const auto count = static_cast<int>(things.size());
+  const int start = now != things.end() ? static_cast<int>(now - things.begin()) : step > 0 ? -1 : 0;
+  select(things[static_cast<size_t>((start + step + count) % count)]);
+}
+
+void SceneEditor::click(const Look& look, const glm::dvec2& pixel) {
+  Clicked next{.found = picker().at(look.state, look.picture, pixel, look.limits), .pixel = pixel};
+  if (next.found.empty()) {
+    return select({});
+  }
+  const auto same = [](const Picked& a, const Picked& b) { return a.what == b.what && a.path == b.path; };
+  if (clicked_ && glm::distance(clicked_->pixel, pixel) <= sameSpot &&
+      std::equal(next.found.begin(), next.found.end(), clicked_->found.begin(), clicked_->found.end(), same)) {
+    next.chosen = (clicked_->chosen + 1) % next.found.size();
+  }
+  const Picked picked = next.found[next.chosen];
+  select(picked.what);
+  path_ = picked.path;
+  clicked_ = std::move(next);
+}
+
+// The image that was clicked, as long as any of it can be seen; otherwise the picture itself.
+PictureView SceneEditor::clickedImage(const Look& look) const {
+  const auto image = look.picture.through(document_.scene(), look.state, path_);
+  const Selection& selected = document_.selection();
+  // A thing that is dragged out of the mirror is held on to.
+  const bool seen = image && (drag_ || image->sees(pivotOf(document_.scene(), look.state, selected),
+                                                   reachOf(document_.scene(), look.state, selected)));
+  return seen ? *image : look.picture;
+}
+
+Gizmo SceneEditor::gizmo(const Look& look) const {
+  const Selection& selected = document_.selection();
+  const GizmoMode mode = selected.kind == Selection::Kind::light ? GizmoMode::move : mode_;
+  return {mode, pivotOf(document_.scene(), look.state, selected), armPixels * look.scale};
+}
+
+bool SceneEditor::press(const Look& look, const glm::dvec2& pixel) {
+  const Selection selected = document_.selection();
+  if (!selected) {
+    return false;
+  }
+  const PictureView picture = clickedImage(look);
+  const Gizmo handles = gizmo(look);
+  const Grip handle = handles.at(picture, pixel, handleReach * look.scale);
+  if (handle == Grip::none) {
+    return false;
+  }
+  document_.endGesture();
+  document_.beginGesture();
+  drag_ = Drag{.gizmo = GizmoDrag(picture, handles, handle, pixel),
+               .what = selected,
+               .start = thingOf(document_.scene(), selected),
+               .pivot = handles.pivot(),
+               .time = look.state.time,
+               .pixel = pixel};
+  return true;
+}
+
+void SceneEditor::drag(const glm::dvec2& pixel, bool snap) {
+  if (!drag_) {
+    return;
+  }
+  drag_->pixel = pixel;
+  drag_->change = drag_->gizmo.to(pixel, snap);
+  const GizmoDrag::Change& change = drag_->change;
+  if (drag_->gizmo.handle() >= Grip::turnX) {
+    put("turn", drag_->what,
+        change.degrees == 0.0 ? drag_->start
+                              : turned(drag_->start, change.rotation, drag_->pivot, drag_->what.copy, drag_->time));
+  } else {
+    put("move", drag_->what, moved(drag_->start, change.translation, drag_->time));
+  }
+}
+
+void SceneEditor::release() {
+  if (drag_) {
+    drag_.reset();
+    clicked_.reset();
+    document_.endGesture();
+  }
+}
+
+void SceneEditor::cancelDrag() {
+  if (drag_) {
+    beforeChange_();
+    drag_.reset();
+    document_.cancelGesture();
+  }
+}
+
+// On the way to what the middle of the picture shows.
+glm::dvec3 SceneEditor::placeAhead(const Look& look, double part) {
+  const glm::dvec2 middle = 0.5 * look.picture.view().pictureSize;
+  const std::vector<Picked> found = picker().at(look.state, look.picture, middle, {.maxDepth = 0});
+  const double far = found.empty() ? farthestAhead : look.picture.depth(found[0].point);
+  const glm::dvec3 place = look.picture.eye() + look.picture.forward() * std::min(part * far, farthestAhead);
+  return glm::round(place * 100.0) / 100.0;
+}
+
+void SceneEditor::add(const Look& look, EditAction kind, int mesh) {
+  release();
+  beforeChange_();
+  const glm::dvec3& eye = look.picture.eye();
+  if (kind == EditAction::addMirror) {
+    select(document_.addMirror(placeAhead(look, 0.6), eye));
+  } else if (kind == EditAction::addLight) {
+    select(document_.addLight(placeAhead(look, 0.6), eye));
+  } else if (mesh >= 0) {
+    select(document_.addObject(mesh, placeAhead(look, 0.9)));
+  }
+}
+
+void SceneEditor::duplicate() {
+  if (document_.selection()) {
+    release();
+    beforeChange_();
+    select(document_.duplicate(document_.selection()));
+  }
+}
+
+void SceneEditor::remove() {
+  if (document_.selection()) {
+    release();
+    beforeChange_();
+    document_.remove(document_.selection());
+    forgetPath();
+  }
+}
+
+void SceneEditor::undo() {
+  release();
+  beforeChange_();
+  document_.undo();
+  forgetPath();
+}
+
+void SceneEditor::redo() {
+  release();
+  beforeChange_();
+  document_.redo();
+  forgetPath();
+}
+
+void SceneEditor::showThings(UiEdit& edit) const {
+  const Scene& scene = document_.scene();
+  edit.things.clear();
+  for (const Selection& thing : allThings(scene)) {
+    edit.things.emplace_back(thing, describe(scene, thing));
+  }
+  edit.models.clear();
+  for (const Mesh& mesh : scene.meshes) {
+    edit.models.push_back(mesh.source.stem().string());
+  }
+  edit.model = std::clamp(edit.model, 0, std::max(0, static_cast<int>(edit.models.size()) - 1));
+  edit.through.clear();
+  for (const int mirror : path_) {
+    edit.through.push_back(describe(scene, {Selection::Kind::mirror, mirror}));
+  }
+}
+
+void SceneEditor::show(const Look& look, const std::optional<glm::dvec2>& pointer, UiEdit& edit) {
+  edit.overlay = {};
+  edit.selected = document_.selection();
+  edit.thing = thingOf(document_.scene(), edit.selected);
+  edit.mode = mode_;
+  edit.undo = document_.undoLabel();
+  edit.redo = document_.redoLabel();
+  edit.file = document_.scene().file.string();
+  edit.unsaved = document_.modified();
+  if (edit.open) {
+    showThings(edit);
+  }
+  if (edit.selected) {
+    showOverlay(look, pointer, edit.overlay);
+  }
+}
+
+std::span<const glm::dvec3> SceneEditor::outlinePoints() {
+  const Scene& scene = document_.scene();
+  if (document_.selection().kind == Selection::Kind::object) {
+    const int mesh = scene.objects.at(static_cast<size_t>(document_.selection().index)).mesh;
+    if (std::exchange(outlineMesh_, mesh) != mesh) {
+      outlinePoints_ = speculum::outlinePoints(scene.meshes.at(static_cast<size_t>(mesh)));
+    }
+  }
+  return outlinePoints_;
+}
+
+void SceneEditor::showOverlay(const Look& look, const std::optional<glm::dvec2>& pointer, UiOverlay& overlay) {
+  const Scene& scene = document_.scene();
+  const Selection& selected = document_.selection();
+  const std::span<const glm::dvec3> points = outlinePoints();
+  const PictureView image = clickedImage(look);
+  overlay.outline = outlineOf(scene, look.state, selected, image, points);
+  if (!image.path().empty()) {
+    overlay.itself = outlineOf(scene, look.state, selected, look.picture, points);
+  }
+  const Gizmo handles = gizmo(look);
+  overlay.gizmo = handles.shapes(image);
+  if (drag_) {
+    overlay.active = drag_->gizmo.handle();
+    overlay.label = dragLabel();
+    overlay.labelAt = drag_->pixel;
+  } else if (pointer) {
+    overlay.active = handles.at(image, *pointer, handleReach * look.scale);
+  }
+}
+
+std::string SceneEditor::dragLabel() const {
+  const GizmoDrag::Change& change = drag_->change;
+  const Grip handle = drag_->gizmo.handle();
+  const int axis = axisOf(handle);
+  if (handle >= Grip::turnX) {
+    return std::string(1, "XYZ"[axis]) + text("  %+.1f deg", change.degrees);
+  }
+  if (handle <= Grip::moveZ) {
+    return std::string(1, "XYZ"[axis]) + text("  %+.3f m", change.translation[axis]);
+  }
+  return text("%+.3f  %+.3f  %+.3f m", change.translation.x, change.translation.y, change.translation.z);
+}
+
+void SceneEditor::apply(const UiEdit& edit) {
+  mode_ = edit.mode;
+  if (!sameThing(edit.selected, document_.selection())) {
+    release();
+    document_.endGesture();
+    return select(edit.selected);
+  }
+  if (edit.edited && edit.selected) {
+    if (edit.held && !document_.inGesture()) {
+      document_.beginGesture();
+    }
+    put("edit", edit.selected, edit.thing);
+  }
+  if (!edit.held && !drag_ && document_.inGesture()) {
+    document_.endGesture();
+  }
+}
+
+}  // namespace speculum

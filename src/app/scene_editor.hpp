@@ -1,0 +1,99 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "edit/pick.hpp"
+#include "edit/scene_document.hpp"
+#include "ui/edit_model.hpp"
+
+namespace speculum {
+
+// What is edited of the scene that the window shows: selection, handles over the picture, fields of the inspector.
+class SceneEditor {
+ public:
+  // What the window shows, for pointing into.
+  struct Look {
+    const SceneState& state;
+    PictureView picture;
+    PickLimits limits;
+    double scale = 1.0;  // pixels of the picture for one of an ordinary screen
+  };
+
+  // Keeps a reference to the scene, and edits it; calls `beforeChange` before each time.
+  SceneEditor(Scene& scene, std::function<void()> beforeChange);
+
+  // Takes hold of a handle; false if there is none at that pixel.
+  bool press(const Look& look, const glm::dvec2& pixel);
+  bool dragging() const { return drag_.has_value(); }
+  void drag(const glm::dvec2& pixel, bool snap);
+  void release();
+  void cancelDrag();  // puts the thing back
+  // Selects what the pixel shows, a further click at the same place what it is seen in: from the innermost thing
+  // outwards, and round. Nothing where the background is seen directly.
+  void click(const Look& look, const glm::dvec2& pixel);
+  void select(const Selection& selection);
+  void selectNext(int step);  // in the order of the scene, round
+  void toggleMode() { mode_ = mode_ == GizmoMode::move ? GizmoMode::turn : GizmoMode::move; }
+
+  // Where the view looks. Objects are of a mesh of the scene.
+  void add(const Look& look, EditAction kind, int mesh);
+  void duplicate();
+  void remove();
+  void undo();
+  void redo();
+
+  SceneDocument& document() { return document_; }
+  const SceneDocument& document() const { return document_; }
+
+  // Fills the inspector and what is drawn over the picture. `pointer`: pixel of the picture, where it is over it.
+  void show(const Look& look, const std::optional<glm::dvec2>& pointer, UiEdit& edit);
+  // Takes up what was edited in the inspector.
+  void apply(const UiEdit& edit);
+
+  // Whether the scene changed since the last call.
+  bool takeChanged() { return std::exchange(shownRevision_, document_.revision()) != document_.revision(); }
+
+ private:
+  struct Drag {
+    GizmoDrag gizmo;
+    Selection what;
+    Thing start;
+    glm::dvec3 pivot{0.0};  // world
+    double time = 0.0;      // seconds of animation
+    glm::dvec2 pixel{0.0};
+    GizmoDrag::Change change;
+  };
+  struct Clicked {
+    std::vector<Picked> found;  // from the innermost thing outwards
+    glm::dvec2 pixel{0.0};
+    size_t chosen = 0;  // of those
+  };
+
+  void put(const std::string& verb, const Selection& what, const Thing& thing);
+  void forgetPath();
+  void showThings(UiEdit& edit) const;
+  void showOverlay(const Look& look, const std::optional<glm::dvec2>& pointer, UiOverlay& overlay);
+  PictureView clickedImage(const Look& look) const;
+  Gizmo gizmo(const Look& look) const;
+  std::span<const glm::dvec3> outlinePoints();
+  glm::dvec3 placeAhead(const Look& look, double part);
+  std::string dragLabel() const;
+
+  Picker& picker();
+
+  SceneDocument document_;
+  std::function<void()> beforeChange_;
+  std::unique_ptr<Picker> picker_;  // made when it is needed first
+  std::vector<int> path_;           // mirrors that the selected thing was picked through
+  GizmoMode mode_ = GizmoMode::move;
+  std::optional<Drag> drag_;
+  std::optional<Clicked> clicked_;
+  std::vector<glm::dvec3> outlinePoints_;
+  int outlineMesh_ = -1;  // that they are of
+  uint64_t shownRevision_ = 0;
+};
+
+}  // namespace speculum

@@ -1,0 +1,288 @@
+#include "edit/gizmo.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "optics/affine.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr int ringSteps = 72;
+constexpr double axisStart = 0.14;  // of the arm, so that the middle stays free
+constexpr double planeNear = 0.32;  // of the arm: where the square of a plane begins and ends
+constexpr double planeFar = 0.56;
+constexpr double centerPixels = 7.0;  // radius of the handle of the view's plane
+constexpr double headPixels = 15.0;   // length of an arrow's head
+// Sines of the angle between eye and axis, or eye and plane, below which a handle cannot be taken hold of.
+constexpr double steepestAxis = 0.15;
+constexpr double flattestPlane = 0.12;
+constexpr double flattestRing = 0.15;  // below it, turning counts pixels along the ring's edge
+
+constexpr std::array moveAxes = {Grip::moveX, Grip::moveY, Grip::moveZ};
+constexpr std::array movePlanes = {Grip::moveYZ, Grip::moveZX, Grip::moveXY};
+constexpr std::array rings = {Grip::turnX, Grip::turnY, Grip::turnZ};
+
+bool isPlane(Grip handle) {
+  return handle >= Grip::moveYZ && handle <= Grip::moveXY;
+}
+
+bool isRing(Grip handle) {
+  return handle >= Grip::turnX;
+}
+
+glm::dvec3 unit(int axis) {
+  glm::dvec3 v(0.0);
+  v[axis] = 1.0;
+  return v;
+}
+
+glm::dvec3 towards(const PictureView& picture, const glm::dvec3& pivot) {
+  return glm::normalize(pivot - picture.eye());
+}
+
+glm::dvec3 ringPoint(const glm::dvec3& pivot, int axis, double radius, int step) {
+  const double angle = 2.0 * std::numbers::pi * step / ringSteps;
+  return pivot + radius * (std::cos(angle) * unit((axis + 1) % 3) + std::sin(angle) * unit((axis + 2) % 3));
+}
+
+void addLine(GizmoShape& shape, const std::optional<PixelLine>& line) {
+  if (line) {
+    shape.points.insert(shape.points.end(), {line->a, line->b});
+  }
+}
+
+// Nothing if a corner is not on the picture.
+std::optional<GizmoShape> filled(const PictureView& picture, Grip handle, std::span<const glm::dvec3> corners) {
+  GizmoShape shape{.handle = handle, .filled = true};
+  for (const glm::dvec3& corner : corners) {
+    const auto pixel = picture.pixel(corner);
+    if (!pixel) {
+      return std::nullopt;
+    }
+    shape.points.push_back(*pixel);
+  }
+  return shape;
+}
+
+double distanceTo(const PixelLine& line, const glm::dvec2& p) {
+  const glm::dvec2 along = line.b - line.a;
+  const double length2 = glm::dot(along, along);
+  const double t = length2 > 0.0 ? std::clamp(glm::dot(p - line.a, along) / length2, 0.0, 1.0) : 0.0;
+  return glm::distance(p, line.a + t * along);
+}
+
+bool contains(std::span<const glm::dvec2> convex, const glm::dvec2& p) {
+  bool left = false;
+  bool right = false;
+  for (size_t i = 0; i < convex.size(); ++i) {
+    const glm::dvec2 edge = convex[(i + 1) % convex.size()] - convex[i];
+    const double side = edge.x * (p.y - convex[i].y) - edge.y * (p.x - convex[i].x);
+    left = left || side > 0.0;
+    right = right || side < 0.0;
+  }
+  return !(left && right);
+}
+
+double distanceTo(const GizmoShape& shape, const glm::dvec2& p) {
+  if (shape.filled) {
+    return contains(shape.points, p) ? 0.0 : std::numeric_limits<double>::infinity();
+  }
+  double nearest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i + 1 < shape.points.size(); i += 2) {
+    nearest = std::min(nearest, distanceTo({shape.points[i], shape.points[i + 1]}, p));
+  }
+  return nearest;
+}
+
+// The largest power of ten that is at most a tenth of `value`.
+double grain(double value) {
+  return std::pow(10.0, std::floor(std::log10(0.1 * value)));
+}
+
+// By division below 1, as that gives the double nearest to the decimal number.
+double rounded(double value, double step) {
+  return step < 1.0 ? std::round(value / step) / std::round(1.0 / step) : std::round(value / step) * step;
+}
+
+// An arrow as lines, its head as a triangle of so many pixels.
+void addArrow(const PictureView& picture, const glm::dvec3& pivot, int axis, double length,
+              std::vector<GizmoShape>& shapes) {
+  const Grip handle = moveAxes[static_cast<size_t>(axis)];
+  GizmoShape shaft{.handle = handle};
+  addLine(shaft, picture.line(pivot + axisStart * length * unit(axis), pivot + length * unit(axis)));
+  const auto tail = picture.pixel(pivot);
+  const auto tip = picture.pixel(pivot + length * unit(axis));
+  shapes.push_back(std::move(shaft));
+  if (!tail || !tip || glm::distance(*tail, *tip) < 1.0) {
+    return;
+  }
+  const glm::dvec2 along = glm::normalize(*tip - *tail);
+  const glm::dvec2 across = 0.36 * headPixels * glm::dvec2(-along.y, along.x);
+  const glm::dvec2 end = *tip + headPixels * along;
+  shapes.push_back({.handle = handle, .points = {end, *tip + across, *tip - across}, .filled = true});
+}
+
+void addCenter(const glm::dvec2& center, std::vector<GizmoShape>& shapes) {
+  GizmoShape circle{.handle = Grip::moveView, .filled = true};
+  for (int i = 0; i < 20; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 20.0;
+    circle.points.push_back(center + centerPixels * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  shapes.push_back(std::move(circle));
+}
+
+void addRing(const PictureView& picture, const glm::dvec3& pivot, int axis, double radius,
+             std::vector<GizmoShape>& shapes) {
+  const glm::dvec3 sight = towards(picture, pivot);
+  // Seen from along its axis a ring has no far half.
+  const double depth = std::abs(glm::dot(sight, unit(axis))) < 0.98 ? 0.02 * radius : 2.0 * radius;
+  GizmoShape front{.handle = rings[static_cast<size_t>(axis)]};
+  GizmoShape back{.handle = front.handle, .behind = true};
+  for (int i = 0; i < ringSteps; ++i) {
+    const glm::dvec3 a = ringPoint(pivot, axis, radius, i);
+    const glm::dvec3 b = ringPoint(pivot, axis, radius, i + 1);
+    addLine(glm::dot(0.5 * (a + b) - pivot, sight) > depth ? back : front, picture.line(a, b));
+  }
+  shapes.insert(shapes.begin(), std::move(back));
+  shapes.push_back(std::move(front));
+}
+
+}  // namespace
+
+int axisOf(Grip handle) {
+  if (handle == Grip::none || handle == Grip::moveView) {
+    return -1;
+  }
+  const Grip first = isRing(handle) ? Grip::turnX : isPlane(handle) ? Grip::moveYZ : Grip::moveX;
+  return static_cast<int>(handle) - static_cast<int>(first);
+}
+
+std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
+  std::vector<GizmoShape> shapes;
+  const auto center = picture.pixel(pivot_);
+  if (!center) {
+    return shapes;
+  }
+  const double length = arm_ * picture.metresPerPixel(pivot_);
+  const glm::dvec3 sight = towards(picture, pivot_);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (mode_ == GizmoMode::turn) {
+      addRing(picture, pivot_, axis, length, shapes);
+      continue;
+    }
+    const glm::dvec3 u = length * unit((axis + 1) % 3);
+    const glm::dvec3 v = length * unit((axis + 2) % 3);
+    if (std::abs(glm::dot(sight, unit(axis))) > flattestPlane) {
+      const std::array corners = {pivot_ + planeNear * u + planeNear * v, pivot_ + planeFar * u + planeNear * v,
+                                  pivot_ + planeFar * u + planeFar * v, pivot_ + planeNear * u + planeFar * v};
+      if (auto square = filled(picture, movePlanes[static_cast<size_t>(axis)], corners)) {
+        shapes.insert(shapes.begin(), std::move(*square));
+      }
+    }
+    if (glm::length(glm::cross(sight, unit(axis))) > steepestAxis) {
+      addArrow(picture, pivot_, axis, length, shapes);
+    }
+  }
+  if (mode_ == GizmoMode::move) {
+    addCenter(*center, shapes);
+  }
+  return shapes;
+}
+
+// Of what is equally near, what is drawn on top.
+Grip Gizmo::at(const PictureView& picture, const glm::dvec2& pixel, double reach) const {
+  Grip found = Grip::none;
+  double nearest = reach;
+  for (const GizmoShape& shape : shapes(picture)) {
+    const double distance = distanceTo(shape, pixel) + (shape.behind ? 0.5 * reach : 0.0);
+    if (distance <= nearest) {
+      nearest = distance;
+      found = shape.handle;
+    }
+  }
+  return found;
+}
+
+GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle, const glm::dvec2& pixel)
+    : picture_(picture), handle_(handle), pivot_(gizmo.pivot()), arm_(gizmo.arm()), pressed_(pixel) {
+  const glm::dvec3 sight = towards(picture, pivot_);
+  const int axis = axisOf(handle);
+  axis_ = axis >= 0 ? unit(axis) : glm::dvec3(0.0);
+  if (handle == Grip::moveView) {
+    normal_ = picture.forward();
+  } else if (isRing(handle)) {
+    normal_ = axis_;
+    onScreen_ = std::abs(glm::dot(sight, axis_)) < flattestRing;
+    screen_ = glm::dvec2(1.0, 0.0);
+    const double step = picture.metresPerPixel(pivot_);
+    const auto from = picture.pixel(pivot_);
+    const auto to = picture.pixel(pivot_ + step * glm::normalize(glm::cross(sight, axis_)));
+    if (from && to && *from != *to) {
+      screen_ = glm::normalize(*to - *from);
+    }
+  } else if (isPlane(handle)) {
+    normal_ = axis_;
+  } else {
+    // Of all planes through the axis the one that faces the eye.
+    normal_ = glm::normalize(sight - axis_ * glm::dot(axis_, sight));
+  }
+  start_ = meet(pixel).value_or(pivot_);
+  lastAngle_ = angleAt(pixel).value_or(0.0);
+}
+
+// Not at the plane's horizon, where a pixel is kilometres.
+std::optional<glm::dvec3> GizmoDrag::meet(const glm::dvec2& pixel) const {
+  constexpr double farthest = 1000.0;  // times the pivot's depth
+  const Ray ray = picture_.ray(pixel);
+  const double t = glm::dot(normal_, pivot_ - ray.origin) / glm::dot(normal_, ray.direction);
+  return t > 0.0 && t < farthest * picture_.depth(pivot_) ? std::optional(ray.at(t)) : std::nullopt;
+}
+
+std::optional<glm::dvec3> GizmoDrag::moveAt(const glm::dvec2& pixel) const {
+  const auto met = meet(pixel);
+  if (!met) {
+    return std::nullopt;
+  }
+  const glm::dvec3 by = *met - start_;
+  return handle_ == Grip::moveView || isPlane(handle_) ? by : axis_ * glm::dot(axis_, by);
+}
+
+// Degrees, unbounded in the second case only.
+std::optional<double> GizmoDrag::angleAt(const glm::dvec2& pixel) const {
+  if (onScreen_) {
+    return glm::degrees(glm::dot(pixel - pressed_, screen_) / arm_);
+  }
+  const auto met = meet(pixel);
+  if (!met || *met == pivot_) {
+    return std::nullopt;
+  }
+  const int axis = axisOf(handle_);
+  const glm::dvec3 arm = *met - pivot_;
+  return glm::degrees(std::atan2(arm[(axis + 2) % 3], arm[(axis + 1) % 3]));
+}
+
+GizmoDrag::Change GizmoDrag::to(const glm::dvec2& pixel, bool snap) {
+  if (!isRing(handle_)) {
+    if (const auto by = moveAt(pixel)) {
+      const double step = snap ? moveSnap : grain(picture_.metresPerPixel(pivot_));
+      for (int i = 0; i < 3; ++i) {
+        change_.translation[i] = rounded((*by)[i], step);
+      }
+    }
+    return change_;
+  }
+  if (const auto angle = angleAt(pixel)) {
+    turned_ += onScreen_ ? *angle - lastAngle_ : std::remainder(*angle - lastAngle_, 360.0);
+    lastAngle_ = *angle;
+    change_.degrees = rounded(turned_, snap ? turnSnap : grain(glm::degrees(1.0 / arm_)));
+    change_.rotation = rotationAboutAxis(axis_, change_.degrees);
+  }
+  return change_;
+}
+
+}  // namespace speculum

@@ -1,0 +1,82 @@
+#include "edit/pick.hpp"
+
+#include <algorithm>
+
+#include "optics/reflection.hpp"
+#include "reference/shading.hpp"
+#include "reference/trace_world.hpp"
+
+namespace speculum {
+
+struct Picker::World : TraceWorld {
+  using TraceWorld::TraceWorld;
+};
+
+namespace {
+
+Selection selectionOf(const SceneHit& hit, const TraceWorld& world) {
+  switch (hit.kind) {
+    case HitKind::object: {
+      const InstanceState& instance = world.instances()[static_cast<size_t>(hit.index)];
+      return {Selection::Kind::object, instance.object, instance.copy};
+    }
+    case HitKind::mirror:
+      return {Selection::Kind::mirror, hit.index};
+    case HitKind::glyph:
+      return {Selection::Kind::light, hit.index};
+  }
+  return {};
+}
+
+// Whether the plan left the mirror at the end of the path without the image that it would have shown.
+bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
+  return std::any_of(limits.skipped.begin(), limits.skipped.end(), [&](const SkippedMirror& skip) {
+    const bool shown = skip.reason == SkipReason::maxPasses || skip.reason == SkipReason::maxDepth ||
+                       skip.reason == SkipReason::minPixels || skip.reason == SkipReason::minThroughput;
+    return shown && skip.path == path;
+  });
+}
+
+// Starts at the reflected eye and reaches the mirror at the same t: nothing is moved off a surface.
+Ray reflectedRay(const Ray& ray, const Plane& plane, double t) {
+  return {reflectPoint(ray.origin, plane), reflectionLinear(plane.normal) * ray.direction, t};
+}
+
+}  // namespace
+
+Picker::Picker(const Scene& scene) : world_(std::make_unique<World>(scene)) {}
+
+Picker::~Picker() = default;
+
+std::vector<Picked> Picker::at(const SceneState& state, const PictureView& picture, const glm::dvec2& pixel,
+                               const PickLimits& limits) {
+  world_->place(state);
+  const glm::dvec3& eye = state.camera.eye;
+  Ray ray{glm::dvec3(0.0), glm::normalize(picture.ray(pixel).direction)};
+  Skip skip;
+  std::vector<Picked> found;
+  std::vector<int> path;
+  glm::dvec3 throughput(1.0);
+  while (const auto hit = world_->closest(ray, skip)) {
+    found.push_back({selectionOf(*hit, *world_), path, eye + ray.at(hit->t)});
+    if (hit->kind != HitKind::mirror) {
+      break;
+    }
+    const Mirror& mirror = world_->scene().mirrors[static_cast<size_t>(hit->index)];
+    const MirrorState& placed = world_->mirrors()[static_cast<size_t>(hit->index)];
+    path.push_back(hit->index);
+    throughput *=
+        mirrorReflectance(mirror.reflectance, mirror.fresnel, std::abs(glm::dot(placed.normal, ray.direction)));
+    const double largest = std::max({throughput.r, throughput.g, throughput.b});
+    if (!(hit->mirrorFront || mirror.twoSided) || static_cast<int>(path.size()) > limits.maxDepth || largest == 0.0 ||
+        largest < limits.minThroughput || isSkipped(limits, path)) {
+      break;
+    }
+    ray = reflectedRay(ray, {placed.origin, placed.normal}, hit->t);
+    skip = {.mirror = hit->index};
+  }
+  std::reverse(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace speculum

@@ -1,0 +1,121 @@
+#include "edit/picture_view.hpp"
+
+#include <algorithm>
+
+namespace speculum {
+
+namespace {
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+}  // namespace
+
+PictureView::PictureView(const CameraPose& camera, int width, int height)
+    : projection_(camera.verticalFov, static_cast<double>(width) / height, camera.near) {
+  view_ = mainView(camera, projection_, width, height);
+  const glm::dvec2 size = view_.pictureSize;
+  shown_ = {{0.0, 0.0}, {0.0, size.y}, size, {size.x, 0.0}};
+}
+
+PictureView::PictureView(View view, const Projection& projection) : view_(std::move(view)), projection_(projection) {}
+
+std::optional<PictureView> PictureView::through(const Scene& scene, const SceneState& state,
+                                                std::span<const int> path) const {
+  PictureView seen = *this;
+  for (const int index : path) {
+    if (index < 0 || static_cast<size_t>(index) >= state.mirrors.size()) {
+      return std::nullopt;
+    }
+    const MirrorState& mirror = state.mirrors[static_cast<size_t>(index)];
+    Plane plane{mirror.origin, mirror.normal};
+    const double height = plane.distance(seen.eye());
+    const std::vector<glm::dvec3> visible = visiblePart(seen.view_, mirror.polygon);
+    if (visible.empty() || height == 0.0 || (height < 0.0 && !scene.mirrors[static_cast<size_t>(index)].twoSided)) {
+      return std::nullopt;
+    }
+    plane.normal *= height < 0.0 ? -1.0 : 1.0;
+    PictureView next(reflectedView(seen.view_, index, plane, visible, view_.rect, view_.pictureSize), projection_);
+    for (const glm::dvec4& clip : toClip(seen.view_, projection_, visible)) {
+      if (clip.w <= projection_.near) {
+        next.shown_ = shown_;
+        break;
+      }
+      next.shown_.push_back(toPixel(clip));
+    }
+    seen = std::move(next);
+  }
+  return seen;
+}
+
+glm::dvec3 PictureView::forward() const {
+  return glm::transpose(view_.worldToView) * glm::dvec3(0.0, 0.0, -1.0);
+}
+
+Ray PictureView::ray(const glm::dvec2& pixel) const {
+  const glm::dvec2 device = 2.0 * pixel / view_.pictureSize - 1.0;
+  const glm::dvec3 direction(device.x * projection_.aspect / projection_.focal, -device.y / projection_.focal, -1.0);
+  return {view_.eye, glm::transpose(view_.worldToView) * direction};
+}
+
+double PictureView::depth(const glm::dvec3& world) const {
+  return -(view_.worldToView * (world - view_.eye)).z;
+}
+
+glm::dvec2 PictureView::toPixel(const glm::dvec4& clip) const {
+  return 0.5 * (glm::dvec2(clip) / clip.w + 1.0) * view_.pictureSize;
+}
+
+std::optional<glm::dvec2> PictureView::pixel(const glm::dvec3& world) const {
+  const glm::dvec4 clip = projection_.clip(view_.worldToView * (world - view_.eye));
+  return clip.w > projection_.near ? std::optional(toPixel(clip)) : std::nullopt;
+}
+
+double PictureView::metresPerPixel(const glm::dvec3& world) const {
+  return 2.0 * std::max(depth(world), projection_.near) / (projection_.focal * view_.pictureSize.y);
+}
+
+std::optional<PixelLine> PictureView::line(const glm::dvec3& a, const glm::dvec3& b) const {
+  const double depthA = depth(a);
+  const double depthB = depth(b);
+  // A little beyond, so that rounding leaves both ends where pixel() takes them.
+  const double near = projection_.near * 1.001;
+  if (depthA < near && depthB < near) {
+    return std::nullopt;
+  }
+  const auto cut = [&](const glm::dvec3& in, const glm::dvec3& out, double depthIn, double depthOut) {
+    return depthOut >= near ? out : glm::mix(in, out, (depthIn - near) / (depthIn - depthOut));
+  };
+  const auto first = pixel(cut(b, a, depthB, depthA));
+  const auto second = pixel(cut(a, b, depthA, depthB));
+  return first && second ? clipped({*first, *second}) : std::nullopt;
+}
+
+// Cyrus, Beck, "Generalized Two- and Three-Dimensional Clipping" (1978), whichever way the polygon runs.
+std::optional<PixelLine> PictureView::clipped(const PixelLine& line) const {
+  const glm::dvec2 along = line.b - line.a;
+  double area = 0.0;
+  for (size_t i = 0; i < shown_.size(); ++i) {
+    area += cross(shown_[i] - shown_[0], shown_[(i + 1) % shown_.size()] - shown_[0]);
+  }
+  double enter = 0.0;
+  double leave = 1.0;
+  for (size_t i = 0; i < shown_.size(); ++i) {
+    const glm::dvec2 edge = (shown_[(i + 1) % shown_.size()] - shown_[i]) * (area < 0.0 ? -1.0 : 1.0);
+    const double inside = cross(edge, line.a - shown_[i]);
+    const double slope = cross(edge, along);
+    if (slope == 0.0) {
+      if (inside < 0.0) {
+        return std::nullopt;
+      }
+    } else if (slope > 0.0) {
+      enter = std::max(enter, -inside / slope);
+    } else {
+      leave = std::min(leave, -inside / slope);
+    }
+  }
+  return enter < leave ? std::optional(PixelLine{line.a + enter * along, line.a + leave * along}) : std::nullopt;
+}
+
+}  // namespace speculum

@@ -1,0 +1,253 @@
+#include "edit/scene_writer.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "edit/scene_keys.hpp"
+#include "edit/toml_editor.hpp"
+#include "edit/toml_text.hpp"
+#include "frame/settings.hpp"
+#include "image/file_io.hpp"
+#include "scene/input_error.hpp"
+#include "scene/scene_loader.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// With '/', as scene files have it, and absolute only if there is no way from the one to the other.
+std::string pathFrom(const fs::path& folder, const fs::path& target) {
+  std::error_code error;
+  const fs::path from = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
+  const fs::path to = fs::weakly_canonical(target, error);
+  const fs::path relative = to.lexically_relative(from);
+  return (relative.empty() ? to : relative).generic_string();
+}
+
+bool sameFolder(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return a.parent_path() == b.parent_path() ||
+         fs::weakly_canonical(a, error).parent_path() == fs::weakly_canonical(b, error).parent_path();
+}
+
+// Paths stay as they were written where that is still right.
+void namesModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::path& file, SceneContent& content) {
+  const bool moved = !sameFolder(loaded.file, file);
+  for (size_t i = 0; i < content.objects.size(); ++i) {
+    Object& object = content.objects[i];
+    const int origin = content.origins.objects[i];
+    const Object* before = origin < 0 ? nullptr : &loaded.objects.at(origin);
+    if (before != nullptr && before->mesh == object.mesh && (!moved || fs::path(before->model).is_absolute())) {
+      object.model = before->model;
+    } else {
+      object.model = pathFrom(file.parent_path(), meshes[object.mesh].source);
+    }
+  }
+}
+
+template <typename T>
+void editList(TomlEditor& editor, const std::string& name, const std::vector<T>& loaded, const std::vector<T>& edited,
+              const std::vector<int>& origins) {
+  std::vector<bool> kept(loaded.size(), false);
+  for (size_t i = 0; i < edited.size(); ++i) {
+    const int origin = origins[i];
+    if (origin < 0) {
+      editor.addElement(name, keyTexts(edited[i]));
+    } else {
+      kept.at(origin) = true;
+      editor.change(*editor.outline().child(name)->children.at(origin), keyTexts(loaded[origin]), keyTexts(edited[i]));
+    }
+  }
+  for (size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i]) {
+      editor.removeElement(name, i);
+    }
+  }
+}
+
+template <typename T>
+void editTable(TomlEditor& editor, const std::string& name, const T& loaded, const T& edited) {
+  if (TomlNode* table = editor.outline().child(name)) {
+    editor.change(*table, keyTexts(loaded), keyTexts(edited));
+  } else if (!(loaded == edited)) {
+    editor.addSection(name, {"environment", "camera"}, keyTexts(edited));
+  }
+}
+
+// The tables from [settings] to the value of `key`, the value last; empty if it is not there. Its parts may be quoted
+// together or nested.
+std::vector<TomlNode*> findSetting(TomlNode& table, std::string_view key) {
+  for (const auto& child : table.children) {
+    if (child->key == key && child->kind != TomlNode::Kind::table) {
+      return {&table, child.get()};
+    }
+    if (child->kind == TomlNode::Kind::table && key.starts_with(child->key + ".")) {
+      std::vector<TomlNode*> found = findSetting(*child, key.substr(child->key.size() + 1));
+      if (!found.empty()) {
+        found.insert(found.begin(), &table);
+        return found;
+      }
+    }
+  }
+  return {};
+}
+
+std::string settingText(const SavedSetting& change) {
+  const nlohmann::ordered_json usual = settingsJson(Settings())[change.key];
+  if (usual.is_string()) {
+    return tomlText(std::string_view(change.value));
+  }
+  std::string text;
+  for (const char c : change.value) {
+    text.append(1, c).append(c == ',' ? " " : "");
+  }
+  return text;
+}
+
+void editSettings(TomlEditor& editor, const Settings& loaded, std::span<const SavedSetting> changes) {
+  std::vector<KeyText> fresh;
+  for (const SavedSetting& change : changes) {
+    TomlNode* settings = editor.outline().child("settings");
+    const std::vector<TomlNode*> found = settings ? findSetting(*settings, change.key) : std::vector<TomlNode*>();
+    if (settingValue(loaded, change.key) == change.value) {
+      continue;
+    }
+    if (!found.empty() && change.value.empty()) {
+      editor.remove(*found.back());
+    } else if (!found.empty()) {
+      editor.setValue(*found.back(), settingText(change));
+    } else if (settings) {
+      editor.addKey({&editor.outline(), settings}, tomlKey(change.key), settingText(change));
+    } else {
+      fresh.push_back({"", tomlKey(change.key), settingText(change)});
+    }
+  }
+  if (!fresh.empty()) {
+    editor.addSection("settings", {"environment", "camera"}, fresh);
+  }
+}
+
+template <typename T>
+bool sameTexts(const T& a, const T& b) {
+  const std::vector<KeyText> x = keyTexts(a);
+  const std::vector<KeyText> y = keyTexts(b);
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const KeyText& p, const KeyText& q) {
+    return p.table == q.table && p.key == q.key && p.text == q.text;
+  });
+}
+
+template <typename T>
+bool sameLists(const std::vector<T>& a, const std::vector<T>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return sameTexts(x, y); });
+}
+
+bool readsBack(const Scene& read, const SceneContent& content) {
+  return sameTexts(read.environment, content.environment) && sameTexts(read.camera, content.camera) &&
+         sameLists(read.objects, content.objects) && sameLists(read.lights, content.lights) &&
+         sameLists(read.mirrors, content.mirrors) && sameLists(read.bookmarks, content.bookmarks);
+}
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& remedy) {
+  throw SaveError(oneLine(file.string() + ": not saved: " + what + " (" + remedy + ")"));
+}
+
+void check(const fs::path& file, const std::string& text, const SceneContent& content, std::span<const Mesh> meshes,
+           const Settings& settings) {
+  const std::string remedy = "undo the last changes; the file is as it was";
+  try {
+    const Scene read = parseScene(file, text);
+    if (!readsBack(read, content) || settingsKey(settingsOf(read)) != settingsKey(settings)) {
+      refuse(file, "what was written does not read back as the scene", remedy);
+    }
+  } catch (const InputError& error) {
+    refuse(file, "the scene is not one that can be read: " + std::string(error.what()), remedy);
+  }
+  for (const Object& object : content.objects) {
+    std::error_code error;
+    if (fs::is_directory(fs::absolute(file).parent_path(), error) &&
+        !fs::equivalent(file.parent_path() / object.model, meshes[object.mesh].source, error)) {
+      refuse(file, "its model " + meshes[object.mesh].source.string() + " would not be found as '" + object.model + "'",
+             "put the model back, or save into another folder");
+    }
+  }
+}
+
+std::string textOf(const fs::path& file) {
+  const std::vector<uint8_t> bytes = readFileBytes(file);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+SceneContent contentOf(const Scene& scene) {
+  SceneContent content{.environment = scene.environment,
+                       .camera = scene.camera,
+                       .objects = scene.objects,
+                       .lights = scene.lights,
+                       .mirrors = scene.mirrors,
+                       .bookmarks = scene.bookmarks};
+  const auto count = [](std::vector<int>& origins, size_t size) {
+    origins.resize(size);
+    std::iota(origins.begin(), origins.end(), 0);
+  };
+  count(content.origins.objects, scene.objects.size());
+  count(content.origins.lights, scene.lights.size());
+  count(content.origins.mirrors, scene.mirrors.size());
+  count(content.origins.bookmarks, scene.bookmarks.size());
+  return content;
+}
+
+std::string editedText(const Scene& loaded, const SceneContent& edited, std::span<const Mesh> meshes,
+                       std::span<const SavedSetting> settings, const fs::path& file) {
+  SceneContent content = edited;
+  namesModels(loaded, meshes, file, content);
+  Settings wanted = settingsOf(loaded);
+  const Settings before = wanted;
+  for (const SavedSetting& change : settings) {
+    if (change.value.empty() && change.key == "view.clear_color") {
+      wanted.view.clearColor.reset();
+    } else if (const auto problem = setSetting(wanted, change.key, change.value)) {
+      throw SaveError(*problem);
+    }
+  }
+  TomlEditor editor(loaded.text);
+  editTable(editor, "environment", loaded.environment, content.environment);
+  editTable(editor, "camera", loaded.camera, content.camera);
+  editSettings(editor, before, settings);
+  editList(editor, "object", loaded.objects, content.objects, content.origins.objects);
+  editList(editor, "light", loaded.lights, content.lights, content.origins.lights);
+  editList(editor, "mirror", loaded.mirrors, content.mirrors, content.origins.mirrors);
+  editList(editor, "bookmark", loaded.bookmarks, content.bookmarks, content.origins.bookmarks);
+  std::string text = editor.text();
+  check(file, text, content, meshes, wanted);
+  return text;
+}
+
+void writeSceneFile(const fs::path& file, const std::string& text, const std::optional<std::string>& expected,
+                    bool overwrite) {
+  try {
+    std::error_code error;
+    if (!overwrite && fs::exists(file, error) && (!expected || textOf(file) != *expected)) {
+      refuse(file, expected ? "another program has changed the file since it was read" : "there is such a file already",
+             "save under another name, or overwrite it");
+    }
+    replaceFile(file, [&](const fs::path& partial) {
+      std::ofstream stream(partial, std::ios::binary);
+      stream << text;
+      if (!stream.flush()) {
+        throw std::runtime_error(partial.string() + ": cannot be written (check the folder and the disk)");
+      }
+    });
+  } catch (const SaveError&) {
+    throw;
+  } catch (const std::runtime_error& problem) {
+    throw SaveError(oneLine("not saved: " + std::string(problem.what())));
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace speculum {
+
+// Bytes of a text, the last one excluded.
+struct TextRange {
+  size_t begin = 0;
+  size_t end = 0;
+
+  std::string_view of(std::string_view text) const { return text.substr(begin, end - begin); }
+};
+
+// A [header] or [[header]] with the statements under it.
+struct TomlSection {
+  size_t begin = 0;  // of the header's line
+  size_t end = 0;    // of the last statement's line, or the header's if there is none; the line break included
+  std::optional<TextRange> lastStatement;  // its lines
+  size_t keyWidth = 0;                     // bytes from the last key to its =
+  bool linedUp = false;                    // keys are padded so that their = stand below each other
+};
+
+// Where the text of a TOML file says what. A table may be written in several places: under headers, with dotted keys,
+// in braces.
+struct TomlNode {
+  enum class Kind { table, array, scalar };
+
+  Kind kind = Kind::table;
+  std::string key;                                  // unquoted; empty for the root and for elements
+  std::vector<std::unique_ptr<TomlNode>> children;  // of a table, elements of an array, in the order of the text
+  std::optional<TextRange> value;                   // of what stands behind the =, or is an element of brackets
+  std::optional<TextRange> keyed;                   // from the key to the end of the value, if that is this node's own
+  std::optional<TextRange> statement;               // the whole lines of `keyed`, if it does not stand in braces
+  std::vector<TomlSection> sections;                // of a table with headers; an element of [[key]] has one at least
+  std::optional<TextRange> dotted;  // the lines of the last statement that added to the table with a dotted key
+  std::string dottedPrefix;         // what stands there before the added key: "sky."
+
+  TomlNode* child(std::string_view name);
+  const TomlNode* child(std::string_view name) const;
+  bool inBraces() const { return kind == Kind::table && value.has_value(); }
+};
+
+// `text` must be TOML 1.0 that has been parsed without an error.
+TomlNode outlineOf(std::string_view text);
+
+// The outline of a value that stands alone, such as "[1, 2]".
+TomlNode outlineOfValue(std::string_view text);
+
+}  // namespace speculum

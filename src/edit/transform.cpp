@@ -1,0 +1,170 @@
+#include "edit/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optics/affine.hpp"
+
+namespace speculum {
+
+namespace {
+
+template <typename Item>
+Thing itemOf(const std::vector<Item>& items, int index) {
+  return index >= 0 && static_cast<size_t>(index) < items.size() ? Thing(items[static_cast<size_t>(index)]) : Thing();
+}
+
+glm::dvec3 meanOf(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 sum(0.0);
+  for (const glm::dvec3& p : points) {
+    sum += p - points[0];
+  }
+  return points[0] + sum / static_cast<double>(points.size());
+}
+
+// Reduced as evaluate() does it.
+glm::dvec3 spunBy(const glm::dvec3& spin, double time) {
+  return {std::remainder(spin.x * time, 360.0), std::remainder(spin.y * time, 360.0),
+          std::remainder(spin.z * time, 360.0)};
+}
+
+// Metres and degrees to nine decimals: 29.999999999999996 is no number to write into a file. By division, which gives
+// the double nearest to the decimal number.
+glm::dvec3 tidy(const glm::dvec3& v) {
+  constexpr double decimals = 1e9;
+  constexpr double farthest = 1e6;  // beyond, a double has no such decimals
+  glm::dvec3 result = v;
+  for (int i = 0; i < 3; ++i) {
+    result[i] = std::abs(v[i]) < farthest ? std::round(v[i] * decimals) / decimals : v[i];
+  }
+  return result;
+}
+
+glm::dvec3 turnedAngles(const glm::dvec3& angles, const glm::dvec3& spin, const glm::dmat3& rotation, double time) {
+  const glm::dvec3 spun = spunBy(spin, time);
+  const glm::dvec3 now = pitchYawRoll(rotation * rotationFromDegrees(angles + spun), angles + spun);
+  return tidy(now - spun);
+}
+
+glm::dvec3 about(const glm::dvec3& pivot, const glm::dmat3& rotation, const glm::dvec3& p) {
+  return pivot + rotation * (p - pivot);
+}
+
+}  // namespace
+
+Thing thingOf(const Scene& scene, const Selection& selection) {
+  switch (selection.kind) {
+    case Selection::Kind::object:
+      return itemOf(scene.objects, selection.index);
+    case Selection::Kind::light:
+      return itemOf(scene.lights, selection.index);
+    case Selection::Kind::mirror:
+      return itemOf(scene.mirrors, selection.index);
+    default:
+      return {};
+  }
+}
+
+const InstanceState* instanceOf(const SceneState& state, const Selection& selection) {
+  const auto found = std::find_if(state.instances.begin(), state.instances.end(), [&](const InstanceState& instance) {
+    return selection.kind == Selection::Kind::object && instance.object == selection.index &&
+           instance.copy == selection.copy;
+  });
+  return found != state.instances.end() ? &*found : nullptr;
+}
+
+glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection& selection) {
+  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  if (selection.kind == Selection::Kind::mirror) {
+    return meanOf(state.mirrors.at(index).polygon);
+  }
+  if (selection.kind == Selection::Kind::light) {
+    return state.lights.at(index).position;
+  }
+  if (const InstanceState* instance = instanceOf(state, selection)) {
+    const Object& object = scene.objects.at(index);
+    const glm::dvec3 origin = object.position + static_cast<double>(selection.copy) * object.copies.step;
+    return glm::distance(origin, instance->center) <= instance->radius ? origin : instance->center;
+  }
+  return glm::dvec3(0.0);
+}
+
+double reachOf(const Scene& scene, const SceneState& state, const Selection& selection) {
+  const glm::dvec3 pivot = pivotOf(scene, state, selection);
+  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  if (selection.kind == Selection::Kind::light) {
+    return scene.lights.at(index).radius;
+  }
+  if (const InstanceState* instance = instanceOf(state, selection)) {
+    return glm::distance(pivot, instance->center) + instance->radius;
+  }
+  double reach = 0.0;
+  if (selection.kind == Selection::Kind::mirror) {
+    for (const glm::dvec3& p : state.mirrors.at(index).polygon) {
+      reach = std::max(reach, glm::distance(pivot, p));
+    }
+  }
+  return reach;
+}
+
+Thing moved(const Thing& thing, const glm::dvec3& by, double time) {
+  Thing result = thing;
+  if (auto* object = std::get_if<Object>(&result)) {
+    object->position = tidy(object->position + by);
+  } else if (auto* light = std::get_if<PointLight>(&result)) {
+    const glm::dmat3 turn =
+        light->orbit ? rotationAboutAxis(light->orbit->axis, light->orbit->speed * time) : glm::dmat3(1.0);
+    light->position = tidy(light->position + glm::transpose(turn) * by);
+  } else if (auto* mirror = std::get_if<Mirror>(&result)) {
+    mirror->position = mirror->polygon.empty() ? tidy(mirror->position + by) : mirror->position;
+    for (glm::dvec3& p : mirror->polygon) {
+      p = tidy(p + by);
+    }
+  }
+  return result;
+}
+
+Thing turned(const Thing& thing, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time) {
+  Thing result = thing;
+  if (auto* object = std::get_if<Object>(&result)) {
+    const glm::dvec3 step = static_cast<double>(copy) * object->copies.step;
+    object->position = tidy(about(pivot, rotation, object->position + step) - step);
+    object->rotation = turnedAngles(object->rotation, object->spin, rotation, time);
+  } else if (auto* mirror = std::get_if<Mirror>(&result)) {
+    for (glm::dvec3& p : mirror->polygon) {
+      p = tidy(about(pivot, rotation, p));
+    }
+    if (mirror->polygon.empty()) {
+      mirror->position = tidy(about(pivot, rotation, mirror->position));
+      mirror->rotation = turnedAngles(mirror->rotation, mirror->spin, rotation, time);
+    }
+  }
+  return result;
+}
+
+// The third column of Ry Rx Rz is (cos p sin y, -sin p, cos p cos y), its second row (cos p sin r, cos p cos r, -sin
+// p). With the roll taken off, the first column is (cos y, 0, -sin y) at every pitch.
+glm::dvec3 pitchYawRoll(const glm::dmat3& rotation, const glm::dvec3& near) {
+  constexpr double lock = 1e-7;  // cosine of the pitch, below which rounding alone would decide the roll
+  const double cosine = std::hypot(rotation[0].y, rotation[1].y);
+  const double pitch = std::atan2(-rotation[2].y, cosine);
+  const double roll = cosine > lock ? std::atan2(rotation[0].y, rotation[1].y) : glm::radians(near.z);
+  const glm::dvec3 side = rotation * glm::dvec3(std::cos(roll), -std::sin(roll), 0.0);
+  const double yaw = std::atan2(-side.z, side.x);
+  const auto nearest = [&](glm::dvec3 angles) {
+    for (int i = 0; i < 3; ++i) {
+      angles[i] = near[i] + std::remainder(angles[i] - near[i], 360.0);
+    }
+    return angles;
+  };
+  const glm::dvec3 first = nearest(glm::degrees(glm::dvec3(pitch, yaw, roll)));
+  if (cosine <= lock) {
+    return first;
+  }
+  const glm::dvec3 other =
+      nearest({180.0 - glm::degrees(pitch), glm::degrees(yaw) + 180.0, glm::degrees(roll) + 180.0});
+  const auto distance = [&](const glm::dvec3& angles) { return glm::length(angles - near); };
+  return distance(other) < distance(first) ? other : first;
+}
+
+}  // namespace speculum

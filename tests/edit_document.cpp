@@ -1,0 +1,279 @@
+#include <stdexcept>
+
+#include "edit_support.hpp"
+
+namespace speculum {
+namespace {
+
+using Kind = Selection::Kind;
+
+constexpr const char* kText = R"([camera]
+position = [0, 1, 4]
+target = [0, 0, 0]
+[[object]]
+name = "teapot"
+model = "triangle.obj"
+scale = 2
+copies = { count = 3, step = [0, 0, 1] }
+[[light]]
+name = "lamp"
+position = [0, 2, 0]
+orbit = { center = [1, 2, 0], speed = 10 }
+[[mirror]]
+name = "floor"
+rotation = [-90, 0, 0]
+size = [4, 4]
+)";
+
+const Selection kTeapot{Kind::object, 0};
+const Selection kFloor{Kind::mirror, 0};
+const Selection kLamp{Kind::light, 0};
+
+auto moveTeapot(double x) {
+  return [x](Scene& scene) { scene.objects[0].position.x = x; };
+}
+
+TEST(SceneDocument, UndoAndRedoBringContentLabelAndSelectionBack) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  EXPECT_FALSE(document.canUndo() || document.canRedo() || document.modified());
+  document.select(kLamp);
+  document.change("move object 'teapot'", kTeapot, moveTeapot(1));
+  document.change("widen mirror 'floor'", kFloor, [](Scene& scene) { scene.mirrors[0].size.x = 8; });
+  EXPECT_EQ(document.undoLabel(), "widen mirror 'floor'");
+  EXPECT_EQ(document.selection(), kFloor);
+  document.select({});
+  document.undo();
+  EXPECT_EQ(document.selection(), kFloor);
+  EXPECT_EQ(text.scene.mirrors[0].size.x, 4);
+  EXPECT_EQ(document.undoLabel(), "move object 'teapot'");
+  EXPECT_EQ(document.redoLabel(), "widen mirror 'floor'");
+  document.undo();
+  EXPECT_EQ(document.selection(), kTeapot);
+  EXPECT_EQ(text.scene.objects[0].position.x, 0);
+  EXPECT_FALSE(document.canUndo() || document.modified());
+  document.undo();
+  document.redo();
+  document.redo();
+  document.redo();
+  EXPECT_EQ(text.scene.objects[0].position.x, 1);
+  EXPECT_EQ(text.scene.mirrors[0].size.x, 8);
+  EXPECT_FALSE(document.canRedo());
+  document.undo();
+  document.change("move object 'teapot'", kTeapot, moveTeapot(2));
+  EXPECT_FALSE(document.canRedo()) << "a new step ends what could be redone";
+}
+
+TEST(SceneDocument, WhatChangesNothingIsNoStep) {
+  TextScene text(kText);
+  const uint64_t revision = text.document.revision();
+  text.document.change("move", kTeapot, moveTeapot(0));
+  EXPECT_FALSE(text.document.canUndo());
+  EXPECT_EQ(text.document.revision(), revision);
+}
+
+TEST(SceneDocument, AFailedChangeLeavesTheSceneAsItWas) {
+  TextScene text(kText);
+  EXPECT_THROW(text.document.change("move", kTeapot,
+                                    [](Scene& scene) {
+                                      scene.objects[0].position.x = 5;
+                                      throw std::runtime_error("no");
+                                    }),
+               std::runtime_error);
+  EXPECT_THROW(text.document.change("drop", kTeapot, [](Scene& scene) { scene.lights.clear(); }), std::logic_error);
+  EXPECT_EQ(text.scene.objects[0].position.x, 0);
+  EXPECT_EQ(text.scene.lights.size(), 1u);
+  EXPECT_FALSE(text.document.canUndo() || text.document.modified());
+}
+
+TEST(SceneDocument, AGestureIsOneStep) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  document.beginGesture();
+  for (int i = 1; i <= 10; ++i) {
+    document.change("move object 'teapot'", kTeapot, moveTeapot(i));
+    EXPECT_EQ(text.scene.objects[0].position.x, i);
+  }
+  EXPECT_TRUE(document.modified());
+  document.endGesture();
+  EXPECT_EQ(document.undoLabel(), "move object 'teapot'");
+  document.undo();
+  EXPECT_EQ(text.scene.objects[0].position.x, 0);
+  EXPECT_FALSE(document.canUndo());
+  document.redo();
+  EXPECT_EQ(text.scene.objects[0].position.x, 10);
+
+  document.beginGesture();
+  document.change("move object 'teapot'", kTeapot, moveTeapot(20));
+  document.undo();
+  EXPECT_EQ(text.scene.objects[0].position.x, 10) << "undo ends the gesture and takes it back";
+  EXPECT_FALSE(document.inGesture());
+}
+
+TEST(SceneDocument, AGestureThatComesBackOrIsCancelledIsNone) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  document.beginGesture();
+  document.change("move", kTeapot, moveTeapot(3));
+  document.change("move", kTeapot, moveTeapot(0));
+  document.endGesture();
+  EXPECT_FALSE(document.canUndo());
+  document.select(kLamp);
+  document.beginGesture();
+  document.change("move", kTeapot, moveTeapot(3));
+  const uint64_t revision = document.revision();
+  document.cancelGesture();
+  EXPECT_EQ(text.scene.objects[0].position.x, 0);
+  EXPECT_EQ(document.selection(), kLamp);
+  EXPECT_GT(document.revision(), revision);
+  EXPECT_FALSE(document.canUndo());
+}
+
+TEST(SceneDocument, RevisionsTellValuesFromStructure) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  const auto rises = [&](const auto& action) {
+    const uint64_t revision = document.revision();
+    const uint64_t structure = document.structureRevision();
+    action();
+    EXPECT_GT(document.revision(), revision);
+    return document.structureRevision() > structure;
+  };
+  EXPECT_FALSE(rises([&] { document.change("move", kTeapot, moveTeapot(1)); }));
+  EXPECT_FALSE(rises([&] { document.undo(); }));
+  EXPECT_TRUE(
+      rises([&] { document.change("copies", kTeapot, [](Scene& scene) { scene.objects[0].copies.count = 4; }); }));
+  EXPECT_TRUE(rises([&] { document.undo(); }));
+  EXPECT_TRUE(rises([&] { document.addLight({0, 1, 0}, {0, 1, 5}); }));
+  EXPECT_TRUE(rises([&] { document.undo(); }));
+  EXPECT_TRUE(rises([&] { document.redo(); }));
+  EXPECT_TRUE(rises([&] { document.remove(kFloor); }));
+  EXPECT_FALSE(rises([&] { document.addBookmark({.position = {1, 1, 1}, .target = {0, 0, 0}}); }));
+}
+
+TEST(SceneDocument, AddedThingsFollowTheViewer) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  document.select(kTeapot);
+  EXPECT_EQ(document.addMirror({1, 2, 3}, {11, 2, 3}), (Selection{Kind::mirror, 1}));
+  const Mirror& mirror = text.scene.mirrors[1];
+  EXPECT_EQ(mirror.position, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(mirror.rotation, glm::dvec3(0, 90, 0));
+  EXPECT_EQ(mirror.size, glm::dvec2(3, 4));
+  document.addLight({0, 5, 0}, {0, 5, 2});
+  EXPECT_EQ(text.scene.lights[1].intensity, 4);
+  EXPECT_EQ(text.scene.lights[1].radius, 0.02);
+  EXPECT_EQ(document.addObject(0, {7, 1, 0}), (Selection{Kind::object, 1}));
+  const Object& object = text.scene.objects[1];
+  // The triangle spans 0 .. 1 in x and y, here twice that.
+  EXPECT_EQ(object.position, glm::dvec3(6, 1, 0));
+  EXPECT_EQ(object.name, "triangle");
+  EXPECT_EQ(object.scale, glm::dvec3(2));
+  EXPECT_EQ(object.copies.count, 1);
+  document.undo();
+  document.undo();
+  document.undo();
+  EXPECT_EQ(document.selection(), kTeapot);
+  EXPECT_FALSE(document.modified());
+}
+
+TEST(SceneDocument, DuplicatesStandBesideWithNamesOfTheirOwn) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  EXPECT_EQ(document.duplicate(kTeapot), (Selection{Kind::object, 1}));
+  EXPECT_EQ(text.scene.objects[1].name, "teapot 2");
+  EXPECT_EQ(text.scene.objects[1].position, glm::dvec3(2.2, 0, 0));
+  EXPECT_EQ(text.scene.objects[1].copies.count, 3);
+  document.duplicate(document.selection());
+  EXPECT_EQ(text.scene.objects[2].name, "teapot 3");
+  document.duplicate(kFloor);
+  EXPECT_NEAR(text.scene.mirrors[1].position.x, 4.4, 1e-12);
+  document.duplicate(kLamp);
+  EXPECT_GT(text.scene.lights[1].position.x, 0);
+  EXPECT_EQ(text.scene.lights[1].orbit->center - text.scene.lights[1].position, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(document.undoLabel(), "duplicate light 'lamp'");
+}
+
+TEST(SceneDocument, RemovingSelectsNothingAndUndoSelectsAgain) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  document.remove(kFloor);
+  EXPECT_TRUE(text.scene.mirrors.empty());
+  EXPECT_EQ(document.selection(), Selection());
+  EXPECT_EQ(document.undoLabel(), "remove mirror 'floor'");
+  document.undo();
+  EXPECT_EQ(document.selection(), kFloor);
+  EXPECT_EQ(text.scene.mirrors.size(), 1u);
+  EXPECT_FALSE(document.modified());
+}
+
+TEST(SceneDocument, BookmarksKeepTheirNamesApart) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  const Bookmark view{.position = {1, 1, 1}, .target = {0, 0, 0}};
+  EXPECT_EQ(document.addBookmark(view), "view");
+  EXPECT_EQ(document.addBookmark(view), "view 2");
+  EXPECT_EQ(document.renameBookmark(0, "view 2"), "view 3");
+  EXPECT_EQ(document.renameBookmark(0, ""), "view 3");
+  EXPECT_EQ(document.renameBookmark(0, "door"), "door");
+  EXPECT_EQ(document.undoLabel(), "rename bookmark 'view 3'");
+  document.removeBookmark(0);
+  ASSERT_EQ(text.scene.bookmarks.size(), 1u);
+  EXPECT_EQ(text.scene.bookmarks[0].name, "view 2");
+  EXPECT_THROW(document.removeBookmark(1), std::out_of_range);
+}
+
+TEST(SceneDocument, ForgetsTheOldestSteps) {
+  TextScene text(kText);
+  for (size_t i = 1; i <= SceneDocument::mostSteps + 5; ++i) {
+    text.document.change("move", kTeapot, moveTeapot(static_cast<double>(i)));
+  }
+  size_t steps = 0;
+  for (; text.document.canUndo(); ++steps) {
+    text.document.undo();
+  }
+  EXPECT_EQ(steps, SceneDocument::mostSteps);
+  EXPECT_EQ(text.scene.objects[0].position.x, 5);
+  for (; text.document.canRedo(); --steps) {
+    text.document.redo();
+  }
+  EXPECT_EQ(steps, 0u);
+  EXPECT_EQ(text.scene.objects[0].position.x, SceneDocument::mostSteps + 5);
+}
+
+TEST(SceneDocument, ForgetsStepsThatTakeTooMuchMemory) {
+  std::string many = kText;
+  for (int i = 0; i < 20000; ++i) {
+    many += "[[light]]\nposition = [0, 1, 0]\n";
+  }
+  TextScene text(many);
+  for (int i = 1; i <= 40; ++i) {
+    text.document.change("move", kTeapot, moveTeapot(i));
+  }
+  const size_t bytes = 20000 * sizeof(PointLight);
+  size_t steps = 0;
+  for (; text.document.canUndo(); ++steps) {
+    text.document.undo();
+  }
+  EXPECT_GE(steps, 1u);
+  EXPECT_LE(steps * bytes, SceneDocument::mostBytes);
+}
+
+TEST(SceneDocument, ModifiedIsAgainstWhatWasSaved) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  document.change("move", kTeapot, moveTeapot(1));
+  EXPECT_TRUE(document.modified());
+  document.change("move", kTeapot, moveTeapot(0));
+  EXPECT_FALSE(document.modified()) << "the same values again";
+  document.change("move", kTeapot, moveTeapot(2));
+  document.save(text.file, {});
+  EXPECT_FALSE(document.modified());
+  document.undo();
+  EXPECT_TRUE(document.modified());
+  document.redo();
+  EXPECT_FALSE(document.modified());
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,265 @@
+// Handles of the gizmo, what dragging them does, and outlines.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "edit/gizmo.hpp"
+#include "edit/outline.hpp"
+#include "edit/transform.hpp"
+#include "optics/affine.hpp"
+#include "optics/reflection.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr double arm = 90.0;
+
+double uniform(double low, double high) {
+  return low + (high - low) * *rc::gen::inRange(0, 1 << 20) / (1 << 20);
+}
+
+glm::dvec3 inBox(double side) {
+  const double x = uniform(-side, side);
+  const double y = uniform(-side, side);
+  return {x, y, uniform(-side, side)};
+}
+
+PictureView lookingAt(const glm::dvec3& eye, const glm::dvec3& target) {
+  return PictureView(lookAt(eye, target, {0.0, 1.0, 0.0}, 60.0, 0.001), 900, 700);
+}
+
+double largest(const glm::dmat3& m) {
+  double most = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const glm::dvec3 a = glm::abs(m[c]);
+    most = std::max({most, a.x, a.y, a.z});
+  }
+  return most;
+}
+
+TEST(PitchYawRoll, GivesTheRotationBackNearTheAnglesBefore) {
+  rc::check([] {
+    const glm::dvec3 angles(*rc::gen::elementOf(std::vector<double>{uniform(-400, 400), 90.0, -90.0, 0.0, 89.99999}),
+                            uniform(-400, 400), uniform(-400, 400));
+    const glm::dvec3 near = angles + inBox(200.0);
+    const glm::dmat3 rotation = rotationFromDegrees(angles);
+    RC_ASSERT(largest(rotationFromDegrees(pitchYawRoll(rotation, near)) - rotation) < 1e-7);
+    const glm::dvec3 back = pitchYawRoll(rotation, angles);
+    RC_ASSERT(glm::length(back - angles) < (std::abs(std::cos(glm::radians(angles.x))) > 1e-3 ? 1e-6 : 1e-2));
+  });
+}
+
+TEST(PitchYawRoll, AtGimbalLockTheRollStays) {
+  const glm::dvec3 angles(90.0, 25.0, 40.0);
+  const glm::dvec3 turned = pitchYawRoll(rotationAboutAxis({0, 1, 0}, 10.0) * rotationFromDegrees(angles), angles);
+  EXPECT_NEAR(turned.x, 90.0, 1e-5);
+  EXPECT_NEAR(turned.y, 35.0, 1e-5);
+  EXPECT_EQ(turned.z, 40.0);
+}
+
+TEST(GizmoOfMoving, EveryHandleIsFoundWhereItIsDrawn) {
+  const PictureView picture = lookingAt({3, 2, 4}, {0, 0, 0});
+  for (const GizmoMode mode : {GizmoMode::move, GizmoMode::turn}) {
+    const Gizmo gizmo(mode, {0.2, 0.1, 0.0}, arm);
+    std::vector<Grip> drawn;
+    for (const GizmoShape& shape : gizmo.shapes(picture)) {
+      ASSERT_GE(shape.points.size(), 2u);
+      glm::dvec2 middle(0.0);
+      for (const glm::dvec2& p : shape.points) {
+        middle += p / static_cast<double>(shape.points.size());
+      }
+      // Of a ring a point away from where it crosses another, of everything else the middle.
+      const glm::dvec2 p = mode == GizmoMode::turn ? shape.points[shape.points.size() / 5] : middle;
+      if (!shape.behind) {
+        EXPECT_EQ(gizmo.at(picture, p, 6.0), shape.handle);
+        drawn.push_back(shape.handle);
+      }
+    }
+    EXPECT_GE(drawn.size(), mode == GizmoMode::turn ? 3u : 7u);
+    EXPECT_EQ(gizmo.at(picture, picture.pixel(gizmo.pivot()).value() + glm::dvec2(300.0, 0.0), 6.0), Grip::none);
+  }
+}
+
+TEST(GizmoOfMoving, IsAsLargeAtEveryDistance) {
+  for (const double distance : {0.01, 1.0, 300.0}) {
+    const PictureView picture = lookingAt({0, 0, distance}, {0, 0, 0});
+    double farthest = 0.0;
+    for (const GizmoShape& shape : Gizmo(GizmoMode::turn, {0, 0, 0}, arm).shapes(picture)) {
+      for (const glm::dvec2& p : shape.points) {
+        farthest = std::max(farthest, glm::distance(p, glm::dvec2(450.0, 350.0)));
+      }
+    }
+    EXPECT_NEAR(farthest, arm, 3.0) << distance << " m";
+  }
+}
+
+TEST(GizmoOfMoving, WhatPointsAtTheEyeIsLeftOut) {
+  const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
+  for (const GizmoShape& shape : Gizmo(GizmoMode::move, {0, 0, 0}, arm).shapes(picture)) {
+    EXPECT_NE(shape.handle, Grip::moveZ);
+    EXPECT_NE(shape.handle, Grip::moveYZ);
+    EXPECT_NE(shape.handle, Grip::moveZX);
+  }
+}
+
+TEST(GizmoDragging, AnAxisFollowsThePointer) {
+  rc::check([] {
+    const glm::dvec3 pivot = inBox(2.0);
+    const glm::dvec3 eye = pivot + glm::dvec3(uniform(-3, 3), uniform(-2, 2), uniform(2, 6));
+    const PictureView picture = lookingAt(eye, pivot + inBox(0.5));
+    const int axis = *rc::gen::inRange(0, 3);
+    glm::dvec3 by(0.0);
+    by[axis] = uniform(-1.0, 1.0);
+    const auto from = picture.pixel(pivot);
+    const auto to = picture.pixel(pivot + by);
+    const glm::dvec3 sight = glm::normalize(pivot - eye);
+    RC_PRE(from && to && std::abs(sight[axis]) < 0.95);
+    GizmoDrag drag(picture, Gizmo(GizmoMode::move, pivot, arm), static_cast<Grip>(axis + 1), *from);
+    const glm::dvec3 moved = drag.to(*to, false).translation;
+    RC_ASSERT(glm::distance(moved, by) < 0.2 * picture.metresPerPixel(pivot));
+    const glm::dvec3 snapped = drag.to(*to, true).translation;
+    RC_ASSERT(std::abs(snapped[axis] - 0.1 * std::round(10.0 * by[axis])) <
+              1e-12 + (std::abs(std::remainder(10 * by[axis], 1.0)) > 0.499 ? 0.1 : 0.0));
+  });
+}
+
+TEST(GizmoDragging, ThroughAMirrorTheImageFollowsThePointer) {
+  Scene scene;
+  scene.mirrors.push_back({.position = {0, 0, -2}, .rotation = {0, 20, 0}, .size = {9, 9}});
+  scene.mirrors.push_back({.position = {0, 0, 5}, .rotation = {0, 190, 0}, .size = {19, 9}});
+  const SceneState state = evaluate(scene, 0.0);
+  const glm::dvec3 pivot(0.3, 0.2, 1.0);
+  const glm::dvec3 by(0.0, 0.25, 0.4);
+  for (const std::vector<int>& path : {std::vector<int>{0}, std::vector<int>{0, 1}}) {
+    const PictureView picture = lookingAt({0.5, 0.4, 3.0}, {0, 0, -2}).through(scene, state, path).value();
+    GizmoDrag drag(picture, Gizmo(GizmoMode::move, pivot, arm), Grip::moveYZ, picture.pixel(pivot).value());
+    const glm::dvec3 moved = drag.to(picture.pixel(pivot + by).value(), false).translation;
+    EXPECT_NEAR(glm::distance(moved, by), 0.0, 0.3 * picture.metresPerPixel(pivot));
+  }
+}
+
+TEST(GizmoDragging, PlanesAndRingsFollowThePointer) {
+  rc::check([] {
+    const glm::dvec3 pivot = inBox(1.0);
+    const PictureView picture = lookingAt(pivot + glm::dvec3(3, 2, 4), pivot);
+    const int axis = *rc::gen::inRange(0, 3);
+    const Gizmo moving(GizmoMode::move, pivot, arm);
+    glm::dvec3 by = inBox(0.5);
+    by[axis] = 0.0;
+    const double pixel = picture.metresPerPixel(pivot);
+    GizmoDrag plane(picture, moving, static_cast<Grip>(axis + 4), *picture.pixel(pivot));
+    RC_ASSERT(glm::distance(plane.to(*picture.pixel(pivot + by), false).translation, by) < 0.2 * pixel);
+
+    glm::dvec3 radius(0.0);
+    radius[(axis + 1) % 3] = arm * pixel;
+    glm::dvec3 unit(0.0);
+    unit[axis] = 1.0;
+    GizmoDrag ring(picture, Gizmo(GizmoMode::turn, pivot, arm), static_cast<Grip>(axis + 8),
+                   *picture.pixel(pivot + radius));
+    const double total = uniform(-700.0, 700.0);
+    double degrees = 0.0;
+    for (int i = 1; i <= 40; ++i) {
+      const glm::dmat3 turn = rotationAboutAxis(unit, total * i / 40.0);
+      degrees = ring.to(*picture.pixel(pivot + turn * radius), false).degrees;
+    }
+    RC_ASSERT(std::abs(degrees - total) < 0.1);
+    RC_ASSERT(std::abs(std::remainder(
+                  ring.to(*picture.pixel(pivot + rotationAboutAxis(unit, total) * radius), true).degrees, 15.0)) <
+              1e-9);
+  });
+}
+
+TEST(GizmoDragging, ARingSeenFromItsEdgeCountsPixels) {
+  const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
+  const glm::dvec2 start(450.0, 350.0);
+  GizmoDrag ring(picture, Gizmo(GizmoMode::turn, {0, 0, 0}, arm), Grip::turnY, start);
+  EXPECT_NEAR(ring.to(start + glm::dvec2(arm, 0.0), false).degrees, glm::degrees(1.0), 0.1)
+      << "to the right is counter-clockwise seen from above";
+  EXPECT_NEAR(ring.to(start + glm::dvec2(arm, 50.0), false).degrees, glm::degrees(1.0), 0.1);
+}
+
+TEST(GizmoDragging, BeyondTheHorizonTheLastChangeStays) {
+  const PictureView picture = lookingAt({0, 1, 4}, {0, 1, 0});
+  GizmoDrag drag(picture, Gizmo(GizmoMode::move, {0, 0, 0}, arm), Grip::moveZX, {450.0, 500.0});
+  const glm::dvec3 low = drag.to({450.0, 450.0}, false).translation;
+  EXPECT_LT(low.z, -0.1);
+  EXPECT_EQ(drag.to({450.0, 340.0}, false).translation, low);
+  EXPECT_EQ(drag.to({450.0, 350.0}, false).translation, low);
+}
+
+TEST(Transforming, ThingsStandWhereTheyWerePut) {
+  rc::check([] {
+    Scene scene;
+    scene.meshes.push_back({.halfExtent = glm::dvec3(0.5), .radius = 0.9});
+    scene.objects.push_back({.mesh = 0, .position = inBox(3), .rotation = inBox(180), .spin = inBox(60)});
+    scene.objects[0].copies = {.count = 3, .step = inBox(1)};
+    scene.mirrors.push_back({.position = inBox(3), .rotation = inBox(180), .spin = inBox(60), .size = {2, 1}});
+    Mirror polygon;
+    polygon.polygon = evaluate(scene, 0.0).mirrors[0].polygon;
+    scene.mirrors.push_back(polygon);
+    scene.lights.push_back({.position = inBox(3), .orbit = Orbit{inBox(1), {0.2, 1.0, 0.1}, 30.0}});
+    const double time = uniform(0, 20);
+    const SceneState before = evaluate(scene, time);
+    const glm::dvec3 by = inBox(1);
+    const glm::dmat3 turn = rotationAboutAxis(inBox(1) + glm::dvec3(1.5, 0, 0), uniform(-180, 180));
+    const Selection object{Selection::Kind::object, 0, 2};
+    const glm::dvec3 pivot = pivotOf(scene, before, object);
+    Scene after = scene;
+    after.objects[0] = std::get<Object>(turned(moved(scene.objects[0], by, time), turn, pivot + by, 2, time));
+    after.lights[0] = std::get<PointLight>(moved(scene.lights[0], by, time));
+    for (int i : {0, 1}) {
+      const glm::dvec3 middle = pivotOf(scene, before, {Selection::Kind::mirror, i});
+      after.mirrors[i] = std::get<Mirror>(turned(moved(scene.mirrors[i], by, time), turn, middle + by, 0, time));
+    }
+    const SceneState state = evaluate(after, time);
+    RC_ASSERT(glm::distance(state.lights[0].position, before.lights[0].position + by) < 1e-8);
+    RC_ASSERT(glm::distance(state.instances[2].center, before.instances[2].center + by) < 1e-8);
+    RC_ASSERT(largest(state.instances[2].worldFromMesh.linear - turn * before.instances[2].worldFromMesh.linear) <
+              1e-8);
+    for (int i : {0, 1}) {
+      const glm::dvec3 middle = pivotOf(scene, before, {Selection::Kind::mirror, i});
+      for (size_t v = 0; v < 4; ++v) {
+        const glm::dvec3 expected = middle + by + turn * (before.mirrors[i].polygon[v] - middle);
+        RC_ASSERT(glm::distance(state.mirrors[i].polygon[v], expected) < 1e-7);
+      }
+    }
+  });
+}
+
+TEST(Outline, SurroundsAnObjectClosely) {
+  Scene scene;
+  Mesh mesh{.halfExtent = glm::dvec3(1.0), .radius = 1.0};
+  for (int i = 0; i < 60; ++i) {
+    for (int j = 0; j <= 60; ++j) {
+      const double a = glm::radians(6.0 * i);
+      const double b = glm::radians(3.0 * j);
+      mesh.vertices.push_back({{std::sin(b) * std::cos(a), std::cos(b), std::sin(b) * std::sin(a)}, {}, {}});
+    }
+  }
+  const std::vector<glm::dvec3> points = outlinePoints(mesh);
+  EXPECT_LE(points.size(), 512u);
+  scene.meshes.push_back(mesh);
+  scene.objects.push_back({.mesh = 0});
+  scene.mirrors.push_back({.position = {0, 0, -3}, .size = {1.0, 8.0}});
+  const SceneState state = evaluate(scene, 0.0);
+  const Selection sphere{Selection::Kind::object, 0};
+  const PictureView picture = lookingAt({0, 0, 5}, {0, 0, 0});
+  const double radius = 350.0 / std::tan(glm::radians(30.0)) * std::tan(std::asin(0.2));
+  const auto lines = outlineOf(scene, state, sphere, picture, points);
+  EXPECT_GT(lines.size(), 20u);
+  for (const PixelLine& line : lines) {
+    EXPECT_NEAR(glm::distance(line.a, glm::dvec2(450.0, 350.0)), radius, 3.0);
+  }
+  // Its image is wider than the mirror, which cuts it.
+  const auto image =
+      outlineOf(scene, state, sphere, picture.through(scene, state, std::vector<int>{0}).value(), points);
+  ASSERT_FALSE(image.empty());
+  const double halfWidth = 350.0 / std::tan(glm::radians(30.0)) * 0.5 / 8.0;
+  for (const PixelLine& line : image) {
+    EXPECT_LE(std::abs(line.a.x - 450.0), halfWidth + 1e-6);
+  }
+  const auto inside = outlineOf(scene, state, sphere, lookingAt({0, 0, 0.5}, {0, 0, 0}), points);
+  EXPECT_LE(inside.size(), 12u) << "the edges of its box";
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,286 @@
+// What a pixel shows, found by rays, against what the rasteriser drew there.
+#include "edit/pick.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr int width = 480;
+constexpr int height = 270;
+
+using Random = std::mt19937;
+
+glm::dvec3 randomColor(Random& random) {
+  std::uniform_real_distribution<double> channel(0.05, 1.0);
+  const double r = channel(random);
+  const double g = channel(random);
+  return {r, g, channel(random)};
+}
+
+// A colour for everything, whatever light falls on it. A mirror shows half of what it reflects and half of its own, so
+// that a pixel tells all the mirrors that it is seen through.
+void makeFlat(Scene& scene) {
+  Random random(7);
+  scene.environment = {.ambient = glm::dvec3(1.0)};
+  for (Mesh& mesh : scene.meshes) {
+    for (MeshPart& part : mesh.parts) {
+      part.material = Material{.specular = glm::dvec3(0.0)};
+    }
+  }
+  for (Object& object : scene.objects) {
+    object.color = randomColor(random);
+    object.specular = glm::dvec3(0.0);
+    object.mirror.reset();
+  }
+  for (PointLight& light : scene.lights) {
+    light.color = randomColor(random);
+    light.glow = light.glow > 0.0 ? 1.0 : 0.0;
+    light.intensity = 0.0;
+    light.castsShadow = false;
+  }
+  for (Mirror& mirror : scene.mirrors) {
+    mirror.reflectance = glm::dvec3(0.5);
+    mirror.fresnel = Fresnel::none;
+    mirror.baseColor = randomColor(random);
+    mirror.backColor = randomColor(random);
+    mirror.roughness = 0.0;
+    mirror.ripple.reset();
+    mirror.castsLight = false;
+  }
+}
+
+bool showsBack(const Scene& scene, const SceneState& state, const Picked& mirror, const PictureView& picture) {
+  const auto seen = picture.through(scene, state, mirror.path);
+  const auto index = static_cast<size_t>(mirror.what.index);
+  return !scene.mirrors[index].twoSided &&
+         glm::dot(state.mirrors[index].normal, seen->eye() - state.mirrors[index].origin) < 0.0;
+}
+
+// Of what the picker found in a pixel.
+glm::dvec3 flatColor(const Scene& scene, const SceneState& state, const std::vector<Picked>& found,
+                     const PictureView& picture) {
+  glm::dvec3 color(0.0);
+  for (const Picked& picked : found) {
+    const auto index = static_cast<size_t>(picked.what.index);
+    if (picked.what.kind == Selection::Kind::object) {
+      color = *scene.objects[index].color;
+    } else if (picked.what.kind == Selection::Kind::light) {
+      color = scene.lights[index].color;
+    } else if (showsBack(scene, state, picked, picture)) {
+      color = scene.mirrors[index].backColor;
+    } else {
+      color = 0.5 * color + 0.5 * scene.mirrors[index].baseColor;
+    }
+  }
+  return color;
+}
+
+class PickedScene : public testing::TestWithParam<const char*> {
+ protected:
+  PickedScene()
+      : options_(headless(sourceFile("scenes/" + std::string(GetParam()) + ".toml"), {width, height})),
+        loaded_(loadSceneWithSettings(options_)),
+        device_(deviceOptions(options_, nullptr)),
+        renderer_(device_, rendererOptions(options_, nullptr)) {
+    makeFlat(loaded_.scene);
+    loaded_.settings.view.samples = 1;
+    loaded_.settings.reflection.samples = 1;
+    state_ = evaluate(loaded_.scene, 1.0);
+  }
+
+  LinearImage draw() {
+    SceneRenderer drawn(renderer_, loaded_.scene);
+    Frame frame = renderer_.beginFrame().value();
+    plan_ = planFrame(loaded_.scene, state_, loaded_.settings, width, height);
+    drawn.record(frame, state_, loaded_.settings, plan_);
+    renderer_.endFrame(frame);
+    return drawn.radiance();
+  }
+
+  Options options_;
+  LoadedScene loaded_;
+  Device device_;
+  Renderer renderer_;
+  SceneState state_;
+  FramePlan plan_;
+};
+
+double largestDifference(const glm::dvec3& a, const glm::dvec3& b) {
+  const glm::dvec3 d = glm::abs(a - b);
+  return std::max({d.r, d.g, d.b});
+}
+
+TEST_P(PickedScene, IsWhatThePixelShows) {
+  const LinearImage drawn = draw();
+  const PictureView picture(state_.camera, width, height);
+  Picker picker(loaded_.scene);
+  const ReflectionSettings& r = loaded_.settings.reflection;
+  const PickLimits limits{r.maxDepth, r.minThroughput, plan_.skipped};
+  Random random(11);
+  std::uniform_int_distribution<int> column(1, width - 2);
+  std::uniform_int_distribution<int> row(1, height - 2);
+  constexpr int pixels = 1500;
+  int edges = 0;
+  std::array<int, 4> byDepth{};
+  for (int i = 0; i < pixels; ++i) {
+    const int x = column(random);
+    const int y = row(random);
+    const auto found = picker.at(state_, picture, {x + 0.5, y + 0.5}, limits);
+    const glm::dvec3 expected = flatColor(loaded_.scene, state_, found, picture);
+    const auto at = [&](int dx, int dy) {
+      return glm::dvec3(drawn.pixels[static_cast<size_t>(y + dy) * width + static_cast<size_t>(x + dx)]);
+    };
+    byDepth[found.empty() ? 0 : std::min<size_t>(found[0].path.size(), 3)] += 1;
+    if (largestDifference(at(0, 0), expected) < 0.003) {
+      continue;
+    }
+    // A pixel on an edge may show either side of it: floats there, doubles here.
+    ++edges;
+    double nearest = 1.0;
+    for (int n = 0; n < 9; ++n) {
+      nearest = std::min(nearest, largestDifference(at(n % 3 - 1, n / 3 - 1), expected));
+    }
+    EXPECT_LT(nearest, 0.003) << "pixel " << x << ", " << y << ": "
+                              << (found.empty() ? "nothing" : describe(loaded_.scene, found[0].what));
+  }
+  EXPECT_LE(edges, pixels / 500);
+  std::printf("%s: %d directly, %d in one mirror, %d in two, %d in more; %d at edges\n", GetParam(), byDepth[0],
+              byDepth[1], byDepth[2], byDepth[3], edges);
+  RecordProperty("edges", edges);
+  EXPECT_TRUE(std::string(GetParam()) == "no_mirror" || byDepth[1] > 20);
+  EXPECT_EQ(device_.validationMessages(), 0);
+}
+
+TEST_P(PickedScene, LiesWhereItIsSeen) {
+  const PictureView picture(state_.camera, width, height);
+  Picker picker(loaded_.scene);
+  Random random(5);
+  std::uniform_real_distribution<double> x(0.0, width);
+  std::uniform_real_distribution<double> y(0.0, height);
+  int checked = 0;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec2 pixel(x(random), y(random));
+    for (const Picked& picked : picker.at(state_, picture, pixel, {.maxDepth = 3})) {
+      const auto seen = picture.through(loaded_.scene, state_, picked.path);
+      ASSERT_TRUE(seen);
+      const auto back = seen->pixel(picked.point);
+      ASSERT_TRUE(back);
+      EXPECT_NEAR(back->x, pixel.x, 1e-6);
+      EXPECT_NEAR(back->y, pixel.y, 1e-6);
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene,
+                         testing::Values("gallery", "facing_mirrors", "many_mirrors", "mirror_maze", "outdoors",
+                                         "no_mirror", "single_plane", "shadows", "pool"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// Two mirrors that face each other, a sphere between them.
+const std::string corridor = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+[camera]
+position = [0, 1, 1.5]
+target = [0, 1, -2]
+[[object]]
+name = "ball"
+model = "MODELS/sphere.obj"
+position = [0.6, 1, 0.5]
+scale = 0.2
+copies = { count = 2, step = [0, 5, 0] }
+[[light]]
+position = [-0.5, 1.5, 0]
+radius = 0.1
+[[light]]
+position = [-0.5, 0.7, 0]
+radius = 0.1
+glow = 0
+[[mirror]]
+name = "ahead"
+position = [0, 1, -2]
+size = [3, 2]
+[[mirror]]
+name = "behind"
+position = [0, 1, 2]
+rotation = [0, 180, 0]
+size = [3, 2]
+)";
+
+class Corridor : public testing::Test {
+ protected:
+  std::vector<Picked> at(const glm::dvec3& world, const PickLimits& limits = {}) {
+    return picker_.at(state_, picture_, picture_.pixel(world).value(), limits);
+  }
+  Scene scene_ = loadScene(writeScene("corridor", corridor));
+  SceneState state_ = evaluate(scene_, 0.0);
+  PictureView picture_{state_.camera, 900, 700};
+  Picker picker_{scene_};
+};
+
+const Selection ball{Selection::Kind::object, 0, 0};
+const Selection ahead{Selection::Kind::mirror, 0};
+const Selection behind{Selection::Kind::mirror, 1};
+
+TEST_F(Corridor, IsPickedDirectlyAndThroughMirrors) {
+  const glm::dvec3 center(0.6, 1.0, 0.5);
+  const auto direct = at(center);
+  ASSERT_EQ(direct.size(), 1u);
+  EXPECT_EQ(direct[0].what, ball);
+  EXPECT_NEAR(glm::distance(direct[0].point, center), 0.1, 0.01);
+
+  // The image in a mirror at z = -2, and that of the image in a mirror at z = 2.
+  const auto once = at({0.6, 1.0, -4.5});
+  ASSERT_EQ(once.size(), 2u);
+  EXPECT_EQ(once[0].what, ball);
+  EXPECT_EQ(once[0].path, std::vector<int>({0}));
+  EXPECT_NEAR(glm::distance(once[0].point, center), 0.1, 0.01) << "the thing's own place, not its image's";
+  EXPECT_LT(once[0].point.z, center.z) << "its far side is seen";
+  EXPECT_EQ(once[1], (Picked{ahead, {}, once[1].point}));
+
+  const auto twice = at({0.6, 1.0, -7.5});
+  ASSERT_EQ(twice.size(), 3u);
+  EXPECT_EQ(twice[0].what, ball);
+  EXPECT_EQ(twice[0].path, std::vector<int>({0, 1}));
+  EXPECT_EQ(twice[1].what, behind);
+  EXPECT_EQ(twice[1].path, std::vector<int>({0}));
+  EXPECT_EQ(twice[2].what, ahead);
+}
+
+TEST_F(Corridor, FollowsMirrorsAsFarAsTheyAreDrawn) {
+  EXPECT_EQ(at({0.6, 1.0, -7.5}, {.maxDepth = 1})[0].what, behind) << "it shows the background";
+  EXPECT_EQ(at({0.6, 1.0, -7.5}, {.maxDepth = 0})[0].what, ahead);
+  EXPECT_EQ(at({0.6, 1.0, -7.5}, {.minThroughput = 0.93})[0].what, behind) << "0.95 squared is below";
+  const std::vector<SkippedMirror> skipped{{1, {0, 1}, 1, SkipReason::maxPasses, ""}};
+  EXPECT_EQ(at({0.6, 1.0, -7.5}, {.skipped = skipped})[0].what, behind);
+  const std::vector<SkippedMirror> held{{1, {0, 1}, 1, SkipReason::unchanged, ""}};
+  EXPECT_EQ(at({0.6, 1.0, -7.5}, {.skipped = held})[0].what, ball);
+}
+
+TEST_F(Corridor, LightsArePickedByTheirGlow) {
+  EXPECT_EQ(at({-0.5, 1.5, 0})[0].what, (Selection{Selection::Kind::light, 0}));
+  EXPECT_EQ(at({-0.5, 1.5, -4.0})[0].path, std::vector<int>({0}));
+  EXPECT_NE(at({-0.5, 0.7, 0})[0].what.kind, Selection::Kind::light) << "without a glow it is not drawn";
+  EXPECT_TRUE(picker_.at(state_, picture_, {2.0, 2.0}, {}).empty()) << "the background";
+}
+
+TEST_F(Corridor, MirrorsAreLookedThroughFromTheirFrontOnly) {
+  EXPECT_TRUE(picture_.through(scene_, state_, std::vector<int>{0, 1, 0}));
+  EXPECT_FALSE(picture_.through(scene_, state_, std::vector<int>{1})) << "behind the eye";
+  EXPECT_FALSE(picture_.through(scene_, state_, std::vector<int>{0, 7}));
+  Scene turned = scene_;
+  turned.mirrors[0].rotation.y = 180.0;
+  EXPECT_FALSE(picture_.through(turned, evaluate(turned, 0.0), std::vector<int>{0})) << "its back";
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "edit/scene_document.hpp"
+#include "scene/scene_loader.hpp"
+#include "temporary_folder.hpp"
+
+namespace speculum {
+
+inline constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+std::string contentOfFile(const std::filesystem::path& file);
+
+std::vector<std::filesystem::path> shippedScenes();
+
+// Every field of what can be edited, exactly, but for where it stood and how models are named.
+void expectSameContent(const Scene& actual, const Scene& expected, const std::string& about);
+
+// A scene of a text, in a folder of its own with "triangle.obj".
+struct TextScene {
+  explicit TextScene(const std::string& text)
+      : model(folder.write("triangle.obj", kTriangle)),
+        file(folder.write("scene.toml", text)),
+        scene(loadScene(file)),
+        document(scene) {}
+
+  // The text as it would be saved.
+  std::string saved(const std::vector<SavedSetting>& settings = {}) const { return document.text(file, settings); }
+
+  TemporaryFolder folder;
+  std::filesystem::path model;
+  std::filesystem::path file;
+  Scene scene;
+  SceneDocument document;
+};
+
+}  // namespace speculum

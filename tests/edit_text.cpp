@@ -1,0 +1,240 @@
+// What the writer leaves of a text that people wrote, and what it adds.
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "edit/toml_text.hpp"
+#include "edit_support.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr const char* kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << text << "\nlacks " << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// The edit changes `from` into `to` and nothing else; empty `from`: appends.
+void expectEdit(const std::string& text, const std::function<void(Scene&)>& edit, const std::string& from,
+                const std::string& to) {
+  TextScene scene(text);
+  scene.document.change("edit", {}, edit);
+  ASSERT_TRUE(scene.document.modified()) << "the edit changed nothing";
+  EXPECT_EQ(scene.saved(), from.empty() ? text + to : replaced(text, from, to));
+  scene.document.undo();
+  EXPECT_EQ(scene.saved(), text);
+}
+
+TEST(TomlNumbers, ReadBackExactlyAndAreShort) {
+  EXPECT_EQ(tomlText(0.0), "0");
+  EXPECT_EQ(tomlText(-0.0), "-0.0");
+  EXPECT_EQ(tomlText(0.1), "0.1");
+  EXPECT_EQ(tomlText(100000.0), "100000");
+  EXPECT_EQ(tomlText(0.0005), "0.0005");
+  EXPECT_EQ(tomlText(1e15), "1e+15");
+  EXPECT_EQ(tomlText(-2.5e-7), "-2.5e-07");
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 100000; ++i) {
+    const double value = std::bit_cast<double>(random());
+    if (std::isfinite(value)) {
+      const std::string text = tomlText(value);
+      double back = 0.0;
+      std::from_chars(text.data(), text.data() + text.size(), back);
+      ASSERT_EQ(std::bit_cast<uint64_t>(back), std::bit_cast<uint64_t>(value)) << text;
+    }
+  }
+}
+
+TEST(EditedText, OnlyTheNumberThatChangedIsWrittenAnew) {
+  const std::string text = std::string(kCamera) +
+                           "# a light\n[[light]]   # of the hall\n"
+                           "position = [ 0x10, +3.50, 1e0 ] # where it hangs\nintensity=2_0\n\n";
+  expectEdit(
+      text, [](Scene& s) { s.lights[0].position.y = 3.25; }, "+3.50", "3.25");
+  expectEdit(
+      text, [](Scene& s) { s.lights[0].intensity = 21.5; }, "2_0", "21.5");
+  expectEdit(
+      text, [](Scene& s) { s.lights[0].castsShadow = true; }, "2_0\n", "2_0\ncasts_shadow = true\n");
+}
+
+TEST(EditedText, PolygonsKeepTheirLines) {
+  const std::string text =
+      std::string(kCamera) + "[[mirror]]\npolygon = [\n  [0, 0, 0], # left\n  [1, 0, 0],\n  [1.0, 1, 0], # top\n]\n";
+  expectEdit(
+      text, [](Scene& s) { s.mirrors[0].polygon[2].y = 2; }, "[1.0, 1, 0]", "[1.0, 2, 0]");
+  expectEdit(
+      text,
+      [](Scene& s) {
+        s.mirrors[0].polygon = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+      },
+      "[\n  [0, 0, 0], # left\n  [1, 0, 0],\n  [1.0, 1, 0], # top\n]", "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]");
+}
+
+TEST(EditedText, PolygonBecomesRectangle) {
+  const std::string text =
+      std::string(kCamera) + "[[mirror]]\nname = 'a'\npolygon = [[0,0,0],[1,0,0],[1,1,0]]\nroughness = 0.1 # r\n";
+  expectEdit(
+      text,
+      [](Scene& s) {
+        s.mirrors[0].polygon.clear();
+        s.mirrors[0].size = {2, 1};
+        s.mirrors[0].position.z = -1;
+      },
+      "polygon = [[0,0,0],[1,0,0],[1,1,0]]\nroughness = 0.1 # r\n",
+      "roughness = 0.1 # r\nposition = [0, 0, -1]\nsize = [2, 1]\n");
+}
+
+TEST(EditedText, TablesWithinComeAndGo) {
+  const std::string text = std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\nripple = { amplitude = 0.01 } # waves\n" +
+                           "[[light]]\nposition = [0, 1, 0]\n";
+  expectEdit(
+      text, [](Scene& s) { s.mirrors[0].ripple->amplitude = 0.02; }, "0.01", "0.02");
+  expectEdit(
+      text, [](Scene& s) { s.mirrors[0].ripple->speed = 1.5; }, "0.01 }", "0.01, speed = 1.5 }");
+  expectEdit(
+      text, [](Scene& s) { s.mirrors[0].ripple.reset(); }, "ripple = { amplitude = 0.01 } # waves\n", "");
+  expectEdit(
+      text, [](Scene& s) { s.lights[0].orbit = Orbit{.speed = 20}; }, "", "orbit = { speed = 20 }\n");
+}
+
+TEST(EditedText, EveryWayToWriteATableWithin) {
+  const auto waves = [](Scene& s) { s.mirrors[0].ripple->wavelength = 0.25; };
+  const auto still = [](Scene& s) { s.mirrors[0].ripple.reset(); };
+  const std::string mirror = std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\n";
+  const std::string dotted = mirror + "ripple.amplitude = 0.5\nname = 'x'\n";
+  expectEdit(dotted, waves, "0.5\n", "0.5\nripple.wavelength = 0.25\n");
+  expectEdit(dotted, still, "ripple.amplitude = 0.5\n", "");
+  const std::string headed =
+      mirror + "\n# waves\n[mirror.ripple]\namplitude = 0.5\n\n[[light]]\nposition = [0, 1, 0]\n";
+  expectEdit(headed, waves, "0.5\n", "0.5\nwavelength = 0.25\n");
+  expectEdit(headed, still, "\n# waves\n[mirror.ripple]\namplitude = 0.5\n", "");
+  const std::string inlined =
+      "mirror = [{size = [1, 1], ripple = {amplitude = 0.5}}, {size = [2, 2]}]\n" + std::string(kCamera);
+  expectEdit(inlined, waves, "0.5}", "0.5, wavelength = 0.25}");
+  expectEdit(inlined, still, ", ripple = {amplitude = 0.5}", "");
+  const std::string both = "mirror = [{ripple.amplitude = 0.5, size = [1, 1]}]\n" + std::string(kCamera);
+  expectEdit(both, waves, "size = [1, 1]", "size = [1, 1], ripple.wavelength = 0.25");
+  expectEdit(both, still, "ripple.amplitude = 0.5, ", "");
+  const std::string flat = mirror + "ripple.amplitude = 0\n";
+  expectEdit(
+      flat, [](Scene& s) { s.mirrors[0].ripple = Ripple{.amplitude = 0.1}; }, "amplitude = 0\n", "amplitude = 0.1\n");
+}
+
+TEST(EditedText, EnvironmentInEveryForm) {
+  const auto dim = [](Scene& s) { s.environment.ambient = glm::dvec3(0.5); };
+  const std::string line = "ambient = [0.5, 0.5, 0.5]\n";
+  expectEdit(kCamera, dim, "", "\n[environment]\n" + line);
+  expectEdit("[environment] # none\n" + std::string(kCamera), dim, "# none\n", "# none\n" + line);
+  expectEdit("environment = {background = [1, 1, 1]}\n" + std::string(kCamera), dim, "[1, 1, 1]}",
+             "[1, 1, 1], ambient = [0.5, 0.5, 0.5]}");
+  expectEdit("environment.background = [1, 1, 1]\n" + std::string(kCamera), dim, "[1, 1, 1]\n",
+             "[1, 1, 1]\nenvironment." + line);
+  const std::string sky = "[environment.sky]\nzenith = [1, 1, 1]\nhorizon = [1, 1, 1]\nground = [1, 1, 1]\n";
+  expectEdit("title = 'x'\n" + sky + kCamera, dim, "'x'\n", "'x'\nenvironment." + line);
+  expectEdit(
+      "title = 'x'\n" + sky + kCamera, [](Scene& s) { s.environment.sky.reset(); }, sky, "");
+  expectEdit(
+      "[environment]\nambient = [0, 0, 0]\n" + std::string(kCamera),
+      [](Scene& s) {
+        s.environment.sky = Sky{glm::dvec3(0.25), glm::dvec3(0.5), glm::dvec3(1)};
+      },
+      "ambient = [0, 0, 0]\n",
+      "ambient = [0, 0, 0]\nsky = { zenith = [0.25, 0.25, 0.25], horizon = [0.5, 0.5, 0.5], "
+      "ground = [1, 1, 1] }\n");
+}
+
+TEST(EditedText, LineBreaksOfDosAndNoneAtTheEnd) {
+  const std::string dos =
+      "[camera]\r\nposition = [0, 0, 4] # eye\r\ntarget = [0, 0, 0]\r\n\r\n[[light]]\r\nposition = [0, 1, 0]";
+  const auto shadow = [](Scene& s) { s.lights[0].castsShadow = true; };
+  expectEdit(dos, shadow, "", "\r\ncasts_shadow = true");
+  expectEdit(
+      dos, [](Scene& s) { s.camera.position.z = 5; }, "4]", "5]");
+  TextScene scene(dos);
+  scene.document.addLight({1, 2, 3}, {1, 2, 4});
+  EXPECT_EQ(scene.saved(), dos + "\r\n\r\n[[light]]\r\nname = \"light\"\r\nposition = [1, 2, 3]\r\nradius = 0.01");
+  scene.document.undo();
+  EXPECT_EQ(scene.saved(), dos);
+}
+
+TEST(EditedText, NamesOfEveryKind) {
+  const std::string text = "\xef\xbb\xbf# Größe: 3 µm, \"quoted\" [not] = a key\n" + std::string(kCamera) +
+                           "[[ \"light\" ]]\n\"na\\u006De\" = 'Stehlampe \"grün\"' # ☀\n'position' = [0, 1, 0]\n";
+  expectEdit(
+      text, [](Scene& s) { s.lights[0].position.x = 7; }, "[0, 1, 0]", "[7, 1, 0]");
+  expectEdit(
+      text, [](Scene& s) { s.lights[0].name = "a \"b\" \\ c\td\x01 ☃"; }, "'Stehlampe \"grün\"'",
+      "\"a \\\"b\\\" \\\\ c\\td\\u0001 ☃\"");
+  expectEdit(
+      text, [](Scene& s) { s.lights[0].glow = 0; }, "[0, 1, 0]\n", "[0, 1, 0]\nglow = 0\n");
+}
+
+TEST(EditedText, KeysThatLineUpGoOnDoingSo) {
+  const std::string text =
+      std::string(kCamera) + "[[light]]\n  name     = 'a'\n  position = [0, 1, 0]\n\n# last words\n";
+  expectEdit(
+      text, [](Scene& s) { s.lights[0].glow = 0; }, "[0, 1, 0]\n", "[0, 1, 0]\n  glow     = 0\n");
+  TextScene scene(text);
+  scene.document.addBookmark({.name = "door", .position = {1, 2, 3}, .target = {0, 0, 0}, .verticalFov = 40.0});
+  EXPECT_EQ(scene.saved(), text +
+                               "\n[[bookmark]]\nname         = \"door\"\nposition     = [1, 2, 3]\n"
+                               "target       = [0, 0, 0]\nvertical_fov = 40\n");
+}
+
+TEST(EditedText, RemovedThingsTakeTheirCommentsAlong) {
+  const std::string head = std::string(kCamera) + "\n# ---- lights ----\n\n";
+  const std::string first = "# the first\n# of two\n[[light]]\nname = 'a'\nposition = [0, 1, 0] # up\n";
+  const std::string second = "\n# the second\n[[light]]\nname = 'b'\nposition = [0, 2, 0]\n# that was it\n";
+  const std::string tail = "\n# mirrors\n\n[[mirror]]\nsize = [1, 1]\n";
+  TextScene scene(head + first + second + tail);
+  scene.document.remove({Selection::Kind::light, 0});
+  EXPECT_EQ(scene.saved(), head.substr(0, head.size() - 1) + second + tail);
+  scene.document.remove({Selection::Kind::light, 0});
+  EXPECT_EQ(scene.saved(), head.substr(0, head.size() - 1) + tail);
+  scene.document.undo();
+  scene.document.undo();
+  scene.document.remove({Selection::Kind::light, 1});
+  scene.document.addLight({5, 0, 0}, {5, 0, 1});
+  EXPECT_EQ(scene.saved(),
+            head + first + "\n[[light]]\nname = \"light\"\nposition = [5, 0, 0]\nradius = 0.01\n" + tail);
+}
+
+TEST(EditedText, AddedAndRemovedInBrackets) {
+  const std::string text = "mirror = [\n  {size = [1, 1]}, # one\n  {size = [2, 2]},\n]\n" + std::string(kCamera);
+  TextScene scene(text);
+  scene.document.remove({Selection::Kind::mirror, 1});
+  EXPECT_EQ(scene.saved(), replaced(text, ", # one\n  {size = [2, 2]},\n]", ",\n]"));
+  scene.document.undo();
+  scene.document.addMirror({0, 0, 0}, {0, 0, 10});
+  EXPECT_EQ(scene.saved(),
+            replaced(text, "{size = [2, 2]},", "{size = [2, 2]}, { name = \"mirror\", size = [3, 4] },"));
+  scene.document.remove({Selection::Kind::mirror, 0});
+  scene.document.remove({Selection::Kind::mirror, 0});
+  EXPECT_EQ(scene.scene.mirrors.size(), 1u);
+  EXPECT_NE(scene.saved().find("size = [3, 4]"), std::string::npos);
+}
+
+TEST(EditedText, SettingsWhereverTheyStand) {
+  const auto saved = [](const std::string& text, const std::vector<SavedSetting>& changes) {
+    return TextScene(text).saved(changes);
+  };
+  const std::string quoted = std::string(kCamera) + "[settings]\n\"view.exposure\" = 1.50 # bright\n";
+  EXPECT_EQ(saved(quoted, {{"view.exposure", "1.5"}}), quoted);
+  EXPECT_EQ(saved(quoted, {{"view.exposure", "2.0"}}), replaced(quoted, "1.50", "2.0"));
+  EXPECT_EQ(saved(quoted, {{"view.tone_map", "aces"}, {"effects.shadows", "false"}}),
+            quoted + "\"view.tone_map\" = \"aces\"\n\"effects.shadows\" = false\n");
+  EXPECT_EQ(saved(quoted, {{"view.samples", "4"}}), quoted) << "a default that was not there";
+  const std::string nested = std::string(kCamera) + "[settings.view]\nexposure = 2\nclear_color = [1, 1, 1]\n";
+  EXPECT_EQ(saved(nested, {{"view.exposure", "3.0"}}), replaced(nested, "2", "3.0"));
+  EXPECT_EQ(saved(nested, {{"view.clear_color", ""}}), replaced(nested, "clear_color = [1, 1, 1]\n", ""));
+  EXPECT_EQ(saved(std::string(kCamera) + "[[light]]\nposition = [0, 1, 0]\n", {{"view.clear_color", "[0.5,0.0,1.0]"}}),
+            std::string(kCamera) +
+                "\n[settings]\n\"view.clear_color\" = [0.5, 0.0, 1.0]\n\n[[light]]\nposition = [0, 1, 0]\n");
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,348 @@
+// Scene files that were edited and saved.
+#include <algorithm>
+#include <cctype>
+#include <limits>
+
+#include "edit_support.hpp"
+
+namespace speculum {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = Selection::Kind;
+
+std::string saveErrorOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const SaveError& error) {
+    return error.what();
+  }
+  return "no SaveError was thrown";
+}
+
+// The comments of a scene, which no change of values may lose.
+std::vector<std::string> commentsOf(const std::string& text) {
+  std::vector<std::string> comments;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    const std::string line = text.substr(at, end - at);
+    if (line.starts_with('#')) {
+      comments.push_back(line);
+    }
+    at = end + 1;
+  }
+  return comments;
+}
+
+// A scene file in a folder of its own whose models are those of the shipped one.
+struct ShippedCopy {
+  explicit ShippedCopy(const fs::path& shipped) : file(folder.write("scene.toml", "")) {
+    scene = loadScene(shipped);
+    original = scene.text;
+  }
+
+  Scene reloaded(SceneDocument& document) {
+    document.save(file, {}, true);
+    return loadScene(file);
+  }
+
+  TemporaryFolder folder;
+  fs::path file;
+  Scene scene;
+  std::string original;
+};
+
+class ShippedScene : public testing::TestWithParam<fs::path> {};
+
+TEST_P(ShippedScene, UnchangedIsTheSameBytes) {
+  Scene scene = loadScene(GetParam());
+  const SceneDocument document(scene);
+  EXPECT_EQ(document.text(GetParam(), {}), contentOfFile(GetParam()));
+}
+
+// Every value that can be edited, of every thing.
+void changeEverything(Scene& s) {
+  s.environment = {.background = {0.1, 0.2, 0.3}, .ambient = {0.25, 1e-7, 0.3}};
+  s.environment.sky = Sky{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, {0.7, 0.8, 0.9}};
+  s.camera.position += glm::dvec3(0.123456789012345, 1.0 / 3.0, 0.5);
+  s.camera.verticalFov = 47.3;
+  s.camera.near = 0.0123;
+  s.camera.orbitSpeed = -3.7;
+  for (Object& object : s.objects) {
+    object.name += " \"x\" \\ Ü";
+    object.position += glm::dvec3(1.0 / 3.0, 0.1, -7e-9);
+    object.rotation.y += 0.1;
+    object.scale *= glm::dvec3(1.1, 1.2, 1.3);
+    object.spin = {0.0, 12.5, -1e-3};
+    object.color = glm::dvec3(0.1, 0.2, 0.3);
+    object.specular = glm::dvec3(0.4, 0.5, 0.6);
+    object.shininess = 33.25;
+    object.copies = {object.copies.count + 1, {0.1, 0.0, 0.2}};
+    object.mirror = ObjectMirror{{0.9, 0.8, 0.7}, Fresnel::schlick, {0.01, 0.02, 0.03}};
+  }
+  for (PointLight& light : s.lights) {
+    light.name = "light of " + light.name;
+    light.position.z -= 0.7;
+    light.color = {0.5, 0.25, 0.125};
+    light.intensity *= 1.7;
+    light.radius = 0.0625;
+    light.glow = 0.3;
+    light.castsShadow = !light.castsShadow;
+    light.orbit = Orbit{{0.1, 0.2, 0.3}, {1.0, 0.0, 0.5}, 7.0};
+  }
+  for (Mirror& mirror : s.mirrors) {
+    mirror.name += "!";
+    mirror.position = mirror.polygon.empty() ? mirror.position + glm::dvec3(0.1, 0.2, 0.3) : mirror.position;
+    for (glm::dvec3& vertex : mirror.polygon) {
+      vertex += glm::dvec3(0.125, 0.25, 0.5);
+    }
+    mirror.rotation.x += mirror.polygon.empty() ? 1.5 : 0.0;
+    mirror.spin.y += mirror.polygon.empty() ? 5.0 : 0.0;
+    mirror.size *= 1.01;
+    mirror.reflectance = {0.7, 0.8, 0.9};
+    mirror.fresnel = mirror.fresnel == Fresnel::none ? Fresnel::schlick : Fresnel::none;
+    mirror.baseColor = {0.01, 0.02, 0.03};
+    mirror.roughness = 0.15;
+    mirror.ripple = Ripple{0.003, 0.7, -0.1};
+    mirror.twoSided = !mirror.twoSided;
+    mirror.backColor = {0.3, 0.2, 0.1};
+    mirror.castsLight = !mirror.castsLight;
+  }
+}
+
+TEST_P(ShippedScene, EveryValueChangedReadsBackExactlyAndKeepsTheComments) {
+  ShippedCopy copy(GetParam());
+  SceneDocument document(copy.scene);
+  document.change("everything", {}, changeEverything);
+  const Scene read = copy.reloaded(document);
+  expectSameContent(read, copy.scene, GetParam().string());
+  EXPECT_EQ(commentsOf(read.text), commentsOf(copy.original));
+  document.undo();
+  EXPECT_EQ(document.text(GetParam(), {}), copy.original);
+}
+
+TEST_P(ShippedScene, TablesWithinComeAndGo) {
+  ShippedCopy copy(GetParam());
+  SceneDocument document(copy.scene);
+  document.change("less", {}, [](Scene& s) {
+    s.environment.sky.reset();
+    for (Object& object : s.objects) {
+      object.color.reset();
+      object.specular.reset();
+      object.shininess.reset();
+      object.mirror.reset();
+      object.copies = {};
+    }
+    for (PointLight& light : s.lights) {
+      light.orbit.reset();
+    }
+    for (Mirror& mirror : s.mirrors) {
+      mirror.ripple.reset();
+      if (!mirror.polygon.empty()) {
+        mirror.position = mirror.polygon[0];
+        mirror.polygon.clear();
+        mirror.size = {1.0, 2.0};
+      }
+    }
+  });
+  expectSameContent(copy.reloaded(document), copy.scene, GetParam().string());
+}
+
+TEST_P(ShippedScene, ThingsComeAndGo) {
+  ShippedCopy copy(GetParam());
+  SceneDocument document(copy.scene);
+  const glm::dvec3 viewer = copy.scene.camera.position;
+  for (size_t i = copy.scene.objects.size(); i-- > 0;) {
+    document.duplicate({Kind::object, static_cast<int>(i)});
+    if (i % 2 == 0) {
+      document.remove({Kind::object, static_cast<int>(i)});
+    }
+  }
+  for (size_t i = copy.scene.mirrors.size(); i-- > 0;) {
+    document.duplicate({Kind::mirror, static_cast<int>(i)});
+    document.remove({Kind::mirror, static_cast<int>(i)});
+  }
+  for (size_t i = copy.scene.lights.size(); i-- > 1;) {
+    document.remove({Kind::light, static_cast<int>(i)});
+  }
+  document.addMirror(viewer + glm::dvec3(0.0, 0.0, -3.0), viewer);
+  document.addLight(viewer + glm::dvec3(0.0, 1.0, -3.0), viewer);
+  if (!copy.scene.meshes.empty()) {
+    document.addObject(0, {1.0, 2.0, 3.0});
+  }
+  document.addBookmark({.name = "here", .position = viewer, .target = viewer + glm::dvec3(0.0, 0.1, -1.0)});
+  const Scene read = copy.reloaded(document);
+  expectSameContent(read, copy.scene, GetParam().string());
+  while (document.canUndo()) {
+    document.undo();
+  }
+  EXPECT_EQ(document.text(GetParam(), {}), copy.original);
+}
+
+std::string nameOfFile(const testing::TestParamInfo<fs::path>& info) {
+  std::string name = info.param.parent_path().filename().string() + "_" + info.param.stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, ShippedScene, testing::ValuesIn(shippedScenes()), nameOfFile);
+
+constexpr const char* kText = R"(title = "a"
+[camera]
+position = [0, 1, 4]
+target = [0, 0, 0]
+[[object]]
+model = "./triangle.obj" # beside the scene
+)";
+
+void moveObject(SceneDocument& document, double x) {
+  document.change("move", {}, [x](Scene& scene) { scene.objects[0].position.x = x; });
+}
+
+TEST(SaveScene, ModelsAreFoundFromAnotherFolder) {
+  TextScene text(kText);
+  fs::create_directories(text.folder / "a b/c");
+  moveObject(text.document, 1);
+  text.document.save(text.folder / "a b/c/moved.toml", {});
+  EXPECT_EQ(text.scene.file, text.folder / "a b/c/moved.toml");
+  const Scene read = loadScene(text.folder / "a b/c/moved.toml");
+  EXPECT_EQ(read.objects[0].model, "../../triangle.obj");
+  expectSameContent(read, text.scene, "moved");
+  EXPECT_EQ(contentOfFile(text.file), kText) << "the first file is left alone";
+  moveObject(text.document, 0);
+  text.document.save(text.file, {}, true);
+  EXPECT_EQ(contentOfFile(text.file), kText) << "back home all is as it was";
+}
+
+TEST(SaveScene, AbsolutePathsStay) {
+  const TemporaryFolder folder;
+  const fs::path model = folder.write("models/triangle.obj", kTriangle);
+  const fs::path file = folder.write("scene.toml",
+                                     "[camera]\nposition = [0, 1, 4]\ntarget = [0, 0, 0]\n[[object]]\n"
+                                     "model = '" +
+                                         model.string() + "'\n");
+  Scene scene = loadScene(file);
+  SceneDocument document(scene);
+  document.save(folder / "models/scene.toml", {});
+  EXPECT_EQ(contentOfFile(folder / "models/scene.toml"), contentOfFile(file));
+}
+
+TEST(SaveScene, AFileThatChangedMeanwhileIsNotOverwritten) {
+  TextScene text(kText);
+  moveObject(text.document, 1);
+  const std::string theirs = std::string(kText) + "# mine now\n";
+  text.folder.write("scene.toml", theirs);
+  const std::string message = saveErrorOf([&] { text.document.save(text.file, {}); });
+  EXPECT_NE(message.find("another program has changed the file"), std::string::npos) << message;
+  EXPECT_NE(message.find("save under another name, or overwrite"), std::string::npos) << message;
+  EXPECT_EQ(contentOfFile(text.file), theirs);
+  EXPECT_TRUE(text.document.modified());
+  text.document.save(text.file, {}, true);
+  EXPECT_FALSE(text.document.modified());
+  moveObject(text.document, 2);
+  text.document.save(text.file, {});
+  expectSameContent(loadScene(text.file), text.scene, "saved twice");
+}
+
+TEST(SaveScene, AnotherFileIsNotOverwritten) {
+  TextScene text(kText);
+  const fs::path other = text.folder.write("other.toml", "important");
+  const std::string message = saveErrorOf([&] { text.document.save(other, {}); });
+  EXPECT_NE(message.find("there is such a file already"), std::string::npos) << message;
+  EXPECT_EQ(contentOfFile(other), "important");
+  const std::string model = saveErrorOf([&] { text.document.save(text.model, {}, true); });
+  EXPECT_NE(model.find("name of a model"), std::string::npos) << model;
+  EXPECT_EQ(contentOfFile(text.model), kTriangle);
+}
+
+TEST(SaveScene, AFileThatWasDeletedIsWrittenAgain) {
+  TextScene text(kText);
+  fs::remove(text.file);
+  text.document.save(text.file, {});
+  EXPECT_EQ(contentOfFile(text.file), kText);
+}
+
+TEST(SaveScene, WhatCouldNotBeReadIsNotWritten) {
+  TextScene text(kText);
+  text.document.change("break", {}, [](Scene& scene) { scene.camera.target = scene.camera.position; });
+  const std::string camera = saveErrorOf([&] { text.document.save(text.file, {}); });
+  EXPECT_NE(camera.find("camera.target: has no direction"), std::string::npos) << camera;
+  EXPECT_EQ(camera.find('\n'), std::string::npos);
+  text.document.undo();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  text.document.change("break", {}, [&](Scene& scene) { scene.objects[0].scale = glm::dvec3(nan); });
+  EXPECT_NE(saveErrorOf([&] { text.document.save(text.file, {}); }).find("not saved"), std::string::npos);
+  EXPECT_EQ(contentOfFile(text.file), kText);
+  text.document.undo();
+  const std::string setting = saveErrorOf([&] { text.document.save(text.file, {{{"view.exposure", "bright"}}}); });
+  EXPECT_NE(setting.find("view.exposure"), std::string::npos) << setting;
+}
+
+TEST(SaveScene, AFolderThatCannotBeWrittenIsToldAndLeavesNothing) {
+  TextScene text(kText);
+  const std::string message = saveErrorOf([&] { text.document.save(text.folder / "none/scene.toml", {}); });
+  EXPECT_NE(message.find("there is no folder"), std::string::npos) << message;
+  EXPECT_EQ(text.scene.file, text.file);
+}
+
+TEST(SaveScene, SettingsOfTheWindowAreSavedToo) {
+  TextScene text(std::string("[settings]\n\"view.exposure\" = 2 # bright\n") + (kText + sizeof("title = \"a\"")));
+  const Settings before = settingsOf(text.scene);
+  Settings after = before;
+  after.view.exposure = 0.5;
+  after.view.toneMap = ToneMap::aces;
+  after.view.clearColor = glm::dvec3(0.1, 0.2, 0.3);
+  after.reflection.maxDepth = 2;
+  const std::vector<SavedSetting> changes = settingChanges(before, after);
+  EXPECT_EQ(changes.size(), 4u);
+  text.document.save(text.file, changes);
+  EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(after));
+  EXPECT_NE(contentOfFile(text.file).find("\"view.exposure\" = 0.5 # bright\n"), std::string::npos);
+}
+
+TEST(SaveScene, EverySettingReadsBack) {
+  Settings other;
+  for (const auto& [key, value] :
+       std::vector<std::pair<std::string, std::string>>{{"reflection.scale", "0.3"},
+                                                        {"reflection.samples", "2"},
+                                                        {"reflection.max_depth", "7"},
+                                                        {"reflection.min_pixels", "1e-3"},
+                                                        {"reflection.min_throughput", "0.123456789"},
+                                                        {"reflection.max_passes", "12"},
+                                                        {"reflection.update_interval", "3"},
+                                                        {"reflection.clip", "oblique"},
+                                                        {"view.samples", "8"},
+                                                        {"view.exposure", "1e5"},
+                                                        {"view.tone_map", "aces"},
+                                                        {"view.clear_color", "1,0,0.25"},
+                                                        {"view.texture_filter", "trilinear"},
+                                                        {"view.wireframe", "true"},
+                                                        {"view.continuous", "true"},
+                                                        {"effects.shadows", "false"},
+                                                        {"effects.roughness", "false"},
+                                                        {"effects.rough_samples", "64"},
+                                                        {"effects.rough_lookup", "image"},
+                                                        {"effects.per_sample", "true"},
+                                                        {"effects.ripple", "false"},
+                                                        {"effects.casts_light", "false"},
+                                                        {"effects.curved", "false"},
+                                                        {"quality.budget_ms", "8.5"},
+                                                        {"quality.max_error", "0.01"},
+                                                        {"debug.omit_barrier", "x"},
+                                                        {"debug.check_finite", "true"},
+                                                        {"debug.skip_hidden", "false"},
+                                                        {"debug.mask_passes", "false"}}) {
+    ASSERT_EQ(setSetting(other, key, value), std::nullopt);
+  }
+  TextScene text(kText);
+  const std::vector<SavedSetting> changes = settingChanges(Settings(), other);
+  EXPECT_EQ(changes.size(), settingInfos().size()) << "a setting is not tried";
+  text.document.save(text.file, changes);
+  EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(other));
+  text.document.save(text.file, {});
+  EXPECT_EQ(contentOfFile(text.file), kText);
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,2 @@
+speculum_test(handle_tests SOURCES edit_handles.cpp LIBRARIES edit ext::rapidcheck)
+speculum_test(pick_tests SOURCES edit_pick.cpp picture_support.cpp LIBRARIES app LABELS pictures TIMEOUT 300)
