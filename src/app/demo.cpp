@@ -30,7 +30,9 @@ Demo::Demo(const Options& options)
   installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
   findScenes();
+  showGallery();
   model_.settings = loaded_->settings;
+  model_.sceneSettings = loaded_->settings;
   model_.device = device_.info().name;
   model_.driver = device_.info().driver;
   model_.renderPath = "render path: " + std::string(renderPathName(device_.renderPath()));
@@ -75,6 +77,7 @@ void Demo::chooseScene(int index) {
     loaded_ = std::move(next);
     sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
     model_.settings = loaded_->settings;
+    model_.sceneSettings = loaded_->settings;
     model_.debugPass = -1;
     model_.passes.clear();
     camera_.reset(loaded_->scene.camera);

@@ -36,6 +36,7 @@ class Demo {
 
   void installInput();
   void findScenes();
+  void showGallery();
   void chooseScene(int index);
   void moveCamera(double seconds);
   glm::dvec3 heldDirection() const;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include "scene/scene.hpp"
 
@@ -16,6 +17,9 @@ class InputError : public std::runtime_error {
 // Reads the scene, its models and textures. Warnings (missing MTL, dropped triangles, opacity) go to the log.
 // Throws InputError.
 Scene loadScene(const std::filesystem::path& file);
+
+// The scene's `title` alone, without models; empty for a file that has none or cannot be read.
+std::string sceneTitle(const std::filesystem::path& file);
 
 // The OBJ file with its MTL; appends the textures it names to `textures`. Throws InputError.
 Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures);

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "ui/thumbnails.hpp"
 #include "ui/ui_model.hpp"
 
 namespace speculum::panels {
@@ -9,6 +10,7 @@ namespace speculum::panels {
 // The sections of the panel, each within the current ImGui window.
 void message(const UiModel& model);
 void scene(UiModel& model);
+void gallery(UiModel& model, const Thumbnails& thumbnails);
 void time(UiModel& model);
 void help(UiModel& model);
 void settings(UiModel& model);

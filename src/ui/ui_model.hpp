@@ -77,9 +77,11 @@ struct UiModel {
   std::string device;
   std::string driver;
   std::string renderPath;
-  std::vector<std::string> scenes;  // names
-  int scene = 0;                    // index into scenes; changed by the person
+  std::vector<std::string> scenes;       // names
+  std::vector<std::string> sceneTitles;  // of the same
+  int scene = 0;                         // index into scenes; changed by the person
   Settings settings;
+  Settings sceneSettings;           // as the scene and the command line have them: what a reset goes back to
   glm::vec3 sceneBackground{0.0f};  // linear; shown as the clear colour while none is set
   CameraMode cameraMode = CameraMode::orbit;
   bool paused = false;
