@@ -21,13 +21,15 @@ struct PanelChoices {
 struct PanelName {
   std::string_view name;  // in the file and for people
   bool PanelChoices::*open;
+  const char* about;
 };
-inline constexpr std::array<PanelName, 6> panelNames{{{"Scenes", &PanelChoices::scenes},
-                                                      {"Performance", &PanelChoices::performance},
-                                                      {"Targets", &PanelChoices::targets},
-                                                      {"Device", &PanelChoices::device},
-                                                      {"Log", &PanelChoices::log},
-                                                      {"Accuracy", &PanelChoices::accuracy}}};
+inline constexpr std::array<PanelName, 6> panelNames{
+    {{"Scenes", &PanelChoices::scenes, "pictures of the scenes; a click loads one"},
+     {"Performance", &PanelChoices::performance, "times of the last frames as graphs"},
+     {"Targets", &PanelChoices::targets, "what each pass drew: colour, depth, mask"},
+     {"Device", &PanelChoices::device, "the GPU, what it can do, its memory"},
+     {"Log", &PanelChoices::log, "what the program and the validation layer said"},
+     {"Accuracy", &PanelChoices::accuracy, "measures error against milliseconds, walks between them"}}};
 
 // What cannot be read is left at what it is without a file.
 PanelChoices savedPanelChoices();

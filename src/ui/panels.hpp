@@ -26,8 +26,11 @@ struct KeyHelp {
 };
 std::span<const KeyHelp> keyHelp();
 
-// After each widget of a setting: notes its place and explains it.
+// After each widget of a setting: notes its place, explains it, and at the line's end offers the scene's value if the
+// setting has another. The place of that button is noted as "reset." and the key.
 void describe(UiModel& model, std::string_view key);
+// After a widget: what it does, while the pointer is on it.
+void tip(const char* text);
 // After a widget: notes its place under `key` in the model.
 void notePlace(UiModel& model, std::string_view key);
 

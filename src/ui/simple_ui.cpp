@@ -167,6 +167,9 @@ void SimpleUI::buildPanel(UiModel& model) {
   if (dock_.begin("Speculum", nullptr, PanelDock::Edge::left, {28.0f, 0.0f})) {
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());  // the rest is for the labels
     ImGui::Text("%.2f ms/frame (%.1f FPS)", model.frameMs, model.frameMs > 0.0 ? 1000.0 / model.frameMs : 0.0);
+    const char* hint = "F1: keys   Tab: hide";
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(hint).x);
+    ImGui::TextDisabled("%s", hint);
     panels::message(model);
     panels::scene(model);
     panelChoices(model);
@@ -186,6 +189,7 @@ void SimpleUI::panelChoices(UiModel& model) {
       ImGui::TableNextColumn();
       ImGui::Checkbox(panel.name.data(), &(choices_.*panel.open));
       panels::notePlace(model, "panel." + std::string(panel.name));
+      panels::tip(panel.about);
     }
     ImGui::EndTable();
   }
@@ -195,6 +199,7 @@ void SimpleUI::panelChoices(UiModel& model) {
     themeChoice(model);
     ImGui::SliderInt("size", &pendingPercent_, 50, 300, "%d %%", ImGuiSliderFlags_AlwaysClamp);
     panels::notePlace(model, "window.size");
+    panels::tip("of text and widgets, of what the monitor's scale asks for; remembered");
     if (!ImGui::IsItemActive()) {
       choices_.percent = pendingPercent_;
     }
