@@ -81,6 +81,7 @@ void Demo::chooseScene(int index) {
     model_.debugPass = -1;
     model_.passes.clear();
     camera_.reset(loaded_->scene.camera);
+    model_.history.clear();
     time_ = 0.0;
     sceneError_.clear();
   } catch (const InputError& error) {
@@ -101,6 +102,9 @@ void Demo::applyModel() {
   if (model_.copyCommand) {
     model_.command = command();
     window_.setClipboard(model_.command);
+  }
+  if (model_.copyHistory) {
+    window_.setClipboard(model_.history.csv());
   }
   if (model_.seek) {
     goTo(*model_.seek);
@@ -167,7 +171,9 @@ void Demo::drawFrame(double seconds) {
     const PassScope scope = renderer_.beginOverlay(*frame);
     ui_->record(scope);
   }
-  model_.cpuMs += smoothing * (std::chrono::duration<double, std::milli>(Clock::now() - start).count() - model_.cpuMs);
+  const double cpuMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  model_.cpuMs += smoothing * (cpuMs - model_.cpuMs);
+  noteTimes(frame->number, cpuMs);
   frame->capture = capture_ || shot_ != Shot::none;
   renderer_.endFrame(*frame);
   saveShot();

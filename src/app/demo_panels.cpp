@@ -24,4 +24,17 @@ void Demo::showGallery() {
   ui_->setThumbnails(std::move(pictures));
 }
 
+// Of the frame that was just recorded; the GPU's figures are of the last one that has finished.
+void Demo::noteTimes(uint64_t frame, double cpuMs) {
+  model_.history.add(frame, sinceLast_, cpuMs);
+  const FrameTimings& timings = renderer_.timings();
+  std::vector<std::pair<std::string, double>> passes;
+  for (const PassTiming& pass : timings.passes) {
+    passes.emplace_back(pass.name, pass.gpuMs);
+  }
+  if (timings.frame > 0) {
+    model_.history.addGpu(timings.frame, timings.gpuMs, passes);
+  }
+}
+
 }  // namespace speculum

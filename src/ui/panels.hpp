@@ -16,6 +16,7 @@ void help(UiModel& model);
 void settings(UiModel& model);
 void passes(UiModel& model);
 void effects(UiModel& model);
+void performance(UiModel& model);
 void device(UiModel& model);
 void accuracy(UiModel& model);
 

@@ -148,6 +148,7 @@ void SimpleUI::build(UiModel& model) {
   model.resetSettings = false;
   model.seek.reset();
   model.copyCommand = false;
+  model.copyHistory = false;
   model.accuracy.measure = false;
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
@@ -212,6 +213,12 @@ void SimpleUI::buildWindows(UiModel& model) {
   if (choices_.scenes) {
     if (dock_.begin("Scenes", &choices_.scenes, right, {24.2f, 46.5f})) {
       panels::gallery(model, thumbnails_);
+    }
+    ImGui::End();
+  }
+  if (choices_.performance) {
+    if (dock_.begin("Performance", &choices_.performance, right, {30.0f, 26.0f})) {
+      panels::performance(model);
     }
     ImGui::End();
   }

@@ -8,6 +8,7 @@
 #include "frame/depth_readout.hpp"
 #include "frame/settings.hpp"
 #include "optics/projection.hpp"
+#include "ui/frame_history.hpp"
 
 namespace speculum {
 
@@ -93,6 +94,8 @@ struct UiModel {
   double frameMs = 0.0;        // smoothed
   double cpuMs = 0.0;
   double gpuMs = 0.0;
+  FrameHistory history;      // of each frame drawn
+  bool copyHistory = false;  // set by the panel: put its CSV into the clipboard
   uint64_t deviceBytes = 0;
   int validationMessages = -1;  // -1: the layer is off
   std::vector<UiPass> passes;   // in the order of recording; with reflection.update_interval, of that many frames
