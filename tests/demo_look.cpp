@@ -8,10 +8,10 @@ using namespace testing_support;
 
 class DemoLook : public DemoWindow {
  protected:
-  // Of the panel's background, right above its lower edge.
+  // Of the panel's background, between its border and its widgets.
   int panelBrightness() {
     const Pixels pixels = picture();
-    const uint8_t* p = &pixels.rgba[4 * (static_cast<size_t>(662) * pixels.extent.width + 40)];
+    const uint8_t* p = &pixels.rgba[4 * (static_cast<size_t>(400) * pixels.extent.width + 15)];
     return p[0] + p[1] + p[2];
   }
 };
@@ -38,11 +38,13 @@ TEST_F(DemoLook, TheLayoutIsTheUsersAndNotTheDirectorys) {
 
 TEST_F(DemoLook, TheThemeIsChosenAndRemembered) {
   EXPECT_LT(panelBrightness(), 200);
+  click("section.window");
   click("theme.light");
   EXPECT_GT(panelBrightness(), 500);
   demo_.reset();
   start();
   EXPECT_GT(panelBrightness(), 500);
+  click("section.window");
   click("theme.dark");
   EXPECT_LT(panelBrightness(), 200);
   demo_.reset();

@@ -30,7 +30,9 @@ Demo::Demo(const Options& options)
   installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
   findScenes();
+  showGallery();
   model_.settings = loaded_->settings;
+  model_.sceneSettings = loaded_->settings;
   model_.device = device_.info().name;
   model_.driver = device_.info().driver;
   model_.renderPath = "render path: " + std::string(renderPathName(device_.renderPath()));
@@ -78,10 +80,12 @@ void Demo::chooseScene(int index) {
     startEditing();
     sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
     model_.settings = loaded_->settings;
+    model_.sceneSettings = loaded_->settings;
     model_.debugPass = -1;
     model_.passes.clear();
     camera_.reset(loaded_->scene.camera);
     lookedFrom_ = -1;
+    model_.history.clear();
     time_ = 0.0;
     sceneError_.clear();
   } catch (const InputError& error) {
@@ -103,6 +107,9 @@ void Demo::applyModel() {
   if (model_.copyCommand) {
     model_.command = command();
     window_.setClipboard(model_.command);
+  }
+  if (model_.copyHistory) {
+    window_.setClipboard(model_.history.csv());
   }
   if (model_.seek) {
     goTo(*model_.seek);
@@ -176,7 +183,9 @@ void Demo::drawFrame(double seconds) {
     const PassScope scope = renderer_.beginOverlay(*frame);
     ui_->record(scope);
   }
-  model_.cpuMs += smoothing * (std::chrono::duration<double, std::milli>(Clock::now() - start).count() - model_.cpuMs);
+  const double cpuMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  model_.cpuMs += smoothing * (cpuMs - model_.cpuMs);
+  noteTimes(frame->number, cpuMs);
   frame->capture = capture_ || shot_ != Shot::none || recorder_.running();
   renderer_.endFrame(*frame);
   saveShot();

@@ -41,6 +41,8 @@ class Demo {
 
   void installInput();
   void findScenes();
+  void showGallery();
+  void noteTimes(uint64_t frame, double cpuMs);
   void chooseScene(int index);
   void moveCamera(double seconds);
   glm::dvec3 heldDirection() const;
@@ -122,9 +124,10 @@ class Demo {
   Recorder recorder_;
   double time_ = 0.0;  // seconds of animation
   Clock::time_point last_;
-  int framesDue_ = 0;     // to draw, although nothing changes any more
-  bool rested_ = true;    // before the frame that is drawn next
-  bool working_ = false;  // in the background, for the panel
+  int framesDue_ = 0;       // to draw, although nothing changes any more
+  double sinceLast_ = 0.0;  // milliseconds between the last two frames; NaN if the window rested
+  bool rested_ = true;      // before the frame that is drawn next
+  bool working_ = false;    // in the background, for the panel
   std::string shaderErrors_;
   bool capture_ = false;
   enum class Shot { none, window, picture };

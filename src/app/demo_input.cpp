@@ -1,5 +1,6 @@
 // The part of the window that decides when to draw, and what keys and pointer do.
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "app/demo.hpp"
@@ -184,6 +185,7 @@ bool Demo::step() {
   if (framesDue_ == 0 && !rest()) {
     return !closes();
   }
+  sinceLast_ = rested_ ? std::numeric_limits<double>::quiet_NaN() : 1000.0 * seconds;
   if (!std::exchange(rested_, false)) {
     model_.frameMs += (model_.frameMs == 0.0 ? 1.0 : smoothing) * (1000.0 * seconds - model_.frameMs);
   }

@@ -114,4 +114,12 @@ Scene loadScene(const fs::path& file) {
   return scene;
 }
 
+std::string sceneTitle(const fs::path& file) {
+  try {
+    return readToml(file, "scene file")["title"].value_or(std::string());
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
 }  // namespace speculum

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include "scene/scene.hpp"
 
@@ -19,6 +20,9 @@ Scene loadScene(const std::filesystem::path& file);
 
 // What `text` says as the content of `file`, without the models: each Object::mesh is -1. Throws InputError.
 Scene parseScene(const std::filesystem::path& file, std::string text);
+
+// The scene's `title` alone, without models; empty for a file that has none or cannot be read.
+std::string sceneTitle(const std::filesystem::path& file);
 
 // The OBJ file with its MTL; appends the textures it names to `textures`. Throws InputError.
 Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures);

@@ -14,12 +14,9 @@ void effectSwitch(UiModel& model, const char* label, bool& on, std::string_view 
 void switches(UiModel& model) {
   EffectSettings& e = model.settings.effects;
   effectSwitch(model, "shadows", e.shadows, "effects.shadows");
-  ImGui::SameLine();
   effectSwitch(model, "ripples", e.ripple, "effects.ripple");
-  ImGui::SameLine();
   effectSwitch(model, "bounced light", e.castsLight, "effects.casts_light");
   effectSwitch(model, "roughness", e.roughness, "effects.roughness");
-  ImGui::SameLine();
   effectSwitch(model, "curved mirrors", e.curved, "effects.curved");
   effectSwitch(model, "rays at every sample", e.perSample, "effects.per_sample");
   int lookup = static_cast<int>(e.roughLookup);

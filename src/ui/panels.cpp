@@ -7,6 +7,7 @@
 
 #include "image/image.hpp"
 #include "ui/pass_tree.hpp"
+#include "ui/setting_help.hpp"
 
 namespace speculum::panels {
 
@@ -82,7 +83,6 @@ void viewSettings(UiModel& model) {
   choiceCombo(model, "texture filter", v.textureFilter, filters, "view.texture_filter");
   ImGui::Checkbox("wireframe", &v.wireframe);
   describe(model, "view.wireframe");
-  ImGui::SameLine();
   ImGui::Checkbox("draw continuously", &v.continuous);
   describe(model, "view.continuous");
 }
@@ -91,14 +91,28 @@ void viewSettings(UiModel& model) {
 
 void describe(UiModel& model, std::string_view key) {
   notePlace(model, key);
-  if (!ImGui::IsItemHovered()) {
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", settingHelp(key).c_str());
+  }
+  if (!differs(model.settings, model.sceneSettings, key)) {
     return;
   }
-  for (const SettingInfo& info : settingInfos()) {
-    if (info.key == key) {
-      ImGui::SetTooltip("%s\n%s (%s)", std::string(key).c_str(), std::string(info.help).c_str(),
-                        std::string(info.range).c_str());
-    }
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
+  if (ImGui::ArrowButton(("reset " + std::string(key)).c_str(), ImGuiDir_Left)) {
+    resetSetting(model.settings, model.sceneSettings, key);
+  }
+  ImGui::PopStyleVar();
+  notePlace(model, "reset." + std::string(key));
+  if (ImGui::IsItemHovered()) {
+    const std::string value = settingValue(model.sceneSettings, key);
+    ImGui::SetTooltip("back to the scene's: %s", value.empty() ? "background and sky" : value.c_str());
+  }
+}
+
+void tip(const char* text) {
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", text);
   }
 }
 
@@ -127,23 +141,24 @@ void scene(UiModel& model) {
     }
     ImGui::EndCombo();
   }
+  tip("what is shown; Scenes has pictures of them");
   int mode = static_cast<int>(model.cameraMode);
   ImGui::RadioButton("orbit", &mode, static_cast<int>(CameraMode::orbit));
+  tip("dragging turns about what is looked at");
   ImGui::SameLine();
   ImGui::RadioButton("fly", &mode, static_cast<int>(CameraMode::fly));
+  tip("dragging turns the head");
   model.cameraMode = static_cast<CameraMode>(mode);
   ImGui::SameLine();
   model.resetCamera = ImGui::Button("reset camera");
+  tip("to where the scene has it");
   time(model);
   model.copyCommand = ImGui::Button("copy command line");
   notePlace(model, "copy");
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("the call of speculum render that draws this view to the same bytes");
-  }
+  tip("the call of speculum render that draws this view to the same bytes");
   ImGui::SameLine();
   inspectorButton(model);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("drag: look   WASD QE: move   F12: save a picture   Tab: hide this panel   F1: all keys");
   if (!model.command.empty()) {
     ImGui::TextWrapped("copied: %s", model.command.c_str());
   }
@@ -161,6 +176,7 @@ void settings(UiModel& model) {
     reflectionSettings(model);
   }
   model.resetSettings = ImGui::Button("settings of the scene");
+  tip("every setting back to what the scene and the command line have it at");
 }
 
 namespace {

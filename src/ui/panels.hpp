@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "ui/thumbnails.hpp"
 #include "ui/ui_model.hpp"
 
 namespace speculum::panels {
@@ -9,11 +10,13 @@ namespace speculum::panels {
 // The sections of the panel, each within the current ImGui window.
 void message(const UiModel& model);
 void scene(UiModel& model);
+void gallery(UiModel& model, const Thumbnails& thumbnails);
 void time(UiModel& model);
 void help(UiModel& model);
 void settings(UiModel& model);
 void passes(UiModel& model);
 void effects(UiModel& model);
+void performance(UiModel& model);
 void device(UiModel& model);
 void accuracy(UiModel& model);
 
@@ -29,8 +32,11 @@ struct KeyHelp {
 std::span<const KeyHelp> keyHelp();
 std::span<const KeyHelp> gamepadHelp();
 
-// After each widget of a setting: notes its place and explains it.
+// After each widget of a setting: notes its place, explains it, and at the line's end offers the scene's value if the
+// setting has another. The place of that button is noted as "reset." and the key.
 void describe(UiModel& model, std::string_view key);
+// After a widget: what it does, while the pointer is on it.
+void tip(const char* text);
 // After a widget: notes its place under `key` in the model.
 void notePlace(UiModel& model, std::string_view key);
 

@@ -5,8 +5,10 @@
 #include <imgui_impl_vulkan.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <tuple>
+#include <utility>
 
 #include "core/platform.hpp"
 #include "ui/panels.hpp"
@@ -39,6 +41,7 @@ SimpleUI::Context::Context() {
 #if IMGUI_VERSION_NUM < 18700
   io.KeyMap[ImGuiKey_Tab] = -1;  // hides the panel instead of walking through it, as the arrow keys do as well
 #endif
+  io.ConfigWindowsMoveFromTitleBarOnly = true;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
   // The layout is the person's, not the working directory's.
   std::error_code error;
@@ -55,32 +58,61 @@ SimpleUI::Context::~Context() {
 struct SimpleUI::Backend {
   explicit Backend(Window& window) { ImGui_ImplGlfw_InitForVulkan(window.native(), true); }
   ~Backend() {
-    if (vulkan) {
+    shutdownVulkan();
+    ImGui_ImplGlfw_Shutdown();
+  }
+  void shutdownVulkan() {
+    if (std::exchange(vulkan, false)) {
       ImGui_ImplVulkan_Shutdown();
     }
-    ImGui_ImplGlfw_Shutdown();
   }
   bool vulkan = false;
 };
 
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
     : renderer_(renderer),
+      window_(window),
       theme_(savedTheme()),
-      scale_(window.contentScale()),
-      pool_(createPool(renderer.device())),
-      backend_(std::make_unique<Backend>(window)) {
-  applyLook(theme_, scale_);
-  ImFontConfig font;
-  font.SizePixels = fontPixels * scale_;
-  ImGui::GetIO().Fonts->AddFontDefault(&font);
-  initVulkan();
-}
+      choices_(savedPanelChoices()),
+      backend_(std::make_unique<Backend>(window)) {}
 
 SimpleUI::~SimpleUI() {
   renderer_.waitIdle();
 }
 
+void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
+  thumbnails_ = Thumbnails(std::move(pictures));
+  scale_ = 0.0f;
+}
+
+// Between frames: what is laid out already keeps its sizes and colours.
+void SimpleUI::prepareLook() {
+  const float scale = window_.contentScale() * static_cast<float>(choices_.percent) / 100.0f;
+  if (scale == scale_ && chosenTheme_ == theme_) {
+    return;
+  }
+  if (chosenTheme_ != theme_) {
+    theme_ = chosenTheme_;
+    saveTheme(theme_);
+  }
+  applyLook(theme_, scale);
+  if (scale == scale_) {
+    return;
+  }
+  scale_ = scale;
+  renderer_.waitIdle();
+  backend_->shutdownVulkan();
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  atlas.Clear();
+  ImFontConfig font;
+  font.SizePixels = std::floor(fontPixels * scale_);
+  atlas.AddFontDefault(&font);
+  thumbnails_.addTo(atlas);
+  initVulkan();
+}
+
 void SimpleUI::initVulkan() {
+  pool_ = createPool(renderer_.device());
   Device& device = renderer_.device();
   ImGui_ImplVulkan_InitInfo info{};
   info.Instance = device.instance();
@@ -106,12 +138,7 @@ void SimpleUI::initVulkan() {
 }
 
 void SimpleUI::build(UiModel& model) {
-  // Between frames: what is laid out already keeps its sizes and colours.
-  if (chosenTheme_ != theme_) {
-    theme_ = chosenTheme_;
-    applyLook(theme_, scale_);
-    saveTheme(theme_);
-  }
+  prepareLook();
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
@@ -121,13 +148,14 @@ void SimpleUI::build(UiModel& model) {
   model.resetSettings = false;
   model.seek.reset();
   model.copyCommand = false;
+  model.copyHistory = false;
   model.accuracy.measure = false;
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
   if (visible_) {
+    dock_.beginFrame();
     buildPanel(model);
-    buildDebugView(model);
-    buildAccuracy(model);
+    buildWindows(model);
     panels::help(model);
     if (showDemoWindow_) {
       ImGui::ShowDemoWindow(&showDemoWindow_);
@@ -138,30 +166,69 @@ void SimpleUI::build(UiModel& model) {
 }
 
 void SimpleUI::buildPanel(UiModel& model) {
-  const float scale = ImGui::GetFontSize() / fontPixels;
-  ImGui::SetNextWindowPos(ImVec2(12.0f * scale, 12.0f * scale), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(ImVec2(420.0f * scale, 660.0f * scale), ImGuiCond_FirstUseEver);
-  if (ImGui::Begin("Speculum")) {
-    ImGui::PushItemWidth(-9.0f * ImGui::GetFontSize());  // the rest is for the labels
+  if (dock_.begin("Speculum", nullptr, PanelDock::Edge::left, {28.0f, 0.0f})) {
+    ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());  // the rest is for the labels
     ImGui::Text("%.2f ms/frame (%.1f FPS)", model.frameMs, model.frameMs > 0.0 ? 1000.0 / model.frameMs : 0.0);
+    const char* hint = "F1: keys   Tab: hide";
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(hint).x);
+    ImGui::TextDisabled("%s", hint);
     panels::message(model);
     panels::scene(model);
-    ImGui::Checkbox("Settings", &showSettings_);
-    ImGui::SameLine();
-    ImGui::Checkbox("Accuracy", &showAccuracy_);
-    panels::notePlace(model, "accuracy");
-    ImGui::SameLine();
-    ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
-    themeChoice(model);
-    if (showSettings_) {
-      panels::settings(model);
-    }
+    panelChoices(model);
+    panels::settings(model);
     panels::passes(model);
     panels::effects(model);
-    panels::device(model);
     ImGui::PopItemWidth();
   }
   ImGui::End();
+}
+
+// The windows beside the panel, and what is said about the panel itself.
+void SimpleUI::panelChoices(UiModel& model) {
+  constexpr int columns = 3;
+  if (ImGui::BeginTable("panels", columns, ImGuiTableFlags_SizingStretchSame)) {
+    for (const PanelName& panel : panelNames) {
+      ImGui::TableNextColumn();
+      ImGui::Checkbox(panel.name.data(), &(choices_.*panel.open));
+      panels::notePlace(model, "panel." + std::string(panel.name));
+      panels::tip(panel.about);
+    }
+    ImGui::EndTable();
+  }
+  const bool open = ImGui::CollapsingHeader("Window");
+  panels::notePlace(model, "section.window");
+  if (open) {
+    themeChoice(model);
+    ImGui::SliderInt("size", &pendingPercent_, 50, 300, "%d %%", ImGuiSliderFlags_AlwaysClamp);
+    panels::notePlace(model, "window.size");
+    panels::tip("of text and widgets, of what the monitor's scale asks for; remembered");
+    if (!ImGui::IsItemActive()) {
+      choices_.percent = pendingPercent_;
+    }
+    ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
+  }
+}
+
+void SimpleUI::buildWindows(UiModel& model) {
+  constexpr PanelDock::Edge right = PanelDock::Edge::right;
+  if (choices_.scenes) {
+    if (dock_.begin("Scenes", &choices_.scenes, right, {24.2f, 46.5f})) {
+      panels::gallery(model, thumbnails_);
+    }
+    ImGui::End();
+  }
+  if (choices_.performance) {
+    if (dock_.begin("Performance", &choices_.performance, right, {30.0f, 26.0f})) {
+      panels::performance(model);
+    }
+    ImGui::End();
+  }
+  buildAccuracy(model);
+  buildDebugView(model);
+  if (choices_ != savedChoices_) {
+    savedChoices_ = choices_;
+    savePanelChoices(choices_);
+  }
 }
 
 void SimpleUI::themeChoice(UiModel& model) {
@@ -177,17 +244,11 @@ void SimpleUI::themeChoice(UiModel& model) {
 }
 
 void SimpleUI::buildAccuracy(UiModel& model) {
-  model.accuracy.open = showAccuracy_;
-  if (!showAccuracy_) {
+  model.accuracy.open = choices_.accuracy;
+  if (!choices_.accuracy) {
     return;
   }
-  const float scale = ImGui::GetFontSize() / fontPixels;
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const ImVec2 size(430.0f * scale, 540.0f * scale);
-  ImGui::SetNextWindowPos(ImVec2(std::max(12.0f * scale, display.x - size.x - 12.0f * scale), 12.0f * scale),
-                          ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
-  if (ImGui::Begin("Accuracy", &showAccuracy_)) {
+  if (dock_.begin("Accuracy", &choices_.accuracy, PanelDock::Edge::right, {28.5f, 36.0f})) {
     panels::accuracy(model);
   }
   ImGui::End();

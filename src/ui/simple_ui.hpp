@@ -4,6 +4,9 @@
 
 #include "core/renderer.hpp"
 #include "ui/look.hpp"
+#include "ui/panel_choices.hpp"
+#include "ui/panel_dock.hpp"
+#include "ui/thumbnails.hpp"
 #include "ui/ui_model.hpp"
 
 namespace speculum {
@@ -17,6 +20,8 @@ class SimpleUI {
   SimpleUI(const SimpleUI&) = delete;
   SimpleUI& operator=(const SimpleUI&) = delete;
 
+  // Of UiModel::scenes, from the next frame on.
+  void setThumbnails(std::vector<Image8> pictures);
   // Lays out this frame's panel and applies input to the model. Call it once a frame, also when nothing is drawn.
   void build(UiModel& model);
   void record(const PassScope& scope);
@@ -30,7 +35,10 @@ class SimpleUI {
 
  private:
   void initVulkan();
+  void prepareLook();
   void buildPanel(UiModel& model);
+  void buildWindows(UiModel& model);
+  void panelChoices(UiModel& model);
   void themeChoice(UiModel& model);
   void buildDebugView(UiModel& model);
   void buildAccuracy(UiModel& model);
@@ -43,15 +51,19 @@ class SimpleUI {
   struct Backend;
 
   Renderer& renderer_;
+  Window& window_;
   Context context_;
   Theme theme_;
   Theme chosenTheme_ = theme_;
-  float scale_;  // of the monitor's content, that fonts and sizes follow
+  PanelChoices choices_;
+  PanelChoices savedChoices_ = choices_;
+  float scale_ = 0.0f;  // of fonts and sizes: the monitor's content's and the person's; 0: nothing is made yet
+  int pendingPercent_ = choices_.percent;  // while its slider is held
+  Thumbnails thumbnails_;
+  PanelDock dock_;
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
   bool visible_ = true;
-  bool showSettings_ = true;
-  bool showAccuracy_ = false;
   bool showDemoWindow_ = false;
 };
 

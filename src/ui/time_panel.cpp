@@ -90,20 +90,24 @@ void time(UiModel& model) {
     model.seek = seconds;
   }
   notePlace(model, "time");
+  tip("seconds of the animation");
   if (ImGui::Button("<")) {
     model.seek = model.time - timeStep;
     model.paused = true;
   }
   notePlace(model, "time.back");
+  tip("pause, 1/60 s back");
   ImGui::SameLine();
   if (ImGui::Button(">")) {
     model.seek = model.time + timeStep;
     model.paused = true;
   }
   notePlace(model, "time.on");
+  tip("pause, 1/60 s onwards");
   ImGui::SameLine();
   ImGui::Checkbox("pause", &model.paused);
   notePlace(model, "pause");
+  tip("the animation stands still; so do frames, if nothing else changes");
   ImGui::SameLine();
   float speed = static_cast<float>(model.timeSpeed);
   ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
@@ -112,6 +116,7 @@ void time(UiModel& model) {
     model.timeSpeed = speed;
   }
   notePlace(model, "time.speed");
+  tip("seconds of the animation a second");
 }
 
 void help(UiModel& model) {

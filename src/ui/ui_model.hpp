@@ -9,6 +9,7 @@
 #include "frame/settings.hpp"
 #include "optics/projection.hpp"
 #include "ui/edit_model.hpp"
+#include "ui/frame_history.hpp"
 
 namespace speculum {
 
@@ -78,9 +79,11 @@ struct UiModel {
   std::string device;
   std::string driver;
   std::string renderPath;
-  std::vector<std::string> scenes;  // names
-  int scene = 0;                    // index into scenes; changed by the person
+  std::vector<std::string> scenes;       // names
+  std::vector<std::string> sceneTitles;  // of the same
+  int scene = 0;                         // index into scenes; changed by the person
   Settings settings;
+  Settings sceneSettings;           // as the scene and the command line have them: what a reset goes back to
   glm::vec3 sceneBackground{0.0f};  // linear; shown as the clear colour while none is set
   CameraMode cameraMode = CameraMode::orbit;
   bool paused = false;
@@ -92,6 +95,8 @@ struct UiModel {
   double frameMs = 0.0;        // smoothed
   double cpuMs = 0.0;
   double gpuMs = 0.0;
+  FrameHistory history;      // of each frame drawn
+  bool copyHistory = false;  // set by the panel: put its CSV into the clipboard
   uint64_t deviceBytes = 0;
   int validationMessages = -1;  // -1: the layer is off
   std::vector<UiPass> passes;   // in the order of recording; with reflection.update_interval, of that many frames

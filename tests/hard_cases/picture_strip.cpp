@@ -1,5 +1,5 @@
-// Joins the same part of several pictures side by side, for scripts/hard-case-pictures:
-//   picture_strip OUT.jpg X,Y,WIDTH,HEIGHT ZOOM PICTURE...
+// Joins the same part of several pictures side by side, for scripts/hard-case-pictures and scripts/thumbnails:
+//   picture_strip [--quality N] OUT.jpg X,Y,WIDTH,HEIGHT ZOOM PICTURE...
 // The part is in pixels, 0,0 at the top left; ZOOM, a whole number, repeats each pixel.
 #include <algorithm>
 #include <cstdio>
@@ -16,7 +16,7 @@ namespace speculum {
 namespace {
 
 constexpr int gap = 4;  // pixels of white between two pictures
-constexpr int quality = 82;
+constexpr int usualQuality = 82;
 
 struct Part {
   int x = 0;
@@ -45,9 +45,14 @@ void paste(Image8& strip, int left, const Image8& picture, const Part& part, int
   }
 }
 
-void run(const std::vector<std::string>& arguments) {
+void run(std::vector<std::string> arguments) {
+  int quality = usualQuality;
+  if (arguments.size() > 2 && arguments[0] == "--quality") {
+    quality = std::atoi(arguments[1].c_str());
+    arguments.erase(arguments.begin(), arguments.begin() + 2);
+  }
   if (arguments.size() < 4) {
-    throw std::runtime_error("usage: picture_strip OUT.jpg X,Y,WIDTH,HEIGHT ZOOM PICTURE...");
+    throw std::runtime_error("usage: picture_strip [--quality N] OUT.jpg X,Y,WIDTH,HEIGHT ZOOM PICTURE...");
   }
   const Part part = parsePart(arguments[1]);
   const int zoom = std::atoi(arguments[2].c_str());

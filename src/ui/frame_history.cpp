@@ -1,0 +1,124 @@
+#include "ui/frame_history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace speculum {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+std::string field(double ms) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4f", ms);
+  return std::isnan(ms) ? "" : text;
+}
+
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) {
+    text += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return text + "\"";
+}
+
+double passOf(const std::vector<double>& passes, size_t name) {
+  return name < passes.size() ? passes[name] : unknown;
+}
+
+}  // namespace
+
+void FrameHistory::add(uint64_t number, double frameMs, double cpuMs) {
+  if (paused_) {
+    return;
+  }
+  rows_.push_back({number, frameMs, cpuMs, unknown, {}});
+  if (rows_.size() > longest) {
+    rows_.pop_front();
+  }
+}
+
+void FrameHistory::addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes) {
+  const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const Row& r) { return r.number == number; });
+  if (paused_ || row == rows_.end() || !std::isnan(row->gpuMs)) {
+    return;
+  }
+  row->gpuMs = gpuMs;
+  for (const auto& [name, ms] : passes) {
+    const size_t index = std::find(names_.begin(), names_.end(), name) - names_.begin();
+    if (index == names_.size()) {
+      names_.push_back(name);
+    }
+    row->passes.resize(std::max(row->passes.size(), index + 1), unknown);
+    double& sum = row->passes[index];
+    sum = std::isnan(sum) ? ms : sum + ms;
+  }
+}
+
+void FrameHistory::clear() {
+  rows_.clear();
+  names_.clear();
+}
+
+std::vector<float> FrameHistory::series(Figure figure) const {
+  std::vector<float> values;
+  for (const Row& row : rows_) {
+    const double ms = figure == Figure::frame ? row.frameMs : figure == Figure::cpu ? row.cpuMs : row.gpuMs;
+    values.push_back(static_cast<float>(ms));
+  }
+  return values;
+}
+
+std::vector<std::string> FrameHistory::passNames() const {
+  std::vector<std::string> present;
+  for (size_t i = 0; i < names_.size(); ++i) {
+    if (std::any_of(rows_.begin(), rows_.end(), [&](const Row& r) { return !std::isnan(passOf(r.passes, i)); })) {
+      present.push_back(names_[i]);
+    }
+  }
+  return present;
+}
+
+std::vector<float> FrameHistory::passSeries(const std::string& pass) const {
+  const size_t index = std::find(names_.begin(), names_.end(), pass) - names_.begin();
+  std::vector<float> values;
+  for (const Row& row : rows_) {
+    values.push_back(static_cast<float>(passOf(row.passes, index)));
+  }
+  return values;
+}
+
+std::string FrameHistory::csv() const {
+  const std::vector<std::string> present = passNames();
+  std::vector<size_t> columns;
+  std::string text = "frame,frame ms,CPU ms,GPU ms";
+  for (const std::string& name : present) {
+    columns.push_back(std::find(names_.begin(), names_.end(), name) - names_.begin());
+    text += "," + quoted(name + " ms");
+  }
+  for (const Row& row : rows_) {
+    text +=
+        "\n" + std::to_string(row.number) + "," + field(row.frameMs) + "," + field(row.cpuMs) + "," + field(row.gpuMs);
+    for (const size_t column : columns) {
+      text += "," + field(passOf(row.passes, column));
+    }
+  }
+  return text + "\n";
+}
+
+double percentile(std::span<const float> values, double share) {
+  std::vector<float> known;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known), [](float v) { return !std::isnan(v); });
+  if (known.empty()) {
+    return unknown;
+  }
+  const double rank = std::ceil(share * static_cast<double>(known.size()));
+  const auto at = known.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+  std::nth_element(known.begin(), at, known.end());
+  return *at;
+}
+
+}  // namespace speculum

@@ -1,0 +1,51 @@
+#include "ui/panel_choices.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+#include "core/platform.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr std::string_view openWord = "open";
+constexpr std::string_view percentWord = "percent";
+
+std::filesystem::path choicesFile() {
+  return userConfigDir() / "panels";
+}
+
+}  // namespace
+
+PanelChoices savedPanelChoices() {
+  PanelChoices choices;
+  const auto content = readFile(choicesFile());
+  std::istringstream lines(content ? std::string(content->begin(), content->end()) : std::string());
+  std::string word;
+  std::string value;
+  while (lines >> word >> value) {
+    for (const PanelName& panel : panelNames) {
+      choices.*panel.open = choices.*panel.open || (word == openWord && value == panel.name);
+    }
+    if (word == percentWord) {
+      choices.percent = std::clamp(std::atoi(value.c_str()), 50, 300);
+    }
+  }
+  return choices;
+}
+
+void savePanelChoices(const PanelChoices& choices) {
+  std::string text = std::string(percentWord) + " " + std::to_string(choices.percent) + "\n";
+  for (const PanelName& panel : panelNames) {
+    text += choices.*panel.open ? std::string(openWord) + " " + std::string(panel.name) + "\n" : "";
+  }
+  if (!replaceFile(choicesFile(), {reinterpret_cast<const uint8_t*>(text.data()), text.size()})) {
+    spdlog::warn("{} cannot be written: the open panels are not remembered", choicesFile().string());
+  }
+}
+
+}  // namespace speculum

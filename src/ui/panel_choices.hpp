@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace speculum {
+
+// Which windows of the panel are open, and how large everything is in them; kept beside the layout in userConfigDir().
+struct PanelChoices {
+  bool scenes = false;
+  bool performance = false;
+  bool targets = false;
+  bool device = false;
+  bool log = false;
+  bool accuracy = false;
+  int percent = 100;  // of the size that the monitor's scale asks for, 50 .. 300
+
+  bool operator==(const PanelChoices&) const = default;
+};
+
+struct PanelName {
+  std::string_view name;  // in the file and for people
+  bool PanelChoices::*open;
+  const char* about;
+};
+inline constexpr std::array<PanelName, 6> panelNames{
+    {{"Scenes", &PanelChoices::scenes, "pictures of the scenes; a click loads one"},
+     {"Performance", &PanelChoices::performance, "times of the last frames as graphs"},
+     {"Targets", &PanelChoices::targets, "what each pass drew: colour, depth, mask"},
+     {"Device", &PanelChoices::device, "the GPU, what it can do, its memory"},
+     {"Log", &PanelChoices::log, "what the program and the validation layer said"},
+     {"Accuracy", &PanelChoices::accuracy, "measures error against milliseconds, walks between them"}}};
+
+// What cannot be read is left at what it is without a file.
+PanelChoices savedPanelChoices();
+void savePanelChoices(const PanelChoices& choices);
+
+}  // namespace speculum

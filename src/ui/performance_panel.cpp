@@ -1,0 +1,96 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include "ui/panels.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+std::string milliseconds(double ms) {
+  char text[32];
+  std::snprintf(text, sizeof text, ms < 10.0 ? "%.2f" : "%.1f", ms);
+  return std::isnan(ms) ? "-" : text;
+}
+
+// From 0 up; frames whose figure is not known leave a gap.
+void graph(const char* name, std::vector<float> values, float height) {
+  const double p95 = percentile(values, 0.95);
+  const float top = std::isnan(p95) ? 1.0f : static_cast<float>(1.4 * p95);
+  values.insert(values.begin(), FrameHistory::longest - values.size(), NAN);
+  ImGui::PushID(name);
+  ImGui::PlotLines("##graph", values.data(), static_cast<int>(values.size()), 0, nullptr, 0.0f, std::max(top, 1e-3f),
+                   {ImGui::GetContentRegionAvail().x, height});
+  ImGui::PopID();
+}
+
+// One row: name, median, p95 and the graph.
+void row(UiModel& model, const std::string& name, const std::vector<float>& values, float height) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(name.c_str());
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s, milliseconds", name.c_str());
+  }
+  for (const double share : {0.5, 0.95}) {
+    ImGui::TableNextColumn();
+    const std::string text = milliseconds(percentile(values, share));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() - ImGui::CalcTextSize(text.c_str()).x);
+    ImGui::TextUnformatted(text.c_str());
+  }
+  ImGui::TableNextColumn();
+  graph(name.c_str(), values, height);
+  notePlace(model, "graph." + name);
+}
+
+bool beginRows(const char* id) {
+  if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+    return false;
+  }
+  const float em = ImGui::GetFontSize();
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 8.5f * em);
+  ImGui::TableSetupColumn("median", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
+  ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
+  ImGui::TableSetupColumn("frames, newest right", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableHeadersRow();
+  return true;
+}
+
+}  // namespace
+
+void performance(UiModel& model) {
+  FrameHistory& history = model.history;
+  bool paused = history.paused();
+  ImGui::Checkbox("pause", &paused);
+  history.setPaused(paused);
+  notePlace(model, "performance.pause");
+  tip("the graphs stand still");
+  ImGui::SameLine();
+  if (ImGui::Button("clear")) {
+    history.clear();
+  }
+  notePlace(model, "performance.clear");
+  tip("forget the frames so far");
+  ImGui::SameLine();
+  model.copyHistory = ImGui::Button("copy as CSV");
+  notePlace(model, "performance.copy");
+  tip("all figures of the frames below, one line a frame, into the clipboard");
+  ImGui::SameLine();
+  ImGui::TextDisabled("%zu frames", history.frames());
+  const float em = ImGui::GetFontSize();
+  if (!beginRows("times")) {
+    return;
+  }
+  row(model, "frame", history.series(FrameHistory::Figure::frame), 3.2f * em);
+  row(model, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
+  row(model, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
+  for (const std::string& pass : history.passNames()) {
+    row(model, pass, history.passSeries(pass), 1.6f * em);
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace speculum::panels
