@@ -47,6 +47,7 @@ class Sequence {
  public:
   explicit Sequence(Scene scene, int interval) : scene(std::move(scene)) {
     settings.reflection.updateInterval = interval;
+    settings.reflection.skipUnchanged = false;
   }
   const FramePlan& next() {
     plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, plan.held);

@@ -1,1 +1,3 @@
 speculum_test(held_tests SOURCES held_pictures.cpp picture_support.cpp LIBRARIES app LABELS pictures TIMEOUT 300)
+speculum_test(unchanged_tests SOURCES unchanged_pictures.cpp picture_support.cpp LIBRARIES app LABELS pictures
+              TIMEOUT 300)

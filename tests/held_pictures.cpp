@@ -94,7 +94,7 @@ two_sided = true
 
 Options held(const std::filesystem::path& scene, int interval, PictureSize pictureSize = size) {
   Options options = headless(scene, pictureSize);
-  set(options, {{"reflection.update_interval", std::to_string(interval)}});
+  set(options, {{"reflection.update_interval", std::to_string(interval)}, {"reflection.skip_unchanged", "false"}});
   return options;
 }
 

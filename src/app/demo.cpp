@@ -173,6 +173,7 @@ void Demo::drawFrame(double seconds) {
   watched_ = model_.debugPass >= 0 ? model_.passes[model_.debugPass].path : std::vector<int>();
   if (!watched_.empty()) {
     settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame
+    settings.reflection.skipUnchanged = false;
   }
   const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
                                           static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
@@ -207,12 +208,16 @@ std::optional<DebugView> Demo::debugView(const FramePlan& plan) {
   return DebugView{static_cast<int>(pass - plan.passes.begin()), *model_.debugArea};
 }
 
-// With images that are held, the passes of as many frames as it takes to render each: a list that changed from frame to
-// frame could not be read.
+// With images that are held, the passes of as many frames as it takes to render each, and those whose images are shown:
+// a list that changed from frame to frame could not be read.
 void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval) {
   const FrameTimings& timings = renderer_.timings();
+  const auto isShown = [&](const UiPass& row) {
+    return std::any_of(plan.shown.begin(), plan.shown.end(),
+                       [&](const PlannedPass& p) { return p.view.path == row.path; });
+  };
   std::vector<UiPass> rows;
-  if (updateInterval > 1) {
+  if (updateInterval > 1 || !plan.shown.empty()) {
     rows = std::move(model_.passes);
   }
   for (UiPass& row : rows) {
@@ -239,7 +244,7 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
     row->framesAgo = 0;
     place = row - rows.begin() + 1;
   }
-  std::erase_if(rows, [&](const UiPass& row) { return row.framesAgo >= updateInterval; });
+  std::erase_if(rows, [&](const UiPass& row) { return row.framesAgo >= updateInterval && !isShown(row); });
   model_.passes = std::move(rows);
   const auto shown = std::find_if(model_.passes.begin(), model_.passes.end(),
                                   [&](const UiPass& row) { return !watched_.empty() && row.path == watched_; });

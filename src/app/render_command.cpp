@@ -69,6 +69,10 @@ int benchReference(const Options& options) {
   return 0;
 }
 
+bool isSet(const Options& options, std::string_view key) {
+  return std::any_of(options.settings.begin(), options.settings.end(), [&](const auto& s) { return s.first == key; });
+}
+
 std::string fixed(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f", value);
@@ -106,6 +110,12 @@ int runBench(const Options& options) {
   }
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
+  if (!isSet(options, "reflection.skip_unchanged")) {
+    // Every frame is of the same time: none after the first would render a mirror.
+    Settings settings = session.settings();
+    settings.reflection.skipUnchanged = false;
+    session.setSettings(settings);
+  }
   installInterruptHandler();
   Progress progress("bench", options.warmup + measured);
   std::vector<nlohmann::ordered_json> frames;

@@ -29,7 +29,9 @@ std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
 }
 
 FrameCost SessionSubject::cost(const Settings& settings) {
-  session_.setSettings(settings);
+  Settings measured = settings;
+  measured.reflection.skipUnchanged = false;
+  session_.setSettings(measured);
   session_.restart();
   const int counted = settings.reflection.updateInterval;
   FrameCost cost;

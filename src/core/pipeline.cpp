@@ -138,6 +138,7 @@ bool PipelineFactory::reload() {
       rebuilt = true;
     }
   }
+  revision_ += rebuilt;
   return rebuilt;
 }
 

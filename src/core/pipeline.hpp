@@ -85,6 +85,7 @@ class PipelineFactory {
 
   // Compiles changed shaders and rebuilds the pipelines that use them; old ones are retired. Returns whether any was.
   bool reload();
+  uint64_t revision() const { return revision_; }  // counts the times that reload() rebuilt any
   const std::string& errors() const { return shaders_.errors(); }
   bool watching() const { return shaders_.watching(); }
 
@@ -101,6 +102,7 @@ class PipelineFactory {
   PipelineCache& cache_;
   RetireQueue& retired_;
   std::vector<Pipeline*> pipelines_;
+  uint64_t revision_ = 0;
 };
 
 // A graphics or compute pipeline and its layout. Stays where it was made (hot reload knows its address); hold it by

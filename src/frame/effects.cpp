@@ -10,7 +10,7 @@ namespace speculum {
 
 namespace {
 
-// What at least one pass of the plan draws.
+// What at least one pass of the plan draws, or one whose image of an earlier frame is shown.
 struct Visible {
   std::set<int> instances;
   std::set<int> lights;
@@ -29,6 +29,7 @@ Visible visibleIn(const FramePlan& plan) {
     }
   };
   std::for_each(plan.passes.begin(), plan.passes.end(), add);
+  std::for_each(plan.shown.begin(), plan.shown.end(), add);
   add(plan.main);
   return visible;
 }

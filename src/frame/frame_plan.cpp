@@ -6,8 +6,10 @@
 #include <queue>
 #include <sstream>
 
+#include "frame/image_content.hpp"
 #include "frame/occlusion.hpp"
 #include "frame/pass_mask.hpp"
+#include "frame/traced_effects.hpp"
 
 namespace speculum {
 
@@ -104,6 +106,7 @@ class Planner {
       candidates_.pop();
       expand(best);
     }
+    keepUnchanged();
     record(0);
     forgetHeldSubtrees();
     return std::move(plan_);
@@ -115,11 +118,14 @@ class Planner {
   void consider(int node, int mirror, const View& readable);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
-  void hold(Node& node, const Candidate& candidate) const;
+  void hold(Node& node, const Candidate& candidate, int interval) const;
   bool serves(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible) const;
   int margin(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible, int due) const;
+  void keepUnchanged();
+  void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
   void showHeld(MirrorDraw& draw, const Node& node);
+  void leaveOut(int node);
   void forgetHeldSubtrees();
   bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
 
@@ -273,8 +279,10 @@ void Planner::expand(const Candidate& candidate) {
   node.pass.throughput = largest(candidate.throughput);
   node.pass.channels = candidate.throughput;
   node.pass.parent = static_cast<int>(candidate.draw);  // until record() knows the order
-  if (node.pass.depth == 0 && settings_.updateInterval > 1 && !draw.blurs) {
-    hold(node, candidate);
+  // What is looked up beside a rough mirror's own pixels cannot be reprojected.
+  const int interval = draw.blurs ? 1 : settings_.updateInterval;
+  if (node.pass.depth == 0 && (interval > 1 || settings_.skipUnchanged)) {
+    hold(node, candidate, interval);
   }
   const int index = static_cast<int>(nodes_.size());
   nodes_[candidate.parent].children.push_back(index);
@@ -283,9 +291,8 @@ void Planner::expand(const Candidate& candidate) {
 }
 
 // Decides whether an image of an earlier frame serves, and otherwise what this frame's is to cover.
-void Planner::hold(Node& node, const Candidate& candidate) const {
+void Planner::hold(Node& node, const Candidate& candidate, int interval) const {
   View& view = node.pass.view;
-  const int interval = settings_.updateInterval;
   const auto before = std::find_if(heldBefore_.begin(), heldBefore_.end(),
                                    [&](const HeldImage& image) { return image.mirror == view.path.back(); });
   const bool exists = before != heldBefore_.end();
@@ -334,6 +341,41 @@ int Planner::margin(const HeldImage& image, const Node& node, std::span<const gl
   return static_cast<int>(std::min(most, reserve * perFrame * (due - 1) + least));
 }
 
+// Of the images that would be rendered, those that would be what they were are not.
+void Planner::keepUnchanged() {
+  if (!settings_.skipUnchanged) {
+    return;
+  }
+  std::vector<const PlannedPass*> all;
+  collect(0, all);
+  const ImageSurroundings around{scene_, state_, allSettings_, plan_.projection,
+                                 tracedEffects(scene_, state_, allSettings_, all)};
+  for (const int child : nodes_[0].children) {
+    std::optional<HeldImage>& held = nodes_[child].held;
+    if (!held || held->earlier >= 0) {
+      continue;
+    }
+    std::vector<const PlannedPass*> passes;
+    collect(child, passes);
+    held->content = imageContent(around, nodes_[0].pass.view, passes);
+    const auto before = std::find_if(heldBefore_.begin(), heldBefore_.end(),
+                                     [&](const HeldImage& image) { return image.mirror == held->mirror; });
+    if (before != heldBefore_.end() && before->content == held->content &&
+        sameMirrorImages(before->settings, allSettings_) && before->settings.debug == allSettings_.debug) {
+      held->kept = before->kept + before->age;
+      held->earlier = static_cast<int>(before - heldBefore_.begin());
+    }
+  }
+}
+
+// The pass of a node and those of all that is seen in it.
+void Planner::collect(int node, std::vector<const PlannedPass*>& passes) const {
+  for (const int child : nodes_[node].children) {
+    collect(child, passes);
+  }
+  passes.push_back(&nodes_[node].pass);
+}
+
 // Depth first, so that an image lives no longer than until its parent is drawn. Returns the pass's index, -1 for main.
 int Planner::record(int node) {
   std::vector<int> childPasses;
@@ -341,6 +383,7 @@ int Planner::record(int node) {
     MirrorDraw& draw = nodes_[node].pass.mirrors[static_cast<size_t>(nodes_[child].pass.parent)];
     if (nodes_[child].held && nodes_[child].held->earlier >= 0) {
       showHeld(draw, nodes_[child]);
+      leaveOut(child);
       continue;
     }
     std::optional<HeldImage> held = std::move(nodes_[child].held);
@@ -363,12 +406,19 @@ int Planner::record(int node) {
   return index;
 }
 
+void Planner::leaveOut(int node) {
+  for (const int child : nodes_[node].children) {
+    leaveOut(child);
+  }
+  plan_.shown.push_back(std::move(nodes_[node].pass));
+}
+
 void Planner::showHeld(MirrorDraw& draw, const Node& node) {
   const HeldImage& image = *node.held;
   const View& parent = nodes_[0].pass.view;
   draw.held = node.moved ? heldLookup(image, parent, node.pass.view, plan_.projection) : HeldLookup{};
   draw.held->image = static_cast<int>(plan_.held.size());
-  const int frames = image.age - 1;
+  const int frames = image.kept + image.age - 1;
   skip(parent, image.mirror, SkipReason::unchanged,
        "image of " + (frames == 1 ? std::string("the last frame") : std::to_string(frames) + " frames ago") +
            (node.moved ? ", reprojected" : ""));

@@ -66,6 +66,9 @@ struct FramePlan {
   PlannedPass main;
   std::vector<SkippedMirror> skipped;
   std::vector<HeldImage> held;  // after this frame; what the next one may be planned with
+  // That would be rendered if images of earlier frames did not serve, in no particular order: what they show is on the
+  // screen all the same, and calls for effects.
+  std::vector<PlannedPass> shown;
 };
 
 // Images that are to be held are rendered with a margin on each side, as wide as the motion of the last frames calls
@@ -75,10 +78,10 @@ inline constexpr double largestMargin = 0.1;
 // Which passes a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. Recursion is
 // spent best first, by visible pixels times throughput.
 //
-// With reflection.update_interval above 1, a mirror seen directly shows its image in `held` again, if that is younger
-// than its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as if
-// every image were rendered, so that an image does not depend on which others are; the passes of held ones are then
-// left out.
+// With reflection.skip_unchanged, a mirror seen directly shows its image in `held` again if everything that it depends
+// on is exactly as it was. With reflection.update_interval above 1, it also does if the image is younger than its due
+// age, was drawn under the same settings and covers what is seen. The budget of passes is spent as if every image were
+// rendered, so that an image does not depend on which others are; the passes of held ones are then left out.
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
                     std::span<const HeldImage> held = {});
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace speculum {
 
-// The image of a mirror that is seen directly, kept for frames to come: reflection.update_interval.
+// The image of a mirror that is seen directly, kept for frames to come: reflection.update_interval, .skip_unchanged.
 struct HeldImage {
   int mirror = 0;  // index into Scene::mirrors
   // As they were when the image was rendered.
@@ -17,8 +18,10 @@ struct HeldImage {
   Projection projection;
   std::vector<glm::dvec3> visible;  // world; the part of the mirror that was seen
   Settings settings;
-  int age = 1;       // frames since then, in the next frame
-  int due = 1;       // age at which it is rendered anew
+  std::vector<uint64_t> content;  // imageContent(); empty without reflection.skip_unchanged
+  int age = 1;                    // frames since its last turn, in the next frame
+  int kept = 0;                   // frames from when it was rendered to its last turn, when it was found unchanged
+  int due = 1;                    // age at which it is rendered anew
   int pass = -1;     // index into FramePlan::passes of the pass that renders it in this frame; -1: it was there before
   int earlier = -1;  // index among the images held before this frame; -1: `pass` renders it
 };

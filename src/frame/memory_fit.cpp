@@ -97,6 +97,10 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                                                    "geometryShader, storage buffers, or room in them for the scene");
     fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
   }
+  if (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && reflection.updateInterval == 1) {
+    held = {};
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height);
+  }
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
   std::string lowered;

@@ -25,7 +25,8 @@ struct FittedPlan {
 
 // planFrame, with the resolution of mirror images within the largest side, and samples of mirror images, then of the
 // main view, then the resolution of mirror images halved step by step until the targets fit the budget. What cannot be
-// lowered any more is planned as it is. Effects that trace rays are left out where the device cannot.
+// lowered any more is planned as it is. Before that, images that reflection.skip_unchanged would show again are
+// rendered with the others, if that needs less. Effects that trace rays are left out where the device cannot.
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
                       int width, int height, std::span<const HeldImage> held = {});
 

@@ -172,6 +172,9 @@ std::vector<Setting> reflectionTable() {
                  1000000),
       integer<R>({"reflection.update_interval", "1 ..", "mirror images are rendered anew every n-th frame"}, group,
                  &R::updateInterval, 1, 1000000),
+      boolean<R>(
+          {"reflection.skip_unchanged", "true | false", "a mirror image that would be the same again is shown again"},
+          group, &R::skipUnchanged),
       choice<R, ClipMethod>(
           {"reflection.clip", "clip_distance | oblique | none", "how geometry behind a mirror is cut"}, group, &R::clip,
           {{"clip_distance", ClipMethod::clipDistance}, {"oblique", ClipMethod::oblique}, {"none", ClipMethod::none}}),
@@ -342,6 +345,7 @@ Settings settingsOf(const Scene& scene) {
 bool sameMirrorImages(const Settings& a, const Settings& b) {
   Settings c = b;
   c.reflection.updateInterval = a.reflection.updateInterval;
+  c.reflection.skipUnchanged = a.reflection.skipUnchanged;
   c.view.samples = a.view.samples;
   c.view.exposure = a.view.exposure;
   c.view.toneMap = a.view.toneMap;

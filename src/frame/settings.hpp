@@ -23,7 +23,8 @@ struct ReflectionSettings {
   double minPixels = 1.0;
   double minThroughput = 0.0005;
   int maxPasses = 64;
-  int updateInterval = 1;  // frames
+  int updateInterval = 1;     // frames
+  bool skipUnchanged = true;  // an image that would be the same again is not rendered
   ClipMethod clip = ClipMethod::clipDistance;
 
   bool operator==(const ReflectionSettings&) const = default;
@@ -70,6 +71,8 @@ struct DebugSettings {
   bool skipHidden = true;    // a mirror that one flat thing hides has no pass
   bool cullClusters = true;  // of objects seen in part only what a view may see is drawn
   bool maskPasses = true;    // what no one looks up of a mirror's image is not shaded
+
+  bool operator==(const DebugSettings&) const = default;
 };
 
 struct Settings {
@@ -99,7 +102,7 @@ std::string settingsKey(const Settings& settings);
 Settings settingsOf(const Scene& scene);
 
 // Whether a mirror image drawn under one of them could have been drawn under the other: they differ at most in
-// reflection.update_interval, in debug.*, and in what only the main view and the display pass heed.
+// reflection.update_interval and .skip_unchanged, in debug.*, and in what only the main view and the display pass heed.
 bool sameMirrorImages(const Settings& a, const Settings& b);
 
 // Every key with its value, as numbers, booleans and strings.

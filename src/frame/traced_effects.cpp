@@ -151,16 +151,27 @@ class Collector {
 }  // namespace
 
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
-                            const FramePlan& plan) {
+                            std::span<const PlannedPass* const> passes) {
   if (!asksForRays(scene)) {
     return {};
   }
   Collector collector(scene, state, settings.effects);
-  for (const PlannedPass& pass : plan.passes) {
-    collector.add(pass);
+  for (const PlannedPass* pass : passes) {
+    collector.add(*pass);
   }
-  collector.add(plan.main);
   return collector.finish();
+}
+
+TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
+                            const FramePlan& plan) {
+  std::vector<const PlannedPass*> passes;
+  for (const std::vector<PlannedPass>* some : {&plan.passes, &plan.shown}) {
+    for (const PlannedPass& pass : *some) {
+      passes.push_back(&pass);
+    }
+  }
+  passes.push_back(&plan.main);
+  return tracedEffects(scene, state, settings, passes);
 }
 
 }  // namespace speculum

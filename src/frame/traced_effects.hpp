@@ -29,8 +29,10 @@ struct TracedEffects {
   bool any() const { return traces() || !castsLight.empty(); }
 };
 
-// What the passes of a plan call for, under settings.effects. Pure.
+// What the passes of a plan call for, under settings.effects, and those that show images of earlier frames. Pure.
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
                             const FramePlan& plan);
+TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
+                            std::span<const PlannedPass* const> passes);
 
 }  // namespace speculum

@@ -85,9 +85,10 @@ void MirrorSystem::countPipelines(EffectLedger& ledger) const {
   }
 }
 
-void MirrorSystem::endFrame() {
+void MirrorSystem::endFrame(const TraceVariant& trace, bool imagesShown) {
   for (auto& [variant, entry] : pipelines_) {
-    entry.idleFrames += tracesRays(variant.shading, variant.trace);
+    const bool stays = imagesShown && variant.trace == trace;
+    entry.idleFrames += !stays && tracesRays(variant.shading, variant.trace);
   }
   std::erase_if(pipelines_, [](const auto& item) { return item.second.idleFrames > idleFramesKept; });
 }

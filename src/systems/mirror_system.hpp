@@ -18,8 +18,8 @@ class MirrorSystem {
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops pipelines that trace rays and have not been used for some frames.
-  void endFrame();
+  // As RenderSystem does.
+  void endFrame(const TraceVariant& trace, bool imagesShown);
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:

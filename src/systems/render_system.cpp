@@ -120,9 +120,10 @@ void RenderSystem::countPipelines(EffectLedger& ledger) const {
   }
 }
 
-void RenderSystem::endFrame() {
+void RenderSystem::endFrame(const TraceVariant& trace, bool imagesShown, bool curved) {
   for (auto& [variant, entry] : objects_) {
-    entry.idleFrames += variant.curved || variant.trace.traced;
+    const bool stays = imagesShown && variant.trace == trace && (curved || !variant.curved);
+    entry.idleFrames += !stays && (variant.curved || variant.trace.traced);
   }
   std::erase_if(objects_, [](const auto& item) { return item.second.idleFrames > idleFramesKept; });
 }

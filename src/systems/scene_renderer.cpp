@@ -120,8 +120,9 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
       pool_->release(*targets_[debug->pass]);
     }
   }
-  renderSystem_.endFrame();
-  mirrorSystem_.endFrame();
+  const bool imagesShown = !plan.shown.empty();
+  renderSystem_.endFrame(trace_.variant(), imagesShown, !effects.curved.empty());
+  mirrorSystem_.endFrame(trace_.variant(), imagesShown);
   finishLedger(settings, plan, effects);
   keepHeldImages(plan);
   if (pool_) {
@@ -156,6 +157,10 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
   mirrorSystem_.countPipelines(ledger_);
 }
 
+std::span<const HeldImage> SceneRenderer::heldImages() const {
+  return heldRevision_ == renderer_.pipelines().revision() ? std::span(held_) : std::span<const HeldImage>();
+}
+
 void SceneRenderer::restart() {
   held_.clear();
   heldTargets_.clear();
@@ -188,6 +193,7 @@ void SceneRenderer::keepHeldImages(const FramePlan& plan) {
     }
   }
   held_ = plan.held;
+  heldRevision_ = renderer_.pipelines().revision();
 }
 
 void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {

@@ -43,8 +43,8 @@ class SceneRenderer {
   SceneRenderer(const SceneRenderer&) = delete;
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-  // The images that this frame can be planned with: of the plan recorded last.
-  std::span<const HeldImage> heldImages() const { return held_; }
+  // The images that this frame can be planned with: of the plan recorded last; none if a shader is new since then.
+  std::span<const HeldImage> heldImages() const;
   // Forgets them and every target of mirror images, so that what is drawn from now on does not depend on what was.
   void restart();
 
@@ -109,6 +109,7 @@ class SceneRenderer {
   std::vector<HeldImage> held_;
   std::vector<OffScreen*> heldTargets_;  // of held_, taken from the pool
   std::vector<MirrorImage> heldImages_;  // of the present plan's held images
+  uint64_t heldRevision_ = 0;            // of the pipelines that rendered them
   bool restart_ = false;                 // before the next frame
   SamplerHandle coverSampler_;
   Image cover_;  // empty: none

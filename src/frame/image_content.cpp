@@ -1,0 +1,136 @@
+#include "frame/image_content.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <set>
+#include <utility>
+
+namespace speculum {
+
+namespace {
+
+// A list of numbers. Bits are compared, not values: zero has two signs, and they may be drawn differently.
+class Numbers {
+ public:
+  void add(double value) { numbers_.push_back(std::bit_cast<uint64_t>(value)); }
+  void add(const glm::dvec2& v) { addAll(v.x, v.y); }
+  void add(const glm::dvec3& v) { addAll(v.x, v.y, v.z); }
+  void add(const glm::dmat3& m) { addAll(m[0], m[1], m[2]); }
+  void add(const Plane& plane) { addAll(plane.point, plane.normal); }
+  void add(const PixelRect& rect) { addAll(rect.x, rect.y, rect.width, rect.height); }
+  template <typename T>
+  void add(const std::optional<T>& value) {
+    add(value.has_value());
+    if (value) {
+      add(*value);
+    }
+  }
+  template <typename T>
+  void add(const std::vector<T>& values) {
+    add(static_cast<double>(values.size()));
+    for (const T& value : values) {
+      add(value);
+    }
+  }
+  template <typename... T>
+  void addAll(const T&... values) {
+    (add(values), ...);
+  }
+
+  void add(const Sky& sky) { addAll(sky.zenith, sky.horizon, sky.ground); }
+  void add(const Ripple& ripple) { addAll(ripple.amplitude, ripple.wavelength, ripple.speed); }
+  void add(const ObjectMirror& mirror) {
+    addAll(mirror.reflectance, static_cast<int>(mirror.fresnel), mirror.baseColor);
+  }
+  void add(const View& view) {
+    addAll(view.eye, view.worldToView, view.clip, view.cone, view.rect, view.pictureSize, view.path);
+  }
+  void add(const MirrorDraw& draw) {
+    addAll(draw.mirror, draw.back, draw.scatters, draw.blurs, draw.polygon, draw.plane);
+  }
+
+  std::vector<uint64_t> take() { return std::move(numbers_); }
+
+ private:
+  std::vector<uint64_t> numbers_;
+};
+
+void addInstance(const ImageSurroundings& around, int index, Numbers& numbers) {
+  const InstanceState& instance = around.state.instances[index];
+  numbers.addAll(index, instance.object, instance.mesh, instance.worldFromMesh.linear,
+                 instance.worldFromMesh.translation, instance.center, instance.radius);
+  const Object& object = around.scene.objects[instance.object];
+  numbers.addAll(object.color, object.specular, object.shininess, object.mirror);
+}
+
+void addMirror(const ImageSurroundings& around, int index, Numbers& numbers) {
+  const MirrorState& state = around.state.mirrors[index];
+  numbers.addAll(index, state.polygon, state.origin, state.normal, state.axisX, state.axisY);
+  const Mirror& mirror = around.scene.mirrors[index];
+  numbers.addAll(mirror.reflectance, static_cast<int>(mirror.fresnel), mirror.baseColor, mirror.roughness,
+                 mirror.ripple, mirror.twoSided, mirror.backColor, mirror.castsLight);
+}
+
+void addLights(const ImageSurroundings& around, Numbers& numbers) {
+  for (size_t i = 0; i < around.scene.lights.size(); ++i) {
+    const PointLight& light = around.scene.lights[i];
+    numbers.addAll(around.state.lights[i].position, light.color, light.intensity, light.radius, light.glow,
+                   light.castsShadow);
+  }
+}
+
+void addEffects(const ImageSurroundings& around, const View& main, Numbers& numbers) {
+  const TracedEffects& effects = around.effects;
+  numbers.addAll(effects.any(), effects.traces(), !effects.shadows.empty(), !effects.castsLight.empty(),
+                 static_cast<double>(effects.mirroredLights.size()));
+  if (!effects.any()) {
+    return;
+  }
+  numbers.add(main.eye);  // trace space is relative to it
+  for (const MirroredLight& mirrored : effects.mirroredLights) {
+    numbers.addAll(mirrored.light, mirrored.mirror);
+  }
+  const bool waves =
+      around.settings.effects.ripple && std::any_of(around.scene.mirrors.begin(), around.scene.mirrors.end(),
+                                                    [](const Mirror& m) { return m.ripple && m.ripple->speed != 0.0; });
+  numbers.add(waves ? around.state.time : 0.0);
+}
+
+// Of which the picture shows something, or all of them.
+std::set<int> indices(bool all, size_t count) {
+  std::set<int> found;
+  for (size_t i = 0; all && i < count; ++i) {
+    found.insert(static_cast<int>(i));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
+                                   std::span<const PlannedPass* const> passes) {
+  Numbers numbers;
+  const Environment environment = effectiveEnvironment(around.scene, around.settings);
+  numbers.addAll(environment.background, environment.sky, environment.ambient);
+  numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near);
+  addEffects(around, main, numbers);
+  std::set<int> instances = indices(around.effects.any(), around.state.instances.size());
+  std::set<int> mirrors = indices(around.effects.any(), around.state.mirrors.size());
+  for (const PlannedPass* pass : passes) {
+    numbers.addAll(pass->view, pass->channels, pass->instances, pass->lights, pass->mirrors);
+    instances.insert(pass->instances.begin(), pass->instances.end());
+    for (const MirrorDraw& draw : pass->mirrors) {
+      mirrors.insert(draw.mirror);
+    }
+  }
+  for (const int instance : instances) {
+    addInstance(around, instance, numbers);
+  }
+  for (const int mirror : mirrors) {
+    addMirror(around, mirror, numbers);
+  }
+  addLights(around, numbers);
+  return numbers.take();
+}
+
+}  // namespace speculum

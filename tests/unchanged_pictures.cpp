@@ -1,0 +1,321 @@
+// Pictures with reflection.skip_unchanged are those without it, byte for byte, whatever moves, stops or is edited.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+
+#include "app/stats.hpp"
+#include "core/platform.hpp"
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{96, 54};
+
+Options optionsFor(const std::filesystem::path& file, bool skip,
+                   std::vector<std::pair<std::string, std::string>> more) {
+  Options options = headless(file, size);
+  set(options, more);
+  set(options, {{"reflection.skip_unchanged", skip ? "true" : "false"}});
+  return options;
+}
+
+int mirrorPasses(const SceneRenderer& renderer) {
+  const std::vector<RecordedPass>& passes = renderer.passes();
+  return static_cast<int>(
+      std::count_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.depth >= 0; }));
+}
+
+struct Case {
+  const char* scene;
+  std::vector<std::pair<std::string, std::string>> settings;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.scene;
+  for (const auto& [key, value] : c.settings) {
+    *out << " " << key << "=" << value;
+  }
+}
+
+class Sequence : public testing::TestWithParam<Case> {};
+
+// Motion, rest, a cut, rest, a cut back, steps backwards.
+TEST_P(Sequence, SkippingChangesNoByte) {
+  const std::filesystem::path file = sourceFile(std::string("scenes/") + GetParam().scene + ".toml");
+  Session skipping(optionsFor(file, true, GetParam().settings));
+  Session rendering(optionsFor(file, false, GetParam().settings));
+  int skipped = 0;
+  double before = -1.0;
+  for (const double time : {1.0, 1.0, 1.03, 1.06, 1.06, 9.0, 9.0, 1.06, 1.03}) {
+    for (Session* session : {&skipping, &rendering}) {
+      session->draw(time, true);
+      session->finish();
+    }
+    ASSERT_EQ(skipping.picture().rgba, rendering.picture().rgba) << "at " << time;
+    const int passes = mirrorPasses(rendering.sceneRenderer());
+    skipped += passes - mirrorPasses(skipping.sceneRenderer());
+    if (time == before) {
+      EXPECT_EQ(mirrorPasses(skipping.sceneRenderer()), 0) << "at " << time;
+      EXPECT_GT(passes, 0);
+    }
+    before = time;
+  }
+  EXPECT_GT(skipped, 0);
+  expectQuiet(skipping);
+  expectQuiet(rendering);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Sequence,
+    testing::Values(Case{"gallery", {}}, Case{"gallery", {{"reflection.scale", "0.5"}, {"view.samples", "1"}}},
+                    Case{"facing_mirrors", {{"reflection.samples", "1"}}}, Case{"many_mirrors", {}},
+                    Case{"mirror_ball", {{"effects.per_sample", "false"}}}, Case{"pool", {}}, Case{"bounced_light", {}},
+                    Case{"shadows", {}},
+                    Case{"rough", {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}}},
+                    Case{"outdoors", {{"reflection.clip", "oblique"}}}),
+    [](const auto& info) { return std::string(info.param.scene) + "_" + std::to_string(info.index); });
+
+// A scene that is edited between frames, as a person does in the window.
+class Studio {
+ public:
+  Studio(const Options& options, const Scene& scene)
+      : device_(deviceOptions(options, nullptr)),
+        renderer_(device_, rendererOptions(options, nullptr)),
+        scene_(scene),
+        settings_(loadSceneWithSettings(options).settings),
+        sceneRenderer_(renderer_, scene_) {}
+
+  Pixels draw() {
+    renderer_.reloadShaders();
+    Frame frame = renderer_.beginFrame().value();
+    const SceneState state = evaluate(scene_, 0.0);
+    const FramePlan plan = planFrame(scene_, state, settings_, size.width, size.height, sceneRenderer_.heldImages());
+    frame.capture = true;
+    sceneRenderer_.record(frame, state, settings_, plan);
+    renderer_.endFrame(frame);
+    return renderer_.readback();
+  }
+  int passes() const { return mirrorPasses(sceneRenderer_); }
+  Scene& scene() { return scene_; }
+  Settings& settings() { return settings_; }
+  Device& device() { return device_; }
+  SceneRenderer& sceneRenderer() { return sceneRenderer_; }
+
+ private:
+  Device device_;
+  Renderer renderer_;
+  Scene scene_;
+  Settings settings_;
+  SceneRenderer sceneRenderer_;
+};
+
+std::filesystem::path editedScene() {
+  return writeScene("edited", R"(
+[environment]
+background = [0.3, 0.4, 0.5]
+ambient = [0.1, 0.1, 0.1]
+[camera]
+position = [0.4, 1.4, 4]
+target = [0, 0.8, 0]
+[[object]]
+model = "MODELS/teapot.obj"
+position = [0, 0, 0.5]
+[[object]]
+model = "MODELS/queen.obj"
+position = [1.2, 0, -0.6]
+[[light]]
+position = [1, 3, 3]
+intensity = 20
+[[mirror]]
+name = "floor"
+polygon = [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]]
+reflectance = [0.4, 0.4, 0.4]
+base_color = [0.3, 0.2, 0.1]
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [3, 2]
+)");
+}
+
+TEST(UnchangedPictures, EditsShowInTheFrameAfterThem) {
+  const Options options = optionsFor(editedScene(), true, {});
+  const Scene scene = loadScene(options.scene);
+  Studio skipping(options, scene);
+  Studio rendering(options, scene);
+  rendering.settings().reflection.skipUnchanged = false;
+  const std::vector<std::function<void(Scene&)>> edits = {
+      [](Scene&) {},
+      [](Scene& s) { s.objects[0].position.x = 0.3; },
+      [](Scene& s) { s.objects[1].color = glm::dvec3(0.9, 0.1, 0.1); },
+      [](Scene& s) { s.objects[1].mirror.emplace(); },
+      [](Scene& s) { s.objects[1].mirror.reset(); },
+      [](Scene& s) { s.lights[0].intensity = 40.0; },
+      [](Scene& s) { s.lights[0].castsShadow = true; },
+      [](Scene& s) { s.mirrors[0].baseColor = glm::dvec3(0.1, 0.4, 0.1); },
+      [](Scene& s) { s.mirrors[1].rotation.y = 10.0; },
+      [](Scene& s) { s.mirrors[1].reflectance *= 0.7; },
+      [](Scene& s) { s.mirrors.push_back(s.mirrors[1]), s.mirrors[2].position.x = 2.0; },
+      [](Scene& s) { s.mirrors.erase(s.mirrors.begin()); },
+      [](Scene& s) { s.objects.pop_back(); },
+      [](Scene& s) { s.environment.background = glm::dvec3(0.8, 0.1, 0.1); },
+      [](Scene& s) { s.camera.position.x = 0.5; },
+      [](Scene& s) { s.mirrors.clear(); },
+  };
+  for (size_t i = 0; i < edits.size(); ++i) {
+    std::vector<uint8_t> last;
+    for (int frame = 0; frame < 2; ++frame) {
+      last = rendering.draw().rgba;
+      ASSERT_EQ(skipping.draw().rgba, last) << "edit " << i << ", frame " << frame << " after it";
+      edits[i](skipping.scene());
+      edits[i](rendering.scene());
+    }
+  }
+  EXPECT_EQ(skipping.device().validationMessages(), 0);
+}
+
+TEST(UnchangedPictures, AStillSecondFrameRecordsNoMirrorPassAndSaysWhy) {
+  Session session(optionsFor(editedScene(), true, {}));
+  session.draw(0.0, false);
+  session.finish();
+  EXPECT_GT(mirrorPasses(session.sceneRenderer()), 2);
+  session.draw(0.0, false);
+  session.finish();
+  const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
+  ASSERT_EQ(stats["passes"].size(), 2u) << "the main view and the display pass";
+  int unchanged = 0;
+  for (const auto& skip : stats["skipped"]) {
+    EXPECT_EQ(skip["depth"], 0) << skip;
+    unchanged += skip["reason"] == "unchanged" ? 1 : 0;
+  }
+  EXPECT_EQ(unchanged, 2);
+  expectQuiet(session);
+}
+
+TEST(UnchangedPictures, BothRenderPathsDrawTheSameBytes) {
+  Options options = optionsFor(editedScene(), true, {});
+  Session dynamic(options);
+  options.renderPath = RenderPath::renderPass;
+  Session passes(options);
+  ASSERT_NE(dynamic.device().renderPath(), passes.device().renderPath());
+  for (int frame = 0; frame < 3; ++frame) {
+    for (Session* session : {&dynamic, &passes}) {
+      session->draw(0.0, true);
+      session->finish();
+    }
+    EXPECT_EQ(dynamic.picture().rgba, passes.picture().rgba) << "frame " << frame;
+  }
+  expectQuiet(dynamic);
+  expectQuiet(passes);
+}
+
+TEST(UnchangedPictures, MemoryComesBackWhenReflectionsGo) {
+  Session session(optionsFor(editedScene(), true, {{"reflection.max_depth", "0"}, {"debug.check_finite", "false"}}));
+  const auto bytesAfter = [&](int maxDepth, int frames) {
+    Settings settings = session.settings();
+    settings.reflection.maxDepth = maxDepth;
+    session.setSettings(settings);
+    for (int frame = 0; frame < frames; ++frame) {
+      session.draw(0.0, false);
+      session.finish();
+    }
+    return session.device().allocatedBytes();
+  };
+  bytesAfter(4, 2);  // buffers that grow stay, one for each frame in flight
+  const uint64_t none = bytesAfter(0, 60);
+  const uint64_t rendered = bytesAfter(4, 1);
+  EXPECT_GT(rendered, none);
+  EXPECT_LE(bytesAfter(4, 3), rendered) << "what is held would have been needed anyway";
+  EXPECT_LT(bytesAfter(4, 60), rendered) << "images of mirrors in mirrors go";
+  EXPECT_EQ(bytesAfter(0, 60), none);
+  expectQuiet(session);
+}
+
+// What is watched is compared by its time, which has whole seconds on some systems.
+void replaceShader(const std::filesystem::path& file, const std::string& code) {
+  const std::vector<uint8_t> content = *readFile(file);
+  std::string text(content.begin(), content.end());
+  text.insert(text.rfind('}'), code);
+  std::ofstream(file) << text;
+  std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
+}
+
+TEST(UnchangedPictures, ANewShaderShowsInMirrors) {
+  const std::filesystem::path shaders = sceneDirectory() / "shaders";
+  std::filesystem::remove_all(shaders);
+  std::filesystem::create_directories(shaders);
+  writeShaders(shaders, "scene_shading.glsl", "");
+  Options options = optionsFor(editedScene(), true, {});
+  options.shaderDir = shaders;
+  Session session(options);
+  const auto picture = [&] {
+    session.draw(0.0, true);
+    session.finish();
+    return session.picture().rgba;
+  };
+  const std::vector<uint8_t> before = picture();
+  EXPECT_EQ(picture(), before);
+  EXPECT_EQ(mirrorPasses(session.sceneRenderer()), 0);
+  replaceShader(shaders / "scene_shading.glsl", "color.rgb = color.bgr;");
+  const std::vector<uint8_t> after = picture();
+  EXPECT_GT(mirrorPasses(session.sceneRenderer()), 0);
+  EXPECT_NE(after, before);
+  Session fresh(options);
+  fresh.draw(0.0, true);
+  fresh.finish();
+  EXPECT_EQ(after, fresh.picture().rgba);
+  expectQuiet(session);
+}
+
+// A scene in which only a mirror shows what calls for rays: its pipelines stay while its image is shown.
+TEST(UnchangedPictures, PipelinesOfShownImagesStay) {
+  Session session(optionsFor(writeScene("only_in_the_mirror", R"(
+[environment]
+background = [0.3, 0.4, 0.5]
+[camera]
+position = [0, 1, 3]
+target = [0, 1, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0, 1, 5]
+mirror = {}
+[[object]]
+model = "MODELS/teapot.obj"
+position = [1, 0, 1]
+[[light]]
+position = [1, 3, 3]
+intensity = 20
+[[mirror]]
+position = [0, 1, -2]
+size = [3, 2]
+)"),
+                             true, {{"debug.check_finite", "false"}}));
+  session.draw(0.0, true);
+  session.finish();
+  const std::vector<uint8_t> first = session.picture().rgba;
+  ASSERT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].pipelines, 1u);
+  for (int frame = 0; frame < 130; ++frame) {
+    session.draw(0.0, frame == 129);
+    session.finish();
+  }
+  EXPECT_EQ(mirrorPasses(session.sceneRenderer()), 0);
+  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].pipelines, 1u);
+  EXPECT_EQ(session.picture().rgba, first);
+  Settings settings = session.settings();
+  settings.effects.curved = false;
+  session.setSettings(settings);
+  for (int frame = 0; frame < 130; ++frame) {
+    session.draw(0.0, false);
+    session.finish();
+  }
+  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].pipelines, 0u);
+  expectQuiet(session);
+}
+
+}  // namespace
+}  // namespace speculum
