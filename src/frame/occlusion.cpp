@@ -124,9 +124,12 @@ bool Occlusion::isBehind(const Occluder& occluder, const View& view, std::span<c
   }
   return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) {
     const double height = eye > 0.0 ? occluder.plane.distance(p) : -occluder.plane.distance(p);
+    if (height >= -occluder.slack) {
+      return false;
+    }
     const double crossing = std::abs(eye) / (std::abs(eye) - height);  // of the plane, 1 at p
     const double nearest = -(view.worldToView * (p - view.eye)).z * crossing;
-    return height < -occluder.slack && crossing < 1.0 - depthPart && nearest > (1.0 + depthPart) * projection_.near;
+    return crossing < 1.0 - depthPart && nearest > (1.0 + depthPart) * projection_.near;
   });
 }
 
