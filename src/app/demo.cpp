@@ -107,12 +107,17 @@ void Demo::applyModel() {
   if (model_.copyCommand) {
     model_.command = command();
     window_.setClipboard(model_.command);
+    model_.command += editor_->document().modified() ? "  (the scene as it is on disk: save it first)" : "";
   }
   if (model_.copyHistory) {
     window_.setClipboard(model_.history.csv());
   }
   if (model_.seek) {
     goTo(*model_.seek);
+  }
+  if (model_.accuracy.measure && editor_->document().modified()) {
+    model_.accuracy.measure = false;
+    model_.accuracy.about = "what is on disk is measured: save the scene first";
   }
   accuracy_.apply(model_, [this] { return sweepRequest(); });
 }

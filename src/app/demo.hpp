@@ -75,6 +75,7 @@ class Demo {
   glm::dvec2 pointerPixel() const;
   void pressPointer(const MouseButtonEvent& event);
   void movePointer(double x, double y);
+  bool handleQuestionKey(const KeyEvent& event);
   bool handleEditKey(const KeyEvent& event);
   bool handleControlKey(const KeyEvent& event);
   void showEdit(double seconds);
@@ -114,6 +115,7 @@ class Demo {
   bool closing_ = false;               // likewise
   bool leaves_ = false;                // with the answer
   std::filesystem::path refused_;      // that was not overwritten; asked for again, it is
+  bool holdsHandle_ = false;           // what is pressed is a handle, not the picture
   bool dragging_ = false;
   double cursorX_ = 0.0;
   double cursorY_ = 0.0;

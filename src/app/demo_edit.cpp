@@ -66,16 +66,20 @@ void Demo::pressPointer(const MouseButtonEvent& event) {
   }
   const bool left = event.button == MouseButton::left;
   if (event.pressed) {
-    const bool taken = !ui_ || ui_->wantsMouse() || editor_->dragging();
-    if (!taken && !(left && lookAtScene(time_) && editor_->press(look(), pointerPixel()))) {
+    holdsHandle_ = holdsHandle_ && editor_->dragging();
+    if (ui_ && !ui_->wantsMouse() && !editor_->dragging()) {
       pressed_ = {cursorX_, cursorY_};
       pressedButton_ = event.button;
+      if (left && lookAtScene(time_)) {
+        holdsHandle_ = editor_->press(look(), pointerPixel());
+      }
     }
     return;
   }
-  if (left && editor_->dragging()) {
+  if (left && editor_->dragging() && dragging_) {
     editor_->release();
   } else if (left && pressed_ && !dragging_ && lookAtScene(time_)) {
+    editor_->cancelDrag();
     editor_->click(look(), pointerPixel());
     model_.edit.open = model_.edit.open || editor_->document().selection();
   }
@@ -87,23 +91,33 @@ void Demo::movePointer(double x, double y) {
   const glm::dvec2 from = pressed_ && !dragging_ ? *pressed_ : glm::dvec2(cursorX_, cursorY_);
   cursorX_ = x;
   cursorY_ = y;
-  if (editor_ && editor_->dragging()) {
-    editor_->drag(pointerPixel(), window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl));
+  dragging_ = dragging_ || (pressed_ && glm::distance(*pressed_, glm::dvec2(x, y)) > clickPixels);
+  if (!dragging_) {
     return;
   }
-  dragging_ = dragging_ || (pressed_ && glm::distance(*pressed_, glm::dvec2(x, y)) > clickPixels);
-  if (dragging_ && pressedButton_ == MouseButton::left) {
+  if (holdsHandle_) {
+    editor_->drag(pointerPixel(), window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl));
+  } else if (pressedButton_ == MouseButton::left) {
     camera_.drag(x - from.x, y - from.y);
-  } else if (dragging_) {
+  } else {
     camera_.pan(x - from.x, y - from.y, window_.size().height);
   }
 }
 
-// True if nothing else is to be done with the key.
-bool Demo::handleEditKey(const KeyEvent& event) {
-  if (model_.edit.asksSave || model_.edit.asksWhere) {
-    return true;
+// True if nothing else is to be done with the key: while a question is open, all of them.
+bool Demo::handleQuestionKey(const KeyEvent& event) {
+  if (!model_.edit.asksSave && !model_.edit.asksWhere) {
+    return false;
   }
+  if (event.key == Key::escape) {
+    answer(EditAction::stay);
+  } else if (event.key == Key::enter && !event.repeat) {
+    answer(model_.edit.asksWhere ? EditAction::saveAs : EditAction::save);
+  }
+  return true;
+}
+
+bool Demo::handleEditKey(const KeyEvent& event) {
   if (event.control) {
     return handleControlKey(event);
   }
@@ -225,14 +239,16 @@ void Demo::saveScene() {
     return askWhere();
   }
   if (saveSceneTo(file)) {
-    goOn();
-  } else {
-    askWhere();
+    return goOn();
   }
+  const std::string why = model_.edit.note;
+  askWhere();
+  model_.edit.note = why;
 }
 
 void Demo::askWhere() {
   const std::filesystem::path file = editor_->document().usualFile();
+  model_.edit.note.clear();
   model_.edit.saveAs = (isWritable(file) ? file : documentsDir() / "Speculum" / file.filename()).string();
   model_.edit.asksWhere = true;
 }

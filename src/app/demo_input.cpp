@@ -32,7 +32,7 @@ void Demo::installInput() {
 }
 
 void Demo::handleKey(const KeyEvent& event) {
-  if (!event.pressed || !ui_ || ui_->wantsKeyboard() || handleEditKey(event)) {
+  if (!event.pressed || !ui_ || handleQuestionKey(event) || ui_->wantsKeyboard() || handleEditKey(event)) {
     return;
   }
   if (event.key == Key::period || event.key == Key::comma) {

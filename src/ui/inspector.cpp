@@ -213,6 +213,7 @@ void thingList(UiModel& model) {
     ImGui::SetNextWindowFocus();
   }
   ImGui::BeginChild("things", ImVec2(0.0f, 7.5f * line), true);
+  int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // what was scrolled to
   for (size_t i = 0; i < edit.things.size(); ++i) {
     const auto& [thing, name] = edit.things[i];
     const bool selected = thing.kind == edit.selected.kind && thing.index == edit.selected.index;
@@ -220,7 +221,7 @@ void thingList(UiModel& model) {
     if (ImGui::Selectable(name.c_str(), selected)) {
       edit.selected = thing;
     }
-    if (selected && ImGui::IsWindowAppearing()) {
+    if (selected && std::exchange(*shown, static_cast<int>(i)) != static_cast<int>(i)) {
       ImGui::SetScrollHereY();
     }
     notePlace(model, "edit.thing." + std::to_string(i));
@@ -296,7 +297,7 @@ void selectedThing(UiModel& model) {
     notePlace(model, key);
     ImGui::SameLine();
   }
-  ImGui::TextDisabled("G   with Ctrl: steps");
+  ImGui::TextDisabled("  G: the other   Ctrl: steps");
   edit.mode = static_cast<GizmoMode>(mode);
   ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
   Fields fields(model);
@@ -375,19 +376,18 @@ void questions(UiModel& model) {
     if (ImGui::IsWindowAppearing()) {
       ImGui::SetKeyboardFocusHere();
     }
-    const bool entered = ImGui::InputText("##file", &edit.saveAs, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::InputText("##file", &edit.saveAs);
     notePlace(model, "edit.file");
+    if (!edit.note.empty()) {
+      ImGui::TextWrapped("%s", edit.note.c_str());
+    }
     answerButton(model, "Save", "where.save", EditAction::saveAs);
     ImGui::SameLine();
     answerButton(model, "Cancel", "where.cancel", EditAction::stay);
-    edit.action = entered ? EditAction::saveAs : edit.action;
-    if (!edit.asksWhere || entered) {
+    if (!edit.asksWhere) {
       ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();
-  }
-  if ((edit.asksSave || edit.asksWhere) && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
-    edit.action = EditAction::stay;
   }
 }
 

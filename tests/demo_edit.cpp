@@ -1,0 +1,446 @@
+// The scene edited in the window, as a person does it: with X events, by what the pictures show.
+#include <fstream>
+#include <sstream>
+
+#include "app/screenshot.hpp"
+#include "demo_window_support.hpp"
+#include "scene/scene_loader.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+// The eye between two mirrors that face each other; the ball is seen directly, in one mirror and in both.
+const std::string corridor = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 1.5]
+target = [0, 1, -2]
+[settings]
+"view.samples" = 1
+"reflection.samples" = 1
+[[object]]
+name = "ball"
+model = "MODELS/sphere.obj"
+position = [0.3, 1, 0.5]
+scale = 0.2
+[[light]]
+name = "lamp"
+position = [-0.5, 1.5, 0]
+radius = 0.05
+intensity = 4
+# In front of the eye.
+[[mirror]]
+name = "ahead"
+position = [0, 1, -2]
+size = [3, 2]
+[[mirror]]
+name = "behind"
+position = [0, 1, 2]
+rotation = [0, 180, 0]
+size = [3, 2]
+)";
+
+constexpr double focalPixels = 0.5 * height * 1.7320508075688772;  // of 60 degrees
+
+const Selection ball{Selection::Kind::object, 0};
+const Selection lamp{Selection::Kind::light, 0};
+const Selection ahead{Selection::Kind::mirror, 0};
+const Selection behind{Selection::Kind::mirror, 1};
+
+class EditWindow : public DemoWindow {
+ protected:
+  explicit EditWindow(const Options& more = {}) : DemoWindow(corridor, more) { press("Tab"); }
+
+  using DemoWindow::click;
+  void click(int x, int y) {
+    moveTo(x, y);
+    xdotool({"mousedown", "1"});
+    run(2);
+    xdotool({"mouseup", "1"});
+    run(3);
+  }
+  void clickBall() { click(pixel({0.3, 1.0, 0.5}).x, 350); }
+  void dragPointer(int x, int y, int dx, int dy) {
+    moveTo(x, y);
+    xdotool({"mousedown", "1"});
+    run(2);
+    for (int i = 1; i <= 5; ++i) {
+      moveTo(x + dx * i / 5, y + dy * i / 5);
+    }
+    xdotool({"mouseup", "1"});
+    run(3);
+  }
+  // Of a point of the world, whose reflections have been unfolded.
+  glm::ivec2 pixel(const glm::dvec3& world) const {
+    return {width / 2 + static_cast<int>(std::lround(focalPixels * world.x / (1.5 - world.z))),
+            height / 2 - static_cast<int>(std::lround(focalPixels * (world.y - 1.0) / (1.5 - world.z)))};
+  }
+  const UiEdit& edit() const { return demo_->model().edit; }
+  Object object() const { return std::get<Object>(edit().thing); }
+  // Without the panel and what shows the selection.
+  std::vector<uint8_t> bare() {
+    while (edit().selected) {
+      press("Escape");
+    }
+    return picture().rgba;
+  }
+  Scene onDisk() { return loadScene(options_.scene); }
+  bool stepUntilClosed() {
+    const auto end = Clock::now() + std::chrono::seconds(10);
+    while (Clock::now() < end) {
+      if (!demo_->step()) {
+        return true;
+      }
+    }
+    return false;
+  }
+  void askToClose() {
+    const ProcessResult closed = runProcess({"wmctrl", "-c", "Speculum"});
+    ASSERT_EQ(closed.exitCode, 0) << closed.output;
+    const auto end = Clock::now() + std::chrono::seconds(10);
+    while (!edit().asksSave && Clock::now() < end) {
+      ASSERT_TRUE(demo_->step()) << "it must not close unasked";
+    }
+    run(5);
+  }
+};
+
+TEST_F(EditWindow, AClickSelectsWhatIsSeenDirectlyAndInMirrors) {
+  clickBall();
+  EXPECT_EQ(edit().selected, ball);
+  EXPECT_TRUE(edit().through.empty());
+  click(pixel({0.3, 1.0, -4.5}).x + 4, 350);
+  EXPECT_EQ(edit().selected, ball);
+  EXPECT_EQ(edit().through, std::vector<std::string>({"mirror 'ahead'"}));
+  click(pixel({0.3, 1.0, -7.5}).x - 4, 350);
+  EXPECT_EQ(edit().selected, ball);
+  EXPECT_EQ(edit().through, std::vector<std::string>({"mirror 'ahead'", "mirror 'behind'"}));
+  click(pixel({-0.5, 1.5, 0.0}).x, pixel({-0.5, 1.5, 0.0}).y);
+  EXPECT_EQ(edit().selected, lamp);
+  click(width - 5, 5);
+  EXPECT_FALSE(edit().selected) << "the background";
+  expectQuiet();
+}
+
+TEST_F(EditWindow, FurtherClicksGoOutwards) {
+  const glm::ivec2 at(pixel({0.3, 1.0, -7.5}).x - 4, 350);
+  click(at.x, at.y);
+  EXPECT_EQ(edit().selected, ball);
+  click(at.x + 1, at.y);
+  EXPECT_EQ(edit().selected, behind);
+  EXPECT_EQ(edit().through, std::vector<std::string>({"mirror 'ahead'"}));
+  click(at.x, at.y);
+  EXPECT_EQ(edit().selected, ahead);
+  EXPECT_TRUE(edit().through.empty());
+  click(at.x, at.y);
+  EXPECT_EQ(edit().selected, ball) << "and round";
+  expectQuiet();
+}
+
+TEST_F(EditWindow, DraggingAnAxisMovesByTheMetresOfThePixels) {
+  const std::vector<uint8_t> before = bare();
+  clickBall();
+  const glm::ivec2 center = pixel({0.3, 1.0, 0.5});
+  constexpr int by = 80;
+  dragPointer(center.x + 60, center.y, by, 0);
+  EXPECT_NEAR(object().position.x, 0.3 + by / focalPixels, 2e-4) << "one metre from the eye";
+  EXPECT_EQ(object().position.y, 1.0);
+  EXPECT_EQ(object().position.z, 0.5);
+  EXPECT_EQ(edit().undo, "move object 'ball'");
+  dragPointer(center.x + by, center.y - 60, 0, -50);
+  EXPECT_NEAR(object().position.y, 1.0 + 50 / focalPixels, 2e-4);
+  const std::vector<uint8_t> moved = bare();
+  EXPECT_NE(before, moved);
+  press("ctrl+z");
+  press("ctrl+z");
+  EXPECT_EQ(before, bare());
+  press("ctrl+shift+z");
+  press("ctrl+y");
+  EXPECT_EQ(moved, bare());
+  EXPECT_EQ(edit().redo, "");
+  expectQuiet();
+}
+
+TEST_F(EditWindow, AnImageInAMirrorIsDraggedInTheMirror) {
+  const glm::ivec2 image = pixel({0.3, 1.0, -4.5});
+  click(image.x + 4, image.y);
+  ASSERT_EQ(edit().through.size(), 1u);
+  // Upwards in the image as well; six metres away a pixel is more.
+  dragPointer(image.x, image.y - 60, 0, -30);
+  EXPECT_NEAR(object().position.y, 1.0 + 6.0 * 30 / focalPixels, 2e-3);
+  EXPECT_EQ(object().position.x, 0.3);
+  expectQuiet();
+}
+
+TEST_F(EditWindow, RingsTurnAndControlSnaps) {
+  clickBall();
+  press("g");
+  EXPECT_EQ(edit().mode, GizmoMode::turn);
+  const glm::ivec2 center = pixel({0.3, 1.0, 0.5});
+  xdotool({"keydown", "--window", windowId(), "Control_L"});
+  // A quarter and a little of the ring that faces the eye, from the lower right to the upper right.
+  const auto onRing = [&](double degrees) {
+    return center +
+           glm::ivec2(glm::round(92.0 * glm::dvec2(std::cos(glm::radians(degrees)), -std::sin(glm::radians(degrees)))));
+  };
+  const glm::ivec2 start = onRing(-40.0);
+  moveTo(start.x, start.y);
+  xdotool({"mousedown", "1"});
+  run(2);
+  for (const double degrees : {-10.0, 20.0, 53.0}) {
+    moveTo(onRing(degrees).x, onRing(degrees).y);
+  }
+  xdotool({"mouseup", "1"});
+  xdotool({"keyup", "--window", windowId(), "Control_L"});
+  run(3);
+  EXPECT_EQ(object().rotation, glm::dvec3(0.0, 0.0, 90.0)) << "93 degrees in steps of 15";
+  EXPECT_EQ(edit().undo, "turn object 'ball'");
+  expectQuiet();
+}
+
+TEST_F(EditWindow, EscapeStopsTheDragThenDeselects) {
+  const std::vector<uint8_t> before = bare();
+  clickBall();
+  const glm::ivec2 center = pixel({0.3, 1.0, 0.5});
+  moveTo(center.x + 60, center.y);
+  xdotool({"mousedown", "1"});
+  run(2);
+  moveTo(center.x + 120, center.y);
+  EXPECT_GT(object().position.x, 0.35);
+  press("Escape");
+  EXPECT_EQ(object().position.x, 0.3);
+  xdotool({"mouseup", "1"});
+  run(2);
+  EXPECT_EQ(edit().selected, ball);
+  press("Escape");
+  EXPECT_FALSE(edit().selected);
+  EXPECT_EQ(edit().undo, "");
+  EXPECT_EQ(before, bare());
+  xdotool({"key", "--window", windowId(), "Escape"});
+  EXPECT_TRUE(stepUntilClosed()) << "nothing was changed";
+  expectQuiet();
+}
+
+TEST_F(EditWindow, ThingsAreDuplicatedAndDeleted) {
+  const std::vector<uint8_t> before = bare();
+  clickBall();
+  const size_t things = edit().things.size();
+  press("ctrl+d");
+  EXPECT_EQ(edit().things.size(), things + 1);
+  EXPECT_EQ(edit().selected, (Selection{Selection::Kind::object, 1}));
+  const std::vector<uint8_t> two = bare();
+  EXPECT_NE(before, two);
+  press("ctrl+z");
+  EXPECT_EQ(before, bare());
+  // Mirrors take their images with them.
+  press("n");
+  ASSERT_EQ(edit().selected, ahead);
+  press("Delete");
+  EXPECT_EQ(edit().things.size(), things - 1);
+  EXPECT_FALSE(edit().selected);
+  EXPECT_EQ(demo_->model().passes.size(), 2u) << "main view and display pass only";
+  EXPECT_EQ(edit().undo, "remove mirror 'ahead'");
+  press("ctrl+z");
+  EXPECT_EQ(before, bare());
+  expectQuiet();
+}
+
+TEST_F(EditWindow, WhatIsSavedIsDrawnToTheSameBytes) {
+  clickBall();
+  const glm::ivec2 center = pixel({0.3, 1.0, 0.5});
+  dragPointer(center.x + 60, center.y, 33, 0);
+  press("ctrl+d");
+  EXPECT_TRUE(edit().unsaved);
+  const std::vector<uint8_t> edited = bare();
+  press("ctrl+s");
+  EXPECT_FALSE(edit().unsaved) << edit().note;
+  const Scene saved = onDisk();
+  ASSERT_EQ(saved.objects.size(), 2u);
+  EXPECT_NEAR(saved.objects[0].position.x, 0.3 + 33 / focalPixels, 2e-4);
+  std::ifstream file(options_.scene);
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find("# In front of the eye."), std::string::npos) << "comments stay";
+  expectQuiet();
+  demo_.reset();
+  start();
+  press("Tab");
+  EXPECT_EQ(edited, bare());
+  expectQuiet();
+}
+
+TEST_F(EditWindow, ClosingAsksAboutUnsavedChanges) {
+  clickBall();
+  press("Delete");
+  askToClose();
+  click("edit.ask.cancel");
+  run(20);
+  EXPECT_FALSE(edit().asksSave);
+  EXPECT_FALSE(demo_->window().shouldClose());
+  askToClose();
+  press("Escape");
+  run(5);
+  EXPECT_FALSE(edit().asksSave) << "Escape cancels";
+  askToClose();
+  const PixelRect discard = widget("edit.ask.discard");
+  moveTo(discard.x + 10, discard.y + 5);
+  xdotool({"mousedown", "1"});
+  run(3);
+  xdotool({"mouseup", "1"});
+  EXPECT_TRUE(stepUntilClosed());
+  EXPECT_EQ(onDisk().objects.size(), 1u) << "nothing was saved";
+  expectQuiet();
+}
+
+TEST_F(EditWindow, SavingOnTheWayOutWritesTheScene) {
+  clickBall();
+  press("Delete");
+  askToClose();
+  const PixelRect save = widget("edit.ask.save");
+  moveTo(save.x + 10, save.y + 5);
+  xdotool({"mousedown", "1"});
+  run(3);
+  xdotool({"mouseup", "1"});
+  EXPECT_TRUE(stepUntilClosed());
+  EXPECT_TRUE(onDisk().objects.empty());
+  expectQuiet();
+}
+
+TEST_F(EditWindow, SavedAsAnotherFileTheSceneGoesOnThere) {
+  clickBall();
+  press("ctrl+d");
+  press("ctrl+shift+s");
+  ASSERT_TRUE(edit().asksWhere);
+  run(5);
+  const std::string other = std::filesystem::path(options_.scene).replace_filename("other.toml").string();
+  xdotool({"key", "--window", windowId(), "ctrl+a"});
+  xdotool({"type", "--window", windowId(), other});
+  run(5);
+  EXPECT_EQ(edit().saveAs, other);
+  press("Return");
+  run(5);
+  EXPECT_FALSE(edit().asksWhere) << edit().note;
+  EXPECT_EQ(loadScene(other).objects.size(), 2u);
+  EXPECT_EQ(onDisk().objects.size(), 1u);
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_EQ(edit().file, other);
+  expectQuiet();
+}
+
+TEST_F(EditWindow, NumbersOfTheInspectorChangeThePictureInOneStep) {
+  const std::vector<uint8_t> before = bare();
+  clickBall();
+  press("Tab");
+  drag("edit.position", 0.1, 40);
+  const double x = object().position.x;
+  EXPECT_GT(x, 0.5);
+  EXPECT_EQ(edit().undo, "edit object 'ball'");
+  press("ctrl+z");
+  EXPECT_EQ(object().position.x, 0.3) << "the whole drag is one step";
+  EXPECT_EQ(edit().undo, "");
+  click("edit.color");
+  EXPECT_TRUE(object().color);
+  press("Tab");
+  const std::vector<uint8_t> colored = bare();
+  press("ctrl+z");
+  EXPECT_EQ(before, bare());
+  press("ctrl+y");
+  EXPECT_EQ(colored, bare());
+  expectQuiet();
+}
+
+TEST_F(EditWindow, ThingsAreAddedAndChosenFromTheList) {
+  press("Tab");
+  press("F2");
+  ASSERT_TRUE(edit().open);
+  const size_t things = edit().things.size();
+  for (const char* button : {"edit.add_mirror", "edit.add_light", "edit.add_object"}) {
+    click(button);
+  }
+  EXPECT_EQ(edit().things.size(), things + 3);
+  EXPECT_EQ(edit().selected, (Selection{Selection::Kind::object, 1}));
+  click("edit.thing.1");
+  EXPECT_EQ(edit().selected, behind);
+  press("shift+n");
+  EXPECT_EQ(edit().selected, ahead);
+  for (int i = 0; i < 3; ++i) {
+    click("edit.undo");
+  }
+  EXPECT_EQ(edit().things.size(), things);
+  EXPECT_FALSE(edit().unsaved);
+  expectQuiet();
+}
+
+TEST_F(EditWindow, ADragOfThePictureStillTurnsTheCamera) {
+  const glm::dvec3 eye = demo_->camera().eye;
+  moveTo(700, 500);
+  xdotool({"mousedown", "1"});
+  run(2);
+  moveTo(702, 502);
+  EXPECT_EQ(demo_->camera().eye, eye) << "it may still become a click";
+  moveTo(760, 500);
+  xdotool({"mouseup", "1"});
+  run(3);
+  EXPECT_NE(demo_->camera().eye, eye);
+  EXPECT_FALSE(edit().selected);
+  expectQuiet();
+}
+
+Options heldImages() {
+  Options options;
+  options.settings.emplace_back("reflection.update_interval", "8");
+  return options;
+}
+
+class EditWindowWithHeldImages : public EditWindow {
+ protected:
+  EditWindowWithHeldImages() : EditWindow(heldImages()) {}
+};
+
+TEST_F(EditWindowWithHeldImages, MirrorsShowWhatWasMovedAtOnce) {
+  run(10);
+  const std::vector<uint8_t> before = bare();
+  clickBall();
+  press("Delete");
+  const std::vector<uint8_t> without = picture().rgba;
+  const glm::ivec2 image = pixel({0.3, 1.0, -4.5});
+  const size_t at = 4 * (static_cast<size_t>(image.y) * width + static_cast<size_t>(image.x));
+  EXPECT_FALSE(std::equal(before.begin() + at, before.begin() + at + 3, without.begin() + at));
+  run(20);
+  EXPECT_EQ(without, picture().rgba);
+  expectQuiet();
+}
+
+TEST_F(EditWindow, DISABLED_Look) {
+  const char* scene = std::getenv("LOOK_SCENE");
+  demo_.reset();
+  options_.scene = scene;
+  options_.size = {1280, 800};
+  options_.settings = {{"view.continuous", "true"}};
+  start();
+  const auto save = [&](const char* name) {
+    writePng(std::string("/work/main/build/ci/look_") + name + ".png", pictureOf(picture()));
+  };
+  click(std::atoi(std::getenv("LOOK_X")), std::atoi(std::getenv("LOOK_Y")));
+  moveTo(700, 780);
+  save("move");
+  press("g");
+  save("turn");
+  press("F1");
+  save("help");
+  press("F1");
+  press("ctrl+d");
+  askToClose();
+  save("ask");
+  press("Escape");
+  press("ctrl+shift+s");
+  run(5);
+  save("where");
+}
+
+}  // namespace
+}  // namespace speculum
