@@ -317,10 +317,13 @@ TEST_F(EditWindow, SavedAsAnotherFileTheSceneGoesOnThere) {
   ASSERT_TRUE(edit().asksWhere);
   run(5);
   const std::string other = std::filesystem::path(options_.scene).replace_filename("other.toml").string();
-  xdotool({"key", "--window", windowId(), "ctrl+a"});
+  std::ofstream(other) << "somebody's";
   xdotool({"type", "--window", windowId(), other});
   run(5);
   EXPECT_EQ(edit().saveAs, other);
+  press("Return");
+  EXPECT_TRUE(edit().asksWhere) << "a file that is there is not overwritten unasked";
+  EXPECT_TRUE(edit().unsaved);
   press("Return");
   run(5);
   EXPECT_FALSE(edit().asksWhere) << edit().note;
@@ -415,31 +418,50 @@ TEST_F(EditWindowWithHeldImages, MirrorsShowWhatWasMovedAtOnce) {
   expectQuiet();
 }
 
-TEST_F(EditWindow, DISABLED_Look) {
-  const char* scene = std::getenv("LOOK_SCENE");
-  demo_.reset();
-  options_.scene = scene;
-  options_.size = {1280, 800};
-  options_.settings = {{"view.continuous", "true"}};
-  start();
-  const auto save = [&](const char* name) {
-    writePng(std::string("/work/main/build/ci/look_") + name + ".png", pictureOf(picture()));
+class LimitedWindow : public EditWindow {
+ protected:
+  LimitedWindow() : EditWindow(limited()) {}
+  static Options limited() {
+    Options options;
+    options.frames = 100000;
+    return options;
+  }
+};
+
+TEST_F(LimitedWindow, WithFramesItNeverAsks) {
+  clickBall();
+  press("Delete");
+  ASSERT_TRUE(edit().unsaved);
+  const ProcessResult closed = runProcess({"wmctrl", "-c", "Speculum"});
+  ASSERT_EQ(closed.exitCode, 0) << closed.output;
+  EXPECT_TRUE(stepUntilClosed());
+  EXPECT_FALSE(edit().asksSave);
+  expectQuiet();
+}
+
+TEST_F(EditWindow, AnotherSceneIsChosenOnceUnsavedChangesAreAnswered) {
+  press("Tab");
+  press("n");
+  press("Delete");
+  const int shown = demo_->model().scene;
+  const auto choose = [&] {
+    click("scene");
+    click("scene.no_mirror");
+    run(3);
   };
-  click(std::atoi(std::getenv("LOOK_X")), std::atoi(std::getenv("LOOK_Y")));
-  moveTo(700, 780);
-  save("move");
-  press("g");
-  save("turn");
-  press("F1");
-  save("help");
-  press("F1");
-  press("ctrl+d");
-  askToClose();
-  save("ask");
+  choose();
+  ASSERT_TRUE(edit().asksSave);
+  EXPECT_EQ(demo_->model().scene, shown);
   press("Escape");
-  press("ctrl+shift+s");
-  run(5);
-  save("where");
+  EXPECT_FALSE(edit().asksSave);
+  EXPECT_TRUE(edit().unsaved);
+  choose();
+  ASSERT_TRUE(edit().asksSave);
+  click("edit.ask.discard");
+  EXPECT_EQ(demo_->model().scenes[static_cast<size_t>(demo_->model().scene)], "no_mirror");
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_EQ(edit().undo, "");
+  expectQuiet();
 }
 
 }  // namespace

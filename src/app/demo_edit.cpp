@@ -167,9 +167,11 @@ bool Demo::handleControlKey(const KeyEvent& event) {
 
 // As the frame that is drawn next shows it.
 void Demo::showEdit(double seconds) {
-  if (lookAtScene(time_ + (model_.paused ? 0.0 : seconds * model_.timeSpeed))) {
+  editor_->show(model_.edit);
+  const double next = time_ + (model_.paused ? 0.0 : seconds * model_.timeSpeed);
+  if (editor_->document().selection() && lookAtScene(next)) {
     const bool over = !ui_->wantsMouse() && !dragging_;
-    editor_->show(look(), over ? std::optional(pointerPixel()) : std::nullopt, model_.edit);
+    model_.edit.overlay = editor_->overlay(look(), over ? std::optional(pointerPixel()) : std::nullopt);
   }
 }
 
@@ -189,7 +191,10 @@ void Demo::actOn(EditAction action) {
     case EditAction::addObject:
     case EditAction::addLight:
     case EditAction::addMirror:
-      return editor_->add(look(), action, loaded_->scene.meshes.empty() ? -1 : model_.edit.model);
+      if (lookAtScene(time_)) {
+        editor_->add(look(), action, loaded_->scene.meshes.empty() ? -1 : model_.edit.model);
+      }
+      return;
     case EditAction::duplicate:
       return editor_->duplicate();
     case EditAction::remove:
@@ -260,11 +265,18 @@ bool Demo::saveSceneTo(const std::filesystem::path& file) {
     const bool own = std::filesystem::equivalent(file, loaded_->scene.file, none);
     editor_->document().save(file, settingChanges(loaded_->settings, model_.settings), own || file == refused_);
     model_.edit.note = "saved " + file.string();
+    const auto listed = std::find_if(sceneFiles_.begin(), sceneFiles_.end(), [&](const std::filesystem::path& other) {
+      return std::filesystem::equivalent(other, file, none);
+    });
+    shownScene_ = listed != sceneFiles_.end() ? static_cast<int>(listed - sceneFiles_.begin()) : -1;
+    model_.scene = shownScene_;
     loaded_->settings = model_.settings;
     refused_.clear();
     return true;
   } catch (const SaveError& error) {
+    std::error_code none;
     model_.edit.note = error.what();
+    model_.edit.note += std::filesystem::exists(file, none) ? "\nSave once more to overwrite it." : "";
     refused_ = file;
     return false;
   }

@@ -245,20 +245,19 @@ void SceneEditor::showThings(UiEdit& edit) const {
   }
 }
 
-void SceneEditor::show(const Look& look, const std::optional<glm::dvec2>& pointer, UiEdit& edit) {
+void SceneEditor::show(UiEdit& edit) const {
+  const Scene& scene = document_.scene();
   edit.overlay = {};
   edit.selected = document_.selection();
-  edit.thing = thingOf(document_.scene(), edit.selected);
+  edit.thing = thingOf(scene, edit.selected);
   edit.mode = mode_;
   edit.undo = document_.undoLabel();
   edit.redo = document_.redoLabel();
-  edit.file = document_.scene().file.string();
+  edit.name = scene.file.stem().string();
+  edit.file = scene.file.string();
   edit.unsaved = document_.modified();
   if (edit.open) {
     showThings(edit);
-  }
-  if (edit.selected) {
-    showOverlay(look, pointer, edit.overlay);
   }
 }
 
@@ -273,9 +272,14 @@ std::span<const glm::dvec3> SceneEditor::outlinePoints() {
   return outlinePoints_;
 }
 
-void SceneEditor::showOverlay(const Look& look, const std::optional<glm::dvec2>& pointer, UiOverlay& overlay) {
+UiOverlay SceneEditor::overlay(const Look& look, const std::optional<glm::dvec2>& pointer) {
   const Scene& scene = document_.scene();
-  const Selection& selected = document_.selection();
+  Selection selected = document_.selection();
+  if (selected.kind == Selection::Kind::object && !instanceOf(look.state, selected)) {
+    selected.copy = 0;  // the object has fewer copies now
+    document_.select(selected);
+  }
+  UiOverlay overlay;
   const std::span<const glm::dvec3> points = outlinePoints();
   const PictureView image = clickedImage(look);
   overlay.outline = outlineOf(scene, look.state, selected, image, points);
@@ -291,6 +295,7 @@ void SceneEditor::showOverlay(const Look& look, const std::optional<glm::dvec2>&
   } else if (pointer) {
     overlay.active = handles.at(image, *pointer, handleReach * look.scale);
   }
+  return overlay;
 }
 
 std::string SceneEditor::dragLabel() const {

@@ -48,8 +48,10 @@ class SceneEditor {
   SceneDocument& document() { return document_; }
   const SceneDocument& document() const { return document_; }
 
-  // Fills the inspector and what is drawn over the picture. `pointer`: pixel of the picture, where it is over it.
-  void show(const Look& look, const std::optional<glm::dvec2>& pointer, UiEdit& edit);
+  // Fills the inspector.
+  void show(UiEdit& edit) const;
+  // What is drawn over the picture for the selected thing. `pointer`: pixel of the picture, where it is over it.
+  UiOverlay overlay(const Look& look, const std::optional<glm::dvec2>& pointer);
   // Takes up what was edited in the inspector.
   void apply(const UiEdit& edit);
 
@@ -75,7 +77,6 @@ class SceneEditor {
   void put(const std::string& verb, const Selection& what, const Thing& thing);
   void forgetPath();
   void showThings(UiEdit& edit) const;
-  void showOverlay(const Look& look, const std::optional<glm::dvec2>& pointer, UiOverlay& overlay);
   PictureView clickedImage(const Look& look) const;
   Gizmo gizmo(const Look& look) const;
   std::span<const glm::dvec3> outlinePoints();

@@ -132,12 +132,15 @@ void message(const UiModel& model) {
 }
 
 void scene(UiModel& model) {
-  const char* current = model.scene >= 0 ? model.scenes[model.scene].c_str() : "";
-  if (ImGui::BeginCombo("scene", current)) {
+  const std::string current = model.scene >= 0 ? model.scenes[model.scene] : model.edit.name;
+  const bool open = ImGui::BeginCombo("scene", current.c_str());
+  notePlace(model, "scene");
+  if (open) {
     for (int i = 0; i < static_cast<int>(model.scenes.size()); ++i) {
       if (ImGui::Selectable(model.scenes[i].c_str(), i == model.scene)) {
         model.scene = i;
       }
+      notePlace(model, "scene." + model.scenes[i]);
     }
     ImGui::EndCombo();
   }
