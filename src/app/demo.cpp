@@ -41,48 +41,17 @@ Demo::Demo(const Options& options)
 
 // Shipped scenes first; a file from elsewhere is added in front of them.
 void Demo::findScenes() {
-  std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(dataDirectory("scenes"))) {
     if (entry.path().extension() == ".toml") {
       sceneFiles_.push_back(entry.path());
     }
   }
   std::sort(sceneFiles_.begin(), sceneFiles_.end());
-  const std::filesystem::path current = std::filesystem::weakly_canonical(loaded_->scene.file);
-  auto found = std::find_if(sceneFiles_.begin(), sceneFiles_.end(), [&](const std::filesystem::path& file) {
-    return std::filesystem::weakly_canonical(file, error) == current;
-  });
-  if (found == sceneFiles_.end()) {
-    found = sceneFiles_.insert(sceneFiles_.begin(), loaded_->scene.file);
-  }
-  shownScene_ = static_cast<int>(found - sceneFiles_.begin());
-  model_.scene = shownScene_;
   for (const std::filesystem::path& file : sceneFiles_) {
     model_.scenes.push_back(file.stem().string());
   }
-}
-
-void Demo::chooseScene(int index) {
-  shownScene_ = index;
-  try {
-    Options options = options_;
-    options.sweepResults.clear();  // of the scene that the window began with
-    auto next = std::make_unique<LoadedScene>(loadSceneWithSettings(sceneFiles_[index], options));
-    accuracy_.forgetScene(model_);
-    renderer_.waitIdle();
-    nonFinite_ = nonFinite();
-    sceneRenderer_.reset();
-    loaded_ = std::move(next);
-    sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
-    model_.settings = loaded_->settings;
-    model_.debugPass = -1;
-    model_.passes.clear();
-    camera_.reset(loaded_->scene.camera);
-    time_ = 0.0;
-    sceneError_.clear();
-  } catch (const InputError& error) {
-    sceneError_ = error.what();
-  }
+  shownScene_ = static_cast<int>(noteSceneFile(loaded_->scene.file));
+  model_.scene = shownScene_;
 }
 
 void Demo::applyModel() {
@@ -93,8 +62,9 @@ void Demo::applyModel() {
     camera_.reset(loaded_->scene.camera);
   }
   if (model_.scene != shownScene_) {
-    chooseScene(model_.scene);
+    chooseScene(std::exchange(model_.scene, shownScene_));
   }
+  followLoading();
   if (model_.copyCommand) {
     model_.command = command();
     window_.setClipboard(model_.command);

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "app/accuracy_controller.hpp"
+#include "app/background_load.hpp"
 #include "app/camera_controller.hpp"
 #include "app/options.hpp"
 #include "app/session.hpp"
@@ -25,6 +26,9 @@ class Demo {
   // As the next frame would show it.
   CameraPose camera() { return camera_.pose(evaluate(loaded_->scene, time_).camera); }
   const UiModel& model() const { return model_; }
+  // Reads a scene or a model in the background; once it is there it takes the place of the scene that is shown. What
+  // is wrong with it is the panel's message then, and the scene stays.
+  void openFile(const std::filesystem::path& file);
   // Samples that debug.check_finite found in the frames that have finished, of every scene that was shown.
   uint64_t nonFinite() { return nonFinite_ + sceneRenderer_->finiteWatch().count(); }
   int framesDrawn() const { return framesDrawn_; }
@@ -36,7 +40,11 @@ class Demo {
 
   void installInput();
   void findScenes();
+  size_t noteSceneFile(const std::filesystem::path& file);
+  void openDropped(const std::vector<std::filesystem::path>& files);
   void chooseScene(int index);
+  void followLoading();
+  void showScene(std::unique_ptr<LoadedScene> scene);
   void moveCamera(double seconds);
   glm::dvec3 heldDirection() const;
   bool changing();
@@ -69,6 +77,7 @@ class Demo {
   std::vector<std::filesystem::path> sceneFiles_;
   int shownScene_ = 0;
   std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
+  BackgroundLoad load_;
   std::string sceneError_;
   uint64_t nonFinite_ = 0;  // of scenes shown before
   bool dragging_ = false;

@@ -16,6 +16,8 @@ void passes(UiModel& model);
 void effects(UiModel& model);
 void device(UiModel& model);
 void accuracy(UiModel& model);
+// A window of its own, while something is loaded.
+void loading(UiModel& model);
 
 // What a key or a movement of the pointer does in the window.
 struct KeyHelp {
