@@ -33,7 +33,8 @@ _speculum() {
   case $before in
     --scene)
       scenes=$("${COMP_WORDS[0]}" scenes 2>/dev/null | sed -n 's/^\([^ ]*\) .*/\1/p')
-      mapfile -t COMPREPLY < <(compgen -W "$scenes" -- "$word"; compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W "$scenes" -- "$word"; compgen -f -X '!*.toml' -- "$word"; compgen -f -X '!*.obj' -- "$word"
+        compgen -d -- "$word")
       return
       ;;
     --set)

@@ -33,6 +33,15 @@ size = [5, 3]
 [[mirror]]
 position = [0, 1, 9]
 size = [1, 1]
+[[bookmark]]
+name = "aside"
+position = [1, 2, 4]
+target = [0, 1, 0]
+[[bookmark]]
+name = "near, with a wide view"
+position = [0, 1, 2]
+target = [0, 1, 0]
+vertical_fov = 90
 )";
 
 class CommandLine : public testing::Test {
@@ -73,6 +82,8 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,0:"}, "is not a camera"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,4"}, "--camera: the camera's target is its"},
         UsageCase{{"reference", "--out", "x.png", "--camera", "0,1,4:0,2,4"}, "lies along its up vector"},
+        UsageCase{{"render", "--out", "x.png", "--camera", "door", "--scene", "single_plane"},
+                  "--camera: the scene has no bookmark 'door' (it has none; position:target"},
         UsageCase{{"render", "--out", "x.png", "--fps", "0", "--frames", "1"}, "--fps"},
         UsageCase{{"render", "--out", "x.png", "--scene", "nowhere.toml"}, "there is no file 'nowhere.toml'"},
         UsageCase{{"render", "--out", "x.png", "--set", "view.exposure"}, "has no value (key=value)"},
@@ -269,6 +280,20 @@ TEST_F(CommandLine, ACameraTakesThePlaceOfTheScenes) {
                 .exitCode,
             0);
   expectAlike(readImage8(out("other.png")), readImage8(out("traced.png")), 2, "command_line_camera");
+}
+
+TEST_F(CommandLine, ABookmarkIsACamera) {
+  const auto render = [&](const std::string& camera) {
+    const ProcessResult result =
+        speculum({"render", "--scene", scene_, "--size", "64x36", "--camera", camera, "--out", out("b.png")});
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    return readImage8(out("b.png")).rgba;
+  };
+  EXPECT_EQ(render("aside"), render("1,2,4:0,1,0"));
+  EXPECT_NE(render("near, with a wide view"), render("0,1,2:0,1,0"));
+  const ProcessResult wrong = speculum({"render", "--scene", scene_, "--camera", "asid", "--out", out("b.png")});
+  EXPECT_EQ(wrong.exitCode, 2);
+  EXPECT_EQ(wrong.output, "--camera: the scene has no bookmark 'asid' (did you mean 'aside'?)\n");
 }
 
 TEST_F(CommandLine, ReferenceIsThePictureThatTheRendererDraws) {

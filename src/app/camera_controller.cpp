@@ -127,7 +127,9 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
     return;
   }
   take(last_);
-  const double speed = std::max(0.5, 0.6 * glm::length(eye_ - target_));  // metres per second
+  // Near the target not ever slower, but slow enough for what the scene shows.
+  const double least = std::min(0.5, 0.6 * glm::distance(spec_.position, spec_.target));
+  const double speed = std::max(least, 0.6 * glm::length(eye_ - target_));  // metres per second
   const glm::dvec3 step = glm::transpose(last_.worldToView) * direction * (speed * seconds);
   eye_ += step;
   target_ += step;

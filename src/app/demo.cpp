@@ -42,55 +42,20 @@ Demo::Demo(const Options& options)
   last_ = Clock::now();
 }
 
-// Shipped scenes first; a file from elsewhere is added in front of them.
+// Shipped scenes first; then a file from elsewhere.
 void Demo::findScenes() {
-  std::error_code error;
+  std::vector<std::filesystem::path> shipped;
   for (const auto& entry : std::filesystem::directory_iterator(dataDirectory("scenes"))) {
     if (entry.path().extension() == ".toml") {
-      sceneFiles_.push_back(entry.path());
+      shipped.push_back(entry.path());
     }
   }
-  std::sort(sceneFiles_.begin(), sceneFiles_.end());
-  const std::filesystem::path current = std::filesystem::weakly_canonical(loaded_->scene.file);
-  auto found = std::find_if(sceneFiles_.begin(), sceneFiles_.end(), [&](const std::filesystem::path& file) {
-    return std::filesystem::weakly_canonical(file, error) == current;
-  });
-  if (found == sceneFiles_.end()) {
-    found = sceneFiles_.insert(sceneFiles_.begin(), loaded_->scene.file);
+  std::sort(shipped.begin(), shipped.end());
+  for (const std::filesystem::path& file : shipped) {
+    noteSceneFile(file);
   }
-  shownScene_ = static_cast<int>(found - sceneFiles_.begin());
+  shownScene_ = static_cast<int>(noteSceneFile(loaded_->scene.file));
   model_.scene = shownScene_;
-  for (const std::filesystem::path& file : sceneFiles_) {
-    model_.scenes.push_back(file.stem().string());
-  }
-}
-
-void Demo::chooseScene(int index) {
-  shownScene_ = index;
-  try {
-    Options options = options_;
-    options.sweepResults.clear();  // of the scene that the window began with
-    auto next = std::make_unique<LoadedScene>(loadSceneWithSettings(sceneFiles_[index], options));
-    accuracy_.forgetScene(model_);
-    renderer_.waitIdle();
-    nonFinite_ = nonFinite();
-    sceneRenderer_.reset();
-    editor_.reset();
-    loaded_ = std::move(next);
-    startEditing();
-    sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
-    model_.settings = loaded_->settings;
-    model_.sceneSettings = loaded_->settings;
-    model_.debugPass = -1;
-    model_.passes.clear();
-    camera_.reset(loaded_->scene.camera);
-    lookedFrom_ = -1;
-    model_.history.clear();
-    time_ = 0.0;
-    sceneError_.clear();
-  } catch (const InputError& error) {
-    sceneError_ = error.what();
-  }
 }
 
 void Demo::applyModel() {
@@ -100,9 +65,10 @@ void Demo::applyModel() {
   if (model_.resetCamera) {
     camera_.reset(loaded_->scene.camera);
   }
-  if (model_.scene != shownScene_ && mayChoose(model_.scene)) {
-    chooseScene(model_.scene);
+  if (model_.scene != shownScene_) {
+    chooseScene(std::exchange(model_.scene, shownScene_));
   }
+  followLoading();
   applyEdit();
   if (model_.copyCommand) {
     model_.command = command();

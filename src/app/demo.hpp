@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "app/accuracy_controller.hpp"
+#include "app/background_load.hpp"
 #include "app/camera_controller.hpp"
 #include "app/options.hpp"
 #include "app/recorder.hpp"
@@ -28,6 +29,9 @@ class Demo {
   // As the next frame would show it.
   CameraPose camera() { return camera_.pose(evaluate(loaded_->scene, time_).camera); }
   const UiModel& model() const { return model_; }
+  // Reads a scene or a model in the background; once it is there it takes the place of the scene that is shown. What
+  // is wrong with it is the panel's message then, and the scene stays.
+  void openFile(const std::filesystem::path& file);
   // Samples that debug.check_finite found in the frames that have finished, of every scene that was shown.
   uint64_t nonFinite() { return nonFinite_ + sceneRenderer_->finiteWatch().count(); }
   int framesDrawn() const { return framesDrawn_; }
@@ -43,7 +47,11 @@ class Demo {
   void findScenes();
   void showGallery();
   void noteTimes(uint64_t frame, double cpuMs);
+  size_t noteSceneFile(const std::filesystem::path& file);
+  void openDropped(const std::vector<std::filesystem::path>& files);
   void chooseScene(int index);
+  void followLoading();
+  void showScene(std::unique_ptr<LoadedScene> scene);
   void moveCamera(double seconds);
   glm::dvec3 heldDirection() const;
   bool changing();
@@ -87,7 +95,7 @@ class Demo {
   bool saveSceneTo(const std::filesystem::path& file);
   void goOn();
   bool mayClose();
-  bool mayChoose(int scene);
+  bool mayLeave();
   bool closes();
 
   Options options_;
@@ -104,18 +112,20 @@ class Demo {
   std::vector<std::filesystem::path> sceneFiles_;
   int shownScene_ = 0;
   std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
+  BackgroundLoad load_;
   std::string sceneError_;
   uint64_t nonFinite_ = 0;               // of scenes shown before
   std::unique_ptr<SceneEditor> editor_;  // of loaded_
   SceneState look_;                      // what the person points into
   std::vector<SkippedMirror> skipped_;   // in the last frame
   MouseButton pressedButton_ = MouseButton::left;
-  std::optional<glm::dvec2> pressed_;  // screen coordinates; the pointer went down over the picture
-  std::optional<int> nextScene_;       // chosen, while unsaved changes are asked about
-  bool closing_ = false;               // likewise
-  bool leaves_ = false;                // with the answer
-  std::filesystem::path refused_;      // that was not overwritten; asked for again, it is
-  bool holdsHandle_ = false;           // what is pressed is a handle, not the picture
+  std::optional<glm::dvec2> pressed_;              // screen coordinates; the pointer went down over the picture
+  std::optional<std::filesystem::path> nextFile_;  // to be opened, while unsaved changes are asked about
+  bool discards_ = false;                          // they are not asked about again until another scene is shown
+  bool closing_ = false;                           // likewise
+  bool leaves_ = false;                            // with the answer
+  std::filesystem::path refused_;                  // that was not overwritten; asked for again, it is
+  bool holdsHandle_ = false;                       // what is pressed is a handle, not the picture
   bool dragging_ = false;
   double cursorX_ = 0.0;
   double cursorY_ = 0.0;

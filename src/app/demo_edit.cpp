@@ -24,7 +24,7 @@ void Demo::startEditing() {
   // A scene that is being traced in the background must not change meanwhile.
   editor_ = std::make_unique<SceneEditor>(loaded_->scene, [this] { accuracy_.forgetScene(model_); });
   skipped_.clear();
-  nextScene_.reset();
+  nextFile_.reset();
   pressed_.reset();
   dragging_ = false;
   refused_.clear();
@@ -229,7 +229,8 @@ void Demo::answer(EditAction action) {
       model_.edit.asksSave = false;
       model_.edit.asksWhere = false;
       closing_ = false;
-      nextScene_.reset();
+      nextFile_.reset();
+      load_.cancel();
       return;
     default:
       return;
@@ -284,24 +285,24 @@ bool Demo::saveSceneTo(const std::filesystem::path& file) {
 
 // With what unsaved changes were asked about for.
 void Demo::goOn() {
-  const std::optional<int> scene = std::exchange(nextScene_, std::nullopt);
+  discards_ = true;
+  const std::optional<std::filesystem::path> file = std::exchange(nextFile_, std::nullopt);
   if (std::exchange(closing_, false)) {
     leaves_ = true;
     return window_.requestClose();
   }
-  if (scene) {
-    model_.scene = *scene;
-    chooseScene(*scene);
+  if (file) {
+    return openFile(*file);
   }
+  discards_ = load_.running() || load_.arrived();
 }
 
-bool Demo::mayChoose(int scene) {
-  if (options_.frames > 0 || !editor_->document().modified()) {
+// Whether the scene may be left as it is: unsaved changes are asked about, once.
+bool Demo::mayLeave() {
+  if (discards_ || options_.frames > 0 || !editor_->document().modified()) {
     return true;
   }
-  nextScene_ = scene;
-  model_.scene = shownScene_;
-  model_.edit.asksSave = true;
+  model_.edit.asksSave = !model_.edit.asksWhere;
   return false;
 }
 

@@ -28,6 +28,7 @@ void Demo::installInput() {
       camera_.zoom(dy);
     }
   };
+  callbacks.drop = [this](const std::vector<std::filesystem::path>& files) { openDropped(files); };
   window_.setCallbacks(std::move(callbacks));
 }
 
@@ -155,7 +156,7 @@ bool Demo::changing() {
   const bool rebuilt = renderer_.reloadShaders();
   const std::string& errors = renderer_.pipelines().errors();
   const bool shaders = std::exchange(shaderErrors_, errors) != errors || rebuilt;
-  const bool working = accuracy_.working(model_);
+  const bool working = accuracy_.working(model_) || load_.running();
   const bool finished = std::exchange(working_, working) && !working;
   return window_.takeActivity() || shaders || finished || gamepadChanged_ || gamepad_.used() || recorder_.running() ||
          heldDirection() != glm::dvec3(0.0) || model_.settings.view.continuous || options_.frames > 0 ||

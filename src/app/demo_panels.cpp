@@ -9,7 +9,6 @@ namespace speculum {
 void Demo::showGallery() {
   std::vector<Image8> pictures;
   for (const std::filesystem::path& file : sceneFiles_) {
-    model_.sceneTitles.push_back(sceneTitle(file));
     const std::filesystem::path picture = file.parent_path() / "thumbnails" / (file.stem().string() + ".jpg");
     std::error_code none;
     Image8 thumbnail;

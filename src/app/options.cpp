@@ -44,6 +44,12 @@ std::optional<glm::dvec3> parsePoint(std::string_view text) {
   return point;
 }
 
+// Anything else is the name of a bookmark.
+bool meansPoints(const std::string& text) {
+  return std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos &&
+         text.find(',') != std::string::npos;
+}
+
 CameraPlace parseCamera(const std::string& text) {
   std::vector<glm::dvec3> points;
   for (size_t start = 0; start <= text.size();) {
@@ -84,7 +90,7 @@ void addCommon(CLI::App& app, Options& options, Raw& raw) {
 }
 
 void addScene(CLI::App& app, Options& options, Raw& raw, const std::string& usualSize = "1280x720") {
-  app.add_option("--scene", options.scene, "scene file, or the name of a scene of `speculum scenes`");
+  app.add_option("--scene", options.scene, "scene file, model (OBJ), or the name of a scene of `speculum scenes`");
   app.add_option("--size", raw.size, "WIDTHxHEIGHT in pixels, " + usualSize + " unless given");
 }
 
@@ -106,7 +112,9 @@ void addTime(CLI::App& app, Options& options) {
 }
 
 void addCamera(CLI::App& app, Raw& raw) {
-  app.add_option("--camera", raw.camera, "X,Y,Z:X,Y,Z[:X,Y,Z]: position, target and up in the place of the scene's");
+  app.add_option(
+      "--camera", raw.camera,
+      "X,Y,Z:X,Y,Z[:X,Y,Z]: position, target and up in the place of the scene's; or a bookmark of the scene");
 }
 
 void addRender(CLI::App& app, Options& options, Raw& raw) {
@@ -164,8 +172,10 @@ void applyRaw(const Raw& raw, Options& options) {
   } else if (options.command == "accuracy") {
     options.size = {640, 360};
   }
-  if (!raw.camera.empty()) {
+  if (!raw.camera.empty() && meansPoints(raw.camera)) {
     options.camera = parseCamera(raw.camera);
+  } else {
+    options.bookmark = raw.camera;
   }
   if (!std::isfinite(options.time)) {
     throw UsageError("--time: not a finite number (seconds of animation, such as 2.5)");

@@ -34,6 +34,7 @@ struct Options {
   std::filesystem::path json;
   double time = 0.0;                  // seconds
   std::optional<CameraPlace> camera;  // in the place of the scene's
+  std::string bookmark;               // the same, by the name that the scene has for it; empty: not given
   int frames = 0;                     // 0: the command's default
   double fps = 30.0;
   int warmup = 10;

@@ -7,6 +7,8 @@
 
 #include "app/screenshot.hpp"
 #include "core/platform.hpp"
+#include "scene/input_error.hpp"
+#include "scene/nearest_key.hpp"
 
 namespace speculum {
 
@@ -16,6 +18,20 @@ using Clock = std::chrono::steady_clock;
 
 double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+const Bookmark& bookmarkNamed(const std::string& name, const Scene& scene) {
+  std::vector<std::string_view> names;
+  for (const Bookmark& bookmark : scene.bookmarks) {
+    if (bookmark.name == name) {
+      return bookmark;
+    }
+    names.push_back(bookmark.name);
+  }
+  throw UsageError(oneLine(
+      "--camera: the scene has no bookmark '" + name + "' (" +
+      (names.empty() ? "it has none; position:target, such as 0,1,4:0,1,0, is needed" : nearestKeyAdvice(name, names)) +
+      ")"));
 }
 
 }  // namespace
@@ -29,21 +45,24 @@ std::filesystem::path findScene(const std::string& wanted) {
   }
   if (path.is_relative()) {
     const fs::path scenes = dataDirectory("scenes");
-    for (const fs::path& candidate : {scenes / path, scenes.parent_path() / path, scenes / (path.string() + ".toml")}) {
+    for (const fs::path& candidate : {scenes / path, scenes.parent_path() / path, scenes / (path.string() + ".toml"),
+                                      scenes.parent_path() / "models" / path}) {
       if (fs::is_regular_file(candidate)) {
         return candidate;
       }
     }
   }
-  throw UsageError("--scene: there is no file '" + wanted + "' (a scene file, or a name from speculum scenes)");
+  throw UsageError("--scene: there is no file '" + wanted +
+                   "' (a scene file, a model, or a name from speculum scenes)");
 }
 
 LoadedScene loadSceneWithSettings(const Options& options) {
   return loadSceneWithSettings(findScene(options.scene), options);
 }
 
-LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options) {
-  LoadedScene loaded{.scene = loadScene(file)};
+LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
+                                  const LoadProgress& progress) {
+  LoadedScene loaded{.scene = loadScene(file, progress)};
   loaded.settings = settingsOf(loaded.scene);
   for (const auto& [key, value] : options.settings) {
     if (const auto problem = setSetting(loaded.settings, key, value)) {
@@ -55,6 +74,10 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
 }
 
 std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene) {
+  if (!options.bookmark.empty()) {
+    const CameraSpec camera = cameraOf(bookmarkNamed(options.bookmark, scene), scene.camera);
+    return lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
+  }
   if (!options.camera) {
     return std::nullopt;
   }

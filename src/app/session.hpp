@@ -24,7 +24,8 @@ struct LoadedScene {
   std::optional<QualityChoice> quality;
 };
 LoadedScene loadSceneWithSettings(const Options& options);
-LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options);
+LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
+                                  const LoadProgress& progress = {});
 
 // The camera of --camera; nothing if it is not given. Throws UsageError for one that looks nowhere.
 std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene);

@@ -149,6 +149,9 @@ void Window::installCallbacks() {
       cursor(x, y);
     }
   });
+  glfwSetDropCallback(window_.get(), [](GLFWwindow* w, int count, const char** names) {
+    of(w)->dropFiles({names, names + count});
+  });
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
     of(w)->active_ = true;
     if (const auto& scroll = of(w)->callbacks_.scroll) {
@@ -292,6 +295,13 @@ void Window::setClipboard(const std::string& text) {
 std::string Window::clipboard() const {
   const char* text = glfwGetClipboardString(window_.get());
   return text ? text : "";
+}
+
+void Window::dropFiles(const std::vector<std::filesystem::path>& files) {
+  active_ = true;
+  if (callbacks_.drop) {
+    callbacks_.drop(files);
+  }
 }
 
 void Window::setCallbacks(WindowCallbacks callbacks) {

@@ -3,6 +3,7 @@
 #include <vulkan/vulkan.h>
 
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -69,6 +70,7 @@ struct WindowCallbacks {
   std::function<void(const MouseButtonEvent&)> mouseButton;
   std::function<void(double x, double y)> cursor;
   std::function<void(double dx, double dy)> scroll;
+  std::function<void(const std::vector<std::filesystem::path>& files)> drop;
 };
 
 struct WindowOptions {
@@ -114,6 +116,8 @@ class Window {
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text
   void setCallbacks(WindowCallbacks callbacks);
+  // As if they had been dropped on the window.
+  void dropFiles(const std::vector<std::filesystem::path>& files);
 
   GLFWwindow* native() const { return window_.get(); }
   std::vector<const char*> requiredInstanceExtensions() const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scene/input_error.hpp"
+#include "scene/scene_loader.hpp"
 
 namespace speculum {
 
@@ -39,10 +40,6 @@ bool sameFile(const fs::path& a, const fs::path& b) {
   return a == b || (!a.empty() && fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error));
 }
 
-bool isModel(const fs::path& file) {
-  return file.extension() == ".obj" || file.extension() == ".OBJ";
-}
-
 }  // namespace
 
 SceneDocument::SceneDocument(Scene& scene) : scene_(scene), saved_(contentOf(scene)) {
@@ -57,7 +54,7 @@ SceneDocument::SceneDocument(Scene& scene) : scene_(scene), saved_(contentOf(sce
              .lights = scene.lights,
              .mirrors = scene.mirrors,
              .bookmarks = scene.bookmarks};
-  if (!isModel(scene.file)) {
+  if (!isModelFile(scene.file)) {
     savedFile_ = scene.file;
     savedText_ = scene.text;
   }
@@ -206,7 +203,7 @@ bool SceneDocument::modified() const {
 }
 
 fs::path SceneDocument::usualFile() const {
-  return isModel(scene_.file) ? fs::path(scene_.file).replace_extension(".toml") : scene_.file;
+  return isModelFile(scene_.file) ? fs::path(scene_.file).replace_extension(".toml") : scene_.file;
 }
 
 std::string SceneDocument::text(const fs::path& file, std::span<const SavedSetting> settings) const {
@@ -215,7 +212,7 @@ std::string SceneDocument::text(const fs::path& file, std::span<const SavedSetti
 
 void SceneDocument::save(const fs::path& file, std::span<const SavedSetting> settings, bool overwrite) {
   endGesture();
-  if (isModel(file)) {
+  if (isModelFile(file)) {
     throw SaveError(oneLine(file.string() + ": not saved: it is the name of a model (name a file such as " +
                             fs::path(file).replace_extension(".toml").filename().string() + ")"));
   }

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <functional>
 #include <sstream>
 
 #include "scene/input_error.hpp"
@@ -16,10 +18,20 @@ struct ObjSink {
   ObjGeometry geometry;
   ObjMaterials materials;
   int material = -1;
+  std::function<void()> alive;  // called now and then
+  size_t calls = 0;
+
+  void count() {
+    constexpr size_t kOften = 1 << 14;
+    if (++calls % kOften == 0 && alive) {
+      alive();
+    }
+  }
 
   static int zeroBased(int index, size_t count) { return index < 0 ? static_cast<int>(count) + index : index - 1; }
 
   static void position(void* self, double x, double y, double z, double) {
+    static_cast<ObjSink*>(self)->count();
     static_cast<ObjSink*>(self)->geometry.positions.emplace_back(x, y, z);
   }
 
@@ -33,6 +45,7 @@ struct ObjSink {
 
   static void face(void* self, tinyobj::index_t* indices, int count) {
     ObjSink& sink = *static_cast<ObjSink*>(self);
+    sink.count();
     ObjGeometry& geometry = sink.geometry;
     geometry.faces.push_back(
         {.firstCorner = geometry.corners.size(), .cornerCount = static_cast<size_t>(count), .material = sink.material});
@@ -51,7 +64,16 @@ struct ObjSink {
 
 }  // namespace
 
-Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures) {
+Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
+  // Shares of the time that the steps take of a large model.
+  constexpr double kScanned = 0.35;
+  constexpr double kParsed = 0.65;
+  const auto tell = [&](double done) {
+    if (progress) {
+      progress(file, done);
+    }
+  };
+  tell(0.0);
   const ObjScan scan = scanObj(file, readText(file, file, 1, "file", "a Wavefront OBJ file is needed"));
   ObjSink sink{.materials = ObjMaterials(file)};
   tinyobj::callback_t callback;
@@ -61,7 +83,13 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures) 
   callback.index_cb = &ObjSink::face;
   callback.usemtl_cb = &ObjSink::useMaterial;
   std::istringstream stream(scan.text);
+  sink.alive = [&] {
+    const double part = static_cast<double>(stream.tellg()) / static_cast<double>(scan.text.size());
+    tell(kScanned + (kParsed - kScanned) * std::clamp(part, 0.0, 1.0));
+  };
+  tell(kScanned);
   tinyobj::LoadObjWithCallback(stream, callback, &sink, &sink.materials);
+  tell(kParsed);
   Mesh mesh = buildMesh(file, sink.geometry, scan, [&](int index) { return sink.materials.material(index, textures); });
   if (mesh.indices.empty()) {
     throwInputError(file, 1, "f", "the model has no triangle", "at least one face with an area is needed");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 #include "scene/input_error.hpp"
 #include "scene/scene_sections.hpp"
@@ -14,9 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The place of the model among the scene's meshes; each file is loaded once, whatever it is called.
-int meshIndex(const TableReader& object, Scene& scene) {
-  const std::string model = object.text("model");
+// The file of a model as a scene names it.
+fs::path modelFile(const Scene& scene, const std::string& model) {
   const fs::path named = scene.file.parent_path() / model;
   fs::path file = named.lexically_normal();
   std::error_code error;
@@ -24,6 +24,50 @@ int meshIndex(const TableReader& object, Scene& scene) {
   if (fs::exists(named, error) && !fs::equivalent(named, file, error)) {
     file = named;
   }
+  return file;
+}
+
+// Told of each model, passes on what is done of all of them, by their bytes.
+class ModelProgress {
+ public:
+  ModelProgress(const Scene& scene, const LoadProgress& progress) : progress_(progress) {
+    if (!progress) {
+      return;
+    }
+    std::set<fs::path> files;
+    for (const Object& object : scene.objects) {
+      const fs::path file = modelFile(scene, object.model);
+      total_ += files.insert(file).second ? sizeOf(file) : 0.0;
+    }
+  }
+
+  LoadProgress ofOne(const fs::path& model) {
+    const double size = sizeOf(model);
+    const double before = std::exchange(done_, done_ + size);
+    return [this, before, size](const fs::path& file, double part) {
+      if (progress_) {
+        progress_(file, (before + part * size) / total_);
+      }
+    };
+  }
+
+ private:
+  static double sizeOf(const fs::path& file) {
+    std::error_code error;
+    const uintmax_t size = fs::file_size(file, error);
+    return error ? 1.0 : static_cast<double>(size) + 1.0;
+  }
+
+  const LoadProgress& progress_;
+  double done_ = 0.0;
+  double total_ = 0.0;
+};
+
+// The place of the model among the scene's meshes; each file is loaded once, whatever it is called.
+int meshIndex(const TableReader& object, Scene& scene, ModelProgress& progress) {
+  const std::string model = object.text("model");
+  const fs::path file = modelFile(scene, model);
+  std::error_code error;
   if (model.empty() || !fs::is_regular_file(file, error)) {
     object.fail("model", "there is no file '" + file.string() + "'",
                 "name a Wavefront OBJ file, relative to the scene file");
@@ -33,7 +77,7 @@ int meshIndex(const TableReader& object, Scene& scene) {
       return static_cast<int>(i);
     }
   }
-  scene.meshes.push_back(loadObj(file, scene.textures));
+  scene.meshes.push_back(loadObj(file, scene.textures, progress.ofOne(file)));
   return static_cast<int>(scene.meshes.size()) - 1;
 }
 
@@ -99,16 +143,24 @@ Scene parseScene(const fs::path& file, std::string text) {
   return readScene({file, "", root, 1, kKeys}, file, std::move(text));
 }
 
-Scene loadScene(const fs::path& file) {
+bool isModelFile(const fs::path& file) {
+  return file.extension() == ".obj" || file.extension() == ".OBJ";
+}
+
+Scene loadScene(const fs::path& file, const LoadProgress& progress) {
+  if (isModelFile(file)) {
+    return modelScene(file, progress);
+  }
   std::string text = readTomlText(file, "scene file");
   const toml::table root = parseToml(file, text, "scene file");
   const TableReader reader(file, "", root, 1, kKeys);
   // First, so that a slip in the file is told before models are read.
   Scene scene = readScene(reader, file, std::move(text));
+  ModelProgress models(scene, progress);
   size_t index = 0;
   for (const TableReader& table : reader.tables("object", objectKeys())) {
     Object& object = scene.objects[index++];
-    object.mesh = meshIndex(table, scene);
+    object.mesh = meshIndex(table, scene, models);
     checkExtent(table, object, scene.meshes[object.mesh]);
   }
   return scene;

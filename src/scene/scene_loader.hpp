@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -14,9 +15,16 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Reads the scene, its models and textures. Warnings (missing MTL, dropped triangles, opacity) go to the log.
-// Throws InputError.
-Scene loadScene(const std::filesystem::path& file);
+// Told the file that is read and the share, 0 .. 1, of all that has been, now and then. What it throws ends the
+// loading.
+using LoadProgress = std::function<void(const std::filesystem::path& file, double done)>;
+
+// Whether the name is that of a Wavefront OBJ file.
+bool isModelFile(const std::filesystem::path& file);
+
+// Reads the scene, its models and textures; of a model, the scene of modelScene(). Warnings (missing MTL, dropped
+// triangles, opacity) go to the log. Throws InputError.
+Scene loadScene(const std::filesystem::path& file, const LoadProgress& progress = {});
 
 // What `text` says as the content of `file`, without the models: each Object::mesh is -1. Throws InputError.
 Scene parseScene(const std::filesystem::path& file, std::string text);
@@ -25,6 +33,10 @@ Scene parseScene(const std::filesystem::path& file, std::string text);
 std::string sceneTitle(const std::filesystem::path& file);
 
 // The OBJ file with its MTL; appends the textures it names to `textures`. Throws InputError.
-Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures);
+Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});
+
+// A scene that shows a model by itself, whatever its size: over a round mirror, with a key light, a sky, and a camera
+// that circles it. Throws InputError, also for one whose bounding sphere is not within 1e-9 .. 1e12 m.
+Scene modelScene(const std::filesystem::path& file, const LoadProgress& progress = {});
 
 }  // namespace speculum

@@ -19,6 +19,8 @@ void effects(UiModel& model);
 void performance(UiModel& model);
 void device(UiModel& model);
 void accuracy(UiModel& model);
+// A window of its own, while something is loaded.
+void loading(UiModel& model);
 
 // What is drawn over the picture, the window that edits the scene, if `inspector`, and questions about saving it.
 void edit(UiModel& model, bool inspector);

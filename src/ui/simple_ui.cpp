@@ -152,6 +152,8 @@ void SimpleUI::build(UiModel& model) {
   model.accuracy.measure = false;
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
+  model.cancelLoading = false;
+  panels::loading(model);
   if (visible_) {
     dock_.beginFrame();
     buildPanel(model);

@@ -1,0 +1,32 @@
+#include <imgui.h>
+
+#include <cstdio>
+
+#include "ui/panels.hpp"
+
+namespace speculum::panels {
+
+void loading(UiModel& model) {
+  if (model.loading.empty()) {
+    return;
+  }
+  const ImGuiIO& io = ImGui::GetIO();
+  const float unit = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(ImVec2(0.5f * io.DisplaySize.x, io.DisplaySize.y - unit), ImGuiCond_Always,
+                          ImVec2(0.5f, 1.0f));
+  ImGui::SetNextWindowSize(ImVec2(26.0f * unit, 0.0f));
+  if (ImGui::Begin("Loading", nullptr,
+                   ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                       ImGuiWindowFlags_NoFocusOnAppearing)) {
+    ImGui::Text("loading %s", model.loading.c_str());
+    char percent[16];
+    std::snprintf(percent, sizeof(percent), "%.0f %%", 100.0 * model.loadingDone);
+    ImGui::ProgressBar(static_cast<float>(model.loadingDone), ImVec2(-5.0f * unit, 0.0f), percent);
+    ImGui::SameLine();
+    model.cancelLoading = ImGui::Button("cancel");
+    notePlace(model, "loading.cancel");
+  }
+  ImGui::End();
+}
+
+}  // namespace speculum::panels

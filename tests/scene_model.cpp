@@ -1,0 +1,134 @@
+// A model that is shown by itself, and what is told while models are read.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "scene/scene_state.hpp"
+#include "scene_support.hpp"
+
+namespace speculum {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A box of 2 x 1 x 0.5 about `center`, all of it times `size`.
+std::string box(double size, const glm::dvec3& center = glm::dvec3(0.0)) {
+  std::ostringstream obj;
+  obj.precision(17);
+  for (int i = 0; i < 8; ++i) {
+    const glm::dvec3 corner((i & 1) ? 1.0 : -1.0, (i & 2) ? 0.5 : -0.5, (i & 4) ? 0.25 : -0.25);
+    const glm::dvec3 p = size * (corner + center);
+    obj << "v " << p.x << " " << p.y << " " << p.z << "\n";
+  }
+  return obj.str() + "f 1 2 4 3\nf 5 6 8 7\nf 1 2 6 5\nf 3 4 8 7\nf 1 3 7 5\nf 2 4 8 6\n";
+}
+
+TEST(ModelScene, LooksTheSameAtEverySize) {
+  const TemporaryFolder folder;
+  const Scene one = modelScene(folder.write("one.obj", box(1.0)));
+  for (const double size : {1e-3, 0.37, 250.0, 1e6}) {
+    const Scene scene = modelScene(folder.write("other.obj", box(size)));
+    EXPECT_NEAR(glm::distance(scene.camera.position / size, one.camera.position), 0.0, 1e-9) << size;
+    EXPECT_NEAR(glm::distance(scene.camera.target / size, one.camera.target), 0.0, 1e-9) << size;
+    EXPECT_NEAR(scene.camera.near / size, one.camera.near, 1e-12) << size;
+    ASSERT_EQ(scene.mirrors.size(), 1u);
+    EXPECT_NEAR(glm::distance(scene.mirrors[0].polygon[0] / size, one.mirrors[0].polygon[0]), 0.0, 1e-9) << size;
+    ASSERT_EQ(scene.lights.size(), 2u);
+    // The inverse square law: as bright on the model.
+    EXPECT_NEAR(scene.lights[0].intensity / (size * size), one.lights[0].intensity, 1e-9) << size;
+    EXPECT_EQ(scene.objects[0].scale, glm::dvec3(1.0)) << "the model keeps its size";
+  }
+}
+
+TEST(ModelScene, StandsOverItsMirrorWithinThePicture) {
+  const TemporaryFolder folder;
+  for (const glm::dvec3 center : {glm::dvec3(0.0), glm::dvec3(1000.0, -300.0, 70.0)}) {
+    const Scene scene = modelScene(folder.write("box.obj", box(2.0, center)));
+    const SceneState state = evaluate(scene, 0.0);
+    ASSERT_EQ(state.instances.size(), 1u);
+    const Mesh& mesh = scene.meshes[0];
+    for (const Vertex& vertex : mesh.vertices) {
+      const glm::dvec3 p = state.instances[0].worldFromMesh.point(vertex.position);
+      EXPECT_GT(p.y, 0.0) << "the mirror lies at 0";
+      EXPECT_LT(p.y, 2.1 + 1.0) << "and the model right above it";
+    }
+    EXPECT_EQ(state.mirrors[0].normal, glm::dvec3(0.0, 1.0, 0.0));
+    // The bounding sphere within the cone of the vertical field of view.
+    const glm::dvec3 seen = state.camera.worldToView * (state.instances[0].center - state.camera.eye);
+    const double angle = std::asin(mesh.radius / glm::length(seen)) + std::atan2(std::abs(seen.y), -seen.z);
+    EXPECT_LT(angle, 0.5 * state.camera.verticalFov);
+    EXPECT_GT(angle, 0.3 * state.camera.verticalFov) << "and not lost in it";
+    EXPECT_TRUE(moves(scene)) << "the camera circles";
+  }
+}
+
+TEST(ModelScene, IsWhatLoadingAModelGives) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("Grüße \"x\".obj", box(1.0));
+  const Scene scene = loadScene(file);
+  EXPECT_EQ(scene.file, file);
+  EXPECT_EQ(scene.title, "Grüße \"x\"");
+  EXPECT_EQ(scene.objects[0].model, "Grüße \"x\".obj");
+  EXPECT_EQ(scene.text, modelScene(file).text);
+  const Scene saved = loadScene(folder.write("saved.toml", scene.text));
+  EXPECT_TRUE(saved.mirrors == scene.mirrors && saved.camera == scene.camera && saved.lights == scene.lights);
+}
+
+TEST(ModelScene, TellsWhatCannotBeShown) {
+  const TemporaryFolder folder;
+  const fs::path tiny = folder.write("tiny.obj", box(1e-12));
+  const std::string message = inputErrorOf([&] { loadScene(tiny); });
+  EXPECT_EQ(message.rfind(tiny.string() + ":1: v: the model's bounding sphere", 0), 0u) << message;
+  const std::string missing = inputErrorOf([&] { loadScene(folder / "none.obj"); });
+  EXPECT_NE(missing.find("none.obj: cannot be read"), std::string::npos) << missing;
+}
+
+constexpr const char* kTwoModels =
+    "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n"
+    "[[object]]\nmodel = 'large.obj'\n[[object]]\nmodel = 'small.obj'\n"
+    "[[object]]\nmodel = 'large.obj'\n";
+
+fs::path twoModels(const TemporaryFolder& folder) {
+  std::string large = box(1.0);
+  for (int i = 0; i < 100000; ++i) {
+    large += "f 1 2 4\n";
+  }
+  folder.write("large.obj", large);
+  folder.write("small.obj", box(1.0));
+  return folder.write("scene.toml", kTwoModels);
+}
+
+TEST(LoadProgress, RisesFileByFile) {
+  const TemporaryFolder folder;
+  std::vector<std::pair<std::string, double>> told;
+  loadScene(twoModels(folder),
+            [&](const fs::path& file, double done) { told.emplace_back(file.filename().string(), done); });
+  ASSERT_GT(told.size(), 6u) << "a large model is told of more than once";
+  EXPECT_EQ(told.front(), (std::pair<std::string, double>{"large.obj", 0.0}));
+  EXPECT_EQ(told.back().first, "small.obj");
+  for (size_t i = 1; i < told.size(); ++i) {
+    EXPECT_GE(told[i].second, told[i - 1].second);
+    EXPECT_LE(told[i].second, 1.0);
+  }
+  EXPECT_GT(told.back().second, 0.99) << "the large one is nearly all";
+}
+
+TEST(LoadProgress, WhatItThrowsEndsTheLoading) {
+  struct Stop {};
+  const TemporaryFolder folder;
+  const fs::path file = twoModels(folder);
+  int calls = 0;
+  EXPECT_THROW(loadScene(file,
+                         [&](const fs::path&, double done) {
+                           ++calls;
+                           if (done > 0.4) {
+                             throw Stop();
+                           }
+                         }),
+               Stop);
+  EXPECT_GT(calls, 2);
+}
+
+}  // namespace
+}  // namespace speculum
