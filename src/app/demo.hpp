@@ -4,6 +4,7 @@
 
 #include "app/accuracy_controller.hpp"
 #include "app/camera_controller.hpp"
+#include "app/log_capture.hpp"
 #include "app/options.hpp"
 #include "app/session.hpp"
 #include "ui/simple_ui.hpp"
@@ -37,6 +38,9 @@ class Demo {
   void installInput();
   void findScenes();
   void showGallery();
+  void showDevice();
+  void showMemory();
+  void applyPresentMode();
   void noteTimes(uint64_t frame, double cpuMs);
   void chooseScene(int index);
   void moveCamera(double seconds);
@@ -44,7 +48,8 @@ class Demo {
   bool changing();
   bool rest();
   void drawFrame(double seconds);
-  std::optional<DebugView> debugView(const FramePlan& plan);
+  std::optional<DebugView> debugView(const FramePlan& plan, const Settings& drawn);
+  void describeTarget(const FramePlan& plan, const PlannedPass& pass, const Settings& drawn);
   void fillEffects(const FramePlan& plan, const SceneState& state, const Settings& drawn);
   void fillModel(const FramePlan& plan, const SceneState& state, const Settings& drawn);
   void fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval);
@@ -58,6 +63,8 @@ class Demo {
   std::string command();
 
   Options options_;
+  UiModel model_;
+  LogCapture log_{model_.log.history};
   std::unique_ptr<LoadedScene> loaded_;
   Window window_;
   Device device_;
@@ -66,11 +73,11 @@ class Demo {
   BudgetPlanner planner_;
   std::unique_ptr<SimpleUI> ui_;
   CameraController camera_;
-  UiModel model_;
   AccuracyController accuracy_;
   std::vector<std::filesystem::path> sceneFiles_;
   int shownScene_ = 0;
-  std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
+  int shownPresentMode_ = 0;
+  std::optional<std::vector<int>> watched_;  // path of the mirror image that the panel shows; empty: the main view
   std::string sceneError_;
   uint64_t nonFinite_ = 0;  // of scenes shown before
   bool dragging_ = false;
