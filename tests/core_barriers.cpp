@@ -38,11 +38,12 @@ TEST_P(Barrier, IsMissedWhenLeftOut) {
   EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
 }
 
-// Presenting needs a window, and checks need debug.check_finite: core_window.cpp and finite_watch.cpp test them.
+// Presenting needs a window, checks need debug.check_finite, depth is sampled where it is looked at: core_window.cpp,
+// finite_watch.cpp and target_views.cpp test them.
 std::vector<BarrierKind> kindsWithoutWindow() {
   std::vector<BarrierKind> kinds(allBarrierKinds().begin(), allBarrierKinds().end());
   for (const BarrierKind other : {BarrierKind::swapchainToPresent, BarrierKind::targetToCheck,
-                                  BarrierKind::checkToLookUp, BarrierKind::checkToWrite}) {
+                                  BarrierKind::checkToLookUp, BarrierKind::checkToWrite, BarrierKind::depthToSample}) {
     std::erase(kinds, other);
   }
   return kinds;

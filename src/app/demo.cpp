@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/pass_outlines.hpp"
 #include "app/screenshot.hpp"
 #include "app/view_command.hpp"
 #include "core/platform.hpp"
+#include "ui/panels.hpp"
 
 namespace speculum {
 
@@ -33,9 +35,7 @@ Demo::Demo(const Options& options)
   showGallery();
   model_.settings = loaded_->settings;
   model_.sceneSettings = loaded_->settings;
-  model_.device = device_.info().name;
-  model_.driver = device_.info().driver;
-  model_.renderPath = "render path: " + std::string(renderPathName(device_.renderPath()));
+  showDevice();
   model_.accuracy.choice = loaded_->quality ? loaded_->quality->why : "";
   camera_.reset(loaded_->scene.camera);
   startEditing();
@@ -78,6 +78,10 @@ void Demo::applyModel() {
   if (model_.copyHistory) {
     window_.setClipboard(model_.history.csv());
   }
+  if (model_.copyLog) {
+    window_.setClipboard(logText(shownLog(model_)));
+  }
+  applyPresentMode();
   if (model_.seek) {
     goTo(*model_.seek);
   }
@@ -141,8 +145,8 @@ void Demo::drawFrame(double seconds) {
   SceneState state = evaluate(loaded_->scene, time_);
   state.camera = camera_.pose(state.camera);
   Settings settings = model_.settings;
-  watched_ = model_.debugPass >= 0 ? model_.passes[model_.debugPass].path : std::vector<int>();
-  if (!watched_.empty()) {
+  watched_ = model_.debugPass >= 0 ? std::optional(model_.passes[model_.debugPass].path) : std::nullopt;
+  if (watched_ && !watched_->empty()) {
     settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame
     settings.reflection.skipUnchanged = false;
   }
@@ -150,7 +154,7 @@ void Demo::drawFrame(double seconds) {
                                           static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
   const FramePlan& plan = fitted.plan;
   const bool bare = shot_ == Shot::picture || recorder_.bare();
-  sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debugView(plan));
+  sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debugView(plan, fitted.settings));
   if (!bare) {
     const PassScope scope = renderer_.beginOverlay(*frame);
     ui_->record(scope);
@@ -165,18 +169,6 @@ void Demo::drawFrame(double seconds) {
   framesDue_ = std::max(0, framesDue_ - 1);
   fillModel(plan, state, fitted.settings);
   accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, *sceneRenderer_);
-}
-
-std::optional<DebugView> Demo::debugView(const FramePlan& plan) {
-  const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                 [&](const PlannedPass& p) { return p.view.path == watched_; });
-  if (pass == plan.passes.end()) {
-    watched_.clear();
-  }
-  if (watched_.empty() || !model_.debugArea) {
-    return std::nullopt;
-  }
-  return DebugView{static_cast<int>(pass - plan.passes.begin()), *model_.debugArea};
 }
 
 // With images that are held, the passes of as many frames as it takes to render each, and those whose images are shown:
@@ -212,13 +204,15 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
                                       [&](const PlannedPass& p) { return p.view.path == pass.path; });
     row->resolution =
         planned != plan.passes.end() ? depthReadout(*planned, plan.projection, loaded_->scene, state) : std::nullopt;
+    row->outline = outlineOf(plan, pass.path, plan.width, plan.height);
     row->framesAgo = 0;
     place = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const UiPass& row) { return row.framesAgo >= updateInterval && !isShown(row); });
   model_.passes = std::move(rows);
-  const auto shown = std::find_if(model_.passes.begin(), model_.passes.end(),
-                                  [&](const UiPass& row) { return !watched_.empty() && row.path == watched_; });
+  const auto shown = std::find_if(model_.passes.begin(), model_.passes.end(), [&](const UiPass& row) {
+    return watched_ && panels::hasTarget(row) && row.path == *watched_;
+  });
   model_.debugPass = shown != model_.passes.end() ? static_cast<int>(shown - model_.passes.begin()) : -1;
 }
 
@@ -236,6 +230,7 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Setti
   model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
   model_.gpuMs = timings.gpuMs;
   model_.deviceBytes = device_.allocatedBytes();
+  showMemory();
   model_.validationMessages = device_.validation() ? device_.validationMessages() : -1;
   model_.message = sceneError_.empty() ? renderer_.pipelines().errors() : sceneError_;
   const FiniteWatch& watch = sceneRenderer_->finiteWatch();

@@ -6,6 +6,7 @@
 #include "app/accuracy_controller.hpp"
 #include "app/background_load.hpp"
 #include "app/camera_controller.hpp"
+#include "app/log_capture.hpp"
 #include "app/options.hpp"
 #include "app/recorder.hpp"
 #include "app/scene_editor.hpp"
@@ -46,6 +47,9 @@ class Demo {
   void installInput();
   void findScenes();
   void showGallery();
+  void showDevice();
+  void showMemory();
+  void applyPresentMode();
   void noteTimes(uint64_t frame, double cpuMs);
   size_t noteSceneFile(const std::filesystem::path& file);
   void openDropped(const std::vector<std::filesystem::path>& files);
@@ -57,7 +61,8 @@ class Demo {
   bool changing();
   bool rest();
   void drawFrame(double seconds);
-  std::optional<DebugView> debugView(const FramePlan& plan);
+  std::optional<DebugView> debugView(const FramePlan& plan, const Settings& drawn);
+  void describeTarget(const FramePlan& plan, const PlannedPass& pass, const Settings& drawn);
   void fillEffects(const FramePlan& plan, const SceneState& state, const Settings& drawn);
   void fillModel(const FramePlan& plan, const SceneState& state, const Settings& drawn);
   void fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval);
@@ -99,6 +104,8 @@ class Demo {
   bool closes();
 
   Options options_;
+  UiModel model_;
+  LogCapture log_{model_.log.history};
   std::unique_ptr<LoadedScene> loaded_;
   Window window_;
   Device device_;
@@ -107,11 +114,11 @@ class Demo {
   BudgetPlanner planner_;
   std::unique_ptr<SimpleUI> ui_;
   CameraController camera_;
-  UiModel model_;
   AccuracyController accuracy_;
   std::vector<std::filesystem::path> sceneFiles_;
   int shownScene_ = 0;
-  std::vector<int> watched_;  // path of the mirror image that the panel shows; empty: none
+  int shownPresentMode_ = 0;
+  std::optional<std::vector<int>> watched_;  // path of the mirror image that the panel shows; empty: the main view
   BackgroundLoad load_;
   std::string sceneError_;
   uint64_t nonFinite_ = 0;               // of scenes shown before

@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, barrierKindCount> names = {"offscreenBefo
                                                                   "mainSamplesBeforeWrite",
                                                                   "mainDepthBeforeWrite",
                                                                   "mainToSample",
+                                                                  "depthToSample",
                                                                   "targetToCheck",
                                                                   "checkToLookUp",
                                                                   "checkToWrite",
@@ -127,13 +128,19 @@ void Barriers::depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image
     image.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
   }
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenDepthBeforeWrite, BarrierKind::mainDepthBeforeWrite);
-  record(commands, kind, image, {depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT}, {depthStages, depthAccess},
-         VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
+  const VkPipelineStageFlags readers = image.desc().usage & VK_IMAGE_USAGE_SAMPLED_BIT ? sampleStage : 0;
+  record(commands, kind, image, {depthStages | readers, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
+         {depthStages, depthAccess}, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
 }
 
 void Barriers::colorToSample(VkCommandBuffer commands, TargetRole role, Image& image) const {
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenToSample, BarrierKind::mainToSample);
   record(commands, kind, image, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
+         {sampleStage, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+void Barriers::depthToSample(VkCommandBuffer commands, Image& image) const {
+  record(commands, BarrierKind::depthToSample, image, {depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
          {sampleStage, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 

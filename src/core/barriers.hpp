@@ -22,6 +22,7 @@ enum class BarrierKind {
   mainSamplesBeforeWrite,
   mainDepthBeforeWrite,
   mainToSample,
+  depthToSample,           // depth of a pass that is looked at -> fragment shader
   targetToCheck,           // attachment -> compute shader, also where fragment shaders sample it
   checkToLookUp,           // results of a check -> the dispatch that looks up what was found
   checkToWrite,            // compute shader -> what attachments wait for before they are written again
@@ -57,6 +58,7 @@ class Barriers {
   void samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
   void depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
   void colorToSample(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  void depthToSample(VkCommandBuffer commands, Image& image) const;
   // Of a pass's output or its samples, which become readable in compute shaders.
   void targetToCheck(VkCommandBuffer commands, Image& image) const;
   void checkToLookUp(VkCommandBuffer commands, const VkDescriptorBufferInfo& results) const;

@@ -216,6 +216,21 @@ VkRenderPass Renderer::overlayRenderPass() {
   return renderPasses_.renderPass({.color = displayFormat(), .loadColor = true, .colorLayout = overlayLayout});
 }
 
+std::vector<PresentMode> Renderer::presentModes() const {
+  return headless() ? std::vector<PresentMode>() : swapChain_->presentModes();
+}
+
+std::optional<PresentMode> Renderer::presentMode() const {
+  return headless() ? std::nullopt : std::optional(swapChain_->presentMode());
+}
+
+void Renderer::setPresentMode(PresentMode mode) {
+  if (!headless() && mode != swapChain_->presentMode()) {
+    swapChain_->choosePresentMode(mode);
+    swapChainStale_ = true;
+  }
+}
+
 void Renderer::recordCapture(Slot& slot, const Frame& frame) {
   if (!headless() && !swapChain_->copyable()) {
     throw std::runtime_error("this window's images cannot be read back (use the render command)");

@@ -67,6 +67,10 @@ class Renderer {
   VkExtent2D displayExtent() const;
   uint32_t displayImageCount() const;  // at least 2, as Dear ImGui wants it
   VkRenderPass overlayRenderPass();    // compatible with beginOverlay's; may change when displayFormat() does
+  // Of the window, none when headless. A new one holds from the next frame on.
+  std::vector<PresentMode> presentModes() const;
+  std::optional<PresentMode> presentMode() const;
+  void setPresentMode(PresentMode mode);
   void resizeHeadless(VkExtent2D extent);
 
   // The display image of the last frame that had `capture` set. Waits. Throws std::logic_error if there was none.

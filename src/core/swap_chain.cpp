@@ -38,7 +38,17 @@ VkCompositeAlphaFlagBitsKHR chooseAlpha(const VkSurfaceCapabilitiesKHR& caps) {
                                                                           : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
 }
 
+VkPresentModeKHR vulkanMode(PresentMode mode) {
+  return mode == PresentMode::mailbox     ? VK_PRESENT_MODE_MAILBOX_KHR
+         : mode == PresentMode::immediate ? VK_PRESENT_MODE_IMMEDIATE_KHR
+                                          : VK_PRESENT_MODE_FIFO_KHR;
+}
+
 }  // namespace
+
+std::string_view presentModeName(PresentMode mode) {
+  return mode == PresentMode::mailbox ? "mailbox" : mode == PresentMode::immediate ? "immediate" : "fifo";
+}
 
 SwapChain::SwapChain(Device& device, Window& window, PresentMode mode) : device_(device), window_(window) {
   chooseFormat();
@@ -63,19 +73,26 @@ void SwapChain::chooseFormat() {
   throw std::runtime_error("the window's surface has no 8 bit UNORM format (use the render command)");
 }
 
-void SwapChain::choosePresentMode(PresentMode wanted) {
+std::vector<PresentMode> SwapChain::presentModes() const {
   uint32_t count = 0;
   check(vkGetPhysicalDeviceSurfacePresentModesKHR(device_.physical(), device_.surface(), &count, nullptr),
         "list present modes");
   std::vector<VkPresentModeKHR> modes(count);
   check(vkGetPhysicalDeviceSurfacePresentModesKHR(device_.physical(), device_.surface(), &count, modes.data()),
         "list present modes");
-  const VkPresentModeKHR mode = wanted == PresentMode::mailbox     ? VK_PRESENT_MODE_MAILBOX_KHR
-                                : wanted == PresentMode::immediate ? VK_PRESENT_MODE_IMMEDIATE_KHR
-                                                                   : VK_PRESENT_MODE_FIFO_KHR;
-  const bool present = std::find(modes.begin(), modes.end(), mode) != modes.end();
+  std::vector<PresentMode> offered;
+  for (const PresentMode mode : {PresentMode::fifo, PresentMode::mailbox, PresentMode::immediate}) {
+    if (std::find(modes.begin(), modes.end(), vulkanMode(mode)) != modes.end()) {
+      offered.push_back(mode);
+    }
+  }
+  return offered;
+}
+
+void SwapChain::choosePresentMode(PresentMode wanted) {
+  const std::vector<PresentMode> offered = presentModes();
+  const bool present = std::find(offered.begin(), offered.end(), wanted) != offered.end();
   mode_ = present ? wanted : PresentMode::fifo;
-  vulkanMode_ = present ? mode : VK_PRESENT_MODE_FIFO_KHR;
   if (!present) {
     spdlog::warn("the wanted present mode is not available here; FIFO is used");
   }
@@ -105,7 +122,7 @@ bool SwapChain::recreate() {
                                       .imageSharingMode = VK_SHARING_MODE_EXCLUSIVE,
                                       .preTransform = caps.currentTransform,
                                       .compositeAlpha = chooseAlpha(caps),
-                                      .presentMode = vulkanMode_,
+                                      .presentMode = vulkanMode(mode_),
                                       .clipped = VK_TRUE,
                                       .oldSwapchain = old.get()};
   VkSwapchainKHR swapchain = VK_NULL_HANDLE;

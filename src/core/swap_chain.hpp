@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/image.hpp"
@@ -10,6 +11,7 @@
 namespace speculum {
 
 enum class PresentMode { fifo, mailbox, immediate };
+std::string_view presentModeName(PresentMode mode);  // fifo, mailbox, immediate
 
 // The window's images, UNORM. Made anew when the window's size changes or the surface says so.
 class SwapChain {
@@ -28,20 +30,21 @@ class SwapChain {
   VkExtent2D extent() const { return extent_; }
   VkFormat format() const { return format_.format; }
   PresentMode presentMode() const { return mode_; }  // in use: FIFO where the wanted one is missing
-  bool copyable() const { return copyable_; }        // whether its images can be read back
+  std::vector<PresentMode> presentModes() const;     // that the surface offers
+  // From the next recreate() on.
+  void choosePresentMode(PresentMode wanted);
+  bool copyable() const { return copyable_; }  // whether its images can be read back
   Image& image(uint32_t index) { return images_[index]; }
   uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
   VkSemaphore renderFinished(uint32_t index) const { return renderFinished_[index].get(); }
 
  private:
   void chooseFormat();
-  void choosePresentMode(PresentMode wanted);
   void createImages();
 
   Device& device_;
   Window& window_;
   PresentMode mode_ = PresentMode::fifo;
-  VkPresentModeKHR vulkanMode_ = VK_PRESENT_MODE_FIFO_KHR;
   bool copyable_ = false;
   VkSurfaceFormatKHR format_{};
   VkExtent2D extent_{0, 0};

@@ -66,6 +66,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
   const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
   displayLayout_ = createDescriptorSetLayout(device_, {&binding, 1}, "display");
+  watchedDepth_ = std::make_unique<KeptDepth>(renderer, displayLayout_.get());
 }
 
 SceneRenderer::~SceneRenderer() {
@@ -74,7 +75,8 @@ SceneRenderer::~SceneRenderer() {
 
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
-         mirrorSystem_.pipelineCount() + displayPipelines_.size() + watch_.pipelineCount();
+         mirrorSystem_.pipelineCount() + displayPipelines_.size() + watch_.pipelineCount() +
+         watchedDepth_->pipelineCount();
 }
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
@@ -84,7 +86,9 @@ const FiniteWatch& SceneRenderer::finiteWatch() {
 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
                            const std::optional<DebugView>& debug) {
-  keptPass_ = debug ? std::optional(debug->pass) : std::nullopt;
+  const bool ofMirror = debug && debug->pass < static_cast<int>(plan.passes.size());
+  keptPass_ = ofMirror ? std::optional(debug->pass) : std::nullopt;
+  releaseViews(debug, *frame.retired);
   takeHeldImages(plan);
   prepareTargets(settings, plan, *frame.retired);
   const Environment environment = effectiveEnvironment(scene_, settings);
@@ -116,7 +120,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   }
   if (debug) {
     recordDebugView(frame, settings, plan, *debug);
-    if (!isHeld(plan, debug->pass)) {
+    if (ofMirror && !isHeld(plan, debug->pass)) {
       pool_->release(*targets_[debug->pass]);
     }
   }
@@ -127,6 +131,17 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   keepHeldImages(plan);
   if (pool_) {
     pool_->endFrame(*frame.retired);
+  }
+}
+
+// What looking at targets took, as soon as nobody does.
+void SceneRenderer::releaseViews(const std::optional<DebugView>& debug, RetireQueue& retired) {
+  depthPass_ = debug && debug->kind == TargetKind::depth ? std::optional(debug->pass) : std::nullopt;
+  if (!depthPass_) {
+    watchedDepth_->release(retired);
+  }
+  if (!debug) {
+    std::erase_if(displayPipelines_, [](const auto& entry) { return entry.first.multisampled; });
   }
 }
 
@@ -273,21 +288,27 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
                         .path = view.path,
                         .depth = pass.depth,
                         .areaPx = pass.areaPx};
-  const PassDesc desc{.name = recorded.name,
-                      .targets = target.targets(),
-                      .renderArea = area,
-                      .viewport = viewportOf(view),
-                      .scissor = area,
-                      .frontFace = frontFace(view),
-                      .clearColor = clearColor(info.environment),
-                      .clearDepth = MaskSystem::clearDepth(info.data.passes()[index]),
-                      .collectStatistics = true};
+  PassDesc desc{.name = recorded.name,
+                .targets = target.targets(),
+                .renderArea = area,
+                .viewport = viewportOf(view),
+                .scissor = area,
+                .frontFace = frontFace(view),
+                .clearColor = clearColor(info.environment),
+                .clearDepth = MaskSystem::clearDepth(info.data.passes()[index]),
+                .collectStatistics = true};
+  if (keepsDepth(index)) {
+    watchedDepth_->prepare(desc, *frame.retired);
+  }
   {
     PassScope scope = renderer_.beginPass(frame, desc);
     const PassFormat format{.samples = target.samples(), .mirrorView = true};
     recorded.draws = maskSystem_.record(scope, info, index, format);
     scope.countSamples();
     recorded.draws += recordSystems(scope, info, index, format);
+  }
+  if (keepsDepth(index)) {
+    watchedDepth_->finish(frame.commands);
   }
   recorded_.push_back(std::move(recorded));
   checkTarget(frame, info, target, area.extent);
@@ -303,10 +324,17 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
   desc.collectStatistics = true;
   desc.storeSamples = main_->desc().readSamples;
   RecordedPass recorded{.name = desc.name, .areaPx = info.plan.main.areaPx};
+  const size_t index = info.plan.passes.size();
+  if (keepsDepth(index)) {
+    watchedDepth_->prepare(desc, *frame.retired);
+  }
   {
     PassScope scope = renderer_.beginPass(frame, desc);
     scope.countSamples();
-    recorded.draws = recordSystems(scope, info, info.plan.passes.size(), {.samples = main_->samples()});
+    recorded.draws = recordSystems(scope, info, index, {.samples = main_->samples()});
+  }
+  if (keepsDepth(index)) {
+    watchedDepth_->finish(frame.commands);
   }
   recorded_.push_back(std::move(recorded));
   checkTarget(frame, info, *main_, main_->extent());
@@ -337,12 +365,17 @@ void SceneRenderer::recordDisplay(Frame& frame, const PassDesc& desc, const Mirr
   const Pipeline& pipeline = displayPipeline({.toneMap = settings.view.toneMap,
                                               .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
                                               .format = renderer_.displayFormat()});
+  recordFullScreen(frame, desc, pipeline, radiance.descriptor, {lookup, static_cast<float>(settings.view.exposure)});
+}
+
+void SceneRenderer::recordFullScreen(Frame& frame, const PassDesc& desc, const Pipeline& pipeline,
+                                     const VkDescriptorImageInfo& image, const DisplayConstants& constants) {
   const VkDescriptorSet set = frame.descriptors->allocate(displayLayout_.get());
-  DescriptorWriter().image(0, radiance.descriptor).update(device_, set);
+  DescriptorWriter().image(0, image).update(device_, set);
   const PassScope scope = renderer_.beginPass(frame, desc);
   pipeline.bind(scope.commands());
   pipeline.bindSet(scope.commands(), 0, set);
-  pipeline.push(scope.commands(), DisplayConstants{lookup, static_cast<float>(settings.view.exposure)});
+  pipeline.push(scope.commands(), constants);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
   recorded_.push_back({.name = desc.name, .draws = 1});
 }
@@ -397,12 +430,21 @@ void SceneRenderer::recordCover(Frame& frame) {
 
 void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan,
                                     const DebugView& debug) {
-  const PixelRect& image = plan.passes[debug.pass].view.rect;
+  const bool ofMain = debug.pass == static_cast<int>(plan.passes.size());
+  const PixelRect image = ofMain ? PixelRect{0, 0, plan.width, plan.height} : plan.passes[debug.pass].view.rect;
   PixelRect area = intersect(debug.area, {0, 0, plan.width, plan.height});
-  const double fit =
-      std::min(static_cast<double>(area.width) / image.width, static_cast<double>(area.height) / image.height);
-  area.width = static_cast<int>(image.width * fit);
-  area.height = static_cast<int>(image.height * fit);
+  glm::dvec2 corner(debug.area.x, debug.area.y);  // of texel 0, 0, in pixels of the display
+  double zoom = debug.zoom;
+  if (zoom > 0.0) {
+    corner -= zoom * debug.origin;
+  } else {
+    zoom = std::min(static_cast<double>(area.width) / image.width, static_cast<double>(area.height) / image.height);
+    corner = {area.x, area.y};
+  }
+  const glm::dvec2 last = corner + zoom * glm::dvec2(image.width, image.height);
+  const glm::ivec2 low(glm::ceil(glm::max(corner - 0.5, glm::dvec2(-1.0))));
+  const glm::ivec2 high(glm::floor(glm::min(last, glm::dvec2(plan.width, plan.height) + 1.0)));
+  area = intersect(area, {low.x, low.y, high.x - low.x, high.y - low.y});
   if (area.empty()) {
     return;
   }
@@ -410,9 +452,14 @@ void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, cons
   desc.renderArea = {{area.x, area.y}, areaOf(area).extent};
   desc.scissor = desc.renderArea;
   desc.loadColor = true;
-  const glm::dvec2 scale = glm::dvec2(image.width, image.height) / glm::dvec2(area.width, area.height);
-  const glm::dvec2 offset = -glm::dvec2(area.x, area.y) * scale;
-  recordDisplay(frame, desc, images_[debug.pass], glm::vec4(glm::dvec4(scale, offset)), settings);
+  const glm::vec4 lookup(glm::dvec4(1.0 / zoom, 1.0 / zoom, -corner / zoom));
+  if (depthPass_ && watchedDepth_->exists()) {
+    const float half = static_cast<float>(plan.projection.near / debug.halfDistance);
+    recordFullScreen(frame, desc, watchedDepth_->pipeline(), watchedDepth_->descriptor(), {lookup, half});
+  } else {
+    recordDisplay(frame, desc, ofMain ? MirrorImage{.descriptor = main_->descriptor()} : images_[debug.pass], lookup,
+                  settings);
+  }
 }
 
 }  // namespace speculum

@@ -8,6 +8,7 @@
 #include "systems/finite_watch.hpp"
 #include "systems/frame_info.hpp"
 #include "systems/image_pool.hpp"
+#include "systems/kept_depth.hpp"
 #include "systems/mask_system.hpp"
 #include "systems/mirror_system.hpp"
 #include "systems/point_light_system.hpp"
@@ -29,10 +30,16 @@ std::string mirrorName(const Scene& scene, int mirror);
 // The mirrors of a path from the eye, as "floor > wall".
 std::string mirrorPathName(const Scene& scene, std::span<const int> path);
 
-// A mirror image shown over the picture, fitted into an area of the display image.
+enum class TargetKind { color, depth };
+
+// What a pass drew, shown over the picture in an area of the display image.
 struct DebugView {
-  int pass = 0;    // index into FramePlan::passes
+  int pass = 0;    // index into FramePlan::passes; their number stands for the main view
   PixelRect area;  // pixels
+  TargetKind kind = TargetKind::color;
+  double zoom = 0.0;          // pixels of the display a texel; 0: the image is fitted into the area
+  glm::dvec2 origin{0.0};     // texel at the area's upper left corner; with a zoom
+  double halfDistance = 1.0;  // metres from the eye that depth shows half bright
 };
 
 // Draws one scene: mirror passes, main view, display pass. Owns the systems, the targets and the scene's resources.
@@ -77,10 +84,14 @@ class SceneRenderer {
   void prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index);
   void recordMainPass(Frame& frame, const FrameInfo& info);
+  bool keepsDepth(size_t pass) const { return depthPass_ == static_cast<int>(pass); }
+  void releaseViews(const std::optional<DebugView>& debug, RetireQueue& retired);
   void recordDisplayPass(Frame& frame, const Settings& settings);
   void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
   void recordDisplay(Frame& frame, const PassDesc& desc, const MirrorImage& radiance, const glm::vec4& lookup,
                      const Settings& settings);
+  void recordFullScreen(Frame& frame, const PassDesc& desc, const Pipeline& pipeline,
+                        const VkDescriptorImageInfo& image, const DisplayConstants& constants);
   void checkTarget(Frame& frame, const FrameInfo& info, OffScreen& target, VkExtent2D used);
   void releaseImages(const FramePlan& plan, const PlannedPass& pass);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
@@ -101,6 +112,7 @@ class SceneRenderer {
   FiniteWatch watch_;
   DescriptorSetLayoutHandle displayLayout_;
   std::map<DisplayVariant, std::unique_ptr<Pipeline>> displayPipelines_;
+  std::unique_ptr<KeptDepth> watchedDepth_;
   std::unique_ptr<SharedDepth> depth_;
   std::unique_ptr<ImagePool> pool_;
   std::unique_ptr<OffScreen> main_;
@@ -115,7 +127,8 @@ class SceneRenderer {
   Image cover_;  // empty: none
   std::vector<RecordedPass> recorded_;
   EffectLedger ledger_;
-  std::optional<int> keptPass_;  // its image is not given back before the frame ends
+  std::optional<int> depthPass_;  // whose depth is looked at; the number of mirror passes stands for the main view
+  std::optional<int> keptPass_;   // its image is not given back before the frame ends
 };
 
 }  // namespace speculum

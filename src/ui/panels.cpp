@@ -269,8 +269,13 @@ void passRow(UiModel& model, const PassNode& node) {
   const std::string name = ownName(pass.name);
   const std::string id = pass.name + "/" + std::to_string(node.pass);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
-  if (pass.depth >= 0 && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
+  if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
+    model.hoveredPass = node.pass;
+  }
+  notePlace(model, "pass." + pass.name);
+  if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     model.debugPass = model.debugPass == node.pass ? -1 : node.pass;
+    model.passClicked = true;
   }
   ImGui::TableNextColumn();
   ImGui::Text("%.3f", pass.gpuMs);
@@ -291,6 +296,23 @@ void passRow(UiModel& model, const PassNode& node) {
 }
 
 }  // namespace
+
+void passOutline(const UiModel& model) {
+  if (model.hoveredPass < 0 || model.hoveredPass >= static_cast<int>(model.passes.size())) {
+    return;
+  }
+  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+  std::vector<ImVec2> corners;
+  for (const glm::vec2& corner : model.passes[static_cast<size_t>(model.hoveredPass)].outline) {
+    corners.emplace_back(corner.x / pixels.x, corner.y / pixels.y);
+  }
+  const int count = static_cast<int>(corners.size());
+  const float line = std::max(1.0f, 0.14f * ImGui::GetFontSize());
+  // Dark below light: it can be seen on any picture.
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddPolyline(corners.data(), count, IM_COL32(0, 0, 0, 190), ImDrawFlags_Closed, 2.5f * line);
+  list.AddPolyline(corners.data(), count, IM_COL32(255, 196, 40, 255), ImDrawFlags_Closed, line);
+}
 
 void passes(UiModel& model) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
@@ -315,18 +337,6 @@ void passes(UiModel& model) {
   }
   ImGui::PopStyleVar();
   ImGui::EndTable();
-}
-
-void device(UiModel& model) {
-  if (!ImGui::CollapsingHeader("Device")) {
-    return;
-  }
-  ImGui::TextWrapped("%s\n%s\n%s", model.device.c_str(), model.driver.c_str(), model.renderPath.c_str());
-  if (model.validationMessages >= 0) {
-    ImGui::Text("validation messages: %d", model.validationMessages);
-  }
-  ImGui::Checkbox("check that radiance is finite", &model.settings.debug.checkFinite);
-  describe(model, "debug.check_finite");
 }
 
 }  // namespace speculum::panels

@@ -15,9 +15,15 @@ void time(UiModel& model);
 void help(UiModel& model);
 void settings(UiModel& model);
 void passes(UiModel& model);
+// Around the mirror of the pass that is pointed at, in the picture behind all windows.
+void passOutline(const UiModel& model);
 void effects(UiModel& model);
 void performance(UiModel& model);
 void device(UiModel& model);
+// Leaves its lower part to the picture below: the renderer draws the target there.
+void targets(UiModel& model);
+bool hasTarget(const UiPass& pass);  // that can be looked at
+void log(UiModel& model);
 void accuracy(UiModel& model);
 // A window of its own, while something is loaded.
 void loading(UiModel& model);

@@ -10,6 +10,9 @@ namespace speculum::panels {
 
 namespace {
 
+constexpr std::string_view mirrorWord = "mirror ";
+constexpr size_t fewest = 60;  // frames across a graph
+
 std::string milliseconds(double ms) {
   char text[32];
   std::snprintf(text, sizeof text, ms < 10.0 ? "%.2f" : "%.1f", ms);
@@ -20,7 +23,7 @@ std::string milliseconds(double ms) {
 void graph(const char* name, std::vector<float> values, float height) {
   const double p95 = percentile(values, 0.95);
   const float top = std::isnan(p95) ? 1.0f : static_cast<float>(1.4 * p95);
-  values.insert(values.begin(), FrameHistory::longest - values.size(), NAN);
+  values.insert(values.begin(), std::max(fewest, values.size()) - values.size(), NAN);
   ImGui::PushID(name);
   ImGui::PlotLines("##graph", values.data(), static_cast<int>(values.size()), 0, nullptr, 0.0f, std::max(top, 1e-3f),
                    {ImGui::GetContentRegionAvail().x, height});
@@ -31,7 +34,7 @@ void graph(const char* name, std::vector<float> values, float height) {
 void row(UiModel& model, const std::string& name, const std::vector<float>& values, float height) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(name.c_str());
+  ImGui::TextUnformatted(name.starts_with(mirrorWord) ? name.c_str() + mirrorWord.size() : name.c_str());
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s, milliseconds", name.c_str());
   }

@@ -149,6 +149,9 @@ void SimpleUI::build(UiModel& model) {
   model.seek.reset();
   model.copyCommand = false;
   model.copyHistory = false;
+  model.copyLog = false;
+  model.hoveredPass = -1;
+  model.passClicked = false;
   model.accuracy.measure = false;
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
@@ -158,6 +161,7 @@ void SimpleUI::build(UiModel& model) {
     dock_.beginFrame();
     buildPanel(model);
     buildWindows(model);
+    panels::passOutline(model);
     panels::help(model);
     if (showDemoWindow_) {
       ImGui::ShowDemoWindow(&showDemoWindow_);
@@ -207,29 +211,47 @@ void SimpleUI::panelChoices(UiModel& model) {
     if (!ImGui::IsItemActive()) {
       choices_.percent = pendingPercent_;
     }
+    presentMode(model);
     ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
   }
 }
 
 void SimpleUI::buildWindows(UiModel& model) {
-  constexpr PanelDock::Edge right = PanelDock::Edge::right;
-  if (choices_.scenes) {
-    if (dock_.begin("Scenes", &choices_.scenes, right, {24.2f, 46.5f})) {
-      panels::gallery(model, thumbnails_);
+  const auto window = [&](const char* name, bool& open, const glm::vec2& ems, const auto& content) {
+    if (open) {
+      if (dock_.begin(name, &open, PanelDock::Edge::right, ems)) {
+        content();
+      }
+      ImGui::End();
     }
-    ImGui::End();
-  }
-  if (choices_.performance) {
-    if (dock_.begin("Performance", &choices_.performance, right, {30.0f, 26.0f})) {
-      panels::performance(model);
-    }
-    ImGui::End();
-  }
-  buildAccuracy(model);
-  buildDebugView(model);
+  };
+  window("Scenes", choices_.scenes, {24.2f, 46.5f}, [&] { panels::gallery(model, thumbnails_); });
+  window("Performance", choices_.performance, {30.0f, 24.0f}, [&] { panels::performance(model); });
+  model.accuracy.open = choices_.accuracy;
+  window("Accuracy", choices_.accuracy, {28.5f, 36.0f}, [&] { panels::accuracy(model); });
+  window("Device", choices_.device, {30.0f, 30.0f}, [&] { panels::device(model); });
+  window("Log", choices_.log, {30.0f, 16.0f}, [&] { panels::log(model); });
+  buildTargets(model);
   if (choices_ != savedChoices_) {
     savedChoices_ = choices_;
     savePanelChoices(choices_);
+  }
+}
+
+void SimpleUI::presentMode(UiModel& model) {
+  if (model.presentModes.empty()) {
+    return;
+  }
+  for (int i = 0; i < static_cast<int>(model.presentModes.size()); ++i) {
+    const std::string& name = model.presentModes[static_cast<size_t>(i)];
+    if (i > 0) {
+      ImGui::SameLine();
+    }
+    ImGui::RadioButton(name.c_str(), &model.presentMode, i);
+    panels::notePlace(model, "present." + name);
+    panels::tip(
+        "fifo waits for the screen and never tears; mailbox shows the newest picture at each refresh and draws on;\n"
+        "immediate shows pictures at once and may tear");
   }
 }
 
@@ -245,37 +267,29 @@ void SimpleUI::themeChoice(UiModel& model) {
   chosenTheme_ = static_cast<Theme>(theme);
 }
 
-void SimpleUI::buildAccuracy(UiModel& model) {
-  model.accuracy.open = choices_.accuracy;
-  if (!choices_.accuracy) {
-    return;
-  }
-  if (dock_.begin("Accuracy", &choices_.accuracy, PanelDock::Edge::right, {28.5f, 36.0f})) {
-    panels::accuracy(model);
-  }
-  ImGui::End();
-}
-
 // The window is a frame without a background: the renderer draws the image below it, because this version of ImGui's
 // Vulkan backend draws no textures but its font.
-void SimpleUI::buildDebugView(UiModel& model) {
-  if (model.debugPass < 0) {
-    return;
+void SimpleUI::buildTargets(UiModel& model) {
+  // A pass that is clicked opens the window and clicked again closes it; opened by itself it shows the main view.
+  if (model.passClicked) {
+    choices_.targets = model.debugPass >= 0;
   }
-  bool open = true;
-  const float scale = ImGui::GetFontSize() / fontPixels;
-  ImGui::SetNextWindowPos(ImVec2(430.0f * scale, 12.0f * scale), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(ImVec2(420.0f * scale, 290.0f * scale), ImGuiCond_FirstUseEver);
-  if (ImGui::Begin("Offscreen image", &open, ImGuiWindowFlags_NoBackground)) {
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const ImVec2 room = ImGui::GetContentRegionAvail();
-    const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-    model.debugArea = PixelRect{static_cast<int>(corner.x * pixels.x), static_cast<int>(corner.y * pixels.y),
-                                static_cast<int>(room.x * pixels.x), static_cast<int>(room.y * pixels.y)};
+  if (choices_.targets && model.debugPass < 0) {
+    const auto main = std::find_if(model.passes.begin(), model.passes.end(),
+                                   [](const UiPass& pass) { return pass.depth < 0 && panels::hasTarget(pass); });
+    model.debugPass = main != model.passes.end() ? static_cast<int>(main - model.passes.begin()) : -1;
   }
-  ImGui::End();
-  if (!open) {
+  if (choices_.targets) {
+    constexpr ImGuiWindowFlags flags =
+        ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+    if (dock_.begin("Targets", &choices_.targets, PanelDock::Edge::right, {32.0f, 25.0f}, flags)) {
+      panels::targets(model);
+    }
+    ImGui::End();
+  }
+  if (!choices_.targets) {
     model.debugPass = -1;
+    model.debugArea.reset();
   }
 }
 

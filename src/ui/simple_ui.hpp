@@ -40,8 +40,8 @@ class SimpleUI {
   void buildWindows(UiModel& model);
   void panelChoices(UiModel& model);
   void themeChoice(UiModel& model);
-  void buildDebugView(UiModel& model);
-  void buildAccuracy(UiModel& model);
+  void presentMode(UiModel& model);
+  void buildTargets(UiModel& model);
 
   struct Context {
     Context();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "optics/projection.hpp"
 #include "ui/edit_model.hpp"
 #include "ui/frame_history.hpp"
+#include "ui/log_history.hpp"
 
 namespace speculum {
 
@@ -22,6 +24,7 @@ struct UiPass {
   double areaPx = 0.0;
   uint32_t draws = 0;
   std::optional<DepthReadout> resolution;  // a mirror's, if it sees anything but the background
+  std::vector<glm::vec2> outline;          // a mirror's: where it is seen, pixels of the picture
 };
 
 struct UiSkipped {
@@ -38,6 +41,43 @@ struct UiEffect {
   uint32_t draws = 0;
   uint64_t bytes = 0;
   uint32_t pipelines = 0;
+};
+
+struct UiFeature {
+  std::string name;
+  bool present = false;
+  std::string about;  // what it is used for, or what is done without it
+};
+
+struct UiDevice {
+  std::string name;
+  std::string kind;  // e.g. discrete GPU
+  std::string driver;
+  std::string vulkan;  // version
+  std::string renderPath;
+  std::string samples;  // counts that it has
+  uint64_t budgetBytes = 0;
+  uint64_t usedBytes = 0;
+  std::vector<UiFeature> features;
+};
+
+// What the window of targets shows of the pass debugPass.
+struct UiTargets {
+  int kind = 0;                                 // colour, depth, mask; changed by the person
+  double zoom = 0.0;                            // pixels of the display a texel; 0: as large as fits. Likewise.
+  double shownZoom = 1.0;                       // set by the panel, never 0
+  double halfDistance = 5.0;                    // metres that depth shows half bright; changed by the person
+  glm::dvec2 center{0.0};                       // texel in the middle; likewise
+  glm::dvec2 origin{0.0};                       // texel at the upper left corner of debugArea; set by the panel
+  glm::ivec2 size{0};                           // texels of the image
+  std::vector<glm::vec2> mask;                  // what the pass shades, in texels
+  std::vector<std::vector<glm::vec2>> mirrors;  // what of the mirrors is seen in it, in texels
+};
+
+struct UiLog {
+  std::shared_ptr<LogHistory> history = std::make_shared<LogHistory>();
+  std::array<char, 64> filter{};  // text that a line must contain; changed by the person
+  LogLevel least = LogLevel::info;
 };
 
 // A measured configuration.
@@ -76,12 +116,14 @@ enum class CameraMode { fly, orbit };
 
 // What the panel shows and edits. The application fills it before every frame and reads back what was changed.
 struct UiModel {
-  std::string device;
-  std::string driver;
-  std::string renderPath;
-  std::vector<std::string> scenes;       // names
-  std::vector<std::string> sceneTitles;  // of the same
-  int scene = 0;                         // index into scenes; changed by the person
+  UiDevice device;
+  UiLog log;
+  bool copyLog = false;                   // set by the panel: put the lines that are shown into the clipboard
+  std::vector<std::string> presentModes;  // that the window offers
+  int presentMode = 0;                    // index into presentModes; changed by the person
+  std::vector<std::string> scenes;        // names
+  std::vector<std::string> sceneTitles;   // of the same
+  int scene = 0;                          // index into scenes; changed by the person
   Settings settings;
   Settings sceneSettings;           // as the scene and the command line have them: what a reset goes back to
   glm::vec3 sceneBackground{0.0f};  // linear; shown as the clear colour while none is set
@@ -103,7 +145,10 @@ struct UiModel {
   std::vector<UiSkipped> skipped;
   std::vector<UiEffect> effects;                           // all, in a fixed order
   std::vector<std::pair<std::string, PixelRect>> widgets;  // where each setting's widget stands, by key
-  int debugPass = -1;                  // index into passes of the image to show; -1: none. Changed by the person.
+  int hoveredPass = -1;      // index into passes of the one that is pointed at; -1: none. Set by the panel.
+  int debugPass = -1;        // index into passes of the target to show; -1: none. Changed by the person.
+  bool passClicked = false;  // set by the panel: debugPass was changed by a click on a pass
+  UiTargets targets;
   std::optional<PixelRect> debugArea;  // pixels of the display image where it is to be drawn; set by the panel
   UiAccuracy accuracy;
   UiEdit edit;
@@ -116,5 +161,9 @@ struct UiModel {
   bool cancelLoading = false;  // set by the panel
   std::string message;         // an error to show until the next one, e.g. of a shader or a scene
 };
+
+inline std::vector<LogLine> shownLog(const UiModel& model) {
+  return model.log.history->lines(model.log.least, model.log.filter.data());
+}
 
 }  // namespace speculum

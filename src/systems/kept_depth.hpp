@@ -1,0 +1,36 @@
+#pragma once
+
+#include "core/descriptors.hpp"
+#include "core/pass.hpp"
+#include "core/pipeline.hpp"
+#include "core/renderer.hpp"
+
+namespace speculum {
+
+// The depth of one pass, kept for being looked at: mirror passes share one depth image, so the watched one gets an
+// image of its own. Nothing exists on the GPU before prepare() and after release().
+class KeptDepth {
+ public:
+  KeptDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout);
+
+  // The pass, before it begins, writes its depth here.
+  void prepare(PassDesc& pass, RetireQueue& retired);
+  // After it has ended.
+  void finish(VkCommandBuffer commands);
+  void release(RetireQueue& retired);
+
+  bool exists() const { return static_cast<bool>(image_); }
+  VkDescriptorImageInfo descriptor() const { return image_.descriptor(sampler_.get()); }
+  // Draws it with display_depth.glsl.
+  const Pipeline& pipeline();
+  size_t pipelineCount() const { return pipeline_ ? 1 : 0; }
+
+ private:
+  Renderer& renderer_;
+  VkDescriptorSetLayout displayLayout_;
+  Image image_;
+  SamplerHandle sampler_;
+  std::unique_ptr<Pipeline> pipeline_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,66 @@
+#include <imgui.h>
+
+#include "ui/panels.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+void fact(const char* name, const std::string& value) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextDisabled("%s", name);
+  ImGui::TableNextColumn();
+  ImGui::TextWrapped("%s", value.c_str());
+}
+
+std::string mebibytes(uint64_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+  return text;
+}
+
+bool beginFacts(const char* id) {
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) {
+    return false;
+  }
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 11.0f * ImGui::GetFontSize());
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  return true;
+}
+
+}  // namespace
+
+void device(UiModel& model) {
+  const UiDevice& device = model.device;
+  if (beginFacts("device")) {
+    fact("device", device.name);
+    fact("kind", device.kind);
+    fact("driver", device.driver);
+    fact("Vulkan", device.vulkan);
+    fact("render path", device.renderPath);
+    fact("samples a pixel", device.samples);
+    fact("memory in use here", mebibytes(model.deviceBytes));
+    fact("memory of the process", mebibytes(device.usedBytes));
+    fact("memory offered", mebibytes(device.budgetBytes));
+    fact("validation layer",
+         model.validationMessages < 0 ? "off" : std::to_string(model.validationMessages) + " messages");
+    ImGui::EndTable();
+  }
+  ImGui::Separator();
+  if (beginFacts("features")) {
+    for (const UiFeature& feature : device.features) {
+      fact(feature.name.c_str(), (feature.present ? "" : "missing: ") + feature.about);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::Separator();
+  ImGui::Checkbox("check that radiance is finite", &model.settings.debug.checkFinite);
+  describe(model, "debug.check_finite");
+  ImGui::Checkbox("leave out hidden mirrors", &model.settings.debug.skipHidden);
+  describe(model, "debug.skip_hidden");
+  ImGui::Checkbox("shade only what is looked up", &model.settings.debug.maskPasses);
+  describe(model, "debug.mask_passes");
+}
+
+}  // namespace speculum::panels

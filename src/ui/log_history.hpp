@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace speculum {
+
+enum class LogLevel { info, warning, error };
+
+struct LogLine {
+  LogLevel level = LogLevel::info;
+  std::string text;
+};
+
+// The latest lines of the log. Any thread may add to it.
+class LogHistory {
+ public:
+  static constexpr size_t longest = 500;  // lines
+
+  void add(LogLevel level, std::string text);
+  void clear();
+  // Oldest first: those of at least that level that contain `part` in any case.
+  std::vector<LogLine> lines(LogLevel least = LogLevel::info, std::string_view part = {}) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::deque<LogLine> lines_;
+};
+
+std::string_view logLevelName(LogLevel level);  // info, warning, error
+std::string logText(const std::vector<LogLine>& lines);
+
+}  // namespace speculum

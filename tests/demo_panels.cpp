@@ -1,0 +1,202 @@
+// Device, log, present mode, and what points at passes in the picture.
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "demo_window_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+// The wall mirror shows the door, whose back is seen directly.
+const std::string twoMirrors = windowScene + R"(
+[[mirror]]
+name = "door"
+position = [1.6, 1.2, 0.5]
+rotation = [0, 200, 0]
+size = [1, 1.6]
+)";
+
+class Panels : public DemoWindow {
+ protected:
+  explicit Panels(const std::string& toml = windowScene) : DemoWindow(toml) {}
+
+  // Wheel clicks downwards over the panel until the widget is there.
+  void scrollTo(const std::string& key) {
+    const auto within = [&] {
+      for (const auto& [name, rect] : demo_->model().widgets) {
+        if (name == key && rect.y > 40 && rect.y + rect.height < height - 20) {
+          return true;
+        }
+      }
+      return false;
+    };
+    moveTo(25, 400);
+    for (int i = 0; i < 30 && !within(); ++i) {
+      xdotool({"click", "5"});
+      run(2);
+    }
+    ASSERT_TRUE(within()) << key;
+  }
+};
+
+TEST_F(Panels, DeviceShowsWhatTheDeviceIs) {
+  const Pixels before = picture();
+  click("panel.Device");
+  const UiDevice& shown = demo_->model().device;
+  const Device& device = demo_->device();
+  EXPECT_EQ(shown.name, device.info().name);
+  EXPECT_EQ(shown.driver, device.info().driver);
+  EXPECT_EQ(shown.renderPath, renderPathName(device.renderPath()));
+  EXPECT_EQ(shown.samples.find("1 "), 0u);
+  EXPECT_EQ(shown.samples.find("8") != std::string::npos, (device.caps().sampleCounts & VK_SAMPLE_COUNT_8_BIT) != 0);
+  EXPECT_GT(demo_->model().deviceBytes, 1u << 20);
+  EXPECT_GE(shown.budgetBytes, shown.usedBytes);
+  for (const UiFeature& feature : shown.features) {
+    EXPECT_FALSE(feature.about.empty()) << feature.name;
+    if (feature.name == "dynamic rendering") {
+      EXPECT_EQ(feature.present, device.caps().dynamicRendering);
+    }
+  }
+  EXPECT_NE(before.rgba, picture().rgba);
+  expectQuiet();
+}
+
+TEST_F(Panels, LogShowsFiltersAndCopies) {
+  click("panel.Log");
+  spdlog::info("the quick brown fox");
+  spdlog::error("a lazy dog");
+  run(2);
+  click("log.copy");
+  const std::string all = demo_->window().clipboard();
+  EXPECT_NE(all.find("info: the quick brown fox\n"), std::string::npos) << all;
+  EXPECT_NE(all.find("error: a lazy dog\n"), std::string::npos) << all;
+  EXPECT_NE(all.find("GPU "), std::string::npos) << "what was said at the start";
+  click("log.filter");
+  for (const char* key : {"d", "o", "g"}) {
+    xdotool({"keydown", "--window", windowId(), key});
+    run(2);
+    xdotool({"keyup", "--window", windowId(), key});
+    run(2);
+  }
+  click("log.copy");
+  EXPECT_EQ(demo_->window().clipboard(), "error: a lazy dog\n");
+  click("log.clear");
+  EXPECT_TRUE(demo_->model().log.history->lines().empty());
+  expectQuiet();
+}
+
+TEST_F(Panels, ThePresentModeIsChosenAmongThoseOffered) {
+  const UiModel& model = demo_->model();
+  ASSERT_FALSE(model.presentModes.empty());
+  EXPECT_EQ(demo_->renderer().presentMode(), PresentMode::immediate);
+  click("section.window");
+  click("present.fifo");
+  run(5);
+  EXPECT_EQ(demo_->renderer().presentMode(), PresentMode::fifo);
+  click("present.immediate");
+  run(5);
+  EXPECT_EQ(demo_->renderer().presentMode(), PresentMode::immediate);
+  expectQuiet();
+}
+
+class PanelsWithTwoMirrors : public Panels {
+ protected:
+  PanelsWithTwoMirrors() : Panels(twoMirrors) {}
+};
+
+TEST_F(PanelsWithTwoMirrors, PointingAtAPassOutlinesItsMirror) {
+  press("space");
+  for (const std::string name : {"mirror wall", "mirror wall > door"}) {
+    const auto& passes = demo_->model().passes;
+    const auto pass = std::find_if(passes.begin(), passes.end(), [&](const UiPass& p) { return p.name == name; });
+    ASSERT_NE(pass, passes.end()) << name;
+    ASSERT_GE(pass->outline.size(), 3u);
+    const std::vector<glm::vec2> outline = pass->outline;
+    scrollTo("pass." + name);
+    const PixelRect row = widget("pass." + name);
+    moveTo(row.x + row.width / 2, 22);  // the title bar: no pass
+    run(2);
+    const Pixels without = picture();
+    moveTo(row.x + row.width / 2, row.y + row.height / 2);
+    run(2);
+    const Pixels with = picture();
+    glm::vec2 low(1e9f);
+    glm::vec2 high(-1e9f);
+    for (const glm::vec2& corner : outline) {
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
+    }
+    int changed = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 440; x < width; ++x) {
+        const size_t at = 4 * (static_cast<size_t>(y) * width + x);
+        if (!std::equal(&with.rgba[at], &with.rgba[at] + 3, &without.rgba[at])) {
+          ++changed;
+          ASSERT_TRUE(x > low.x - 5 && x < high.x + 5 && y > low.y - 5 && y < high.y + 5) << name << x << " " << y;
+          float nearest = 1e9f;
+          for (size_t i = 0; i < outline.size(); ++i) {
+            const glm::vec2 a = outline[i];
+            const glm::vec2 along = outline[(i + 1) % outline.size()] - a;
+            const glm::vec2 p = glm::vec2(x, y) + 0.5f - a;
+            const float t = std::clamp(glm::dot(p, along) / std::max(glm::dot(along, along), 1e-6f), 0.0f, 1.0f);
+            nearest = std::min(nearest, glm::length(p - t * along));
+          }
+          ASSERT_LT(nearest, 6.0f) << name << ": " << x << " " << y;
+        }
+      }
+    }
+    EXPECT_GT(changed, 100) << name;
+  }
+  expectQuiet();
+}
+
+TEST_F(Panels, TargetsZoomAndMove) {
+  press("space");
+  click("panel.Targets");
+  run(3);
+  const UiTargets& targets = demo_->model().targets;
+  const UiModel& model = demo_->model();
+  ASSERT_GE(model.debugPass, 0);
+  EXPECT_EQ(model.passes[static_cast<size_t>(model.debugPass)].name, "main view");
+  EXPECT_EQ(targets.size, glm::ivec2(width, height));
+  const PixelRect canvas = widget("targets.canvas");
+  EXPECT_NEAR(targets.shownZoom, std::min(double(canvas.width) / width, double(canvas.height) / height), 1e-6);
+  click("targets.one");
+  EXPECT_EQ(targets.shownZoom, 1.0);
+  const int x = canvas.x + canvas.width / 2;
+  const int y = canvas.y + canvas.height / 2;
+  moveTo(x, y);
+  const glm::dvec2 before = targets.center;
+  xdotool({"mousedown", "1"});
+  run(2);
+  moveTo(x - 20, y - 10);
+  xdotool({"mouseup", "1"});
+  run(2);
+  EXPECT_NEAR(targets.center.x - before.x, 20.0, 1e-6);
+  EXPECT_NEAR(targets.center.y - before.y, 10.0, 1e-6);
+  xdotool({"click", "4"});
+  run(3);
+  EXPECT_GT(targets.shownZoom, 1.1);
+  click("targets.depth");
+  run(3);
+  const Pixels grey = picture();
+  const uint8_t* middle = &grey.rgba[4 * (static_cast<size_t>(y) * width + x)];
+  EXPECT_EQ(middle[0], middle[1]);
+  EXPECT_EQ(middle[1], middle[2]);
+  click("targets.mask");
+  run(3);
+  EXPECT_EQ(targets.mask.size(), 4u) << "the main view has none";
+  EXPECT_EQ(targets.mirrors.size(), 1u);
+  click("targets.fit");
+  EXPECT_EQ(targets.zoom, 0.0);
+  click("panel.Targets");
+  run(3);
+  EXPECT_EQ(model.debugPass, -1);
+  expectQuiet();
+}
+
+}  // namespace
+}  // namespace speculum

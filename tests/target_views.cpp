@@ -1,0 +1,162 @@
+// Targets that are looked at: right values at the right place, and nothing left behind.
+#include <gtest/gtest.h>
+
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{160, 120};
+// The eye 4 m in front of the sphere's middle and 6 m in front of the mirror, in which the sphere is 8 m away.
+const std::string hall = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0, 1, 0]
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [5, 3]
+)";
+
+Options hallOptions(const std::string& samples = "1") {
+  Options options = headless(writeScene("hall", hall), size);
+  set(options, {{"view.samples", samples}, {"reflection.samples", samples}, {"debug.check_finite", "false"}});
+  return options;
+}
+
+const DrawnFrame& drawWith(Session& session, const std::optional<DebugView>& debug) {
+  const DrawnFrame& drawn = session.draw(0.0, false);
+  Frame frame = session.renderer().beginFrame().value();
+  frame.capture = true;
+  session.sceneRenderer().record(frame, drawn.state, drawn.settings, drawn.plan, debug);
+  session.renderer().endFrame(frame);
+  return drawn;
+}
+
+// Over the whole picture, each texel where it stands in the picture.
+DebugView inPlace(const FramePlan& plan, int pass, TargetKind kind) {
+  const PixelRect rect =
+      pass < static_cast<int>(plan.passes.size()) ? plan.passes[static_cast<size_t>(pass)].view.rect : PixelRect{};
+  return {.pass = pass,
+          .area = {0, 0, size.width, size.height},
+          .kind = kind,
+          .zoom = 1.0,
+          .origin = {-rect.x, -rect.y},
+          .halfDistance = 5.0};
+}
+
+class TargetView : public testing::TestWithParam<std::pair<RenderPath, const char*>> {};
+
+TEST_P(TargetView, DepthIsShownByDistance) {
+  Options options = hallOptions(GetParam().second);
+  options.renderPath = GetParam().first;
+  Session session(options);
+  const FramePlan plan = session.draw(0.0, false).plan;
+  ASSERT_EQ(plan.passes.size(), 1u);
+  // The sphere's radius is 0.5 m.
+  for (const auto& [pass, metres] : {std::pair(0, 7.5), std::pair(1, 3.5)}) {
+    for (int frame = 0; frame < 3; ++frame) {
+      drawWith(session, inPlace(plan, pass, TargetKind::depth));
+    }
+    const Image8 picture = session.picture();
+    const uint8_t* middle = picture.at(size.width / 2, size.height / 2);
+    EXPECT_NEAR(middle[0], 255.0 / (1.0 + metres / 5.0), 1.5) << "pass " << pass;
+    EXPECT_EQ(middle[0], middle[2]);
+    if (pass == 1) {
+      EXPECT_EQ(picture.at(2, 2)[0], 0) << "the background is infinitely far";
+      EXPECT_NEAR(picture.at(size.width / 2, size.height / 2 + 25)[0], 255.0 / (1.0 + 6.0 / 5.0), 1.5) << "the mirror";
+    }
+  }
+  expectQuiet(session);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, TargetView,
+                         testing::Values(std::pair(RenderPath::dynamic, "1"), std::pair(RenderPath::dynamic, "4"),
+                                         std::pair(RenderPath::renderPass, "1"),
+                                         std::pair(RenderPath::renderPass, "4")),
+                         [](const auto& info) {
+                           return std::string(renderPathName(info.param.first)) + info.param.second;
+                         });
+
+TEST(TargetViews, ColourIsThePictureMagnified) {
+  Session session(hallOptions());
+  const FramePlan plan = session.draw(0.0, false).plan;
+  drawWith(session, std::nullopt);
+  const Image8 plain = session.picture();
+  drawWith(session, inPlace(plan, 1, TargetKind::color));
+  EXPECT_EQ(session.picture().rgba, plain.rgba);
+  DebugView magnified = inPlace(plan, 1, TargetKind::color);
+  magnified.zoom = 4.0;
+  magnified.origin = {60.0, 50.0};
+  magnified.area = {20, 10, 64, 48};
+  drawWith(session, magnified);
+  const Image8 picture = session.picture();
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const bool within = magnified.area.contains(x, y);
+      const uint8_t* expected = within ? plain.at(60 + (x - 20) / 4, 50 + (y - 10) / 4) : plain.at(x, y);
+      ASSERT_TRUE(std::equal(expected, expected + 3, picture.at(x, y))) << x << " " << y;
+    }
+  }
+  // Beyond the image's border the picture stays.
+  magnified.origin = {-8.0, -6.0};
+  drawWith(session, magnified);
+  EXPECT_TRUE(std::equal(plain.at(22, 12), plain.at(22, 12) + 3, session.picture().at(22, 12)));
+  expectQuiet(session);
+}
+
+TEST(TargetViews, CostNothingWhenNobodyLooks) {
+  Session session(hallOptions("4"));
+  const FramePlan plan = session.draw(0.0, false).plan;
+  drawWith(session, std::nullopt);
+  session.renderer().waitIdle();
+  const size_t pipelines = session.sceneRenderer().pipelineCount();
+  const uint64_t bytes = session.device().allocatedBytes();
+  for (const int pass : {0, 1}) {
+    for (const TargetKind kind : {TargetKind::color, TargetKind::depth}) {
+      drawWith(session, inPlace(plan, pass, kind));
+    }
+  }
+  EXPECT_GT(session.sceneRenderer().pipelineCount(), pipelines);
+  session.renderer().waitIdle();
+  EXPECT_GT(session.device().allocatedBytes(), bytes);
+  for (int frame = 0; frame < 3; ++frame) {
+    drawWith(session, std::nullopt);
+  }
+  session.renderer().waitIdle();
+  EXPECT_EQ(session.sceneRenderer().pipelineCount(), pipelines);
+  EXPECT_EQ(session.device().allocatedBytes(), bytes);
+  expectQuiet(session);
+}
+
+TEST(TargetViews, TheBarrierOfDepthIsMissedWhenLeftOut) {
+  for (const char* omitted : {"depthToSample", ""}) {
+    Options options = hallOptions();
+    options.renderPath = RenderPath::renderPass;
+    set(options, {{"debug.omit_barrier", omitted}});
+    Session session(options);
+    const FramePlan plan = session.draw(0.0, false).plan;
+    for (int frame = 0; frame < 3; ++frame) {
+      drawWith(session, inPlace(plan, frame % 2, TargetKind::depth));
+    }
+    session.finish();
+    const std::vector<std::string> messages = session.device().lastValidationMessages();
+    if (*omitted == '\0') {
+      EXPECT_TRUE(messages.empty());
+    } else {
+      ASSERT_FALSE(messages.empty());
+      EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace speculum
