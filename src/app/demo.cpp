@@ -158,7 +158,8 @@ void Demo::drawFrame(double seconds) {
     settings.reflection.skipUnchanged = false;
   }
   const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
-                                          static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
+                                          static_cast<int>(frame->extent.height), sceneRenderer_->heldImages(),
+                                          sceneRenderer_->environmentMaps());
   const FramePlan& plan = fitted.plan;
   sceneRenderer_->record(*frame, state, fitted.settings, plan, shot_ == Shot::picture ? std::nullopt : debugView(plan));
   if (shot_ != Shot::picture) {
