@@ -1,3 +1,3 @@
-speculum_test(frame_tests SOURCES frame_settings.cpp frame_plan.cpp frame_held.cpp frame_unchanged.cpp frame_view.cpp frame_memory.cpp
+speculum_test(frame_tests SOURCES frame_settings.cpp frame_plan.cpp frame_held.cpp frame_unchanged.cpp frame_environment.cpp frame_view.cpp frame_memory.cpp
                       frame_depth.cpp frame_skipping.cpp
               LIBRARIES frame ext::rapidcheck)
