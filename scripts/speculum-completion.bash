@@ -21,7 +21,8 @@ _speculum_settings() {
   echo "reflection.scale reflection.samples reflection.max_depth reflection.min_pixels reflection.min_throughput
     reflection.max_passes reflection.update_interval reflection.skip_unchanged reflection.clip view.samples view.exposure view.tone_map
     view.clear_color view.texture_filter view.wireframe view.continuous effects.shadows effects.roughness
-    effects.rough_samples effects.rough_lookup effects.per_sample effects.ripple effects.casts_light effects.curved quality.budget_ms quality.max_error
+    effects.rough_samples effects.rough_lookup effects.per_sample effects.ripple effects.casts_light effects.curved
+    effects.curved_lookup effects.environment_size effects.environment_interval effects.environment_box quality.budget_ms quality.max_error
     debug.omit_barrier debug.check_finite debug.skip_hidden debug.cull_clusters debug.mask_passes"
 }
 

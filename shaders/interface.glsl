@@ -33,7 +33,8 @@ struct InstanceData {
   vec4 clipPlane;            // in mesh space
   vec4 diffuse;              // w: 1 replaces the material's
   vec4 specular;             // w: 1 replaces the material's
-  vec4 shininess;            // x: 0 keeps the material's; y: index into traceInstances
+  vec4 shininess;            // x: 0 keeps the material's; y: index into traceInstances; z: of a curved mirror with an
+                             // environment map, into mirrors
 };
 
 struct MaterialData {
@@ -52,6 +53,10 @@ struct MirrorData {
                      // frame = matrix * (pixel of the pass, 1) + vector * disparity;
                      // or of a rough mirror: alpha of GGX and number of look-ups in the first one
 };
+
+// Of a curved mirror with an environment map: plane is the map's centre, relative, w: 0 shows the background in its place;
+// reflectance and baseColor as above; lookup is the low corner of the box around it, from the centre, w: 0 without a box;
+// reproject[0] the high corner; image.x the texels of a side of a face.
 
 const float mirrorImage = 0.0;
 const float mirrorBackground = 1.0;

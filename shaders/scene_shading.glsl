@@ -1,4 +1,5 @@
-// The fragment shader of objects. TRACED: light that needs rays; CURVED: objects that are mirrors.
+// The fragment shader of objects. TRACED: light that needs rays; CURVED: objects that are mirrors; ENVIRONMENT: such that
+// look up a map.
 #include "interface.glsl"
 #include "shading.glsl"
 #ifdef TRACED
@@ -12,7 +13,7 @@
 
 layout(constant_id = 0) const bool trilinear = false;
 
-layout(set = 1, binding = 0) uniform sampler2D diffuseTexture;  // linear radiance factors
+layout(set = 1, binding = 0) uniform sampler2D diffuseTexture;  // linear radiance factors; with ENVIRONMENT the map
 
 layout(location = 0) centroid in vec3 relativePosition;
 layout(location = 1) centroid in vec3 relativeNormal;
@@ -39,6 +40,10 @@ vec3 bilinearLevel0(vec2 uv) {
 vec3 diffuseFactor() {
   return trilinear ? texture(diffuseTexture, vec2(textureUv.x, 1.0 - textureUv.y)).rgb : bilinearLevel0(textureUv);
 }
+
+#ifdef ENVIRONMENT
+#include "environment.glsl"
+#endif
 
 #ifdef TRACED
 // A triangle's vertices, relative.
@@ -99,9 +104,11 @@ void main() {
   Surface surface = objectSurface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), material,
                                   instances[instanceIndex].diffuse, instances[instanceIndex].specular,
                                   instances[instanceIndex].shininess.x);
+#ifndef ENVIRONMENT
   if (material.diffuse.w > 0.0) {
     surface.diffuse *= diffuseFactor();
   }
+#endif
 #ifdef TRACED
   uint traceInstance = uint(instances[instanceIndex].shininess.y);
   Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none,
@@ -118,6 +125,22 @@ void main() {
   Bounce bounce = Bounce(surface, self, true, geometric, vec3(0.0), 0.0);
   applyCurvedMirror(traceInstance, direction, bounce);
   vec3 radiance = tracedRadiance(views[draw.viewIndex], bounce, direction);
+#elif defined(ENVIRONMENT)
+  MirrorData mirror = mirrors[uint(instances[instanceIndex].shininess.z)];
+  vec3 direction = safeNormalize(surface.position);
+  surface = mirrorLayer(surface.position, surface.normal, mirror.baseColor.rgb);
+  float cosine = -dot(surface.normal, direction);
+  vec3 reflectance = mirror.reflectance.w > 0.0 ? schlick(mirror.reflectance.rgb, cosine) : mirror.reflectance.rgb;
+  vec3 layer = vec3(0.0);
+  if (any(greaterThan(surface.diffuse, vec3(0.0)))) {
+#ifdef TRACED
+    layer = tracedSurfaceRadiance(views[draw.viewIndex], surface, -direction, self);
+#else
+    layer = surfaceRadiance(views[draw.viewIndex], surface);
+#endif
+  }
+  vec3 radiance = (1.0 - reflectance) * layer +
+                  reflectance * environmentRadiance(views[draw.viewIndex], mirror, surface, direction, reflectance);
 #elif defined(TRACED)
   vec3 radiance = tracedSurfaceRadiance(views[draw.viewIndex], surface, safeNormalize(-surface.position), self);
 #else

@@ -51,6 +51,13 @@ vec3 schlick(vec3 reflectance, float cosine) {
   return reflectance + (1.0 - reflectance) * (grazing2 * grazing2 * grazing);
 }
 
+// The direction mirrored about m, turned back above the plane if it went below.
+vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
+  vec3 d = direction - 2.0 * dot(direction, m) * m;
+  float outward = dot(d, planeNormal);
+  return safeNormalize(outward < 0.0 ? d - 2.0 * outward * planeNormal : d);
+}
+
 // The layer under a mirror's reflection, or its back.
 Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
   return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0);

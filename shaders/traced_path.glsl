@@ -138,13 +138,6 @@ vec3 glyphRadiance(ViewData view, vec3 origin, vec3 direction, inout float t) {
   return glow;
 }
 
-// The direction mirrored about m, turned back above the plane if it went below.
-vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
-  vec3 d = direction - 2.0 * dot(direction, m) * m;
-  float outward = dot(d, planeNormal);
-  return safeNormalize(outward < 0.0 ? d - 2.0 * outward * planeNormal : d);
-}
-
 struct Path {
   vec3 direction;  // unit, towards `bounce`
   Bounce bounce;

@@ -282,5 +282,51 @@ TEST(Ledger, TurningAwayGivesTheCostBack) {
   EXPECT_EQ(counts.alive.at("Buffer"), alive.at("Buffer"));
 }
 
+// Targets, draws and a pipeline while a curved mirror is drawn, all given back when it is not; rays never.
+TEST(Ledger, EnvironmentMapsAreThereAndGivenBack) {
+  Options options = optionsFor(
+      sceneWith("environment", "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\nmirror = {}\n"));
+  set(options, {{"effects.curved_lookup", "environment"}});
+  counts = {};
+  Session session(without(options, "curved"));
+  const auto drawn = [&](const char* curved, int frames) {
+    Settings settings = session.settings();
+    EXPECT_EQ(setSetting(settings, "effects.curved", curved), std::nullopt);
+    session.setSettings(settings);
+    for (int i = 0; i < frames; ++i) {
+      counts.draws = 0;
+      session.draw(0.0, true);
+      session.finish();
+    }
+    return std::pair(counts.alive, session.picture().rgba);
+  };
+  const auto before = drawn("false", 3);
+  const int drawsBefore = counts.draws;
+  const auto during = drawn("true", 1);
+  const EffectCost cost = session.sceneRenderer().ledger()[EffectKind::curved];
+  EXPECT_EQ(during.first.at("Image"), before.first.at("Image") + 2) << "the faces side by side, and their depth";
+  EXPECT_EQ(during.first.at("Buffer"), before.first.at("Buffer")) << "nothing to trace";
+  EXPECT_EQ(cost.pipelines, 1u);
+  EXPECT_GE(cost.bytes, 6ull * 256 * 256 * (8 + 4));
+  EXPECT_GT(static_cast<int>(cost.draws), 1) << "the faces' draws as well";
+  EXPECT_GT(counts.draws, drawsBefore);
+  EXPECT_NE(during.second, before.second);
+  const auto still = drawn("true", 2);
+  EXPECT_EQ(still.second, during.second);
+  EXPECT_EQ(counts.draws, drawsBefore) << "an unchanged map is not drawn again";
+  const auto after = drawn("false", 130);
+  std::map<std::string, int> kept = after.first;
+  for (const char* kind : {"ShaderModule", "DescriptorSetLayout"}) {
+    kept[kind] = before.first.at(kind);
+  }
+  // The faces' own pipelines, of one sample, are no cost of the effect's.
+  EXPECT_LE(kept.at("Pipeline"), before.first.at("Pipeline") + 1);
+  kept["Pipeline"] = before.first.at("Pipeline");
+  EXPECT_EQ(kept, before.first);
+  EXPECT_EQ(after.second, before.second);
+  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].bytes, 0u);
+  expectQuiet(session);
+}
+
 }  // namespace
 }  // namespace speculum

@@ -235,7 +235,7 @@ using WatchedFrames = Watch;
 TEST_F(WatchedFrames, HeldImagesAreCheckedWhenTheyAreFresh) {
   const BrokenSky sky(0, 5, 3, 0, "-1.0");
   Options options = watched(wall, "held", sky, RenderPath::automatic, 1);
-  set(options, {{"reflection.update_interval", "3"}});
+  set(options, {{"reflection.update_interval", "3"}, {"reflection.skip_unchanged", "false"}});
   Session session(options);
   int rendered = 0;
   for (uint64_t frame = 1; frame <= 9; ++frame) {

@@ -1,3 +1,4 @@
-speculum_test(frame_tests SOURCES frame_settings.cpp frame_plan.cpp frame_held.cpp frame_unchanged.cpp frame_view.cpp
-                      frame_memory.cpp frame_depth.cpp frame_skipping.cpp frame_clusters.cpp
+speculum_test(frame_tests
+              SOURCES frame_settings.cpp frame_plan.cpp frame_held.cpp frame_unchanged.cpp frame_environment.cpp
+                      frame_view.cpp frame_memory.cpp frame_depth.cpp frame_skipping.cpp frame_clusters.cpp
               LIBRARIES frame ext::rapidcheck)

@@ -247,7 +247,8 @@ TEST(Skipping, MirrorPassesDrawNoMoreThanIsSeen) {
 // The tree of passes, from their figures alone.
 TEST(Skipping, FiguresOfPassesNameTheParent) {
   Options options = headless(roomsScene(), size);
-  set(options, {{"reflection.update_interval", "2"}, {"reflection.max_depth", "3"}});
+  set(options,
+      {{"reflection.update_interval", "2"}, {"reflection.skip_unchanged", "false"}, {"reflection.max_depth", "3"}});
   Session session(options);
   session.setCamera(lookAt({1.4, 1.5, 1.6}, {1.2, 1.3, 0.0}, {0, 1, 0}, 100, 0.001));
   std::vector<nlohmann::ordered_json> frames;

@@ -94,7 +94,8 @@ class Studio {
     renderer_.reloadShaders();
     Frame frame = renderer_.beginFrame().value();
     const SceneState state = evaluate(scene_, 0.0);
-    const FramePlan plan = planFrame(scene_, state, settings_, size.width, size.height, sceneRenderer_.heldImages());
+    const FramePlan plan = planFrame(scene_, state, settings_, size.width, size.height, sceneRenderer_.heldImages(),
+                                     sceneRenderer_.environmentMaps());
     frame.capture = true;
     sceneRenderer_.record(frame, state, settings_, plan);
     renderer_.endFrame(frame);

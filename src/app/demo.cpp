@@ -151,7 +151,8 @@ void Demo::drawFrame(double seconds) {
     settings.reflection.skipUnchanged = false;
   }
   const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
-                                          static_cast<int>(frame->extent.height), sceneRenderer_->heldImages());
+                                          static_cast<int>(frame->extent.height), sceneRenderer_->heldImages(),
+                                          sceneRenderer_->environmentMaps());
   const FramePlan& plan = fitted.plan;
   const bool bare = shot_ == Shot::picture || recorder_.bare();
   sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debugView(plan, fitted.settings));

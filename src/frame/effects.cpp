@@ -30,6 +30,9 @@ Visible visibleIn(const FramePlan& plan) {
   };
   std::for_each(plan.passes.begin(), plan.passes.end(), add);
   std::for_each(plan.shown.begin(), plan.shown.end(), add);
+  for (const EnvironmentMap& map : plan.maps) {
+    std::for_each(map.faces.begin(), map.faces.end(), add);
+  }
   add(plan.main);
   return visible;
 }

@@ -6,6 +6,7 @@
 #include <queue>
 #include <sstream>
 
+#include "frame/environment_map.hpp"
 #include "frame/image_content.hpp"
 #include "frame/occlusion.hpp"
 #include "frame/pass_mask.hpp"
@@ -85,8 +86,13 @@ std::string number(double value) {
 class Planner {
  public:
   Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-          std::span<const HeldImage> held)
-      : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), heldBefore_(held) {
+          std::span<const HeldImage> held, std::span<const EnvironmentMap> maps)
+      : scene_(scene),
+        state_(state),
+        allSettings_(settings),
+        settings_(settings.reflection),
+        heldBefore_(held),
+        mapsBefore_(maps) {
     // Everything in front of `near` is clamped to one depth and would lose its order; a larger one gains nothing,
     // because depth is near / distance in a float.
     const double near = std::min(state.camera.near, largestNear);
@@ -106,6 +112,7 @@ class Planner {
       candidates_.pop();
       expand(best);
     }
+    planMaps();
     keepUnchanged();
     record(0);
     forgetHeldSubtrees();
@@ -121,6 +128,9 @@ class Planner {
   void hold(Node& node, const Candidate& candidate, int interval) const;
   bool serves(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible) const;
   int margin(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible, int due) const;
+  void planMaps();
+  bool keepMap(EnvironmentMap& map, const ImageSurroundings& around) const;
+  ImageSurroundings surroundings() const;
   void keepUnchanged();
   void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
@@ -134,6 +144,7 @@ class Planner {
   const Settings& allSettings_;
   const ReflectionSettings& settings_;
   std::span<const HeldImage> heldBefore_;
+  std::span<const EnvironmentMap> mapsBefore_;
   FramePlan plan_;
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> candidates_;
@@ -341,15 +352,82 @@ int Planner::margin(const HeldImage& image, const Node& node, std::span<const gl
   return static_cast<int>(std::min(most, reserve * perFrame * (due - 1) + least));
 }
 
+// What all images of this frame have in common, those of earlier frames as well.
+ImageSurroundings Planner::surroundings() const {
+  std::vector<const PlannedPass*> all;
+  collect(0, all);
+  ImageSurroundings around{scene_, state_, allSettings_, plan_.projection, {}, {}};
+  for (const EnvironmentMap& map : plan_.maps) {
+    around.maps.emplace_back(map.instance, map.serial);
+    for (const PlannedPass& face : map.faces) {
+      all.push_back(&face);
+    }
+  }
+  around.effects = tracedEffects(scene_, state_, allSettings_, all);
+  return around;
+}
+
+void Planner::planMaps() {
+  std::vector<const PlannedPass*> drawn;
+  collect(0, drawn);
+  plan_.maps = environmentMaps(scene_, state_, allSettings_, drawn);
+  if (plan_.maps.empty()) {
+    return;
+  }
+  ImageSurroundings around = surroundings();
+  around.maps.clear();  // a map shows none
+  int serial = 0;
+  for (const EnvironmentMap& map : mapsBefore_) {
+    serial = std::max(serial, map.serial);
+  }
+  for (EnvironmentMap& map : plan_.maps) {
+    if (!keepMap(map, around)) {
+      map.serial = ++serial;
+    }
+  }
+}
+
+// Whether a map of the frame before serves.
+bool Planner::keepMap(EnvironmentMap& map, const ImageSurroundings& around) const {
+  const int interval = allSettings_.effects.environmentInterval;
+  if (settings_.skipUnchanged) {
+    std::vector<const PlannedPass*> faces;
+    for (const PlannedPass& face : map.faces) {
+      faces.push_back(&face);
+    }
+    map.content = imageContent(around, nodes_[0].pass.view, faces);
+  }
+  const auto before = std::find_if(mapsBefore_.begin(), mapsBefore_.end(), [&](const EnvironmentMap& other) {
+    return other.object == map.object && other.copy == map.copy;
+  });
+  if (before == mapsBefore_.end()) {
+    map.due = interval - map.instance % interval;  // they take turns
+    return false;
+  }
+  map.due = interval;
+  const bool same = sameMirrorImages(before->settings, allSettings_) && before->settings.debug == allSettings_.debug;
+  const bool unchanged = settings_.skipUnchanged && before->content == map.content;
+  const bool young = before->age < std::min(before->due, interval);
+  if (!same || !(unchanged || young)) {
+    return false;
+  }
+  map.earlier = static_cast<int>(before - mapsBefore_.begin());
+  map.serial = before->serial;
+  map.center = before->center;
+  if (!unchanged) {
+    map.content = before->content;
+    map.age = before->age + 1;
+    map.due = before->due;
+  }
+  return true;
+}
+
 // Of the images that would be rendered, those that would be what they were are not.
 void Planner::keepUnchanged() {
   if (!settings_.skipUnchanged) {
     return;
   }
-  std::vector<const PlannedPass*> all;
-  collect(0, all);
-  const ImageSurroundings around{scene_, state_, allSettings_, plan_.projection,
-                                 tracedEffects(scene_, state_, allSettings_, all)};
+  const ImageSurroundings around = surroundings();
   for (const int child : nodes_[0].children) {
     std::optional<HeldImage>& held = nodes_[child].held;
     if (!held || held->earlier >= 0) {
@@ -444,8 +522,8 @@ std::string_view skipReasonName(SkipReason reason) {
 }
 
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    std::span<const HeldImage> held) {
-  return Planner(scene, state, settings, width, height, held).plan();
+                    std::span<const HeldImage> held, std::span<const EnvironmentMap> maps) {
+  return Planner(scene, state, settings, width, height, held, maps).plan();
 }
 
 }  // namespace speculum

@@ -50,6 +50,27 @@ struct PlannedPass {
   std::vector<MirrorDraw> mirrors;       // in the order of Scene::mirrors
 };
 
+// What a curved mirror reflects with effects.curved_lookup = environment: six images about its centre, side by side in
+// one target, three to a row. docs/effects.md: Environment maps.
+struct EnvironmentMap {
+  int object = 0;    // index into Scene::objects
+  int copy = 0;      // of the object
+  int instance = 0;  // index into SceneState::instances
+  std::string name;  // of the object and copy, for people
+  int size = 0;      // texels of each side of a face
+  Projection projection;
+  std::vector<PlannedPass> faces;  // towards +x, -x, +y, -y, +z, -z; without the object, mirrors without an image
+  glm::dvec3 center{0.0};          // world, of the object when they were rendered
+  glm::dvec3 low{0.0};             // world, box of what surrounds it in the present frame
+  glm::dvec3 high{0.0};
+  Settings settings;              // that they were rendered under
+  std::vector<uint64_t> content;  // as HeldImage::content
+  int serial = 0;                 // another one for each time that any map is rendered
+  int age = 1;                    // frames since its last turn, in the next frame
+  int due = 1;                    // age at which it is rendered anew
+  int earlier = -1;               // index among the maps before this frame; -1: this frame renders it
+};
+
 struct SkippedMirror {
   int mirror = 0;
   std::vector<int> path;  // mirrors from the eye, ending with this one
@@ -69,6 +90,7 @@ struct FramePlan {
   // That would be rendered if images of earlier frames did not serve, in no particular order: what they show is on the
   // screen all the same, and calls for effects.
   std::vector<PlannedPass> shown;
+  std::vector<EnvironmentMap> maps;  // of the curved mirrors that are drawn; `instance` ascending
 };
 
 // Images that are to be held are rendered with a margin on each side, as wide as the motion of the last frames calls
@@ -82,7 +104,10 @@ inline constexpr double largestMargin = 0.1;
 // on is exactly as it was. With reflection.update_interval above 1, it also does if the image is younger than its due
 // age, was drawn under the same settings and covers what is seen. The budget of passes is spent as if every image were
 // rendered, so that an image does not depend on which others are; the passes of held ones are then left out.
+//
+// `maps` are those of the frame before: they serve like images, by reflection.skip_unchanged and
+// effects.environment_interval.
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    std::span<const HeldImage> held = {});
+                    std::span<const HeldImage> held = {}, std::span<const EnvironmentMap> maps = {});
 
 }  // namespace speculum

@@ -114,8 +114,13 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
   numbers.addAll(environment.background, environment.sky, environment.ambient);
   numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near);
   addEffects(around, main, numbers);
-  std::set<int> instances = indices(around.effects.any(), around.state.instances.size());
-  std::set<int> mirrors = indices(around.effects.any(), around.state.mirrors.size());
+  const bool all = around.effects.any() || !around.maps.empty();
+  numbers.add(all);
+  for (const auto& [instance, serial] : around.maps) {
+    numbers.addAll(instance, serial);
+  }
+  std::set<int> instances = indices(all, around.state.instances.size());
+  std::set<int> mirrors = indices(all, around.state.mirrors.size());
   for (const PlannedPass* pass : passes) {
     numbers.addAll(pass->view, pass->channels, pass->instances, pass->lights, pass->mirrors);
     instances.insert(pass->instances.begin(), pass->instances.end());

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "frame/traced_effects.hpp"
@@ -14,12 +15,14 @@ struct ImageSurroundings {
   const SceneState& state;
   const Settings& settings;
   const Projection& projection;
-  TracedEffects effects;  // of all passes
+  TracedEffects effects;                  // of all passes
+  std::vector<std::pair<int, int>> maps;  // environment maps that may be looked up: instance, EnvironmentMap::serial
 };
 
 // Everything but settings, meshes and textures that the image of a mirror depends on, number by number: an image with
 // equal content, under sameMirrorImages, is the same bit for bit. `passes` are the mirror's and those of all that is
-// seen in it. Where rays are traced in any pass, that is the whole scene, and the time if a mirror has ripples.
+// seen in it. Where rays are traced or an environment map is looked up in any pass, that is the whole scene, and the
+// time if rays may meet ripples.
 std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
                                    std::span<const PlannedPass* const> passes);
 

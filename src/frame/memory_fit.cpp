@@ -12,6 +12,7 @@ namespace {
 constexpr uint64_t colorBytes = 8;  // RGBA16F
 constexpr uint64_t depthBytes = 4;  // D32F
 constexpr double smallestScale = 0.125;
+constexpr int smallestMap = 16;  // texels
 
 uint64_t pixels(const PixelRect& rect) {
   return static_cast<uint64_t>(rect.area());
@@ -40,7 +41,7 @@ uint64_t peakPixels(const FramePlan& plan) {
   return peak;
 }
 
-bool lower(Settings& settings, std::string& what) {
+bool lower(Settings& settings, bool hasMaps, std::string& what) {
   ReflectionSettings& reflection = settings.reflection;
   if (reflection.samples > 1) {
     reflection.samples /= 2;
@@ -51,6 +52,9 @@ bool lower(Settings& settings, std::string& what) {
   } else if (reflection.scale > smallestScale) {
     reflection.scale = std::max(smallestScale, reflection.scale / 2.0);
     what = "reflection.scale to " + settingValue(settings, "reflection.scale");
+  } else if (hasMaps && settings.effects.environmentSize > smallestMap) {
+    settings.effects.environmentSize /= 2;
+    what = "effects.environment_size to " + std::to_string(settings.effects.environmentSize);
   } else {
     return false;
   }
@@ -63,6 +67,17 @@ std::string mebibytes(uint64_t bytes) {
 
 }  // namespace
 
+uint64_t environmentBytes(const FramePlan& plan) {
+  uint64_t color = 0;
+  uint64_t largest = 0;
+  for (const EnvironmentMap& map : plan.maps) {
+    const uint64_t texels = 6 * static_cast<uint64_t>(map.size) * static_cast<uint64_t>(map.size);
+    color += texels * colorBytes;
+    largest = std::max(largest, texels);
+  }
+  return color + largest * depthBytes;
+}
+
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
   const auto viewSamples = static_cast<uint64_t>(settings.view.samples);
   const auto imageSamples = static_cast<uint64_t>(settings.reflection.samples);
@@ -72,11 +87,11 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
     largest = std::max(largest, pixels(pass.view.rect));
   }
   return pixels(plan.main.view.rect) * (colorBytes + multisampled + viewSamples * depthBytes) +
-         peakPixels(plan) * imageSamples * colorBytes + largest * imageSamples * depthBytes;
+         peakPixels(plan) * imageSamples * colorBytes + largest * imageSamples * depthBytes + environmentBytes(plan);
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height, std::span<const HeldImage> held) {
+                      int width, int height, std::span<const HeldImage> held, std::span<const EnvironmentMap> maps) {
   FittedPlan fitted{{}, settings, {}};
   ReflectionSettings& reflection = fitted.settings.reflection;
   const double margins = reflection.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
@@ -87,26 +102,28 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " times the picture's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
-  fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
+  fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
   if (!limits.tracesRays && tracedEffects(scene, state, fitted.settings, fitted.plan).any()) {
-    fitted.settings.effects = {
-        .shadows = false, .roughness = false, .ripple = false, .castsLight = false, .curved = false};
+    EffectSettings& effects = fitted.settings.effects;
+    effects.shadows = effects.roughness = effects.ripple = effects.castsLight = false;
+    effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
     fitted.message +=
         (fitted.message.empty() ? "" : "; ") + std::string(
                                                    "effects.* that trace rays are left out: the device lacks "
                                                    "geometryShader, storage buffers, or room in them for the scene");
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
   }
   if (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && reflection.updateInterval == 1) {
     held = {};
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height);
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
   }
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
   std::string lowered;
-  while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && lower(fitted.settings, what)) {
+  while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes &&
+         lower(fitted.settings, !fitted.plan.maps.empty(), what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held);
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
   }
   if (!lowered.empty()) {
     fitted.message += (fitted.message.empty() ? "" : "; ") + ("targets of " + mebibytes(wanted)) +

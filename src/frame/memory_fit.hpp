@@ -1,14 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "frame/frame_plan.hpp"
 
 namespace speculum {
 
-// Device memory of a plan's render targets: the main view, the mirror images of earlier frames that it shows, and those
-// alive at one time with their depth.
+// Device memory of a plan's render targets: the main view, environment maps, the mirror images of earlier frames that
+// it shows, and those alive at one time with their depth.
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 
 struct TargetLimits {
@@ -24,10 +25,15 @@ struct FittedPlan {
 };
 
 // planFrame, with the resolution of mirror images within the largest side, and samples of mirror images, then of the
-// main view, then the resolution of mirror images halved step by step until the targets fit the budget. What cannot be
-// lowered any more is planned as it is. Before that, images that reflection.skip_unchanged would show again are
-// rendered with the others, if that needs less. Effects that trace rays are left out where the device cannot.
+// main view, then the resolution of mirror images and of environment maps halved step by step until the targets fit the
+// budget. What cannot be lowered any more is planned as it is. Before that, images that reflection.skip_unchanged would
+// show again are rendered with the others, if that needs less. Effects that trace rays are left out where the device
+// cannot.
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height, std::span<const HeldImage> held = {});
+                      int width, int height, std::span<const HeldImage> held = {},
+                      std::span<const EnvironmentMap> maps = {});
+
+// Of the maps' targets, with the depth that they share.
+uint64_t environmentBytes(const FramePlan& plan);
 
 }  // namespace speculum

@@ -216,6 +216,16 @@ std::vector<Setting> effectTable() {
       boolean<E>({"effects.ripple", "true | false", "ripples of mirrors"}, group, &E::ripple),
       boolean<E>({"effects.casts_light", "true | false", "light bounced off mirrors"}, group, &E::castsLight),
       boolean<E>({"effects.curved", "true | false", "objects that are mirrors"}, group, &E::curved),
+      choice<E, CurvedLookup>({"effects.curved_lookup", "traced | environment",
+                               "what curved mirrors look up: rays, or six images about the object's centre"},
+                              group, &E::curvedLookup,
+                              {{"traced", CurvedLookup::traced}, {"environment", CurvedLookup::environment}}),
+      integer<E>({"effects.environment_size", "16 32 64 128 256 512 1024", "texels of a side of such an image"}, group,
+                 &E::environmentSize, 16, 1024, true),
+      integer<E>({"effects.environment_interval", "1 ..", "such images are rendered anew every n-th frame"}, group,
+                 &E::environmentInterval, 1, 1000000),
+      boolean<E>({"effects.environment_box", "true | false", "look-ups as if what is around the object were a box"},
+                 group, &E::environmentBox),
   };
 }
 

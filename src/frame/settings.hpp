@@ -45,6 +45,9 @@ struct ViewSettings {
 // What a rough mirror looks up: rays, or the image of the mirror as if it were smooth.
 enum class RoughLookup { traced, image };
 
+// What a curved mirror reflects: what rays meet, or six images about its centre.
+enum class CurvedLookup { traced, environment };
+
 // Effects are drawn where the scene calls for them, unless they are switched off here.
 struct EffectSettings {
   bool shadows = true;
@@ -55,6 +58,10 @@ struct EffectSettings {
   int roughSamples = 16;  // rays a pixel of rough mirrors
   RoughLookup roughLookup = RoughLookup::traced;
   bool perSample = false;  // rays at each sample of a pixel, not once
+  CurvedLookup curvedLookup = CurvedLookup::traced;
+  int environmentSize = 256;    // texels of each side of an environment map's faces
+  int environmentInterval = 1;  // frames
+  bool environmentBox = true;   // look-ups are corrected as if what surrounds the object were a box
 
   bool operator==(const EffectSettings&) const = default;
 };

@@ -42,6 +42,7 @@ class Collector {
       lit_.any = true;
       const int object = state_.instances[i].object;
       if (settings_.curved && scene_.objects[object].mirror && effects_.curved.empty()) {
+        effects_.curvedRays = settings_.curvedLookup == CurvedLookup::traced;
         effects_.curved = nameOf("object", scene_.objects[object].name, object);
       }
     }
@@ -72,7 +73,7 @@ class Collector {
   }
 
   // What such rays meet may be anything in the scene.
-  bool reflectsRays() const { return effects_.roughRays || !(effects_.ripple.empty() && effects_.curved.empty()); }
+  bool reflectsRays() const { return effects_.roughRays || effects_.curvedRays || !effects_.ripple.empty(); }
   bool anythingLit() const { return lit_.mirrors || lit_.any || reflectsRays(); }
 
   void addShadows() {
@@ -168,6 +169,11 @@ TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const S
   for (const std::vector<PlannedPass>* some : {&plan.passes, &plan.shown}) {
     for (const PlannedPass& pass : *some) {
       passes.push_back(&pass);
+    }
+  }
+  for (const EnvironmentMap& map : plan.maps) {
+    for (const PlannedPass& face : map.faces) {
+      passes.push_back(&face);
     }
   }
   passes.push_back(&plan.main);

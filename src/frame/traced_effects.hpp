@@ -22,10 +22,11 @@ struct TracedEffects {
   std::string ripple;
   std::string castsLight;
   std::string curved;
+  bool curvedRays = false;  // curved mirrors are traced, not looked up in environment maps
   std::vector<MirroredLight> mirroredLights;
 
   // Whether any ray is traced through the scene's triangles.
-  bool traces() const { return roughRays || !(shadows.empty() && ripple.empty() && curved.empty()); }
+  bool traces() const { return roughRays || curvedRays || !(shadows.empty() && ripple.empty()); }
   bool any() const { return traces() || !castsLight.empty(); }
 };
 

@@ -25,12 +25,13 @@ glm::dvec4 relativeClipPlane(const View& view) {
 }
 
 // Ray directions are affine in the pixel's position; see Projection for the clip space that is inverted here.
-void setRays(ViewData& data, const View& view, const Projection& projection) {
+void setRays(ViewData& data, const View& view, const Projection& projection, const glm::ivec2& target) {
   const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
   const double sx = projection.aspect / projection.focal;
   const double sy = 1.0 / projection.focal;
   const glm::dvec2 step = 2.0 / view.pictureSize;
-  const glm::dvec2 corner = glm::dvec2(view.rect.x, view.rect.y) * step - 1.0;  // of pixel (0, 0), in [-1, 1]
+  const glm::dvec2 origin = glm::dvec2(view.rect.x, view.rect.y) - glm::dvec2(target);
+  const glm::dvec2 corner = origin * step - 1.0;  // of the target's pixel (0, 0), in [-1, 1]
   data.rayX = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(step.x * sx, 0.0, 0.0)), 0.0f);
   data.rayY = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(0.0, -step.y * sy, 0.0)), 0.0f);
   data.rayOrigin = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(corner.x * sx, -corner.y * sy, -1.0)), 0.0f);
@@ -110,12 +111,12 @@ MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const View& 
 
 }  // namespace
 
-glm::dmat4 viewProjection(const FramePlan& plan, const View& view, ClipMethod clip) {
-  glm::dmat4 projection = plan.projection.matrix();
+glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip) {
+  glm::dmat4 projection = common.matrix();
   if (clip == ClipMethod::oblique && view.clip) {
     const glm::dvec4 relative = relativeClipPlane(view);
     const glm::dvec4 plane(view.worldToView * glm::dvec3(relative), relative.w);
-    if (const std::optional<glm::dmat4> oblique = obliqueProjection(plan.projection, plane)) {
+    if (const std::optional<glm::dmat4> oblique = obliqueProjection(common, plane)) {
       projection = *oblique;
     }
   }
@@ -143,10 +144,16 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   mirrors_.clear();
   mirrorVertices_.clear();
   passes_.clear();
+  const Source source{scene, state, settings, environment, plan};
   for (const PlannedPass& pass : plan.passes) {
-    addPass(pass, plan, scene, state, settings, environment);
+    addPass(source, pass, plan.projection, {0, 0});
   }
-  addPass(plan.main, plan, scene, state, settings, environment);
+  addPass(source, plan.main, plan.projection, {0, 0});
+  for (const EnvironmentMap& map : plan.maps) {
+    for (size_t face = 0; map.earlier < 0 && face < map.faces.size(); ++face) {
+      addPass(source, map.faces[face], map.projection, faceCorner(map, face));
+    }
+  }
 
   upload(frame, views, std::as_bytes(std::span(views_)));
   upload(frame, lights, std::as_bytes(std::span(lights_)));
@@ -166,16 +173,21 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
       .update(device_, set_);
 }
 
-void FrameData::addPass(const PlannedPass& pass, const FramePlan& plan, const Scene& scene, const SceneState& state,
-                        const Settings& settings, const Environment& environment) {
-  const glm::dmat4 projection = viewProjection(plan, pass.view, settings.reflection.clip);
+glm::ivec2 faceCorner(const EnvironmentMap& map, size_t face) {
+  return map.size * glm::ivec2(face % 3, face / 3);
+}
+
+void FrameData::addPass(const Source& source, const PlannedPass& pass, const Projection& common,
+                        const glm::ivec2& corner) {
+  const auto& [scene, state, settings, environment, plan] = source;
+  const glm::dmat4 projection = viewProjection(common, pass.view, settings.reflection.clip);
   PassData& data = passes_.emplace_back();
   data.view = static_cast<uint32_t>(views_.size());
   ViewData view{};
   view.clipFromRelative = glm::mat4(projection * relativeToView(pass.view));
   const bool clips = settings.reflection.clip != ClipMethod::none;
   view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
-  setRays(view, pass.view, plan.projection);
+  setRays(view, pass.view, common, corner);
   setBackground(view, environment);
   view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, 0.0));
   view.throughput = glm::vec4(glm::dvec4(pass.channels, settings.reflection.minThroughput));
@@ -184,7 +196,7 @@ void FrameData::addPass(const PlannedPass& pass, const FramePlan& plan, const Sc
   addLights(pass, scene, state, view);
   views_.push_back(view);
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
-  addInstances(pass, projection, scene, state, settings.effects, data);
+  addInstances(source, pass, projection, data);
   addMirrors(pass, projection, plan, scene, settings.effects, data);
   addMask(pass, plan, settings, data);
 }
@@ -207,8 +219,11 @@ void FrameData::addLights(const PlannedPass& pass, const Scene& scene, const Sce
   }
 }
 
-void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene,
-                             const SceneState& state, const EffectSettings& effects, PassData& data) {
+void FrameData::addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection,
+                             PassData& data) {
+  const Scene& scene = source.scene;
+  const SceneState& state = source.state;
+  const EffectSettings& effects = source.settings.effects;
   const glm::dmat4 clipFromRelative = projection * relativeToView(pass.view);
   const auto isCurved = [&](int i) {
     return effects.curved && scene.objects[static_cast<size_t>(state.instances[i].object)].mirror.has_value();
@@ -231,16 +246,44 @@ void FrameData::addInstances(const PlannedPass& pass, const glm::dmat4& projecti
     const InstanceState& instance = state.instances[i];
     const Object& object = scene.objects[instance.object];
     const bool curved = isCurved(i);
+    const bool environment = curved && effects.curvedLookup == CurvedLookup::environment;
     const PartialInstance* part = partOf(i);
     if (data.batches.empty() || data.batches.back().mesh != instance.mesh || data.batches.back().curved != curved ||
-        part || !data.batches.back().ranges.empty()) {
-      data.batches.push_back({instance.mesh, static_cast<uint32_t>(instances_.size()), 0, curved,
-                              part ? part->ranges : std::vector<IndexRange>()});
+        environment || part || !data.batches.back().ranges.empty()) {
+      data.batches.push_back(
+          {.mesh = instance.mesh, .firstInstance = static_cast<uint32_t>(instances_.size()), .curved = curved});
+      data.batches.back().ranges = part ? part->ranges : std::vector<IndexRange>();
     }
     ++data.batches.back().count;
     instances_.push_back(instanceData(instance, object, pass.view, clipFromRelative));
     instances_.back().shininess.y = static_cast<float>(i);  // exact up to 2^24
+    if (environment) {
+      addEnvironment(source, pass, i, data.batches.back());
+    }
   }
+}
+
+// A map's own faces show the background in the place of further maps.
+void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch) {
+  const std::vector<EnvironmentMap>& maps = source.plan.maps;
+  const auto map = std::find_if(maps.begin(), maps.end(), [&](const auto& m) { return m.instance == instance; });
+  const bool inFace = pass.depth < 0 && &pass != &source.plan.main;
+  const bool exists = map != maps.end() && !inFace;
+  const ObjectMirror& mirror = *source.scene.objects[source.state.instances[instance].object].mirror;
+  MirrorData data{};
+  data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), mirror.fresnel == Fresnel::schlick ? 1.0f : 0.0f);
+  data.baseColor = glm::vec4(glm::vec3(mirror.baseColor), 0.0f);
+  if (exists) {
+    const bool box = source.settings.effects.environmentBox;
+    data.plane = glm::vec4(glm::dvec4(map->center - pass.view.eye, 1.0));
+    data.lookup = glm::vec4(glm::dvec4(map->low - map->center, box ? 1.0 : 0.0));
+    data.reproject[0] = glm::vec4(glm::dvec4(map->high - map->center, 0.0));
+    data.image.x = map->size;
+  }
+  batch.environment = true;
+  batch.map = exists ? static_cast<int>(map - maps.begin()) : -1;
+  instances_.back().shininess.z = static_cast<float>(mirrors_.size());
+  mirrors_.push_back(data);
 }
 
 namespace {

@@ -22,6 +22,8 @@ struct Batch {
   uint32_t firstInstance = 0;
   uint32_t count = 0;
   bool curved = false;             // they are mirrors
+  bool environment = false;        // that look up an environment map; one instance then
+  int map = -1;                    // index into FramePlan::maps; -1: it shows the background
   std::vector<IndexRange> ranges;  // of the mesh's indices; none: all. Only a single instance has any
 };
 
@@ -58,8 +60,9 @@ class FrameData {
   explicit FrameData(Device& device);
 
   VkDescriptorSetLayout layout() const { return layout_.get(); }
-  // Fills the buffers of this frame in flight. Afterwards passes()[i] belongs to plan.passes[i], the last to the main
-  // view, and set() is valid until the frame has finished.
+  // Fills the buffers of this frame in flight. Afterwards passes()[i] belongs to plan.passes[i], the next to the main
+  // view, those after it to the faces of the maps that this frame renders, and set() is valid until the frame has
+  // finished.
   void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
@@ -69,11 +72,20 @@ class FrameData {
  private:
   enum Kind { views, lights, instances, mirrors, mirrorVertices, kindCount };
 
-  void addPass(const PlannedPass& pass, const FramePlan& plan, const Scene& scene, const SceneState& state,
-               const Settings& settings, const Environment& environment);
+  // What all passes of a frame share.
+  struct Source {
+    const Scene& scene;
+    const SceneState& state;
+    const Settings& settings;
+    const Environment& environment;
+    const FramePlan& plan;
+  };
+  // `corner`: where in its target the pass is drawn, in pixels.
+  void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
   void addLights(const PlannedPass& pass, const Scene& scene, const SceneState& state, ViewData& view);
-  void addInstances(const PlannedPass& pass, const glm::dmat4& projection, const Scene& scene, const SceneState& state,
-                    const EffectSettings& effects, PassData& data);
+  void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
+  // Makes an instance's batch one that looks up its map.
+  void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);
   void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
                   const EffectSettings& effects, PassData& data);
   void addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
@@ -96,8 +108,11 @@ class FrameData {
 InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
                           const glm::dmat4& clipFromRelative);
 
-// The projection of a view under reflection.clip: the common one, or its oblique variant for a mirror's view. To clip
-// space whose unit square is `overscan(view)` times the picture.
-glm::dmat4 viewProjection(const FramePlan& plan, const View& view, ClipMethod clip);
+// The projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. To clip space
+// whose unit square is `overscan(view)` times the picture.
+glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip);
+
+// Where the faces of an environment map lie in its target, in texels.
+glm::ivec2 faceCorner(const EnvironmentMap& map, size_t face);
 
 }  // namespace speculum

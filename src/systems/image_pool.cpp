@@ -1,6 +1,7 @@
 #include "systems/image_pool.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace speculum {
 
@@ -20,7 +21,16 @@ uint64_t area(VkExtent2D extent) {
 
 }  // namespace
 
-ImagePool::ImagePool(Device& device, SharedDepth& depth) : device_(device), depth_(depth) {}
+ImagePool::ImagePool(Device& device, SharedDepth& depth, std::string name)
+    : device_(device), depth_(depth), name_(std::move(name)) {}
+
+uint64_t ImagePool::bytes() const {
+  uint64_t sum = 0;
+  for (const Entry& entry : entries_) {
+    sum += entry.target->bytes();
+  }
+  return sum;
+}
 
 OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
   Entry* best = nullptr;
@@ -35,7 +45,7 @@ OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
   if (!best) {
     best = &entries_.emplace_back();
     const OffScreenDesc desc{
-        .name = "mirror image " + std::to_string(made_++), .extent = rounded, .keepSamples = true, .shared = &depth_};
+        .name = name_ + " " + std::to_string(made_++), .extent = rounded, .keepSamples = true, .shared = &depth_};
     best->target = std::make_unique<OffScreen>(device_, desc, retired);
   }
   best->taken = true;

@@ -1,24 +1,28 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/off_screen.hpp"
 
 namespace speculum {
 
-// Targets for mirror images, which keep their samples. An image is taken for a pass and given back as soon as the pass
-// that samples it is recorded, so that a frame holds no more than the images alive at one time. Targets are kept for
-// later frames and dropped when a number of frames went by without need of them.
+// Targets for mirror images and environment maps, which keep their samples. An image is taken for a pass and given back
+// as soon as the pass that samples it is recorded, so that a frame holds no more than the images alive at one time.
+// Targets are kept for later frames and dropped when a number of frames went by without need of them.
 class ImagePool {
  public:
-  ImagePool(Device& device, SharedDepth& depth);
+  // Targets are called by `name` and a number.
+  ImagePool(Device& device, SharedDepth& depth, std::string name);
 
   // A target that covers `extent`, free until release().
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
   void release(const OffScreen& target);
   void endFrame(RetireQueue& retired);
   void clear(RetireQueue& retired);  // drops every target; none may be taken
+  bool empty() const { return entries_.empty(); }
+  uint64_t bytes() const;  // of all targets, without the depth
 
  private:
   struct Entry {
@@ -29,6 +33,7 @@ class ImagePool {
 
   Device& device_;
   SharedDepth& depth_;
+  std::string name_;
   std::vector<Entry> entries_;
   int made_ = 0;
 };

@@ -8,6 +8,10 @@ RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frame
                            VkDescriptorSetLayout textureLayout)
     : factory_(factory), frameLayout_(frameLayout), textureLayout_(textureLayout) {}
 
+bool RenderSystem::tracesRays(const Variant& variant) {
+  return variant.trace.traced || (variant.curved && !variant.environment);
+}
+
 const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLayout traceLayout) {
   Entry& entry = objects_[variant];
   entry.idleFrames = 0;
@@ -16,8 +20,13 @@ const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLay
     desc.vertConstants = {variant.clipDistance};
     desc.fragConstants = {variant.trilinear};
     desc.setLayouts = {frameLayout_, textureLayout_};
-    if (variant.curved || variant.trace.traced) {
-      desc.frag = variant.curved ? "scene_curved.frag" : "scene_traced.frag";
+    if (variant.environment) {
+      desc.frag = variant.trace.traced ? "scene_environment_traced.frag" : "scene_environment.frag";
+    }
+    if (tracesRays(variant)) {
+      if (!variant.environment) {
+        desc.frag = variant.curved ? "scene_curved.frag" : "scene_traced.frag";
+      }
       desc.setLayouts.push_back(traceLayout);
       addConstants(variant.trace, desc.fragConstants);
       desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
@@ -83,8 +92,10 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
   uint32_t draws = 0;
   for (const Batch& batch : data.batches) {
     variant.curved = batch.curved;
-    const bool traces = variant.curved || info.trace.variant().traced;
-    variant.trace = traces ? info.trace.variant() : TraceVariant{};
+    variant.environment = batch.environment;
+    variant.trace = info.trace.variant();
+    const bool traces = tracesRays(variant);
+    variant.trace = traces ? variant.trace : TraceVariant{};
     const Pipeline& pipeline = objects(variant, info.trace.layout());
     pipeline.bind(commands);
     pipeline.bindSet(commands, 0, info.data.set());
@@ -98,7 +109,7 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     vkCmdBindIndexBuffer(commands, mesh.indices.get(), 0, VK_INDEX_TYPE_UINT32);
     scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
     for (const SceneResources::Part& part : mesh.parts) {
-      pipeline.bindSet(commands, 1, part.texture);
+      pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : part.texture);
       for (const IndexRange& range : drawnRanges(part, batch)) {
         pipeline.push(commands, DrawConstants{data.view, part.material, range.first / 3});
         vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);

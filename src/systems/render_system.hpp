@@ -28,9 +28,11 @@ class RenderSystem {
     bool trilinear;
     bool wireframe;
     bool curved;
+    bool environment;  // curved mirrors that look up a map
     TraceVariant trace;
     auto operator<=>(const Variant&) const = default;
   };
+  static bool tracesRays(const Variant& variant);
   const Pipeline& objects(const Variant& variant, VkDescriptorSetLayout traceLayout);
   const Pipeline& sky(VkSampleCountFlagBits samples);
   static void countDraw(EffectLedger& ledger, const Variant& variant, const SceneResources::Part& part);

@@ -4,11 +4,14 @@
 #include <glm/gtc/packing.hpp>
 #include <utility>
 
+#include "frame/environment_map.hpp"
 #include "frame/memory_fit.hpp"
 
 namespace speculum {
 
 namespace {
+
+constexpr const char* mainName = "main view";
 
 VkRect2D areaOf(const PixelRect& rect) {
   return {{0, 0}, {static_cast<uint32_t>(rect.width), static_cast<uint32_t>(rect.height)}};
@@ -62,7 +65,8 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       renderSystem_(renderer.pipelines(), data_.layout(), resources_.textureLayout()),
       pointLightSystem_(renderer.pipelines(), data_.layout()),
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
-      watch_(renderer) {
+      watch_(renderer),
+      environmentTargets_(device_) {
   const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
   displayLayout_ = createDescriptorSetLayout(device_, {&binding, 1}, "display");
@@ -91,6 +95,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   releaseViews(debug, *frame.retired);
   takeHeldImages(plan);
   prepareTargets(settings, plan, *frame.retired);
+  prepareMaps(frame, plan);
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   const TracedEffects effects = tracedEffects(scene_, state, settings, plan);
@@ -99,12 +104,19 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   targets_.assign(plan.passes.size(), nullptr);
   images_.assign(plan.passes.size(), {});
   recorded_.clear();
-  const FrameInfo info{frame, scene_, settings, environment, plan,       resources_,
-                       data_, trace_, ledger_,  images_,     heldImages_};
+  const FrameInfo info{frame, scene_, settings, environment, plan,        resources_,
+                       data_, trace_, ledger_,  images_,     heldImages_, mapSets_};
   if (settings.debug.checkFinite) {
-    watch_.begin(frame, plan.passes.size() + 2);  // the main view's samples and their mean
+    watch_.begin(frame, plan.maps.size() + plan.passes.size() + 2);  // the main view's samples and their mean
   } else {
     watch_.release();
+  }
+  size_t facePass = plan.passes.size() + 1;
+  for (size_t i = 0; i < plan.maps.size(); ++i) {
+    if (plan.maps[i].earlier < 0) {
+      recordMap(frame, info, i, facePass);
+      facePass += plan.maps[i].faces.size();
+    }
   }
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     recordMirrorPass(frame, info, i);
@@ -129,6 +141,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   mirrorSystem_.endFrame(trace_.variant(), imagesShown);
   finishLedger(settings, plan, effects);
   keepHeldImages(plan);
+  environmentTargets_.endFrame(plan, *frame.retired);
   if (pool_) {
     pool_->endFrame(*frame.retired);
   }
@@ -151,9 +164,10 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
   single.view.samples = 1;
   single.reflection.samples = 1;
   ledger_[EffectKind::msaa].bytes = targetBytes(plan, settings) - targetBytes(plan, single);
-  for (size_t i = 0; i < plan.passes.size() + 1; ++i) {
-    const int samples = i < plan.passes.size() ? settings.reflection.samples : settings.view.samples;
-    ledger_[EffectKind::msaa].draws += samples > 1 ? recorded_[i].draws : 0;
+  for (const RecordedPass& pass : recorded_) {
+    const int samples = pass.depth >= 0 ? settings.reflection.samples : settings.view.samples;
+    const bool scene = pass.depth >= 0 || pass.name == mainName;
+    ledger_[EffectKind::msaa].draws += scene && samples > 1 ? pass.draws : 0;
   }
   ledger_[EffectKind::textures].bytes = ledger_[EffectKind::textures].draws > 0 ? resources_.textureBytes() : 0;
   ledger_[EffectKind::toneMap].draws = settings.view.toneMap == ToneMap::aces ? 1 : 0;
@@ -161,9 +175,11 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
        {std::pair(EffectKind::shadows, &effects.shadows), std::pair(EffectKind::roughness, &effects.roughness),
         std::pair(EffectKind::ripple, &effects.ripple), std::pair(EffectKind::castsLight, &effects.castsLight),
         std::pair(EffectKind::curved, &effects.curved)}) {
-    const bool traces = !caller->empty() && (kind != EffectKind::roughness || effects.roughRays);
+    const bool traces = !caller->empty() && (kind != EffectKind::roughness || effects.roughRays) &&
+                        (kind != EffectKind::curved || effects.curvedRays);
     ledger_[kind].bytes = traces ? trace_.bytes() : 0;
   }
+  ledger_[EffectKind::curved].bytes += environmentTargets_.bytes();
   ledger_[EffectKind::glyphs].pipelines = static_cast<uint32_t>(pointLightSystem_.pipelineCount());
   for (const auto& [variant, pipeline] : displayPipelines_) {
     ledger_.pipeline(EffectKind::toneMap, variant.toneMap == ToneMap::aces);
@@ -176,7 +192,13 @@ std::span<const HeldImage> SceneRenderer::heldImages() const {
   return heldRevision_ == renderer_.pipelines().revision() ? std::span(held_) : std::span<const HeldImage>();
 }
 
+std::span<const EnvironmentMap> SceneRenderer::environmentMaps() const {
+  return heldRevision_ == renderer_.pipelines().revision() ? environmentTargets_.held()
+                                                           : std::span<const EnvironmentMap>();
+}
+
 void SceneRenderer::restart() {
+  environmentTargets_.restart();
   held_.clear();
   heldTargets_.clear();
   restart_ = true;
@@ -224,7 +246,7 @@ void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& pl
   if (!plan.passes.empty()) {
     if (!depth_) {
       depth_ = std::make_unique<SharedDepth>(device_, samples, "mirror images");
-      pool_ = std::make_unique<ImagePool>(device_, *depth_);
+      pool_ = std::make_unique<ImagePool>(device_, *depth_, "mirror image");
     }
     VkExtent2D largest{1, 1};
     for (const PlannedPass& pass : plan.passes) {
@@ -279,6 +301,47 @@ void SceneRenderer::releaseImages(const FramePlan& plan, const PlannedPass& pass
   }
 }
 
+void SceneRenderer::prepareMaps(Frame& frame, const FramePlan& plan) {
+  environmentTargets_.prepare(plan, *frame.retired);
+  mapSets_.clear();
+  for (size_t i = 0; i < plan.maps.size(); ++i) {
+    mapSets_.push_back(frame.descriptors->allocate(resources_.textureLayout()));
+    DescriptorWriter().image(0, environmentTargets_[i].descriptor()).update(device_, mapSets_.back());
+  }
+}
+
+// `firstPass`: of its faces, in info.data.
+void SceneRenderer::recordMap(Frame& frame, const FrameInfo& info, size_t map, size_t firstPass) {
+  const EnvironmentMap& planned = info.plan.maps[map];
+  OffScreen& target = environmentTargets_[map];
+  const auto size = static_cast<uint32_t>(planned.size);
+  for (size_t face = 0; face < planned.faces.size(); ++face) {
+    const glm::ivec2 corner = faceCorner(planned, face);
+    const PlannedPass& pass = planned.faces[face];
+    RecordedPass recorded{.name = "environment of " + planned.name + " " + faceAxes()[face].name,
+                          .areaPx = pass.areaPx};
+    const VkRect2D area{{corner.x, corner.y}, {size, size}};
+    const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
+    const PassDesc desc{.name = recorded.name,
+                        .targets = target.targets(),
+                        .renderArea = area,
+                        .viewport = {static_cast<float>(corner.x), static_cast<float>(corner.y),
+                                     static_cast<float>(size), static_cast<float>(size)},
+                        .scissor = area,
+                        .frontFace = frontFace(pass.view),
+                        .clearColor = clearColor(info.environment),
+                        .collectStatistics = true};
+    {
+      PassScope scope = renderer_.beginPass(frame, desc);
+      scope.countSamples();
+      recorded.draws = recordSystems(scope, info, firstPass + face, {.samples = target.samples()});
+    }
+    ledger_[EffectKind::curved].draws = drawsBefore + recorded.draws;  // curved mirrors in it were entered already
+    recorded_.push_back(std::move(recorded));
+  }
+  checkTarget(frame, info, target, {3 * size, 2 * size});
+}
+
 void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index) {
   const PlannedPass& pass = info.plan.passes[index];
   const View& view = pass.view;
@@ -318,7 +381,7 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
 }
 
 void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
-  PassDesc desc = fullPass("main view", main_->targets());
+  PassDesc desc = fullPass(mainName, main_->targets());
   desc.clearColor = clearColor(info.environment);
   desc.frontFace = frontFace(info.plan.main.view);
   desc.collectStatistics = true;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "image/image.hpp"
+#include "systems/environment_targets.hpp"
 #include "systems/finite_watch.hpp"
 #include "systems/frame_info.hpp"
 #include "systems/image_pool.hpp"
@@ -52,6 +53,7 @@ class SceneRenderer {
 
   // The images that this frame can be planned with: of the plan recorded last; none if a shader is new since then.
   std::span<const HeldImage> heldImages() const;
+  std::span<const EnvironmentMap> environmentMaps() const;
   // Forgets them and every target of mirror images, so that what is drawn from now on does not depend on what was.
   void restart();
 
@@ -82,6 +84,8 @@ class SceneRenderer {
   void takeHeldImages(const FramePlan& plan);
   void keepHeldImages(const FramePlan& plan);
   void prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
+  void prepareMaps(Frame& frame, const FramePlan& plan);
+  void recordMap(Frame& frame, const FrameInfo& info, size_t map, size_t firstPass);
   void recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index);
   void recordMainPass(Frame& frame, const FrameInfo& info);
   bool keepsDepth(size_t pass) const { return depthPass_ == static_cast<int>(pass); }
@@ -123,6 +127,8 @@ class SceneRenderer {
   std::vector<MirrorImage> heldImages_;  // of the present plan's held images
   uint64_t heldRevision_ = 0;            // of the pipelines that rendered them
   bool restart_ = false;                 // before the next frame
+  EnvironmentTargets environmentTargets_;
+  std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
   SamplerHandle coverSampler_;
   Image cover_;  // empty: none
   std::vector<RecordedPass> recorded_;

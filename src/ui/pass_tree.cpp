@@ -34,9 +34,8 @@ std::vector<PassNode> passTree(std::span<const UiPass> passes, std::span<const U
     if (!passes[i].path.empty()) {
       continue;
     }
-    // The first of them is the main view.
     const int pass = static_cast<int>(i);
-    roots.push_back(roots.empty() ? nodeOf(pass, passes, skipped) : PassNode{.pass = pass});
+    roots.push_back(passes[i].name == "main view" ? nodeOf(pass, passes, skipped) : PassNode{.pass = pass});
   }
   return roots;
 }

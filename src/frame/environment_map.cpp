@@ -1,0 +1,186 @@
+#include "frame/environment_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "frame/scene_names.hpp"
+
+namespace speculum {
+
+namespace {
+
+struct Box {
+  glm::dvec3 low{1e300};
+  glm::dvec3 high{-1e300};
+
+  void add(const glm::dvec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+};
+
+// Of each instance, in their order, then of each mirror.
+std::vector<Box> boxesOf(const Scene& scene, const SceneState& state) {
+  std::vector<Box> boxes;
+  for (const InstanceState& instance : state.instances) {
+    const glm::dvec3& half = scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent;
+    glm::dvec3 reach(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      reach += glm::abs(instance.worldFromMesh.linear[axis]) * half[axis];
+    }
+    Box& box = boxes.emplace_back();
+    box.add(instance.worldFromMesh.translation - reach);
+    box.add(instance.worldFromMesh.translation + reach);
+  }
+  for (const MirrorState& mirror : state.mirrors) {
+    Box& box = boxes.emplace_back();
+    std::for_each(mirror.polygon.begin(), mirror.polygon.end(), [&](const glm::dvec3& p) { box.add(p); });
+  }
+  return boxes;
+}
+
+// The box that surrounds boxes[own]: on each side it reaches to the near face of what lies farthest there, such as a
+// wall, or to the far face of what has the object inside, such as a room; where there is neither, to the end of all.
+Box boxAround(size_t own, std::span<const Box> boxes) {
+  const Box& inner = boxes[own];
+  Box all = inner;
+  Box around = inner;
+  glm::bvec3 lowFound(false);
+  glm::bvec3 highFound(false);
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const Box& box = boxes[i];
+    all.add(box.low);
+    all.add(box.high);
+    const glm::bvec3 above = glm::greaterThanEqual(box.low, inner.high);
+    const glm::bvec3 below = glm::lessThanEqual(box.high, inner.low);
+    const bool encloses = i != own && !glm::any(above) && !glm::any(below);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (above[axis] || encloses) {
+        around.high[axis] = std::max(around.high[axis], encloses ? box.high[axis] : box.low[axis]);
+        highFound[axis] = true;
+      }
+      if (below[axis] || encloses) {
+        around.low[axis] = std::min(around.low[axis], encloses ? box.low[axis] : box.high[axis]);
+        lowFound[axis] = true;
+      }
+    }
+  }
+  around.low = glm::mix(all.low, around.low, lowFound);
+  around.high = glm::mix(all.high, around.high, highFound);
+  return around;
+}
+
+// As at a limit of depth: what is seen in it is not rendered.
+void addMirror(const Mirror& material, const MirrorState& mirror, int index, PlannedPass& face) {
+  const double height = glm::dot(mirror.normal, face.view.eye - mirror.origin);
+  MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
+  draw.back = height < 0.0 && !material.twoSided;
+  draw.polygon = drawnPart(face.view, mirror.polygon);
+  if (height == 0.0 || draw.polygon.empty()) {
+    return;
+  }
+  if (height < 0.0) {
+    draw.plane.normal = -draw.plane.normal;
+    std::reverse(draw.polygon.begin(), draw.polygon.end());
+  }
+  face.mirrors.push_back(std::move(draw));
+}
+
+PlannedPass faceOf(const Scene& scene, const SceneState& state, const EnvironmentMap& map, const FaceAxes& axes) {
+  CameraPose pose;
+  pose.eye = map.center;
+  pose.worldToView = glm::transpose(glm::dmat3(glm::cross(axes.forward, axes.up), axes.up, -axes.forward));  // its rows
+  PlannedPass face;
+  face.view = mainView(pose, map.projection, map.size, map.size);
+  face.areaPx = face.view.rect.area();
+  for (int i = 0; i < static_cast<int>(state.instances.size()); ++i) {
+    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    if (i != map.instance && sphereVisible(face.view, instance.center, instance.radius) &&
+        boxVisible(face.view, instance.worldFromMesh, scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent)) {
+      face.instances.push_back(i);
+    }
+  }
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    if (scene.lights[i].glow > 0.0 && sphereVisible(face.view, state.lights[i].position, scene.lights[i].radius)) {
+      face.lights.push_back(static_cast<int>(i));
+    }
+  }
+  for (size_t i = 0; i < scene.mirrors.size(); ++i) {
+    addMirror(scene.mirrors[i], state.mirrors[i], static_cast<int>(i), face);
+  }
+  return face;
+}
+
+// Instances that are curved mirrors and drawn, ascending.
+std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const PlannedPass* const> passes) {
+  std::set<int> drawn;
+  for (const PlannedPass* pass : passes) {
+    for (const int i : pass->instances) {
+      if (scene.objects[static_cast<size_t>(state.instances[static_cast<size_t>(i)].object)].mirror) {
+        drawn.insert(i);
+      }
+    }
+  }
+  std::vector<int> curved(drawn.begin(), drawn.end());
+  if (curved.size() > mostEnvironmentMaps) {
+    const auto width = [&](int i) {
+      const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+      return instance.radius / std::max(1e-9, glm::length(instance.center - state.camera.eye));
+    };
+    std::stable_sort(curved.begin(), curved.end(), [&](int a, int b) { return width(a) > width(b); });
+    curved.resize(mostEnvironmentMaps);
+    std::sort(curved.begin(), curved.end());
+  }
+  return curved;
+}
+
+std::string mapName(const Scene& scene, const InstanceState& instance) {
+  const Object& object = scene.objects[static_cast<size_t>(instance.object)];
+  return nameOf("object", object.name, instance.object) +
+         (object.copies.count > 1 ? " copy " + std::to_string(instance.copy) : "");
+}
+
+}  // namespace
+
+std::span<const FaceAxes> faceAxes() {
+  static const std::array<FaceAxes, 6> axes = {{{"+x", {1, 0, 0}, {0, 1, 0}},
+                                                {"-x", {-1, 0, 0}, {0, 1, 0}},
+                                                {"+y", {0, 1, 0}, {0, 0, 1}},
+                                                {"-y", {0, -1, 0}, {0, 0, 1}},
+                                                {"+z", {0, 0, 1}, {0, 1, 0}},
+                                                {"-z", {0, 0, -1}, {0, 1, 0}}}};
+  return axes;
+}
+
+std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                                            std::span<const PlannedPass* const> passes) {
+  std::vector<EnvironmentMap> maps;
+  if (!settings.effects.curved || settings.effects.curvedLookup != CurvedLookup::environment) {
+    return maps;
+  }
+  const std::vector<Box> boxes = boxesOf(scene, state);
+  for (const int i : drawnCurved(scene, state, passes)) {
+    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const Box box = boxAround(static_cast<size_t>(i), boxes);
+    EnvironmentMap map{.object = instance.object,
+                       .copy = instance.copy,
+                       .instance = i,
+                       .name = mapName(scene, instance),
+                       .size = settings.effects.environmentSize,
+                       .center = instance.center,
+                       .low = box.low,
+                       .high = box.high,
+                       .settings = settings};
+    map.projection.focal = static_cast<double>(map.size - 2 * environmentBorder) / map.size;
+    map.projection.aspect = 1.0;
+    map.projection.near = std::min(state.camera.near, map.projection.near);
+    for (const FaceAxes& axes : faceAxes()) {
+      map.faces.push_back(faceOf(scene, state, map, axes));
+    }
+    maps.push_back(std::move(map));
+  }
+  return maps;
+}
+
+}  // namespace speculum

@@ -1,0 +1,67 @@
+#include "systems/environment_targets.hpp"
+
+#include <utility>
+
+namespace speculum {
+
+EnvironmentTargets::EnvironmentTargets(Device& device) : device_(device) {}
+
+void EnvironmentTargets::restart() {
+  held_.clear();
+  targets_.clear();
+  restart_ = true;
+}
+
+void EnvironmentTargets::release(RetireQueue& retired) {
+  if (depth_) {
+    pool_->clear(retired);
+    pool_.reset();
+    depth_->trim({0, 0}, retired);
+    depth_.reset();
+  }
+}
+
+void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
+  std::vector<OffScreen*> targets(plan.maps.size(), nullptr);
+  for (size_t i = 0; i < plan.maps.size(); ++i) {
+    if (plan.maps[i].earlier >= 0) {
+      targets[i] = std::exchange(targets_[static_cast<size_t>(plan.maps[i].earlier)], nullptr);
+    }
+  }
+  for (const OffScreen* unused : targets_) {
+    if (unused) {
+      pool_->release(*unused);
+    }
+  }
+  if (std::exchange(restart_, false)) {
+    release(retired);
+  }
+  for (size_t i = 0; i < plan.maps.size(); ++i) {
+    if (targets[i]) {
+      continue;
+    }
+    if (!depth_) {
+      depth_ = std::make_unique<SharedDepth>(device_, VK_SAMPLE_COUNT_1_BIT, "environment maps");
+      pool_ = std::make_unique<ImagePool>(device_, *depth_, "environment map");
+    }
+    const auto size = static_cast<uint32_t>(plan.maps[i].size);
+    targets[i] = &pool_->acquire({3 * size, 2 * size}, retired);
+  }
+  targets_ = std::move(targets);
+}
+
+void EnvironmentTargets::endFrame(const FramePlan& plan, RetireQueue& retired) {
+  held_ = plan.maps;
+  if (pool_) {
+    pool_->endFrame(retired);
+    if (pool_->empty()) {
+      release(retired);
+    }
+  }
+}
+
+uint64_t EnvironmentTargets::bytes() const {
+  return pool_ ? pool_->bytes() + depth_->bytes() : 0;
+}
+
+}  // namespace speculum

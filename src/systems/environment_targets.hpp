@@ -1,0 +1,34 @@
+#pragma once
+
+#include "systems/frame_data.hpp"
+#include "systems/image_pool.hpp"
+
+namespace speculum {
+
+// The targets of environment maps: six faces in each, three to a row. Nothing exists while no frame has a map.
+class EnvironmentTargets {
+ public:
+  explicit EnvironmentTargets(Device& device);
+
+  // The maps that the next frame can be planned with; see SceneRenderer::heldImages.
+  std::span<const EnvironmentMap> held() const { return held_; }
+  void restart();  // forgets them
+
+  // Takes the targets of the plan's maps, at the start of its frame; those of other maps become free.
+  void prepare(const FramePlan& plan, RetireQueue& retired);
+  OffScreen& operator[](size_t map) { return *targets_[map]; }
+  void endFrame(const FramePlan& plan, RetireQueue& retired);
+  uint64_t bytes() const;
+
+ private:
+  void release(RetireQueue& retired);
+
+  Device& device_;
+  std::unique_ptr<SharedDepth> depth_;
+  std::unique_ptr<ImagePool> pool_;
+  std::vector<OffScreen*> targets_;  // of held_ between frames, of the plan's maps in one
+  std::vector<EnvironmentMap> held_;
+  bool restart_ = false;
+};
+
+}  // namespace speculum

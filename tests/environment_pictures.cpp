@@ -1,0 +1,287 @@
+// Curved mirrors that look up environment maps, against the ray tracer: the error falls along the size of the faces and
+// with the correction by a box. What they cost, and that they give it back, is in effects_ledger.cpp.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/stats.hpp"
+#include "truth_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{240, 180};
+
+// A room with a pattern on its floor, ceiling and walls, and a ball off its middle; without highlights, which a map
+// shows as its centre sees them. `rest` adds to it.
+std::filesystem::path room(const std::string& name, const std::string& rest = "") {
+  return writeScene("environment_" + name, R"(
+[environment]
+background = [0.25, 0.3, 0.4]
+ambient = [0.2, 0.2, 0.2]
+[camera]
+position = [-0.6, 1.3, 2.4]
+target = [0.3, 1.1, 0.2]
+vertical_fov = 36
+[settings]
+"reflection.max_depth" = 1
+[[object]]
+name = "ball"
+model = "MODELS/sphere.obj"
+position = [0.3, 1.1, 0.2]
+scale = 1.2
+mirror = { reflectance = [0.9, 0.9, 0.9] }
+[[object]]
+model = "MODELS/block.obj"
+position = [0, -0.2, 0]
+scale = [6.4, 0.2, 6.4]
+color = [0.5, 0.5, 0.5]
+specular = [0, 0, 0]
+[[object]]
+model = "MODELS/block.obj"
+position = [-2.4, 0, 0]
+scale = [0.4, 0.002, 6]
+color = [0.05, 0.05, 0.05]
+specular = [0, 0, 0]
+copies = { count = 7, step = [0.8, 0, 0] }
+[[object]]
+model = "MODELS/block.obj"
+position = [0, 3, 0]
+scale = [6.4, 0.2, 6.4]
+color = [0.8, 0.8, 0.7]
+specular = [0, 0, 0]
+[[object]]
+model = "MODELS/block.obj"
+position = [-3.1, 0, 0]
+scale = [0.2, 3, 6.4]
+color = [0.7, 0.2, 0.1]
+specular = [0, 0, 0]
+copies = { count = 2, step = [6.2, 0, 0] }
+[[object]]
+model = "MODELS/block.obj"
+position = [0, 0, -3.1]
+scale = [6.4, 3, 0.2]
+color = [0.1, 0.3, 0.7]
+specular = [0, 0, 0]
+copies = { count = 2, step = [0, 0, 6.2] }
+[[object]]
+model = "MODELS/block.obj"
+position = [-2.4, 0.5, -2.999]
+scale = [0.4, 2, 0.002]
+color = [0.9, 0.8, 0.2]
+specular = [0, 0, 0]
+copies = { count = 7, step = [0.8, 0, 0] }
+[[object]]
+model = "MODELS/block.obj"
+position = [-2.4, 0.5, 2.999]
+scale = [0.4, 2, 0.002]
+color = [0.1, 0.1, 0.1]
+specular = [0, 0, 0]
+copies = { count = 7, step = [0.8, 0, 0] }
+[[object]]
+model = "MODELS/block.obj"
+position = [2.999, 0.5, -2.4]
+scale = [0.002, 2, 0.4]
+color = [0.9, 0.9, 0.9]
+specular = [0, 0, 0]
+copies = { count = 7, step = [0, 0, 0.8] }
+[[object]]
+model = "MODELS/block.obj"
+position = [-2.999, 0.5, -2.4]
+scale = [0.002, 2, 0.4]
+color = [0.1, 0.6, 0.1]
+specular = [0, 0, 0]
+copies = { count = 7, step = [0, 0, 0.8] }
+[[light]]
+position = [-1, 2.6, 1]
+intensity = 18
+glow = 0
+)" + rest);
+}
+
+Options mapped(const std::filesystem::path& file, std::vector<std::pair<std::string, std::string>> more = {}) {
+  Options options = headless(file, size);
+  set(options, {{"effects.curved_lookup", "environment"}, {"view.samples", "1"}, {"reflection.samples", "1"}});
+  set(options, more);
+  return options;
+}
+
+// Root mean square, in display values, of the pixels that show the ball.
+class BallError {
+ public:
+  explicit BallError(const std::filesystem::path& file) : truth_(trace(file, size, 1).picture) {
+    Options plain = headless(file, size);
+    set(plain, {{"view.samples", "1"}, {"effects.curved", "false"}});
+    const Image8 without = draw(plain);
+    for (size_t i = 0; i < truth_.rgba.size(); i += 4) {
+      int most = 0;
+      for (size_t channel = i; channel < i + 3; ++channel) {
+        most = std::max(most, std::abs(without.rgba[channel] - truth_.rgba[channel]));
+      }
+      counts_.push_back(most > 4);
+    }
+  }
+  double of(const Image8& drawn) const {
+    double sum = 0.0;
+    int pixels = 0;
+    for (size_t i = 0; i < counts_.size(); ++i) {
+      for (size_t channel = 0; counts_[i] && channel < 3; ++channel) {
+        const double d = (drawn.rgba[4 * i + channel] - truth_.rgba[4 * i + channel]) / 255.0;
+        sum += d * d / 3.0;
+      }
+      pixels += counts_[i];
+    }
+    EXPECT_GT(pixels, 4000);
+    return std::sqrt(sum / pixels);
+  }
+
+ private:
+  Image8 truth_;
+  std::vector<bool> counts_;
+};
+
+TEST(EnvironmentMaps, ErrorFallsAlongTheSizeOfTheFacesAndWithTheBox) {
+  const std::filesystem::path file = room("error");
+  const BallError error(file);
+  const auto measured = [&](int faces, const char* box) {
+    const double e = error.of(
+        draw(mapped(file, {{"effects.environment_size", std::to_string(faces)}, {"effects.environment_box", box}})));
+    std::printf("faces of %4d texels, box %-5s: RMSE %.4f\n", faces, box, e);
+    return e;
+  };
+  double before = 1.0;
+  for (const int faces : {16, 32, 64, 128, 256, 512}) {
+    const double e = measured(faces, "true");
+    EXPECT_LT(e, 0.85 * before);
+    before = e;
+  }
+  EXPECT_LT(before, 0.2 * measured(512, "false"));
+  EXPECT_LT(measured(64, "true"), 0.5 * measured(64, "false"));
+}
+
+// Of a ball before the sky nothing is looked up but the background, which is exact.
+TEST(EnvironmentMaps, TheSkyIsExact) {
+  const std::filesystem::path file = writeScene("environment_sky", R"(
+[environment]
+sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.6], ground = [0.2, 0.15, 0.1] }
+[camera]
+position = [1e5, 1.2, 3]
+target = [1e5, 1, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [1e5, 1, 0]
+scale = 1.6
+mirror = { reflectance = [0.9, 0.8, 0.7], fresnel = "schlick", base_color = [0.1, 0, 0] }
+[[light]]
+position = [1e5, 4, 3]
+intensity = 9
+glow = 0
+)");
+  expectAlike(draw(mapped(file, {{"effects.environment_size", "16"}})), trace(file, size, 1).picture, 2,
+              "environment_sky");
+}
+
+// Beyond a limit the map is not looked up.
+TEST(EnvironmentMaps, AtALimitTheBackgroundIsShown) {
+  const std::filesystem::path file = room("limit");
+  Options environment = mapped(file, {{"reflection.max_depth", "0"}});
+  Options traced = environment;
+  set(traced, {{"effects.curved_lookup", "traced"}});
+  expectAlike(draw(environment), draw(traced), 2, "environment_limit");
+}
+
+const std::string everything = R"(
+[[light]]
+position = [1, 2, 1.5]
+intensity = 9
+casts_shadow = true
+[[object]]
+model = "MODELS/teapot.obj"
+position = [-1.2, 0, 0]
+mirror = { base_color = [0.2, 0, 0] }
+[[mirror]]
+name = "wall"
+position = [0, 1.4, -2.98]
+size = [4, 2]
+casts_light = true
+)";
+
+TEST(EnvironmentMaps, BothRenderPathsDrawTheSameBytes) {
+  Options dynamic = mapped(room("paths", everything), {{"view.samples", "4"}, {"reflection.samples", "4"}, {"effects.environment_size", "64"}});
+  Options passes = dynamic;
+  passes.renderPath = RenderPath::renderPass;
+  EXPECT_EQ(draw(dynamic).rgba, draw(passes).rgba);
+}
+
+std::vector<std::string> mapPasses(Session& session, double time) {
+  session.draw(time, true);
+  session.finish();
+  std::vector<std::string> names;
+  const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
+  for (const auto& pass : stats["passes"]) {
+    const std::string name = pass["name"];
+    if (name.rfind("environment of ", 0) == 0) {
+      EXPECT_TRUE(pass["mirror"].is_null() && pass["depth"].is_null() && pass["parent"].is_null());
+      EXPECT_GT(pass["draws"], 0) << name;
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+TEST(EnvironmentMaps, FacesAreListedWhenTheyAreRendered) {
+  Session session(mapped(room("faces")));
+  const std::vector<std::string> names = mapPasses(session, 0.0);
+  ASSERT_EQ(names.size(), 6u);
+  EXPECT_EQ(names[0], "environment of object 'ball' +x");
+  EXPECT_EQ(names[5], "environment of object 'ball' -z");
+  const Image8 first = session.picture();
+  EXPECT_TRUE(mapPasses(session, 0.0).empty()) << "nothing changed";
+  EXPECT_EQ(session.picture().rgba, first.rgba);
+  Settings settings = session.settings();
+  settings.reflection.skipUnchanged = false;
+  session.setSettings(settings);
+  EXPECT_EQ(mapPasses(session, 0.0).size(), 6u);
+  EXPECT_EQ(session.picture().rgba, first.rgba);
+  expectQuiet(session);
+}
+
+// A map and what shows it, with everything that moves: the same bytes whether what is unchanged is skipped or not.
+TEST(EnvironmentMaps, SkippingChangesNoByte) {
+  const std::filesystem::path file = room(
+      "skipping", everything + "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [1.4, 0, 1]\nspin = [0, 90, 0]\n");
+  for (const char* interval : {"1", "3"}) {
+    Options options = mapped(file, {{"effects.environment_interval", interval}, {"effects.environment_size", "64"}});
+    options.size = {120, 90};
+    Session skipping(options);
+    int captures = 0;
+    std::vector<std::vector<uint8_t>> pictures;
+    const std::vector<double> times = {0.0, 0.0, 0.1, 0.2, 0.2, 0.2, 0.2, 0.0};
+    for (const double time : times) {
+      captures += static_cast<int>(mapPasses(skipping, time).size()) / 6;
+      pictures.push_back(skipping.picture().rgba);
+    }
+    if (std::string(interval) == "1") {
+      set(options, {{"reflection.skip_unchanged", "false"}});
+      Session rendering(options);
+      for (size_t i = 0; i < times.size(); ++i) {
+        EXPECT_EQ(mapPasses(rendering, times[i]).size(), 12u);
+        EXPECT_EQ(rendering.picture().rgba, pictures[i]) << "frame " << i;
+      }
+      EXPECT_EQ(captures, 8) << "two maps in the four frames in which the king had turned";
+      expectQuiet(rendering);
+    } else {
+      EXPECT_LT(captures, 8);
+      // At rest every map comes due, and the mirror that shows them is rendered after them.
+      Session fresh(options);
+      mapPasses(fresh, 0.2);
+      EXPECT_EQ(pictures[6], fresh.picture().rgba);
+    }
+    expectQuiet(skipping);
+  }
+}
+
+}  // namespace
+}  // namespace speculum

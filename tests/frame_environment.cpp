@@ -1,0 +1,235 @@
+// Environment maps: which curved mirrors have one, what is in it, when it is rendered. Without a GPU.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "frame/effects.hpp"
+#include "frame/environment_map.hpp"
+#include "frame/memory_fit.hpp"
+#include "frame/traced_effects.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr int width = 320;
+constexpr int height = 180;
+
+Mesh cube() {
+  Mesh mesh;
+  mesh.halfExtent = glm::dvec3(0.5);
+  mesh.radius = 0.9;
+  mesh.parts.resize(1);
+  mesh.indices = {0, 0, 0};
+  mesh.vertices.resize(1);
+  return mesh;
+}
+
+Object at(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1.0)) {
+  Object object;
+  object.mesh = 0;
+  object.position = position;
+  object.scale = scale;
+  return object;
+}
+
+enum { ball, wall, box };  // objects
+
+// A curved mirror before the camera, a wall 4 m to its right whose near face is at x = 3.5, and a box behind the
+// camera.
+Scene room() {
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  scene.meshes = {cube()};
+  scene.objects = {at({0, 0, -4}), at({4, 0, -4}, {1, 8, 8}), at({0, 0, 6})};
+  scene.objects[ball].mirror.emplace();
+  scene.objects[ball].name = "ball";
+  PointLight light;
+  light.position = {0, 2, 0};
+  light.glow = 0.0;
+  scene.lights = {light};
+  return scene;
+}
+
+class Frames {
+ public:
+  explicit Frames(Scene s) : scene(std::move(s)) { settings.effects.curvedLookup = CurvedLookup::environment; }
+  const FramePlan& next() {
+    plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, plan.held, plan.maps);
+    return plan;
+  }
+  // In the next frame.
+  int rendered() {
+    next();
+    return static_cast<int>(
+        std::count_if(plan.maps.begin(), plan.maps.end(), [](const EnvironmentMap& m) { return m.earlier < 0; }));
+  }
+
+  Scene scene;
+  Settings settings;
+  FramePlan plan;
+};
+
+TEST(EnvironmentMap, IsCalledForWhereACurvedMirrorIsDrawn) {
+  Frames frames(room());
+  ASSERT_EQ(frames.next().maps.size(), 1u);
+  EXPECT_EQ(frames.plan.maps[0].name, "object 'ball'");
+  EXPECT_EQ(frames.plan.maps[0].object, ball);
+  frames.settings.effects.curvedLookup = CurvedLookup::traced;
+  EXPECT_TRUE(frames.next().maps.empty());
+  frames.settings.effects.curvedLookup = CurvedLookup::environment;
+  frames.settings.effects.curved = false;
+  EXPECT_TRUE(frames.next().maps.empty());
+  frames.settings.effects.curved = true;
+  frames.scene.camera.target = {0, 0, 1};
+  EXPECT_TRUE(frames.next().maps.empty()) << "out of sight";
+  Mirror mirror;
+  mirror.position = {0, 0, 3};
+  mirror.rotation = {0, 180, 0};
+  mirror.size = {4, 4};
+  frames.scene.mirrors = {mirror};
+  EXPECT_EQ(frames.next().maps.size(), 1u) << "seen in a mirror";
+}
+
+TEST(EnvironmentMap, NoRayIsTracedForIt) {
+  Frames frames(room());
+  frames.next();
+  const SceneState state = evaluate(frames.scene, 0.0);
+  const TracedEffects effects = tracedEffects(frames.scene, state, frames.settings, frames.plan);
+  EXPECT_EQ(effects.curved, "object 'ball'");
+  EXPECT_FALSE(effects.any());
+  const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .tracesRays = false},
+                                       frames.scene, state, frames.settings, width, height);
+  EXPECT_EQ(fitted.plan.maps.size(), 1u) << "a device that cannot trace rays draws it";
+  EXPECT_TRUE(fitted.message.empty());
+}
+
+// Every direction is within a face, and what stands there is among what the face draws; the object itself is in none.
+TEST(EnvironmentMap, FacesCoverAllDirections) {
+  Frames frames(room());
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 2.399963 * i;  // the golden angle: evenly over the sphere
+    const double y = 1.0 - 2.0 * (i + 0.5) / 40.0;
+    const double r = std::sqrt(1.0 - y * y);
+    frames.scene.objects[box].position =
+        frames.scene.objects[ball].position + 9.0 * glm::dvec3(r * std::cos(angle), y, r * std::sin(angle));
+    const EnvironmentMap& map = frames.next().maps.at(0);
+    const SceneState state = evaluate(frames.scene, 0.0);
+    ASSERT_EQ(map.faces.size(), 6u);
+    int seen = 0;
+    for (const PlannedPass& face : map.faces) {
+      for (const int instance : face.instances) {
+        EXPECT_NE(state.instances[static_cast<size_t>(instance)].object, ball);
+        seen += state.instances[static_cast<size_t>(instance)].object == box;
+      }
+    }
+    EXPECT_GE(seen, 1) << "direction " << i;
+  }
+  // A face's edge lies a texel within its image.
+  const EnvironmentMap& map = frames.plan.maps[0];
+  const View& face = map.faces[0].view;
+  const glm::dvec4 clip = map.projection.clip(face.worldToView * glm::dvec3(1, 1, 1));
+  EXPECT_NEAR((0.5 + 0.5 * clip.x / clip.w) * map.size, map.size - environmentBorder, 1e-9);
+  EXPECT_GT(clip.w, 0.0);
+}
+
+TEST(EnvironmentMap, TheBoxReachesToTheNearFacesOfWhatIsFarthest) {
+  Frames frames(room());
+  const EnvironmentMap& map = frames.next().maps.at(0);
+  EXPECT_NEAR(map.high.x, 3.5, 1e-12) << "the wall's near face";
+  EXPECT_NEAR(map.high.z, 5.5, 1e-12) << "the box's";
+  EXPECT_NEAR(map.low.x, -0.5, 1e-12) << "nothing there: the end of all there is";
+  EXPECT_NEAR(map.low.z, -8.0, 1e-12) << "the wall's end";
+  frames.scene.objects.push_back(at({0, 0, 0}, {30, 20, 40}));
+  EXPECT_EQ(frames.next().maps.at(0).low, glm::dvec3(-15, -10, -20)) << "a room around everything";
+  EXPECT_EQ(frames.plan.maps.at(0).high, glm::dvec3(15, 10, 20));
+}
+
+TEST(EnvironmentMap, IsRenderedWhenWhatItShowsChanged) {
+  Frames frames(room());
+  EXPECT_EQ(frames.rendered(), 1);
+  EXPECT_EQ(frames.rendered(), 0);
+  const int serial = frames.plan.maps[0].serial;
+  frames.scene.camera.position.x += 0.1;
+  frames.scene.camera.target.x += 0.1;
+  EXPECT_EQ(frames.rendered(), 0) << "a map does not depend on who looks";
+  EXPECT_EQ(frames.plan.maps[0].serial, serial);
+  frames.scene.objects[box].color = glm::dvec3(0.5);
+  EXPECT_EQ(frames.rendered(), 1);
+  EXPECT_GT(frames.plan.maps[0].serial, serial);
+  frames.scene.objects[ball].position.y += 0.1;
+  EXPECT_EQ(frames.rendered(), 1);
+  frames.scene.objects[ball].mirror->reflectance *= 0.5;
+  EXPECT_EQ(frames.rendered(), 0) << "its own colour is not in it";
+  frames.settings.effects.environmentSize = 64;
+  EXPECT_EQ(frames.rendered(), 1);
+  EXPECT_EQ(frames.plan.maps[0].size, 64);
+  frames.settings.reflection.skipUnchanged = false;
+  EXPECT_EQ(frames.rendered(), 1);
+  EXPECT_EQ(frames.rendered(), 1);
+}
+
+TEST(EnvironmentMap, TakesTurnsWithAnInterval) {
+  Scene scene = room();
+  scene.objects[ball].copies = {.count = 4, .step = {0, 0.6, 0}};
+  Frames frames(scene);
+  frames.settings.effects.environmentInterval = 4;
+  EXPECT_EQ(frames.rendered(), 4);
+  int sum = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    frames.scene.lights[0].position.x += 0.1;
+    const int rendered = frames.rendered();
+    EXPECT_EQ(rendered, 1) << "frame " << frame;
+    sum += rendered;
+  }
+  EXPECT_EQ(sum, 8);
+}
+
+// An image that shows a map is as old as the map.
+TEST(EnvironmentMap, AnImageThatShowsItIsRenderedWithIt) {
+  Scene scene = room();
+  Mirror mirror;
+  mirror.position = {0, -2, -4};
+  mirror.rotation = {-90, 0, 0};
+  mirror.size = {6, 6};
+  scene.mirrors = {mirror};
+  Frames frames(scene);
+  frames.settings.effects.environmentInterval = 3;
+  frames.next();
+  ASSERT_EQ(frames.plan.passes.size(), 1u);
+  for (int frame = 0; frame < 6; ++frame) {
+    frames.scene.objects[box].position.y += frame == 0 ? 0.1 : 0.0;
+    const int serial = frames.plan.maps[0].serial;
+    frames.next();
+    const bool mapIsNew = frames.plan.maps[0].serial != serial;
+    EXPECT_EQ(frames.plan.passes.size(), frame == 0 || mapIsNew ? 1u : 0u) << "frame " << frame;
+  }
+}
+
+TEST(EnvironmentMap, OnlySoManyHaveOne) {
+  Scene scene = room();
+  scene.objects[ball].copies = {.count = 50, .step = {0, 0, -0.3}};
+  Frames frames(scene);
+  ASSERT_EQ(frames.next().maps.size(), mostEnvironmentMaps);
+  for (const EnvironmentMap& map : frames.plan.maps) {
+    EXPECT_LT(map.copy, static_cast<int>(mostEnvironmentMaps)) << "the nearest";
+  }
+}
+
+TEST(EnvironmentMap, MemoryCountsItAndLowersIt) {
+  Frames frames(room());
+  frames.next();
+  FramePlan without = frames.plan;
+  without.maps.clear();
+  const uint64_t bytes = 6ull * 256 * 256 * (8 + 4);
+  EXPECT_EQ(environmentBytes(frames.plan), bytes);
+  EXPECT_EQ(targetBytes(frames.plan, frames.settings), targetBytes(without, frames.settings) + bytes);
+  const FittedPlan fitted = planWithin({.budgetBytes = 1'500'000, .largestSide = 4096}, frames.scene,
+                                       evaluate(frames.scene, 0.0), frames.settings, width, height);
+  EXPECT_LT(fitted.settings.effects.environmentSize, 256);
+  EXPECT_LE(targetBytes(fitted.plan, fitted.settings), 1'500'000u);
+  EXPECT_NE(fitted.message.find("effects.environment_size to 128"), std::string::npos) << fitted.message;
+}
+
+}  // namespace
+}  // namespace speculum
