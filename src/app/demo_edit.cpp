@@ -179,7 +179,9 @@ void Demo::applyEdit() {
   editor_->apply(model_.edit);
   actOn(model_.edit.action);
   if (editor_->takeChanged()) {
-    sceneRenderer_->restart();
+    if (!sceneRenderer_->heldImages().empty()) {
+      sceneRenderer_->restart();
+    }
     if (model_.accuracy.showDifference) {
       sceneRenderer_->setCover({});
     }

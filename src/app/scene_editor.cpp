@@ -180,8 +180,9 @@ glm::dvec3 SceneEditor::placeAhead(const Look& look, double part) {
   const glm::dvec2 middle = 0.5 * look.picture.view().pictureSize;
   const std::vector<Picked> found = picker().at(look.state, look.picture, middle, {.maxDepth = 0});
   const double far = found.empty() ? farthestAhead : look.picture.depth(found[0].point);
-  const glm::dvec3 place = look.picture.eye() + look.picture.forward() * std::min(part * far, farthestAhead);
-  return glm::round(place * 100.0) / 100.0;
+  const double ahead = std::min(part * far, farthestAhead);
+  const double perMetre = std::pow(10.0, std::ceil(2.0 - std::log10(ahead)));  // hundredths of it, for short numbers
+  return glm::round((look.picture.eye() + look.picture.forward() * ahead) * perMetre) / perMetre;
 }
 
 void SceneEditor::add(const Look& look, EditAction kind, int mesh) {

@@ -150,6 +150,11 @@ void lightFields(Fields& fields, PointLight& light) {
                 "of the visible sphere, metres; nearer than that the light gets no stronger");
   fields.number("glow", "glow", light.glow, 0.01, 0.0, anyColor, "%.2f",
                 "radiance of the visible sphere by the color; 0 draws none");
+  if (light.orbit) {
+    fields.vec("orbit.center", "orbit about, m", light.orbit->center, 0.01, "point on the axis, metres");
+    fields.number("orbit.speed", "orbit, deg/s", light.orbit->speed, 0.5, -1e9, 1e9, "%.2f",
+                  "degrees a second by the right-hand rule");
+  }
   fields.check("casts_shadow", "casts shadow", light.castsShadow, "objects and mirrors hide the light");
 }
 
