@@ -118,6 +118,8 @@ TEST(SceneDocument, AGestureThatComesBackOrIsCancelledIsNone) {
   document.change("move", kTeapot, moveTeapot(0));
   document.endGesture();
   EXPECT_FALSE(document.canUndo());
+  document.change("move", kTeapot, moveTeapot(7));
+  document.undo();
   document.select(kLamp);
   document.beginGesture();
   document.change("move", kTeapot, moveTeapot(3));
@@ -127,6 +129,7 @@ TEST(SceneDocument, AGestureThatComesBackOrIsCancelledIsNone) {
   EXPECT_EQ(document.selection(), kLamp);
   EXPECT_GT(document.revision(), revision);
   EXPECT_FALSE(document.canUndo());
+  EXPECT_TRUE(document.canRedo()) << "what was undone before can still be redone";
 }
 
 TEST(SceneDocument, RevisionsTellValuesFromStructure) {

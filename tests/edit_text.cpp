@@ -147,6 +147,16 @@ TEST(EditedText, EnvironmentInEveryForm) {
       "ground = [1, 1, 1] }\n");
 }
 
+TEST(EditedText, ANewTableStandsBehindTheKeysThatAreAddedAboveIt) {
+  expectEdit(
+      kCamera,
+      [](Scene& s) {
+        s.environment.ambient = glm::dvec3(0.5);
+        s.camera.verticalFov = 40;
+      },
+      "", "vertical_fov = 40\n\n[environment]\nambient = [0.5, 0.5, 0.5]\n");
+}
+
 TEST(EditedText, LineBreaksOfDosAndNoneAtTheEnd) {
   const std::string dos =
       "[camera]\r\nposition = [0, 0, 4] # eye\r\ntarget = [0, 0, 0]\r\n\r\n[[light]]\r\nposition = [0, 1, 0]";

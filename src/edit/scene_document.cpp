@@ -88,12 +88,12 @@ void SceneDocument::noteChange(const SceneContent& before) {
 void SceneDocument::record(Step step) {
   noteChange(step.content);
   selection_ = step.after;
-  redo_.clear();
   if (gesture_) {
     gesture_->label = std::move(step.label);
     gesture_->after = step.after;
     return;
   }
+  redo_.clear();
   push(std::move(step));
 }
 
@@ -148,6 +148,7 @@ void SceneDocument::endGesture() {
   if (content() == step.content) {
     return;
   }
+  redo_.clear();
   push(std::move(step));
 }
 

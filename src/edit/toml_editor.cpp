@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 #include "edit/toml_text.hpp"
 
@@ -340,8 +341,9 @@ std::string TomlEditor::text() const {
   for (const auto& [list, change] : lists_) {
     resolve(*list, change, edits);
   }
+  // What is added to a table comes before a table that is added behind it.
   std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {
-    return a.range.begin != b.range.begin ? a.range.begin < b.range.begin : a.range.end < b.range.end;
+    return std::tuple(a.range.begin, a.range.end, a.block) < std::tuple(b.range.begin, b.range.end, b.block);
   });
   std::string result;
   size_t at = 0;

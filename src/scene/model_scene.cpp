@@ -50,9 +50,9 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
   const double r = mesh.radius;
   const double height = mesh.halfExtent.y + kGap * r;  // of the centre
   const glm::dvec3 center(0.0, height, 0.0);
-  const glm::dvec3 target = center - glm::dvec3(0.0, 0.12 * r, 0.0);
+  const glm::dvec3 target = center - glm::dvec3(0.0, 0.22 * r, 0.0);
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));
-  const glm::dvec3 eye = target + 1.22 * r / std::sin(glm::radians(0.5 * kFieldOfView)) * towards;
+  const glm::dvec3 eye = target + 1.3 * r / std::sin(glm::radians(0.5 * kFieldOfView)) * towards;
   std::string toml = fmt::format("# {} by itself, over a mirror of its size.\ntitle = {}\n\n",
                                  oneLine(file.filename().string()), quoted(file.stem().string()));
   toml +=

@@ -74,7 +74,8 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
     }
   };
   tell(0.0);
-  const ObjScan scan = scanObj(file, readText(file, file, 1, "file", "a Wavefront OBJ file is needed"));
+  const ObjScan scan = scanObj(file, readText(file, file, 1, "file", "a Wavefront OBJ file is needed"),
+                               [&](double part) { tell(kScanned * part); });
   ObjSink sink{.materials = ObjMaterials(file)};
   tinyobj::callback_t callback;
   callback.vertex_cb = &ObjSink::position;

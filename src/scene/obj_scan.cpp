@@ -266,12 +266,17 @@ std::string_view trimmed(std::string_view text) {
                                          : text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
-ObjScan scanObj(const std::filesystem::path& file, std::string_view text) {
+ObjScan scanObj(const std::filesystem::path& file, std::string_view text, const std::function<void(double)>& progress) {
+  constexpr int kOften = 1 << 14;  // lines
   ObjScan scan;
   LineScanner line(file, text, true);
   scan.text.reserve(text.size());
   while (line.next()) {
     scan.text.append(scanLine(line, scan)).push_back('\n');
+    if (progress && line.number() % kOften == 0) {
+      // What is kept of a line may be longer than the line.
+      progress(std::min(1.0, static_cast<double>(scan.text.size()) / static_cast<double>(text.size())));
+    }
   }
   return scan;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -20,8 +21,10 @@ struct ObjScan {
 };
 
 // Throws InputError for a malformed number, an index out of range, a face with fewer than 3 vertices, or bytes that are
-// not text. `file` only serves messages.
-ObjScan scanObj(const std::filesystem::path& file, std::string_view text);
+// not text. `file` only serves messages. `progress` is told the share that is done, now and then; what it throws ends
+// the scan.
+ObjScan scanObj(const std::filesystem::path& file, std::string_view text,
+                const std::function<void(double)>& progress = {});
 
 // What messages about a material need: where in its file it stands.
 struct MtlLines {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "edit/scene_document.hpp"
 #include "frame/frame_plan.hpp"
 #include "fuzz_support.hpp"
 #include "optics/polygon.hpp"
@@ -92,6 +93,37 @@ void useScene(Scene scene, Settings settings) {
   }
 }
 
+// A file that is saved unchanged is the same bytes; one that is edited reads back as edited, or save() would throw.
+void editScene(Scene scene, std::string_view text, const std::filesystem::path& file) {
+  SceneDocument document(scene);
+  require(document.text(file, {}) == text, "a scene that is saved unchanged is the same text");
+  document.change("everything", {}, [](Scene& edited) {
+    edited.environment.ambient = {0.125, 0.5, 0.3};
+    edited.environment.sky.reset();
+    edited.camera.verticalFov = 45.5;
+    for (Object& object : edited.objects) {
+      object.name += '!';
+      object.mirror = object.mirror ? std::optional<ObjectMirror>() : ObjectMirror();
+    }
+    for (PointLight& light : edited.lights) {
+      light.orbit = light.orbit ? std::optional<Orbit>() : Orbit{.speed = 2.0};
+    }
+    for (Mirror& mirror : edited.mirrors) {
+      mirror.ripple = mirror.ripple ? std::optional<Ripple>() : Ripple{.amplitude = 0.5};
+      mirror.roughness = 0.75;
+    }
+  });
+  document.addMirror({0.0, 1.0, 2.0}, {0.0, 1.0, 3.0});
+  document.addLight({0.0, 1.0, 2.0}, {0.0, 1.0, 3.0});
+  document.text(file, {});
+  document.remove({Selection::Kind::mirror, 0});
+  document.remove({Selection::Kind::light, 0});
+  if (!scene.objects.empty()) {
+    document.remove({Selection::Kind::object, 0});
+  }
+  document.text(file, {});
+}
+
 }  // namespace
 
 void checkScene(std::string_view text) {
@@ -109,6 +141,7 @@ void checkScene(std::string_view text) {
     settings = settingsOf(scene);
   });
   if (isScene) {
+    editScene(scene, text, file);
     useScene(std::move(scene), settings);
   }
 }
