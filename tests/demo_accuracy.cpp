@@ -11,7 +11,7 @@ using namespace testing_support;
 class AccuracyPanel : public DemoWindow {
  protected:
   explicit AccuracyPanel(const std::string& toml = windowScene) : DemoWindow(toml) {
-    click("accuracy");
+    click("panel.Accuracy");
     demo_->setCapture(true);
   }
   const UiAccuracy& accuracy() { return demo_->model().accuracy; }

@@ -76,10 +76,7 @@ TEST_F(Panels, LogShowsFiltersAndCopies) {
   EXPECT_NE(all.find("GPU "), std::string::npos) << "what was said at the start";
   click("log.filter");
   for (const char* key : {"d", "o", "g"}) {
-    xdotool({"keydown", "--window", windowId(), key});
-    run(2);
-    xdotool({"keyup", "--window", windowId(), key});
-    run(2);
+    press(key);
   }
   click("log.copy");
   EXPECT_EQ(demo_->window().clipboard(), "error: a lazy dog\n");

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "ui/panels.hpp"
+#include "ui/setting_help.hpp"
 
 namespace speculum::panels {
 
@@ -186,6 +187,7 @@ void budget(UiModel& model) {
       value = active ? usual : 0.0;
     }
     notePlace(model, key);
+    tip(settingHelp(key).c_str());
     if (active) {
       ImGui::SameLine();
       ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());

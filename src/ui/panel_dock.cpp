@@ -10,6 +10,8 @@ namespace speculum {
 
 namespace {
 
+constexpr float lowest = 12.0f;  // sizes of the font that a window is high at least
+
 float margin() {
   return std::floor(0.8f * ImGui::GetFontSize());
 }
@@ -33,16 +35,24 @@ PanelDock::Panel& PanelDock::panel(const char* name) {
   return found->second;
 }
 
+// Below the last window of the edge, lower than wanted where there is little room; beside it where there is none; over
+// it where there is none either.
 void PanelDock::place(Panel& panel, Edge edge, const glm::vec2& ems) {
   Column& column = edge == Edge::left ? left_ : right_;
+  const Column& other = edge == Edge::left ? right_ : left_;
+  const float em = ImGui::GetFontSize();
   const glm::vec2 display = displaySize();
   const glm::vec2 room = glm::max(display - 2.0f * margin(), glm::vec2(1.0f));
-  glm::vec2 size = glm::max(panel.size, glm::vec2(0.0f));
-  size.x = std::floor(std::min(size.x > 0.0f ? size.x : ems.x * ImGui::GetFontSize(), room.x));
-  size.y = std::floor(std::min(size.y > 0.0f ? size.y : ems.y > 0.0f ? ems.y * ImGui::GetFontSize() : room.y, room.y));
-  if (column.width > 0.0f && column.top + size.y > display.y - margin()) {
-    column = {.inset = column.inset + column.width + margin(), .top = margin()};
+  const glm::vec2 wanted(panel.size.x > 0.0f ? panel.size.x : ems.x * em,
+                         panel.size.y > 0.0f ? panel.size.y : ems.y > 0.0f ? ems.y * em : room.y);
+  glm::vec2 size = glm::floor(glm::min(wanted, room));
+  if (column.width > 0.0f && display.y - margin() - column.top < std::min(size.y, lowest * em)) {
+    const float beside = column.inset + column.width + margin();
+    const bool free = beside + size.x + other.inset + other.width + margin() <= display.x;
+    column = {.inset = free ? beside : column.inset, .top = free ? margin() : display.y - margin() - lowest * em};
   }
+  column.top = std::max(column.top, margin());
+  size.y = std::max(std::min(size.y, std::floor(display.y - margin() - column.top)), 1.0f);
   const float x = edge == Edge::left ? column.inset : std::max(display.x - column.inset - size.x, margin());
   const glm::vec2 corner(std::floor(x), std::floor(column.top));
   if (corner != panel.corner || size != panel.given) {

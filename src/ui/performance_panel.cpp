@@ -54,10 +54,10 @@ bool beginRows(const char* id) {
     return false;
   }
   const float em = ImGui::GetFontSize();
-  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 8.5f * em);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 8.0f * em);
   ImGui::TableSetupColumn("median", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
   ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
-  ImGui::TableSetupColumn("frames, newest right", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("newest right", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   return true;
 }

@@ -226,11 +226,11 @@ void SimpleUI::buildWindows(UiModel& model) {
     }
   };
   window("Scenes", choices_.scenes, {24.2f, 46.5f}, [&] { panels::gallery(model, thumbnails_); });
-  window("Performance", choices_.performance, {30.0f, 24.0f}, [&] { panels::performance(model); });
+  window("Performance", choices_.performance, {27.0f, 22.0f}, [&] { panels::performance(model); });
   model.accuracy.open = choices_.accuracy;
-  window("Accuracy", choices_.accuracy, {28.5f, 36.0f}, [&] { panels::accuracy(model); });
-  window("Device", choices_.device, {30.0f, 30.0f}, [&] { panels::device(model); });
-  window("Log", choices_.log, {30.0f, 16.0f}, [&] { panels::log(model); });
+  window("Accuracy", choices_.accuracy, {27.0f, 36.0f}, [&] { panels::accuracy(model); });
+  window("Device", choices_.device, {27.0f, 30.0f}, [&] { panels::device(model); });
+  window("Log", choices_.log, {27.0f, 14.0f}, [&] { panels::log(model); });
   buildTargets(model);
   if (choices_ != savedChoices_) {
     savedChoices_ = choices_;
@@ -282,7 +282,7 @@ void SimpleUI::buildTargets(UiModel& model) {
   if (choices_.targets) {
     constexpr ImGuiWindowFlags flags =
         ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
-    if (dock_.begin("Targets", &choices_.targets, PanelDock::Edge::right, {32.0f, 25.0f}, flags)) {
+    if (dock_.begin("Targets", &choices_.targets, PanelDock::Edge::right, {27.0f, 22.0f}, flags)) {
       panels::targets(model);
     }
     ImGui::End();
