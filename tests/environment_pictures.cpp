@@ -209,7 +209,8 @@ casts_light = true
 )";
 
 TEST(EnvironmentMaps, BothRenderPathsDrawTheSameBytes) {
-  Options dynamic = mapped(room("paths", everything), {{"view.samples", "4"}, {"reflection.samples", "4"}, {"effects.environment_size", "64"}});
+  Options dynamic = mapped(room("paths", everything),
+                           {{"view.samples", "4"}, {"reflection.samples", "4"}, {"effects.environment_size", "64"}});
   Options passes = dynamic;
   passes.renderPath = RenderPath::renderPass;
   EXPECT_EQ(draw(dynamic).rgba, draw(passes).rgba);

@@ -139,6 +139,11 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   planner.add({{"view.texture_filter", "trilinear"}});
   for (const std::string& effect : context.effects) {
     planner.add({{effect, "false"}});
+    if (effect == "effects.curved") {
+      for (const char* size : {"64", "256"}) {
+        planner.add({{"effects.curved_lookup", "environment"}, {"effects.environment_size", size}});
+      }
+    }
   }
   if (!context.effects.empty()) {
     planner.add({{"effects.per_sample", "true"}});
