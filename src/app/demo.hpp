@@ -128,7 +128,9 @@ class Demo {
   MouseButton pressedButton_ = MouseButton::left;
   std::optional<glm::dvec2> pressed_;              // screen coordinates; the pointer went down over the picture
   std::optional<std::filesystem::path> nextFile_;  // to be opened, while unsaved changes are asked about
-  bool discards_ = false;                          // they are not asked about again until another scene is shown
+  std::optional<uint64_t> discarded_;              // revision of the scene whose changes were given up
+  Settings settingsAtLoad_;                        // before the person changed any
+  uint64_t shownStructure_ = 0;                    // of the scene, in the last frame
   bool closing_ = false;                           // likewise
   bool leaves_ = false;                            // with the answer
   std::filesystem::path refused_;                  // that was not overwritten; asked for again, it is

@@ -31,6 +31,13 @@ void Demo::startEditing() {
   model_.edit.note.clear();
   model_.edit.asksSave = false;
   model_.edit.asksWhere = false;
+  // What the panel has of the scene before must not be taken up for this one.
+  editor_->show(model_.edit);
+  model_.edit.edited = false;
+  model_.edit.held = false;
+  model_.edit.action = EditAction::none;
+  settingsAtLoad_ = loaded_->settings;
+  shownStructure_ = editor_->document().structureRevision();
 }
 
 // Takes the scene as the window shows it at `time`; false while the window has no pixels.
@@ -62,6 +69,10 @@ glm::dvec2 Demo::pointerPixel() const {
 
 void Demo::pressPointer(const MouseButtonEvent& event) {
   if (!editor_) {
+    return;
+  }
+  // Another button while one is held belongs to nothing.
+  if (pressed_ ? event.button != pressedButton_ : !event.pressed) {
     return;
   }
   const bool left = event.button == MouseButton::left;
@@ -111,8 +122,6 @@ bool Demo::handleQuestionKey(const KeyEvent& event) {
   }
   if (event.key == Key::escape) {
     answer(EditAction::stay);
-  } else if (event.key == Key::enter && !event.repeat) {
-    answer(model_.edit.asksWhere ? EditAction::saveAs : EditAction::save);
   }
   return true;
 }
@@ -179,7 +188,11 @@ void Demo::applyEdit() {
   editor_->apply(model_.edit);
   actOn(model_.edit.action);
   if (editor_->takeChanged()) {
-    if (!sceneRenderer_->heldImages().empty()) {
+    // Images that are held whatever they show would show what was, and that of another mirror if places changed.
+    // Others are compared with all that they show.
+    const uint64_t structure = editor_->document().structureRevision();
+    if (model_.settings.reflection.updateInterval > 1 || model_.settings.effects.environmentInterval > 1 ||
+        std::exchange(shownStructure_, structure) != structure) {
       sceneRenderer_->restart();
     }
     if (model_.accuracy.showDifference) {
@@ -232,7 +245,9 @@ void Demo::answer(EditAction action) {
       model_.edit.asksWhere = false;
       closing_ = false;
       nextFile_.reset();
-      load_.cancel();
+      if (load_.arrived()) {
+        load_.cancel();
+      }
       return;
     default:
       return;
@@ -265,15 +280,12 @@ bool Demo::saveSceneTo(const std::filesystem::path& file) {
   try {
     std::error_code none;
     std::filesystem::create_directories(file.parent_path(), none);
-    const bool own = std::filesystem::equivalent(file, loaded_->scene.file, none);
-    editor_->document().save(file, settingChanges(loaded_->settings, model_.settings), own || file == refused_);
+    editor_->document().save(file, settingChanges(settingsAtLoad_, model_.settings), file == refused_);
     model_.edit.note = "saved " + file.string();
-    const auto listed = std::find_if(sceneFiles_.begin(), sceneFiles_.end(), [&](const std::filesystem::path& other) {
-      return std::filesystem::equivalent(other, file, none);
-    });
-    shownScene_ = listed != sceneFiles_.end() ? static_cast<int>(listed - sceneFiles_.begin()) : -1;
+    shownScene_ = static_cast<int>(noteSceneFile(file));
     model_.scene = shownScene_;
     loaded_->settings = model_.settings;
+    model_.sceneSettings = model_.settings;
     refused_.clear();
     return true;
   } catch (const SaveError& error) {
@@ -287,21 +299,21 @@ bool Demo::saveSceneTo(const std::filesystem::path& file) {
 
 // With what unsaved changes were asked about for.
 void Demo::goOn() {
-  discards_ = true;
+  discarded_ = editor_->document().revision();
   const std::optional<std::filesystem::path> file = std::exchange(nextFile_, std::nullopt);
   if (std::exchange(closing_, false)) {
     leaves_ = true;
     return window_.requestClose();
   }
   if (file) {
-    return openFile(*file);
+    openFile(*file);
   }
-  discards_ = load_.running() || load_.arrived();
 }
 
-// Whether the scene may be left as it is: unsaved changes are asked about, once.
+// Whether the scene may be left as it is: unsaved changes are asked about, those that were given up only once.
 bool Demo::mayLeave() {
-  if (discards_ || options_.frames > 0 || !editor_->document().modified()) {
+  const bool given = discarded_ == editor_->document().revision();
+  if (given || options_.frames > 0 || !editor_->document().modified()) {
     return true;
   }
   model_.edit.asksSave = !model_.edit.asksWhere;

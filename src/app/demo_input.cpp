@@ -15,6 +15,13 @@ constexpr double smoothing = 0.05;   // of the frame time shown
 // The panel takes up what happened in one frame, settles in a second, and shows figures of the frame two before.
 constexpr int framesAfterChange = 4;
 
+// In which everything that is held is rendered anew. A map that is kept for longer than a minute is asked for as it is.
+int framesUntilFresh(const Settings& settings) {
+  const EffectSettings& effects = settings.effects;
+  const bool maps = effects.curved && effects.curvedLookup == CurvedLookup::environment;
+  return std::max(settings.reflection.updateInterval, maps ? std::min(effects.environmentInterval, 3600) : 0);
+}
+
 }  // namespace
 
 // Before the panel is made, whose callbacks then run first and pass everything on.
@@ -117,7 +124,9 @@ int Demo::mirrorOfInterest() const {
       area = pass.areaPx;
     }
   }
-  return mirror >= 0 || loaded_->scene.mirrors.empty() ? mirror : 0;
+  // One that is there no more may have been the last.
+  const int count = static_cast<int>(loaded_->scene.mirrors.size());
+  return mirror >= 0 && mirror < count ? mirror : count > 0 ? 0 : -1;
 }
 
 void Demo::lookFromMirror(CameraController::MirrorSide side) {
@@ -181,7 +190,7 @@ bool Demo::step() {
     return !closes();
   }
   if (changing()) {
-    framesDue_ = framesAfterChange + model_.settings.reflection.updateInterval;
+    framesDue_ = framesAfterChange + framesUntilFresh(model_.settings);
   }
   if (framesDue_ == 0 && !rest()) {
     return !closes();

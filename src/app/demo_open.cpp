@@ -60,6 +60,7 @@ void Demo::openFile(const fs::path& file) {
 void Demo::followLoading() {
   if (model_.cancelLoading) {
     load_.cancel();
+    discarded_.reset();
   }
   // What was changed while it was read is not lost either.
   if (load_.arrived() && !mayLeave()) {
@@ -69,7 +70,7 @@ void Demo::followLoading() {
     showScene(std::move(scene));
   } else if (std::optional<std::string> error = load_.takeError()) {
     sceneError_ = std::move(*error);
-    discards_ = false;
+    discarded_.reset();
   }
   const std::optional<LoadStatus> status = load_.status();
   model_.loading = status ? status->file.filename().string() : "";
@@ -80,7 +81,7 @@ void Demo::showScene(std::unique_ptr<LoadedScene> scene) {
   accuracy_.forgetScene(model_);
   renderer_.waitIdle();
   nonFinite_ = nonFinite();
-  discards_ = false;
+  discarded_.reset();
   sceneRenderer_.reset();
   std::swap(loaded_, scene);
   try {

@@ -187,13 +187,16 @@ glm::dvec3 SceneEditor::placeAhead(const Look& look, double part) {
 
 void SceneEditor::add(const Look& look, EditAction kind, int mesh) {
   release();
+  if (kind == EditAction::addObject && mesh < 0) {
+    return;
+  }
   beforeChange_();
   const glm::dvec3& eye = look.picture.eye();
   if (kind == EditAction::addMirror) {
     select(document_.addMirror(placeAhead(look, 0.6), eye));
   } else if (kind == EditAction::addLight) {
     select(document_.addLight(placeAhead(look, 0.6), eye));
-  } else if (mesh >= 0) {
+  } else {
     select(document_.addObject(mesh, placeAhead(look, 0.9)));
   }
 }
@@ -217,6 +220,9 @@ void SceneEditor::remove() {
 
 void SceneEditor::undo() {
   release();
+  if (document_.undoLabel().empty()) {
+    return;
+  }
   beforeChange_();
   document_.undo();
   forgetPath();
@@ -224,6 +230,9 @@ void SceneEditor::undo() {
 
 void SceneEditor::redo() {
   release();
+  if (document_.redoLabel().empty()) {
+    return;
+  }
   beforeChange_();
   document_.redo();
   forgetPath();

@@ -106,7 +106,8 @@ fs::path documentsDir() {
 
 bool isWritable(const fs::path& file) {
   std::error_code none;
-  return ::access((fs::exists(file, none) ? file : file.parent_path()).c_str(), W_OK) == 0;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  return ::access((fs::exists(file, none) ? file : folder).c_str(), W_OK) == 0;
 }
 
 fs::path dataDirectory(std::string_view name) {

@@ -223,6 +223,7 @@ void SceneDocument::save(const fs::path& file, std::span<const SavedSetting> set
   modified_.reset();
   savedFile_ = file;
   scene_.file = file;
+  scene_.settings = parseScene(file, text).settings;
   scene_.text = text;
   savedText_ = std::move(text);
 }

@@ -245,9 +245,11 @@ void addButtons(UiModel& model) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (ImGui::BeginCombo("##model", edit.models.empty() ? "" : edit.models[static_cast<size_t>(edit.model)].c_str())) {
     for (size_t i = 0; i < edit.models.size(); ++i) {
+      ImGui::PushID(static_cast<int>(i));  // names may repeat
       if (ImGui::Selectable(edit.models[i].c_str(), static_cast<int>(i) == edit.model)) {
         edit.model = static_cast<int>(i);
       }
+      ImGui::PopID();
     }
     ImGui::EndCombo();
   }
@@ -321,7 +323,9 @@ void centerNext() {
 }
 
 void answerButton(UiModel& model, const char* label, const char* key, EditAction action) {
-  if (ImGui::Button(label)) {
+  // Dear ImGui presses what has the keyboard with the space bar only.
+  const bool pressed = ImGui::Button(label);
+  if (pressed || (ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))) {
     model.edit.action = action;
     ImGui::CloseCurrentPopup();
   }
@@ -381,7 +385,9 @@ void questions(UiModel& model) {
     if (ImGui::IsWindowAppearing()) {
       ImGui::SetKeyboardFocusHere();
     }
-    ImGui::InputText("##file", &edit.saveAs);
+    if (ImGui::InputText("##file", &edit.saveAs, ImGuiInputTextFlags_EnterReturnsTrue)) {
+      edit.action = EditAction::saveAs;
+    }
     notePlace(model, "edit.file");
     if (!edit.note.empty()) {
       ImGui::TextWrapped("%s", edit.note.c_str());

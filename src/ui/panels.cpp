@@ -132,14 +132,15 @@ void message(const UiModel& model) {
 }
 
 void scene(UiModel& model) {
-  const std::string current = model.scene >= 0 ? model.scenes[model.scene] : model.edit.name;
-  const bool open = ImGui::BeginCombo("scene", current.c_str());
+  const bool open = ImGui::BeginCombo("scene", model.scenes[model.scene].c_str());
   notePlace(model, "scene");
   if (open) {
     for (int i = 0; i < static_cast<int>(model.scenes.size()); ++i) {
+      ImGui::PushID(i);  // names may repeat
       if (ImGui::Selectable(model.scenes[i].c_str(), i == model.scene)) {
         model.scene = i;
       }
+      ImGui::PopID();
       notePlace(model, "scene." + model.scenes[i]);
     }
     ImGui::EndCombo();

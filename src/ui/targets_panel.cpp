@@ -45,10 +45,12 @@ void passChoice(UiModel& model) {
   ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
   if (ImGui::BeginCombo("##pass", shown ? shown->name.c_str() : "")) {
     for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
+      ImGui::PushID(i);  // names may repeat
       if (hasTarget(model.passes[static_cast<size_t>(i)]) &&
           ImGui::Selectable(model.passes[static_cast<size_t>(i)].name.c_str(), i == model.debugPass)) {
         model.debugPass = i;
       }
+      ImGui::PopID();
     }
     ImGui::EndCombo();
   }

@@ -51,7 +51,7 @@ constexpr std::array<KeyHelp, 9> gamepad{{
     {"triggers", "down, up"},
     {"right stick", "look around"},
     {"direction pad", "into the panel, where A presses and B leaves"},
-    {"A, B", "look at the whole scene; orbit or fly"},
+    {"A, B", "look at the selected thing, or at the whole scene; orbit or fly"},
     {"Y, X", "look from behind a mirror; look out of it"},
     {"bumpers", "pause, 1/60 s back or onwards"},
     {"sticks pressed", "left: the scene's camera, right: save the window as a picture"},
