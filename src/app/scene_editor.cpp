@@ -263,7 +263,6 @@ void SceneEditor::show(UiEdit& edit) const {
   edit.mode = mode_;
   edit.undo = document_.undoLabel();
   edit.redo = document_.redoLabel();
-  edit.name = scene.file.stem().string();
   edit.file = scene.file.string();
   edit.unsaved = document_.modified();
   if (edit.open) {

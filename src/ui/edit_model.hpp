@@ -51,7 +51,6 @@ struct UiEdit {
   int model = 0;                     // index into models; changed by the person
   std::string undo;                  // what would be undone; empty: nothing
   std::string redo;
-  std::string name;  // of the scene's file, without folder and ending
   std::string file;  // of the scene
   bool unsaved = false;
   bool asksSave = false;                 // unsaved changes would be lost: the question is shown
