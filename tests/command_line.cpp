@@ -336,7 +336,8 @@ TEST_F(CommandLine, BenchSaysWhatEachEffectCosts) {
                                          "--prices", "--json", out("e.json")});
   EXPECT_EQ(result.exitCode, 0) << result.output;
   EXPECT_NE(result.output.find("roughness"), std::string::npos) << result.output;
-  for (const auto& effect : readJson(out("e.json"))["effects"]) {
+  const auto stats = readJson(out("e.json"));
+  for (const auto& effect : stats["effects"]) {
     if (effect["name"] == "roughness") {
       EXPECT_EQ(effect["why"], "mirror 'rough'");
       EXPECT_TRUE(effect["gpu_ms"].contains("median")) << effect;
