@@ -95,10 +95,10 @@ void Demo::applyModel() {
   if (model_.resetCamera) {
     camera_.reset(loaded_->scene.camera);
   }
+  applyEdit();
   if (model_.scene != shownScene_ && mayChoose(model_.scene)) {
     chooseScene(model_.scene);
   }
-  applyEdit();
   if (model_.copyCommand) {
     model_.command = command();
     window_.setClipboard(model_.command);
