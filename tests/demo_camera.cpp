@@ -126,6 +126,26 @@ TEST_F(DemoCamera, BLooksFromBehindAMirrorAndOutOfIt) {
   expectQuiet();
 }
 
+TEST_F(DemoCamera, BookmarksAreGoneBackToAndSavedWithTheScene) {
+  press("f");
+  const CameraPose framed = demo_->camera();
+  press("m");
+  press("b");
+  press("m");
+  ASSERT_EQ(demo_->model().bookmarks.size(), 2u);
+  EXPECT_NE(demo_->model().bookmarks[0], demo_->model().bookmarks[1]);
+  press("shift+M");
+  EXPECT_NEAR(glm::distance(eye(), framed.eye), 0.0, 1e-9);
+  EXPECT_NEAR(glm::distance(demo_->camera().worldToView[0], framed.worldToView[0]), 0.0, 1e-9);
+  press("ctrl+s");
+  const Scene saved = loadScene(sceneDirectory() / "demo_window.toml");
+  ASSERT_EQ(saved.bookmarks.size(), 2u);
+  EXPECT_EQ(saved.bookmarks[0].position, framed.eye);
+  click("bookmark.remove");
+  EXPECT_EQ(demo_->model().bookmarks.size(), 1u);
+  expectQuiet();
+}
+
 TEST_F(DemoCamera, RecordsAnEvenSequence) {
   press("F10");
   const double start = demo_->model().time;

@@ -72,6 +72,13 @@ void CameraController::reset(const CameraSpec& spec) {
   touched_ = false;
 }
 
+void CameraController::stand(const CameraSpec& spec) {
+  spec_ = spec;
+  eye_ = spec.position;
+  target_ = spec.target;
+  touched_ = true;
+}
+
 void CameraController::take(const CameraPose& pose) {
   if (!touched_) {
     eye_ = pose.eye;

@@ -17,6 +17,8 @@ Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& se
 class CameraController {
  public:
   void reset(const CameraSpec& spec);
+  // Stands there as if it had been moved there by hand.
+  void stand(const CameraSpec& spec);
   void setMode(CameraMode mode) { mode_ = mode; }
 
   // Drag of the pointer in pixels; fly: turns the view, orbit: turns about the target.

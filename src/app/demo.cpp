@@ -65,14 +65,18 @@ void Demo::applyModel() {
   if (model_.resetCamera) {
     camera_.reset(loaded_->scene.camera);
   }
+  applyEdit();
+  applyBookmarks();
   if (model_.scene != shownScene_) {
     chooseScene(std::exchange(model_.scene, shownScene_));
   }
   followLoading();
-  applyEdit();
   if (model_.copyCommand) {
     model_.command = command();
     window_.setClipboard(model_.command);
+    if (editor_->document().modified()) {
+      model_.command += "   (draws the scene as it was saved last)";
+    }
     model_.command += editor_->document().modified() ? "  (the scene as it is on disk: save it first)" : "";
   }
   if (model_.copyHistory) {

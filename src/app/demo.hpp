@@ -74,6 +74,10 @@ class Demo {
   void moveByGamepad(double seconds);
   void goTo(double time);
   void stepTime(int steps);
+  void goToBookmark(int index);
+  void bookmarkView();
+  void nextBookmark();
+  void applyBookmarks();
   void lookFromMirror(CameraController::MirrorSide side);
   int mirrorOfInterest() const;
   double aspect() const;

@@ -37,6 +37,8 @@ void Demo::startEditing() {
   model_.edit.held = false;
   model_.edit.action = EditAction::none;
   settingsAtLoad_ = loaded_->settings;
+  model_.bookmark = -1;
+  model_.bookmarks.clear();
   shownStructure_ = editor_->document().structureRevision();
 }
 

@@ -62,6 +62,8 @@ void Demo::handleSingleKey(const KeyEvent& event) {
       return ui_->setVisible(!ui_->visible());
     case Key::b:
       return lookFromMirror(event.shift ? CameraController::MirrorSide::front : CameraController::MirrorSide::back);
+    case Key::m:
+      return event.shift ? nextBookmark() : bookmarkView();
     case Key::f10:
       return toggleRecording(event.shift);
     case Key::f11:
@@ -102,44 +104,6 @@ void Demo::toggleRecording(bool bare) {
     recorder_.start(loaded_->scene.file.stem().string(), bare);
   } catch (const std::filesystem::filesystem_error& error) {
     model_.picture = "not recorded: " + std::string(error.what());
-  }
-}
-
-double Demo::aspect() const {
-  const VkExtent2D extent = renderer_.displayExtent();
-  return extent.height > 0 ? static_cast<double>(extent.width) / extent.height : 1.0;
-}
-
-// The selected one; else the one that fills most of the picture; the one before if none shows its front.
-int Demo::mirrorOfInterest() const {
-  const Selection& selection = editor_->document().selection();
-  if (selection.kind == Selection::Kind::mirror) {
-    return selection.index;
-  }
-  int mirror = lookedFrom_;
-  double area = 0.0;
-  for (const UiPass& pass : model_.passes) {
-    if (pass.path.size() == 1 && pass.areaPx > area) {
-      mirror = pass.path[0];
-      area = pass.areaPx;
-    }
-  }
-  // One that is there no more may have been the last.
-  const int count = static_cast<int>(loaded_->scene.mirrors.size());
-  return mirror >= 0 && mirror < count ? mirror : count > 0 ? 0 : -1;
-}
-
-void Demo::lookFromMirror(CameraController::MirrorSide side) {
-  lookedFrom_ = mirrorOfInterest();
-  if (lookedFrom_ >= 0) {
-    camera_.lookFrom(evaluate(loaded_->scene, time_).mirrors[lookedFrom_], side, aspect());
-  }
-}
-
-void Demo::frameScene() {
-  const Sphere bounds = boundsOf(loaded_->scene, evaluate(loaded_->scene, time_), editor_->document().selection());
-  if (bounds.radius > 0.0) {
-    camera_.frame(bounds, aspect());
   }
 }
 

@@ -218,6 +218,16 @@ void SceneEditor::remove() {
   }
 }
 
+void SceneEditor::bookmark(Bookmark view) {
+  release();
+  document_.addBookmark(std::move(view));
+}
+
+void SceneEditor::removeBookmark(size_t index) {
+  release();
+  document_.removeBookmark(index);
+}
+
 void SceneEditor::undo() {
   release();
   if (document_.undoLabel().empty()) {

@@ -42,6 +42,8 @@ class SceneEditor {
   void add(const Look& look, EditAction kind, int mesh);
   void duplicate();
   void remove();
+  void bookmark(Bookmark view);
+  void removeBookmark(size_t index);
   void undo();
   void redo();
 

@@ -18,7 +18,7 @@ constexpr std::array<int, static_cast<size_t>(GamepadButton::count)> buttonCodes
     GLFW_GAMEPAD_BUTTON_BACK,       GLFW_GAMEPAD_BUTTON_START,       GLFW_GAMEPAD_BUTTON_LEFT_THUMB,
     GLFW_GAMEPAD_BUTTON_RIGHT_THUMB};
 
-constexpr std::array<std::pair<Key, int>, 31> keyCodes{{
+constexpr std::array<std::pair<Key, int>, 32> keyCodes{{
     {Key::escape, GLFW_KEY_ESCAPE},
     {Key::enter, GLFW_KEY_ENTER},
     {Key::tab, GLFW_KEY_TAB},
@@ -35,6 +35,7 @@ constexpr std::array<std::pair<Key, int>, 31> keyCodes{{
     {Key::q, GLFW_KEY_Q},
     {Key::e, GLFW_KEY_E},
     {Key::b, GLFW_KEY_B},
+    {Key::m, GLFW_KEY_M},
     {Key::r, GLFW_KEY_R},
     {Key::f, GLFW_KEY_F},
     {Key::g, GLFW_KEY_G},

@@ -34,6 +34,7 @@ enum class Key {
   q,
   e,
   b,
+  m,
   r,
   f,
   g,

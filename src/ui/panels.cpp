@@ -131,6 +131,36 @@ void message(const UiModel& model) {
   }
 }
 
+namespace {
+
+void bookmarks(UiModel& model) {
+  const int shown = model.bookmark;
+  ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
+  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? model.bookmarks[shown].c_str() : "bookmarks");
+  notePlace(model, "bookmarks");
+  if (open) {
+    for (int i = 0; i < static_cast<int>(model.bookmarks.size()); ++i) {
+      if (ImGui::Selectable(model.bookmarks[i].c_str(), i == shown)) {
+        model.goToBookmark = i;
+      }
+      notePlace(model, "bookmark." + model.bookmarks[i]);
+    }
+    ImGui::EndCombo();
+  }
+  tip("views that the scene keeps; Shift+M: the next one");
+  ImGui::SameLine();
+  model.bookmarkView = ImGui::Button("bookmark view");
+  notePlace(model, "bookmark.add");
+  tip("keeps where the camera stands and looks; saved with the scene");
+  if (shown >= 0) {
+    ImGui::SameLine();
+    model.removeBookmark = ImGui::Button("remove");
+    notePlace(model, "bookmark.remove");
+  }
+}
+
+}  // namespace
+
 void scene(UiModel& model) {
   const bool open = ImGui::BeginCombo("scene", model.scenes[model.scene].c_str());
   notePlace(model, "scene");
@@ -156,6 +186,7 @@ void scene(UiModel& model) {
   ImGui::SameLine();
   model.resetCamera = ImGui::Button("reset camera");
   tip("to where the scene has it");
+  bookmarks(model);
   time(model);
   model.copyCommand = ImGui::Button("copy command line");
   notePlace(model, "copy");

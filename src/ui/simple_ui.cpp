@@ -145,6 +145,9 @@ void SimpleUI::build(UiModel& model) {
   model.widgets.clear();
   model.debugArea.reset();
   model.resetCamera = false;
+  model.goToBookmark.reset();
+  model.bookmarkView = false;
+  model.removeBookmark = false;
   model.resetSettings = false;
   model.seek.reset();
   model.copyCommand = false;

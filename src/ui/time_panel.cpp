@@ -12,7 +12,7 @@ namespace {
 
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
-constexpr std::array<KeyHelp, 31> keys{{
+constexpr std::array<KeyHelp, 33> keys{{
     {"click", "select what is there, in mirrors too; again: the mirror it is seen in"},
     {"G", "handles that move, handles that turn (Ctrl while dragging: steps)"},
     {"N Shift+N", "select the next thing, the one before"},
@@ -31,6 +31,8 @@ constexpr std::array<KeyHelp, 31> keys{{
     {"F", "look at the selected thing, or at the whole scene"},
     {"B", "look from behind the selected mirror, or the one that fills most of the picture"},
     {"Shift+B", "look out of that mirror"},
+    {"M", "bookmark the view; saved with the scene"},
+    {"Shift+M", "go to the next bookmark"},
     {"Space", "pause the animation and let it go on"},
     {".", "pause, 1/60 s onwards"},
     {",", "pause, 1/60 s back"},

@@ -152,14 +152,19 @@ struct UiModel {
   std::optional<PixelRect> debugArea;  // pixels of the display image where it is to be drawn; set by the panel
   UiAccuracy accuracy;
   UiEdit edit;
-  bool copyCommand = false;    // set by the panel: put the command line of this view into the clipboard
-  std::string command;         // that was copied last
-  bool help = false;           // the list of keys is open; changed by the person
-  std::string picture;         // where the last screenshot is, or why it is not
-  std::string loading;         // the file that is read in the background; empty: none
-  double loadingDone = 0.0;    // share, 0 .. 1
-  bool cancelLoading = false;  // set by the panel
-  std::string message;         // an error to show until the next one, e.g. of a shader or a scene
+  std::vector<std::string> bookmarks;  // of the scene
+  int bookmark = -1;                   // the one that was gone to last
+  std::optional<int> goToBookmark;     // set by the panel
+  bool bookmarkView = false;           // set by the panel
+  bool removeBookmark = false;         // set by the panel: the one that was gone to last
+  bool copyCommand = false;            // set by the panel: put the command line of this view into the clipboard
+  std::string command;                 // that was copied last
+  bool help = false;                   // the list of keys is open; changed by the person
+  std::string picture;                 // where the last screenshot is, or why it is not
+  std::string loading;                 // the file that is read in the background; empty: none
+  double loadingDone = 0.0;            // share, 0 .. 1
+  bool cancelLoading = false;          // set by the panel
+  std::string message;                 // an error to show until the next one, e.g. of a shader or a scene
 };
 
 inline std::vector<LogLine> shownLog(const UiModel& model) {
