@@ -43,8 +43,9 @@ void PanelDock::place(Panel& panel, Edge edge, const glm::vec2& ems) {
   const float em = ImGui::GetFontSize();
   const glm::vec2 display = displaySize();
   const glm::vec2 room = glm::max(display - 2.0f * margin(), glm::vec2(1.0f));
-  const glm::vec2 wanted(panel.size.x > 0.0f ? panel.size.x : ems.x * em,
-                         panel.size.y > 0.0f ? panel.size.y : ems.y > 0.0f ? ems.y * em : room.y);
+  const glm::vec2 wanted(panel.size.x > 0.0f ? panel.size.x : ems.x * em, panel.size.y > 0.0f ? panel.size.y
+                                                                          : ems.y > 0.0f      ? ems.y * em
+                                                                                              : room.y);
   glm::vec2 size = glm::floor(glm::min(wanted, room));
   if (column.width > 0.0f && display.y - margin() - column.top < std::min(size.y, lowest * em)) {
     const float beside = column.inset + column.width + margin();

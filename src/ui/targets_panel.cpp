@@ -42,7 +42,7 @@ void background(const Rect& canvas) {
 
 void passChoice(UiModel& model) {
   const UiPass* shown = model.debugPass >= 0 ? &model.passes[static_cast<size_t>(model.debugPass)] : nullptr;
-  ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
   if (ImGui::BeginCombo("##pass", shown ? shown->name.c_str() : "")) {
     for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
       if (hasTarget(model.passes[static_cast<size_t>(i)]) &&
