@@ -171,7 +171,9 @@ void targets(UiModel& model) {
         glm::clamp(corner, glm::dvec2(canvas.low.x, canvas.low.y), glm::dvec2(canvas.high.x, canvas.high.y));
     const glm::dvec2 high =
         glm::clamp(corner + targets.shownZoom * image, low, glm::dvec2(canvas.high.x, canvas.high.y));
-    fillAround(canvas, {ImVec2(std::floor(low.x), std::floor(low.y)), ImVec2(std::floor(high.x), std::floor(high.y))},
+    fillAround(canvas,
+               {ImVec2(static_cast<float>(std::ceil(low.x - 0.5)), static_cast<float>(std::ceil(low.y - 0.5))),
+                ImVec2(static_cast<float>(std::floor(high.x)), static_cast<float>(std::floor(high.y)))},
                IM_COL32(16, 16, 18, 255));
   }
   ImGui::SetCursorScreenPos({start.x, top - ImGui::GetTextLineHeightWithSpacing()});
