@@ -12,8 +12,8 @@ KeptDepth::KeptDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout)
 
 void KeptDepth::prepare(PassDesc& pass, RetireQueue& retired) {
   Device& device = renderer_.device();
-  const VkExtent2D wanted{pass.renderArea.offset.x + pass.renderArea.extent.width,
-                          pass.renderArea.offset.y + pass.renderArea.extent.height};
+  // As large as the colour: a framebuffer has one size.
+  const VkExtent2D wanted = pass.targets.color->extent();
   const VkExtent2D has = image_.extent();
   const VkSampleCountFlagBits samples = pass.targets.samples();
   if (!image_ || image_.samples() != samples || has.width < wanted.width || has.height < wanted.height) {
@@ -31,7 +31,9 @@ void KeptDepth::prepare(PassDesc& pass, RetireQueue& retired) {
                             .name = "watched depth"});
   }
   if (!sampler_) {
-    sampler_ = createSampler(device, {.filter = VK_FILTER_NEAREST, .maxLod = 0.0f}, "watched depth");
+    const SamplerDesc nearest{
+        .filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f};
+    sampler_ = createSampler(device, nearest, "watched depth");
   }
   pass.targets.depth = &image_;
   pass.storeDepth = true;

@@ -42,7 +42,7 @@ void background(const Rect& canvas) {
 
 void passChoice(UiModel& model) {
   const UiPass* shown = model.debugPass >= 0 ? &model.passes[static_cast<size_t>(model.debugPass)] : nullptr;
-  ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
   if (ImGui::BeginCombo("##pass", shown ? shown->name.c_str() : "")) {
     for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
       ImGui::PushID(i);  // names may repeat
@@ -173,7 +173,9 @@ void targets(UiModel& model) {
         glm::clamp(corner, glm::dvec2(canvas.low.x, canvas.low.y), glm::dvec2(canvas.high.x, canvas.high.y));
     const glm::dvec2 high =
         glm::clamp(corner + targets.shownZoom * image, low, glm::dvec2(canvas.high.x, canvas.high.y));
-    fillAround(canvas, {ImVec2(std::floor(low.x), std::floor(low.y)), ImVec2(std::floor(high.x), std::floor(high.y))},
+    fillAround(canvas,
+               {ImVec2(static_cast<float>(std::ceil(low.x - 0.5)), static_cast<float>(std::ceil(low.y - 0.5))),
+                ImVec2(static_cast<float>(std::floor(high.x)), static_cast<float>(std::floor(high.y)))},
                IM_COL32(16, 16, 18, 255));
   }
   ImGui::SetCursorScreenPos({start.x, top - ImGui::GetTextLineHeightWithSpacing()});
