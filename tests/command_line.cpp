@@ -219,6 +219,27 @@ TEST_F(CommandLine, BenchSummarisesTimes) {
   EXPECT_TRUE(json["passes"][0]["gpu_ms"].contains("median"));
 }
 
+// Of a scene that stands still, too: otherwise it would measure nothing.
+TEST_F(CommandLine, BenchRendersEveryImageUnlessAskedNotTo) {
+  const auto mirrorPasses = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"bench",          "--scene", "single_plane", "--size", "64x36",
+                                          "--frames",       "3",       "--warmup",     "1",      "--json",
+                                          out("still.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProcessResult result = speculum(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    int passes = 0;
+    const nlohmann::json json = readJson(out("still.json"));
+    for (const auto& pass : json["passes"]) {
+      EXPECT_FALSE(pass.contains("frames")) << pass["name"] << " did not run in every frame";
+      passes += pass["depth"].is_null() ? 0 : 1;
+    }
+    return passes;
+  };
+  EXPECT_GT(mirrorPasses({}), 0);
+  EXPECT_EQ(mirrorPasses({"--set", "reflection.skip_unchanged=true"}), 0);
+}
+
 TEST_F(CommandLine, SequenceWritesEveryPictureAndTimeMoves) {
   const ProcessResult result = speculum({"render", "--scene", scene_, "--size", "64x36", "--frames", "3", "--fps", "2",
                                          "--time", "1", "--out", out("%03d.png")});
