@@ -153,6 +153,9 @@ void Demo::drawFrame(double seconds) {
   state.camera = camera_.pose(state.camera);
   Settings settings = model_.settings;
   watched_ = model_.debugPass >= 0 ? model_.passes[model_.debugPass].path : std::vector<int>();
+  if (settings.debug.checkFinite) {
+    settings.reflection.skipUnchanged = false;  // so that what is found names the mirror in every frame
+  }
   if (!watched_.empty()) {
     settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame
     settings.reflection.skipUnchanged = false;
