@@ -149,6 +149,9 @@ void Demo::drawFrame(double seconds) {
   SceneState state = evaluate(loaded_->scene, time_);
   state.camera = camera_.pose(state.camera);
   Settings settings = model_.settings;
+  if (settings.debug.checkFinite) {
+    settings.reflection.skipUnchanged = false;  // so that what is found names the mirror in every frame
+  }
   watched_ = model_.debugPass >= 0 ? std::optional(model_.passes[model_.debugPass].path) : std::nullopt;
   if (watched_ && !watched_->empty()) {
     settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame

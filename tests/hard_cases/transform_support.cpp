@@ -65,7 +65,7 @@ Scene moved(Scene scene, const glm::dvec3& offset) {
 
 InstanceData dataIn(const FramePlan& plan, const View& view, const InstanceState& instance) {
   const glm::dmat4 clipFromRelative =
-      viewProjection(plan, view, ClipMethod::clipDistance) * glm::dmat4(view.worldToView);
+      viewProjection(plan.projection, view, ClipMethod::clipDistance) * glm::dmat4(view.worldToView);
   return instanceData(instance, Object{}, view, clipFromRelative);
 }
 
