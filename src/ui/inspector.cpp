@@ -387,6 +387,7 @@ void questions(UiModel& model) {
     }
     if (ImGui::InputText("##file", &edit.saveAs, ImGuiInputTextFlags_EnterReturnsTrue)) {
       edit.action = EditAction::saveAs;
+      ImGui::SetKeyboardFocusHere(-1);  // what was refused is tried again with another Enter
     }
     notePlace(model, "edit.file");
     if (!edit.note.empty()) {

@@ -1,0 +1,173 @@
+// Saving what was edited in the window, and the questions about what is not saved.
+#include <fstream>
+#include <sstream>
+
+#include "demo_edit_support.hpp"
+#include "frame/settings.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+TEST_F(EditWindow, WhatIsSavedIsDrawnToTheSameBytes) {
+  clickBall();
+  const glm::ivec2 center = pixel({0.3, 1.0, 0.5});
+  dragPointer(center.x + 60, center.y, 33, 0);
+  press("ctrl+d");
+  EXPECT_TRUE(edit().unsaved);
+  const std::vector<uint8_t> edited = bare();
+  press("ctrl+s");
+  EXPECT_FALSE(edit().unsaved) << edit().note;
+  const Scene saved = onDisk();
+  ASSERT_EQ(saved.objects.size(), 2u);
+  EXPECT_NEAR(saved.objects[0].position.x, 0.3 + 33 / focalPixels, 2e-4);
+  std::ifstream file(options_.scene);
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find("# In front of the eye."), std::string::npos) << "comments stay";
+  expectQuiet();
+  demo_.reset();
+  start();
+  press("Tab");
+  EXPECT_EQ(edited, bare());
+  expectQuiet();
+}
+
+TEST_F(EditWindow, ClosingAsksAboutUnsavedChanges) {
+  clickBall();
+  press("Delete");
+  askToClose();
+  click("edit.ask.cancel");
+  run(20);
+  EXPECT_FALSE(edit().asksSave);
+  EXPECT_FALSE(demo_->window().shouldClose());
+  askToClose();
+  press("Escape");
+  run(5);
+  EXPECT_FALSE(edit().asksSave) << "Escape cancels";
+  askToClose();
+  const PixelRect discard = widget("edit.ask.discard");
+  moveTo(discard.x + 10, discard.y + 5);
+  xdotool({"mousedown", "1"});
+  run(3);
+  xdotool({"mouseup", "1"});
+  EXPECT_TRUE(stepUntilClosed());
+  EXPECT_EQ(onDisk().objects.size(), 1u) << "nothing was saved";
+  expectQuiet();
+}
+
+TEST_F(EditWindow, SavingOnTheWayOutWritesTheScene) {
+  clickBall();
+  press("Delete");
+  askToClose();
+  const PixelRect save = widget("edit.ask.save");
+  moveTo(save.x + 10, save.y + 5);
+  xdotool({"mousedown", "1"});
+  run(3);
+  xdotool({"mouseup", "1"});
+  EXPECT_TRUE(stepUntilClosed());
+  EXPECT_TRUE(onDisk().objects.empty());
+  expectQuiet();
+}
+
+TEST_F(EditWindow, SavedAsAnotherFileTheSceneGoesOnThere) {
+  clickBall();
+  press("ctrl+d");
+  press("ctrl+shift+s");
+  ASSERT_TRUE(edit().asksWhere);
+  run(5);
+  const std::string other = std::filesystem::path(options_.scene).replace_filename("other.toml").string();
+  std::ofstream(other) << "somebody's";
+  xdotool({"type", "--window", windowId(), other});
+  run(5);
+  EXPECT_EQ(edit().saveAs, other);
+  press("Return");
+  EXPECT_TRUE(edit().asksWhere) << "a file that is there is not overwritten unasked";
+  EXPECT_TRUE(edit().unsaved);
+  press("Return");
+  run(5);
+  EXPECT_FALSE(edit().asksWhere) << edit().note;
+  EXPECT_EQ(loadScene(other).objects.size(), 2u);
+  EXPECT_EQ(onDisk().objects.size(), 1u);
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_EQ(edit().file, other);
+  expectQuiet();
+}
+
+TEST_F(EditWindow, AnotherSceneIsChosenOnceUnsavedChangesAreAnswered) {
+  press("Tab");
+  press("n");
+  press("Delete");
+  const int shown = demo_->model().scene;
+  const auto choose = [&] {
+    click("scene");
+    click("scene.no_mirror");
+    run(3);
+  };
+  choose();
+  ASSERT_TRUE(edit().asksSave);
+  EXPECT_EQ(demo_->model().scene, shown);
+  press("Escape");
+  EXPECT_FALSE(edit().asksSave);
+  EXPECT_TRUE(edit().unsaved);
+  choose();
+  ASSERT_TRUE(edit().asksSave);
+  click("edit.ask.discard");
+  waitFor([&] { return shownScene() == "no_mirror"; });
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_EQ(edit().undo, "");
+  expectQuiet();
+}
+
+TEST_F(EditWindow, ASecondSaveKeepsTheSettingsOfTheFirst) {
+  press("Tab");
+  drag("view.exposure", 0.5, 30);
+  const double exposure = demo_->model().settings.view.exposure;
+  ASSERT_NE(exposure, 1.0);
+  press("ctrl+s");
+  EXPECT_EQ(settingsOf(onDisk()).view.exposure, exposure);
+  press("n");
+  press("Delete");
+  press("ctrl+s");
+  EXPECT_TRUE(onDisk().objects.empty());
+  EXPECT_EQ(settingsOf(onDisk()).view.exposure, exposure);
+  expectQuiet();
+}
+
+TEST_F(EditWindow, AFileThatSomebodyElseChangedIsNotOverwrittenUnasked) {
+  clickBall();
+  press("Delete");
+  std::ofstream(options_.scene, std::ios::app) << "# written meanwhile\n";
+  press("ctrl+s");
+  EXPECT_TRUE(edit().asksWhere) << edit().note;
+  EXPECT_EQ(onDisk().objects.size(), 1u);
+  press("Escape");
+  EXPECT_TRUE(edit().unsaved);
+  expectQuiet();
+}
+
+TEST_F(EditWindow, WhatIsSelectedDoesNotOutliveItsScene) {
+  press("Tab");
+  press("shift+n");  // the last thing, the mirror behind: no_mirror has none
+  ASSERT_TRUE(edit().selected);
+  click("scene");
+  click("scene.no_mirror");
+  waitFor([&] { return shownScene() == "no_mirror"; });
+  EXPECT_FALSE(edit().selected);
+  press("b");  // no mirror to look from
+  expectQuiet();
+}
+
+TEST_F(EditWindow, AMirrorThatWasDeletedIsNotLookedFrom) {
+  press("b");
+  while (!demo_->model().edit.things.empty()) {
+    press("n");
+    press("Delete");
+  }
+  press("b");
+  expectQuiet();
+}
+
+}  // namespace
+}  // namespace speculum
