@@ -127,7 +127,8 @@ TEST_F(EditWindow, ASecondSaveKeepsTheSettingsOfTheFirst) {
   ASSERT_NE(exposure, 1.0);
   press("ctrl+s");
   EXPECT_EQ(settingsOf(onDisk()).view.exposure, exposure);
-  press("n");
+  press("Tab");
+  clickBall();
   press("Delete");
   press("ctrl+s");
   EXPECT_TRUE(onDisk().objects.empty());

@@ -322,10 +322,14 @@ void centerNext() {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
 }
 
+bool enterPressed() {
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+}
+
 void answerButton(UiModel& model, const char* label, const char* key, EditAction action) {
   // Dear ImGui presses what has the keyboard with the space bar only.
   const bool pressed = ImGui::Button(label);
-  if (pressed || (ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))) {
+  if (pressed || (ImGui::IsItemFocused() && enterPressed())) {
     model.edit.action = action;
     ImGui::CloseCurrentPopup();
   }
@@ -385,10 +389,7 @@ void questions(UiModel& model) {
     if (ImGui::IsWindowAppearing()) {
       ImGui::SetKeyboardFocusHere();
     }
-    if (ImGui::InputText("##file", &edit.saveAs, ImGuiInputTextFlags_EnterReturnsTrue)) {
-      edit.action = EditAction::saveAs;
-      ImGui::SetKeyboardFocusHere(-1);  // what was refused is tried again with another Enter
-    }
+    ImGui::InputText("##file", &edit.saveAs);
     notePlace(model, "edit.file");
     if (!edit.note.empty()) {
       ImGui::TextWrapped("%s", edit.note.c_str());
@@ -396,6 +397,9 @@ void questions(UiModel& model) {
     answerButton(model, "Save", "where.save", EditAction::saveAs);
     ImGui::SameLine();
     answerButton(model, "Cancel", "where.cancel", EditAction::stay);
+    if (edit.action == EditAction::none && enterPressed()) {
+      edit.action = EditAction::saveAs;
+    }
     if (!edit.asksWhere) {
       ImGui::CloseCurrentPopup();
     }
