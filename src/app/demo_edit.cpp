@@ -124,6 +124,8 @@ bool Demo::handleQuestionKey(const KeyEvent& event) {
   }
   if (event.key == Key::escape) {
     answer(EditAction::stay);
+  } else if (event.key == Key::enter && !event.repeat) {
+    model_.edit.enter = true;
   }
   return true;
 }

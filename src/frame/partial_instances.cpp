@@ -8,7 +8,7 @@ namespace speculum {
 namespace {
 
 // A draw call costs about as much as the vertices of so many triangles; shorter gaps are drawn.
-constexpr uint32_t shortestGap = 3 * 128;  // indices
+constexpr uint32_t shortestGap = 3 * 96;  // indices
 constexpr double leastSaved = 0.1;         // of the mesh's indices
 constexpr double rounding = 1e-5;          // of floats on the GPU, with room to spare; of the sizes involved
 

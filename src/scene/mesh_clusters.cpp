@@ -7,8 +7,8 @@ namespace speculum {
 
 namespace {
 
-constexpr uint32_t clusterIndices = 3 * 96;
-constexpr size_t fewestClusters = 4;
+constexpr uint32_t clusterIndices = 3 * 64;
+constexpr size_t fewestClusters = 8;
 
 MeshCluster clusterOf(const Mesh& mesh, uint32_t first, uint32_t count) {
   glm::dvec3 low(std::numeric_limits<double>::infinity());

@@ -322,14 +322,10 @@ void centerNext() {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
 }
 
-bool enterPressed() {
-  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
-}
-
 void answerButton(UiModel& model, const char* label, const char* key, EditAction action) {
   // Dear ImGui presses what has the keyboard with the space bar only.
   const bool pressed = ImGui::Button(label);
-  if (pressed || (ImGui::IsItemFocused() && enterPressed())) {
+  if (pressed || (ImGui::IsItemFocused() && model.edit.enter)) {
     model.edit.action = action;
     ImGui::CloseCurrentPopup();
   }
@@ -397,7 +393,7 @@ void questions(UiModel& model) {
     answerButton(model, "Save", "where.save", EditAction::saveAs);
     ImGui::SameLine();
     answerButton(model, "Cancel", "where.cancel", EditAction::stay);
-    if (edit.action == EditAction::none && enterPressed()) {
+    if (edit.action == EditAction::none && edit.enter) {
       edit.action = EditAction::saveAs;
     }
     if (!edit.asksWhere) {
@@ -427,6 +423,7 @@ void edit(UiModel& model, bool inspectorShown) {
     inspector(model);
   }
   questions(model);
+  model.edit.enter = false;
   model.edit.held = model.edit.selected && ImGui::IsAnyItemActive();
 }
 
