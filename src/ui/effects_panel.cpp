@@ -1,5 +1,7 @@
 #include <imgui.h>
 
+#include <bit>
+
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -11,6 +13,23 @@ void effectSwitch(UiModel& model, const char* label, bool& on, std::string_view 
   describe(model, key);
 }
 
+void environmentMaps(UiModel& model, EffectSettings& e) {
+  int lookup = static_cast<int>(e.curvedLookup);
+  ImGui::Combo("curved look-up", &lookup, "traced\0environment map\0");
+  e.curvedLookup = static_cast<CurvedLookup>(lookup);
+  describe(model, "effects.curved_lookup");
+  if (e.curvedLookup != CurvedLookup::environment) {
+    return;
+  }
+  int power = std::bit_width(static_cast<unsigned>(e.environmentSize)) - 1;
+  ImGui::SliderInt("map size", &power, 4, 10, std::to_string(e.environmentSize).c_str(), ImGuiSliderFlags_AlwaysClamp);
+  e.environmentSize = 1 << power;
+  describe(model, "effects.environment_size");
+  ImGui::SliderInt("map interval", &e.environmentInterval, 1, 60, "%d", ImGuiSliderFlags_AlwaysClamp);
+  describe(model, "effects.environment_interval");
+  effectSwitch(model, "map of a box", e.environmentBox, "effects.environment_box");
+}
+
 void switches(UiModel& model) {
   EffectSettings& e = model.settings.effects;
   effectSwitch(model, "shadows", e.shadows, "effects.shadows");
@@ -18,6 +37,7 @@ void switches(UiModel& model) {
   effectSwitch(model, "bounced light", e.castsLight, "effects.casts_light");
   effectSwitch(model, "roughness", e.roughness, "effects.roughness");
   effectSwitch(model, "curved mirrors", e.curved, "effects.curved");
+  environmentMaps(model, e);
   effectSwitch(model, "rays at every sample", e.perSample, "effects.per_sample");
   int lookup = static_cast<int>(e.roughLookup);
   ImGui::Combo("rough look-up", &lookup, "traced\0image\0");

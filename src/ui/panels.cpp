@@ -69,6 +69,8 @@ void reflectionSettings(UiModel& model) {
   describe(model, "reflection.max_passes");
   ImGui::SliderInt("update interval", &r.updateInterval, 1, 16, "%d", ImGuiSliderFlags_AlwaysClamp);
   describe(model, "reflection.update_interval");
+  ImGui::Checkbox("keep what is unchanged", &r.skipUnchanged);
+  describe(model, "reflection.skip_unchanged");
   choiceCombo(model, "clip", r.clip, clips, "reflection.clip");
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using Cost = std::pair<std::string_view, std::string_view>;
 
-constexpr std::array<Cost, 28> costs{{
+constexpr std::array<Cost, 34> costs{{
     {"reflection.scale",
      "Pixels of mirror images grow with its square. Below 1 reflections blur, above 1 edges smooth."},
     {"reflection.samples",
@@ -27,6 +27,8 @@ constexpr std::array<Cost, 28> costs{{
      "mirror_maze needs 83 for all four depths."},
     {"reflection.update_interval",
      "Saves the passes of mirrors seen directly in the frames between; what moves in them moves in steps."},
+    {"reflection.skip_unchanged",
+     "Saves the passes of mirrors in which nothing changed; their images keep their memory."},
     {"reflection.clip",
      "oblique loses precision of depth where the eye is near the mirror; none shows what is behind it."},
     {"view.samples",
@@ -46,11 +48,20 @@ constexpr std::array<Cost, 28> costs{{
     {"effects.ripple", "Rays where water is seen. On an H200: 0.7 ms of 102.5 in pool."},
     {"effects.casts_light",
      "Rays. On an H200 at every sample: 66.2 ms of 102.5 in pool, 13.1 of 74.6 in bounced_light."},
+    {"effects.curved_lookup",
+     "An environment map takes no rays for curved mirrors, and is rendered only when what it shows has changed."},
+    {"effects.environment_size",
+     "Time and memory grow with its square; the error falls up to the size at which the mirror shows a texel a pixel."},
+    {"effects.environment_interval",
+     "A map that has changed is rendered in one of so many frames; what moves in it moves in steps."},
+    {"effects.environment_box",
+     "Nothing measurable; without it the mirror shows everything as if it were infinitely far."},
     {"effects.curved", "Rays. On an H200 at every sample: 70.5 ms of 130.0 in mirror_ball."},
     {"quality.budget_ms", "It chooses among what was measured and costs nothing itself."},
     {"quality.max_error", "It chooses among what was measured and costs nothing itself."},
     {"debug.check_finite", "Reads every sample of every target once more on the GPU, each frame."},
     {"debug.skip_hidden", "Saves: in mirror_maze 83 passes show all four depths where 2 613 were needed."},
+    {"debug.cull_clusters", "Saves the vertices of what a view cannot see of an object; costs a few draw calls."},
     {"debug.mask_passes",
      "Saves: drawn for each sample seen, 1.29 instead of 1.49 in the gallery, 1.35 instead of 2.38 in many_mirrors."},
 }};
