@@ -28,7 +28,10 @@ size = [5, 3]
 
 Options hallOptions(const std::string& samples = "1") {
   Options options = headless(writeScene("hall", hall), size);
-  set(options, {{"view.samples", samples}, {"reflection.samples", samples}, {"debug.check_finite", "false"}});
+  set(options, {{"view.samples", samples},
+                {"reflection.samples", samples},
+                {"debug.check_finite", "false"},
+                {"reflection.skip_unchanged", "false"}});
   return options;
 }
 
