@@ -78,6 +78,7 @@ class Demo {
   void bookmarkView();
   void nextBookmark();
   void applyBookmarks();
+  void listBookmarks();
   void lookFromMirror(CameraController::MirrorSide side);
   int mirrorOfInterest() const;
   double aspect() const;

@@ -55,6 +55,7 @@ void Demo::bookmarkView() {
   const auto place = camera_.place();
   editor_->bookmark({.name = "view", .position = pose.eye, .target = place ? place->target : ahead});
   model_.bookmark = static_cast<int>(loaded_->scene.bookmarks.size()) - 1;
+  listBookmarks();
 }
 
 void Demo::nextBookmark() {
@@ -75,11 +76,16 @@ void Demo::applyBookmarks() {
   if (model_.removeBookmark && model_.bookmark >= 0 && model_.bookmark < static_cast<int>(bookmarks.size())) {
     editor_->removeBookmark(static_cast<size_t>(model_.bookmark));
   }
+  listBookmarks();
+}
+
+// A key may come between two looks of the panel at the list.
+void Demo::listBookmarks() {
   model_.bookmarks.clear();
-  for (const Bookmark& bookmark : bookmarks) {
+  for (const Bookmark& bookmark : loaded_->scene.bookmarks) {
     model_.bookmarks.push_back(bookmark.name);
   }
-  model_.bookmark = std::min(model_.bookmark, static_cast<int>(bookmarks.size()) - 1);
+  model_.bookmark = std::min(model_.bookmark, static_cast<int>(model_.bookmarks.size()) - 1);
 }
 
 }  // namespace speculum

@@ -9,8 +9,8 @@ namespace {
 
 // A draw call costs about as much as the vertices of so many triangles; shorter gaps are drawn.
 constexpr uint32_t shortestGap = 3 * 96;  // indices
-constexpr double leastSaved = 0.1;         // of the mesh's indices
-constexpr double rounding = 1e-5;          // of floats on the GPU, with room to spare; of the sizes involved
+constexpr double leastSaved = 0.1;        // of the mesh's indices
+constexpr double rounding = 1e-5;         // of floats on the GPU, with room to spare; of the sizes involved
 
 // A plane in the space of Vertex::position: seen is what has dot(normal, p) + offset >= 0.
 struct LocalPlane {
