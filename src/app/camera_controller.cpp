@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "optics/affine.hpp"
+#include "optics/polygon.hpp"
 
 namespace speculum {
 
@@ -157,10 +158,7 @@ void CameraController::frame(const Sphere& sphere, double aspect) {
 
 void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, double aspect) {
   take(last_);
-  glm::dvec3 middle(0.0);
-  for (const glm::dvec3& vertex : mirror.polygon) {
-    middle += vertex / static_cast<double>(mirror.polygon.size());
-  }
+  const glm::dvec3 middle = vertexMean(mirror.polygon);
   double radius = 0.0;
   for (const glm::dvec3& vertex : mirror.polygon) {
     radius = std::max(radius, glm::distance(middle, vertex));

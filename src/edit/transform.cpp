@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "optics/affine.hpp"
+#include "optics/polygon.hpp"
 
 namespace speculum {
 
@@ -12,14 +13,6 @@ namespace {
 template <typename Item>
 Thing itemOf(const std::vector<Item>& items, int index) {
   return index >= 0 && static_cast<size_t>(index) < items.size() ? Thing(items[static_cast<size_t>(index)]) : Thing();
-}
-
-glm::dvec3 meanOf(const std::vector<glm::dvec3>& points) {
-  glm::dvec3 sum(0.0);
-  for (const glm::dvec3& p : points) {
-    sum += p - points[0];
-  }
-  return points[0] + sum / static_cast<double>(points.size());
 }
 
 // Reduced as evaluate() does it.
@@ -76,7 +69,7 @@ const InstanceState* instanceOf(const SceneState& state, const Selection& select
 glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection& selection) {
   const auto index = static_cast<size_t>(std::max(selection.index, 0));
   if (selection.kind == Selection::Kind::mirror) {
-    return meanOf(state.mirrors.at(index).polygon);
+    return vertexMean(state.mirrors.at(index).polygon);
   }
   if (selection.kind == Selection::Kind::light) {
     return state.lights.at(index).position;

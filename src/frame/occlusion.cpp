@@ -37,14 +37,6 @@ std::vector<glm::dvec3> distinctVertices(const std::vector<glm::dvec3>& polygon,
   return kept;
 }
 
-glm::dvec3 centroid(std::span<const glm::dvec3> polygon) {
-  glm::dvec3 sum(0.0);
-  for (const glm::dvec3& p : polygon) {
-    sum += p - polygon[0];
-  }
-  return polygon[0] + sum / static_cast<double>(polygon.size());
-}
-
 }  // namespace
 
 Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings& settings,
@@ -146,7 +138,7 @@ bool Occlusion::covers(const Occluder& occluder, const View& view, std::span<con
     return false;
   }
   const double eye = std::abs(occluder.plane.distance(view.eye));
-  const glm::dvec3 inside = centroid(drawn) - view.eye;
+  const glm::dvec3 inside = vertexMean(drawn) - view.eye;
   const double pixel = 2.0 / (projection_.focal * view.pictureSize.y);  // at unit depth
   for (size_t i = 0; i < drawn.size(); ++i) {
     const glm::dvec3 a = drawn[i] - view.eye;

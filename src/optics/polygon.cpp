@@ -43,6 +43,14 @@ glm::dvec3 newellVector(std::span<const glm::dvec3> polygon) {
   return sum;
 }
 
+glm::dvec3 vertexMean(std::span<const glm::dvec3> polygon) {
+  glm::dvec3 sum(0.0);
+  for (const glm::dvec3& p : polygon) {
+    sum += p - polygon[0];
+  }
+  return polygon[0] + sum / static_cast<double>(polygon.size());
+}
+
 double polygonArea(std::span<const glm::dvec3> polygon) {
   return 0.5 * glm::length(newellVector(polygon));
 }

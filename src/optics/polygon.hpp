@@ -21,6 +21,9 @@ struct Plane {
 // half of it has the polygon's area as length; it points to where the vertices run counter-clockwise.
 glm::dvec3 newellVector(std::span<const glm::dvec3> polygon);
 
+// The mean of the vertices of a polygon that has some. Differences are summed, for a far-off origin.
+glm::dvec3 vertexMean(std::span<const glm::dvec3> polygon);
+
 double polygonArea(std::span<const glm::dvec3> polygon);
 
 // What makes a polygon unusable as a mirror, or nothing: fewer than 3 vertices, non-finite, area below 1e-8 diameter^2,
