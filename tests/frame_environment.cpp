@@ -95,9 +95,8 @@ TEST(EnvironmentMap, NoRayIsTracedForIt) {
   Frames frames(room());
   frames.next();
   const SceneState state = evaluate(frames.scene, 0.0);
-  const TracedEffects effects = tracedEffects(frames.scene, state, frames.settings, frames.plan);
-  EXPECT_EQ(effects.curved, "object 'ball'");
-  EXPECT_FALSE(effects.any());
+  EXPECT_EQ(frames.plan.effects.curved, "object 'ball'");
+  EXPECT_FALSE(frames.plan.effects.any());
   const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .tracesRays = false},
                                        frames.scene, state, frames.settings, width, height);
   EXPECT_EQ(fitted.plan.maps.size(), 1u) << "a device that cannot trace rays draws it";

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "frame/frame_plan.hpp"
+#include "frame/image_reuse.hpp"
 #include "frame/memory_fit.hpp"
 #include "optics/affine.hpp"
 

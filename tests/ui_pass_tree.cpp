@@ -7,8 +7,9 @@ namespace {
 
 TEST(PassTree, MirrorsHangBelowWhatTheyAreSeenIn) {
   // In the order of recording: children before their parent.
-  const std::vector<UiPass> passes = {{"mirror a > b", {0, 1}, 1}, {"mirror a", {0}, 0}, {"mirror b > a", {1, 0}, 1},
-                                      {"mirror b", {1}, 0},        {"main view"},        {"display"}};
+  const std::vector<UiPass> passes = {{"mirror a > b", {0, 1}, 1},           {"mirror a", {0}, 0},
+                                      {"mirror b > a", {1, 0}, 1},           {"mirror b", {1}, 0},
+                                      {"main view", {}, -1, PassKind::main}, {"display", {}, -1, PassKind::display}};
   const std::vector<UiSkipped> skipped = {{"c", "hidden", "", {2}},
                                           {"a > c", "outside", "", {0, 2}},
                                           {"a > b > a", "max_depth", "", {0, 1, 0}},

@@ -9,6 +9,7 @@
 #include "app/screenshot.hpp"
 #include "app/view_command.hpp"
 #include "core/platform.hpp"
+#include "frame/scene_names.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {
@@ -200,7 +201,7 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
       return r.framesAgo > 0 && r.name == pass.name && r.path == pass.path;
     });
     if (row == rows.end()) {
-      row = rows.insert(rows.begin() + place, UiPass{pass.name, pass.path, pass.depth});
+      row = rows.insert(rows.begin() + place, UiPass{pass.name, pass.path, pass.depth, pass.kind});
     }
     // The times are of an earlier frame, whose plan may have differed.
     const auto timing = std::find_if(timings.passes.begin(), timings.passes.end(),

@@ -66,7 +66,7 @@ ordered_json passesJson(Session& session, const FrameTimings& timings) {
   for (size_t i = 0; i < recorded.size(); ++i) {
     const RecordedPass& pass = recorded[i];
     const PassTiming timing = i < timings.passes.size() ? timings.passes[i] : PassTiming{};
-    const bool mirror = pass.depth >= 0;
+    const bool mirror = pass.kind == PassKind::mirror;
     passes.push_back({{"name", pass.name},
                       {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
                       {"path", pathJson(session.scene(), pass.path)},

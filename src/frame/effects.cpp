@@ -4,7 +4,6 @@
 #include <set>
 
 #include "frame/scene_names.hpp"
-#include "frame/traced_effects.hpp"
 
 namespace speculum {
 
@@ -121,7 +120,7 @@ std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effe
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
                               const FramePlan& plan) {
   const Visible visible = visibleIn(plan);
-  const TracedEffects traced = tracedEffects(scene, state, settings, plan);
+  const TracedEffects& traced = plan.effects;
   const bool aces = settings.view.toneMap == ToneMap::aces;
   return {
       tracedEffect("shadows", traced.shadows, "no light casts them on what is drawn"),

@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "frame/environment_map.hpp"
-#include "frame/image_content.hpp"
+#include "frame/image_reuse.hpp"
+#include "frame/mirror_sight.hpp"
 #include "frame/occlusion.hpp"
 #include "frame/pass_mask.hpp"
-#include "frame/traced_effects.hpp"
 
 namespace speculum {
 
@@ -43,37 +43,6 @@ struct Candidate {
 
 double largest(const glm::dvec3& v) {
   return std::max({v.x, v.y, v.z});
-}
-
-// Schlick's F grows towards grazing; the flattest view of a polygon is that of its farthest vertex.
-glm::dvec3 reflectanceBound(const Mirror& mirror, const Plane& plane, const glm::dvec3& eye,
-                            std::span<const glm::dvec3> visible) {
-  if (mirror.fresnel == Fresnel::none) {
-    return mirror.reflectance;
-  }
-  double farthest = 0.0;
-  for (const glm::dvec3& p : visible) {
-    farthest = std::max(farthest, glm::length(p - eye));
-  }
-  const double cosine = farthest > 0.0 ? std::clamp(plane.distance(eye) / farthest, 0.0, 1.0) : 1.0;
-  return mirror.reflectance + (1.0 - mirror.reflectance) * std::pow(1.0 - cosine, 5.0);
-}
-
-// Distance of the eye from the mirror's plane; exactly 0 where rounding leaves no side to be on. What is rounded are
-// the coordinates themselves, so that it grows with their distance from the origin.
-double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
-  const double height = glm::dot(mirror.normal, eye - mirror.origin);
-  return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
-}
-
-bool isRough(const Mirror& mirror, const EffectSettings& effects) {
-  return effects.roughness && mirror.roughness > 0.0;
-}
-
-// Without reflection, at a limit of depth or throughput, only ripples show.
-bool scatters(const Mirror& mirror, const EffectSettings& effects, bool reflects) {
-  const bool roughRays = isRough(mirror, effects) && effects.roughLookup == RoughLookup::traced;
-  return (reflects && roughRays) || (effects.ripple && mirror.ripple);
 }
 
 std::string number(double value) {
@@ -112,7 +81,7 @@ class Planner {
       candidates_.pop();
       expand(best);
     }
-    planMaps();
+    findEffects();
     keepUnchanged();
     record(0);
     forgetHeldSubtrees();
@@ -123,14 +92,11 @@ class Planner {
   void fill(int node);
   void addInstance(PlannedPass& pass, const View& readable, int i);
   void consider(int node, int mirror, const View& readable);
+  void propose(int node, Sight sight);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
   void hold(Node& node, const Candidate& candidate, int interval) const;
-  bool serves(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible) const;
-  int margin(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible, int due) const;
-  void planMaps();
-  bool keepMap(EnvironmentMap& map, const ImageSurroundings& around) const;
-  ImageSurroundings surroundings() const;
+  void findEffects();
   void keepUnchanged();
   void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
@@ -212,43 +178,43 @@ void Planner::skip(const View& view, int mirror, SkipReason reason, std::string 
 void Planner::consider(int node, int mirror, const View& readable) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
-  const Mirror& material = scene_.mirrors[mirror];
-  const MirrorState& geometry = state_.mirrors[mirror];
-  if (behindEye(view, geometry.polygon)) {
+  const std::vector<glm::dvec3>& polygon = state_.mirrors[mirror].polygon;
+  if (behindEye(view, polygon)) {
     return skip(view, mirror, SkipReason::behind);
   }
-  const double height = heightAbove(geometry, view.eye);
-  MirrorDraw draw{.mirror = mirror, .plane = {geometry.origin, geometry.normal}};
-  draw.back = height <= 0.0 && !(material.twoSided && height < 0.0);
-  draw.polygon = drawnPart(view, geometry.polygon);
-  const std::vector<glm::dvec3> visible = visiblePart(view, geometry.polygon);
-  if (height < 0.0) {
-    draw.plane.normal = -draw.plane.normal;
-    std::reverse(draw.polygon.begin(), draw.polygon.end());
-  }
+  Sight sight = sightOf(scene_, state_, view, mirror);
   const std::optional<std::string> occluder =
-      visible.empty() ? std::nullopt
-                      : occlusion_->hiddenBy(view, pass.instances, mirror, visiblePart(readable, geometry.polygon));
-  if (draw.back) {
-    if (!visible.empty() && height < 0.0 && !occluder) {
-      pass.mirrors.push_back(std::move(draw));
+      sight.visible.empty() ? std::nullopt
+                            : occlusion_->hiddenBy(view, pass.instances, mirror, visiblePart(readable, polygon));
+  if (sight.draw.back) {
+    if (!sight.visible.empty() && sight.height < 0.0 && !occluder) {
+      pass.mirrors.push_back(std::move(sight.draw));
     }
-    return skip(view, mirror, SkipReason::backface, height == 0.0 ? "the eye is in its plane" : "");
+    return skip(view, mirror, SkipReason::backface, sight.height == 0.0 ? "the eye is in its plane" : "");
   }
-  if (visible.empty()) {
+  if (sight.visible.empty()) {
     return skip(view, mirror, SkipReason::outside);
   }
   if (occluder) {
     return skip(view, mirror, SkipReason::hidden, "behind " + *occluder);
   }
-  const double area = screenArea(toClip(view, plan_.projection, visible), plan_.width, plan_.height);
-  const glm::dvec3 throughput = pass.channels * reflectanceBound(material, draw.plane, view.eye, visible);
+  propose(node, std::move(sight));
+}
+
+// Draws a mirror that is seen, and makes it a candidate unless it is not worth a pass.
+void Planner::propose(int node, Sight sight) {
+  PlannedPass& pass = nodes_[node].pass;
+  const View& view = pass.view;
+  const int mirror = sight.draw.mirror;
+  const Mirror& material = scene_.mirrors[mirror];
+  const double area = screenArea(toClip(view, plan_.projection, sight.visible), plan_.width, plan_.height);
+  const glm::dvec3 throughput = pass.channels * reflectanceBound(material, sight.draw.plane, view.eye, sight.visible);
   const bool deep = static_cast<int>(view.path.size()) >= settings_.maxDepth;
   const bool reflects = !deep && largest(throughput) >= settings_.minThroughput;
-  draw.scatters = scatters(material, allSettings_.effects, reflects);
-  draw.blurs = reflects && !draw.scatters && isRough(material, allSettings_.effects);
-  const bool needsPass = !draw.scatters;
-  pass.mirrors.push_back(std::move(draw));
+  sight.draw.scatters = scatters(material, allSettings_.effects, reflects);
+  sight.draw.blurs = reflects && !sight.draw.scatters && isRough(material, allSettings_.effects);
+  const bool needsPass = !sight.draw.scatters;
+  pass.mirrors.push_back(std::move(sight.draw));
   if (deep) {
     return skip(view, mirror, SkipReason::maxDepth, "max_depth " + std::to_string(settings_.maxDepth));
   }
@@ -258,11 +224,10 @@ void Planner::consider(int node, int mirror, const View& readable) {
   if (largest(throughput) < settings_.minThroughput) {
     return skip(view, mirror, SkipReason::minThroughput, number(largest(throughput)));
   }
-  if (!needsPass) {
-    return;
+  if (needsPass) {
+    candidates_.push({area * largest(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
+                      throughput, discovered_++});
   }
-  candidates_.push(
-      {area * largest(throughput), node, pass.mirrors.size() - 1, visible, area, throughput, discovered_++});
 }
 
 void Planner::expand(const Candidate& candidate) {
@@ -301,147 +266,48 @@ void Planner::expand(const Candidate& candidate) {
   fill(index);
 }
 
-// Decides whether an image of an earlier frame serves, and otherwise what this frame's is to cover.
 void Planner::hold(Node& node, const Candidate& candidate, int interval) const {
-  View& view = node.pass.view;
-  const auto before = std::find_if(heldBefore_.begin(), heldBefore_.end(),
-                                   [&](const HeldImage& image) { return image.mirror == view.path.back(); });
-  const bool exists = before != heldBefore_.end();
-  const int left = exists ? std::min(before->due, interval) - before->age : 0;  // frames
-  if (left > 0 && serves(*before, node, candidate.visible)) {
-    node.held = *before;
-    ++node.held->age;
-    node.held->pass = -1;
-    node.held->earlier = static_cast<int>(before - heldBefore_.begin());
-    node.moved = !unmoved(*before, view, plan_.projection, candidate.visible);
-    return;
+  HeldChoice choice = chooseHeld(
+      heldBefore_, {node.pass.view, plan_.projection, candidate.visible, allSettings_, interval, candidate.order});
+  if (choice.image.earlier < 0) {
+    node.pass.view = choice.image.view;
   }
-  // New images, such as all of the first frame, take turns from then on; what is rendered out of turn keeps its own.
-  const int due = left > 0 ? left : exists ? interval : interval - candidate.order % interval;
-  if (const int pixels = exists ? margin(*before, node, candidate.visible, due) : 0; pixels > 0) {
-    widen(view, plan_.projection, pixels);
-  }
-  node.held = HeldImage{.mirror = view.path.back(),
-                        .view = view,
-                        .projection = plan_.projection,
-                        .visible = candidate.visible,
-                        .settings = allSettings_,
-                        .due = due};
+  node.moved = choice.moved;
+  node.held = std::move(choice.image);
 }
 
-bool Planner::serves(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible) const {
-  const View& view = node.pass.view;
-  return sameMirrorImages(image.settings, allSettings_) && image.view.pictureSize == view.pictureSize &&
-         (unmoved(image, view, plan_.projection, visible) || covers(image, view, visible));
-}
-
-// Pixels on each side that an image needs to serve until it is due, if things go on moving as they did since `image`.
-int Planner::margin(const HeldImage& image, const Node& node, std::span<const glm::dvec3> visible, int due) const {
-  constexpr double reserve = 1.25;  // motion is not quite even
-  constexpr double least = 2.0;     // pixels
-  const View& view = node.pass.view;
-  if (image.view.pictureSize != view.pictureSize) {
-    return 0;
-  }
-  const double most = largestMargin * view.pictureSize.y;
-  const double perFrame = largestShift(image, view, plan_.projection, visible) / image.age;
-  // A cut, or too fast for the next frame already: a margin would be lost.
-  if (due == 1 || perFrame == 0.0 || !(perFrame < most)) {
-    return 0;
-  }
-  return static_cast<int>(std::min(most, reserve * perFrame * (due - 1) + least));
-}
-
-// What all images of this frame have in common, those of earlier frames as well.
-ImageSurroundings Planner::surroundings() const {
-  std::vector<const PlannedPass*> all;
-  collect(0, all);
-  ImageSurroundings around{scene_, state_, allSettings_, plan_.projection, {}, {}};
+// Environment maps, and what they and all passes call for: what earlier frames rendered shows the same effects.
+void Planner::findEffects() {
+  std::vector<const PlannedPass*> passes;
+  collect(0, passes);
+  plan_.maps = environmentMaps(scene_, state_, allSettings_, passes);
+  passes.pop_back();
   for (const EnvironmentMap& map : plan_.maps) {
-    around.maps.emplace_back(map.instance, map.serial);
     for (const PlannedPass& face : map.faces) {
-      all.push_back(&face);
+      passes.push_back(&face);
     }
   }
-  around.effects = tracedEffects(scene_, state_, allSettings_, all);
-  return around;
-}
-
-void Planner::planMaps() {
-  std::vector<const PlannedPass*> drawn;
-  collect(0, drawn);
-  plan_.maps = environmentMaps(scene_, state_, allSettings_, drawn);
-  if (plan_.maps.empty()) {
-    return;
-  }
-  ImageSurroundings around = surroundings();
-  around.maps.clear();  // a map shows none
-  int serial = 0;
-  for (const EnvironmentMap& map : mapsBefore_) {
-    serial = std::max(serial, map.serial);
-  }
-  for (EnvironmentMap& map : plan_.maps) {
-    if (!keepMap(map, around)) {
-      map.serial = ++serial;
-    }
-  }
-}
-
-// Whether a map of the frame before serves.
-bool Planner::keepMap(EnvironmentMap& map, const ImageSurroundings& around) const {
-  const int interval = allSettings_.effects.environmentInterval;
-  if (settings_.skipUnchanged) {
-    std::vector<const PlannedPass*> faces;
-    for (const PlannedPass& face : map.faces) {
-      faces.push_back(&face);
-    }
-    map.content = imageContent(around, nodes_[0].pass.view, faces);
-  }
-  const auto before = std::find_if(mapsBefore_.begin(), mapsBefore_.end(), [&](const EnvironmentMap& other) {
-    return other.object == map.object && other.copy == map.copy;
-  });
-  if (before == mapsBefore_.end()) {
-    map.due = interval - map.instance % interval;  // they take turns
-    return false;
-  }
-  map.due = interval;
-  const bool same = sameMirrorImages(before->settings, allSettings_) && before->settings.debug == allSettings_.debug;
-  const bool unchanged = settings_.skipUnchanged && before->content == map.content;
-  const bool young = before->age < std::min(before->due, interval);
-  if (!same || !(unchanged || young)) {
-    return false;
-  }
-  map.earlier = static_cast<int>(before - mapsBefore_.begin());
-  map.serial = before->serial;
-  map.center = before->center;
-  if (!unchanged) {
-    map.content = before->content;
-    map.age = before->age + 1;
-    map.due = before->due;
-  }
-  return true;
+  passes.push_back(&nodes_[0].pass);
+  plan_.effects = tracedEffects(scene_, state_, allSettings_, passes);
 }
 
 // Of the images that would be rendered, those that would be what they were are not.
 void Planner::keepUnchanged() {
+  const View& main = nodes_[0].pass.view;
+  ImageSurroundings around{scene_, state_, allSettings_, plan_.projection, plan_.effects, {}};
+  keepMaps(plan_.maps, mapsBefore_, around, main);
   if (!settings_.skipUnchanged) {
     return;
   }
-  const ImageSurroundings around = surroundings();
+  for (const EnvironmentMap& map : plan_.maps) {
+    around.maps.emplace_back(map.instance, map.serial);
+  }
   for (const int child : nodes_[0].children) {
     std::optional<HeldImage>& held = nodes_[child].held;
-    if (!held || held->earlier >= 0) {
-      continue;
-    }
-    std::vector<const PlannedPass*> passes;
-    collect(child, passes);
-    held->content = imageContent(around, nodes_[0].pass.view, passes);
-    const auto before = std::find_if(heldBefore_.begin(), heldBefore_.end(),
-                                     [&](const HeldImage& image) { return image.mirror == held->mirror; });
-    if (before != heldBefore_.end() && before->content == held->content &&
-        sameMirrorImages(before->settings, allSettings_) && before->settings.debug == allSettings_.debug) {
-      held->kept = before->kept + before->age;
-      held->earlier = static_cast<int>(before - heldBefore_.begin());
+    if (held && held->earlier < 0) {
+      std::vector<const PlannedPass*> passes;
+      collect(child, passes);
+      keepIfUnchanged(*held, heldBefore_, around, main, passes);
     }
   }
 }

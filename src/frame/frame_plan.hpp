@@ -7,6 +7,7 @@
 #include "frame/held_image.hpp"
 #include "frame/partial_instances.hpp"
 #include "frame/settings.hpp"
+#include "frame/traced_effects.hpp"
 #include "frame/view.hpp"
 
 namespace speculum {
@@ -71,6 +72,9 @@ struct EnvironmentMap {
   int earlier = -1;               // index among the maps before this frame; -1: this frame renders it
 };
 
+// What a pass that was recorded draws.
+enum class PassKind { mirror, environment, main, display, debugView };
+
 struct SkippedMirror {
   int mirror = 0;
   std::vector<int> path;  // mirrors from the eye, ending with this one
@@ -91,11 +95,8 @@ struct FramePlan {
   // screen all the same, and calls for effects.
   std::vector<PlannedPass> shown;
   std::vector<EnvironmentMap> maps;  // of the curved mirrors that are drawn; `instance` ascending
+  TracedEffects effects;             // that all of these passes call for
 };
-
-// Images that are to be held are rendered with a margin on each side, as wide as the motion of the last frames calls
-// for but at most this part of the picture's height.
-inline constexpr double largestMargin = 0.1;
 
 // Which passes a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. Recursion is
 // spent best first, by visible pixels times throughput.

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "frame/traced_effects.hpp"
+#include "frame/frame_plan.hpp"
 
 namespace speculum {
 
@@ -15,7 +15,7 @@ struct ImageSurroundings {
   const SceneState& state;
   const Settings& settings;
   const Projection& projection;
-  TracedEffects effects;                  // of all passes
+  const TracedEffects& effects;           // of all passes
   std::vector<std::pair<int, int>> maps;  // environment maps that may be looked up: instance, EnvironmentMap::serial
 };
 

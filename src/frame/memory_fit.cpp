@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "frame/traced_effects.hpp"
+#include "frame/image_reuse.hpp"
 
 namespace speculum {
 
@@ -103,7 +103,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
   fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
-  if (!limits.tracesRays && tracedEffects(scene, state, fitted.settings, fitted.plan).any()) {
+  if (!limits.tracesRays && fitted.plan.effects.any()) {
     EffectSettings& effects = fitted.settings.effects;
     effects.shadows = effects.roughness = effects.ripple = effects.castsLight = false;
     effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;

@@ -6,4 +6,17 @@ std::string nameOf(const std::string& kind, const std::string& name, int index) 
   return kind + " " + (name.empty() ? std::to_string(index) : "'" + name + "'");
 }
 
+std::string mirrorName(const Scene& scene, int mirror) {
+  const std::string& name = scene.mirrors[mirror].name;
+  return name.empty() ? std::to_string(mirror) : name;
+}
+
+std::string mirrorPathName(const Scene& scene, std::span<const int> path) {
+  std::string text;
+  for (const int mirror : path) {
+    text += (text.empty() ? "" : " > ") + mirrorName(scene, mirror);
+  }
+  return text;
+}
+
 }  // namespace speculum

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "frame/frame_plan.hpp"
 #include "frame/scene_names.hpp"
 #include "optics/reflection.hpp"
 
@@ -161,23 +162,6 @@ TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const S
     collector.add(*pass);
   }
   return collector.finish();
-}
-
-TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
-                            const FramePlan& plan) {
-  std::vector<const PlannedPass*> passes;
-  for (const std::vector<PlannedPass>* some : {&plan.passes, &plan.shown}) {
-    for (const PlannedPass& pass : *some) {
-      passes.push_back(&pass);
-    }
-  }
-  for (const EnvironmentMap& map : plan.maps) {
-    for (const PlannedPass& face : map.faces) {
-      passes.push_back(&face);
-    }
-  }
-  passes.push_back(&plan.main);
-  return tracedEffects(scene, state, settings, passes);
 }
 
 }  // namespace speculum

@@ -1,12 +1,15 @@
 #pragma once
 
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "frame/frame_plan.hpp"
+#include "frame/settings.hpp"
+#include "scene/scene_state.hpp"
 
 namespace speculum {
+
+struct PlannedPass;
 
 // A light that a mirror bounces to something that is drawn.
 struct MirroredLight {
@@ -30,9 +33,7 @@ struct TracedEffects {
   bool any() const { return traces() || !castsLight.empty(); }
 };
 
-// What the passes of a plan call for, under settings.effects, and those that show images of earlier frames. Pure.
-TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
-                            const FramePlan& plan);
+// What these passes call for, under settings.effects; the first of them that does is named. Pure.
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
                             std::span<const PlannedPass* const> passes);
 

@@ -1,17 +1,15 @@
 #include "systems/scene_renderer.hpp"
 
 #include <algorithm>
-#include <glm/gtc/packing.hpp>
 #include <utility>
 
 #include "frame/environment_map.hpp"
 #include "frame/memory_fit.hpp"
+#include "frame/scene_names.hpp"
 
 namespace speculum {
 
 namespace {
-
-constexpr const char* mainName = "main view";
 
 VkRect2D areaOf(const PixelRect& rect) {
   return {{0, 0}, {static_cast<uint32_t>(rect.width), static_cast<uint32_t>(rect.height)}};
@@ -41,19 +39,6 @@ bool isHeld(const FramePlan& plan, int pass) {
 
 }  // namespace
 
-std::string mirrorName(const Scene& scene, int mirror) {
-  const std::string& name = scene.mirrors[mirror].name;
-  return name.empty() ? std::to_string(mirror) : name;
-}
-
-std::string mirrorPathName(const Scene& scene, std::span<const int> path) {
-  std::string text;
-  for (const int mirror : path) {
-    text += (text.empty() ? "" : " > ") + mirrorName(scene, mirror);
-  }
-  return text;
-}
-
 SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
     : renderer_(renderer),
       device_(renderer.device()),
@@ -66,12 +51,9 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       pointLightSystem_(renderer.pipelines(), data_.layout()),
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
       watch_(renderer),
-      environmentTargets_(device_) {
-  const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                  .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
-  displayLayout_ = createDescriptorSetLayout(device_, {&binding, 1}, "display");
-  watchedDepth_ = std::make_unique<KeptDepth>(renderer, displayLayout_.get());
-}
+      display_(renderer),
+      watchedDepth_(std::make_unique<KeptDepth>(renderer, display_.layout())),
+      environmentTargets_(device_) {}
 
 SceneRenderer::~SceneRenderer() {
   renderer_.waitIdle();
@@ -79,7 +61,7 @@ SceneRenderer::~SceneRenderer() {
 
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
-         mirrorSystem_.pipelineCount() + displayPipelines_.size() + watch_.pipelineCount() +
+         mirrorSystem_.pipelineCount() + display_.pipelineCount() + watch_.pipelineCount() +
          watchedDepth_->pipelineCount();
 }
 
@@ -98,8 +80,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   prepareMaps(frame, plan);
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
-  const TracedEffects effects = tracedEffects(scene_, state, settings, plan);
-  trace_.build(frame, state, settings, effects);
+  trace_.build(frame, state, settings, plan.effects);
   ledger_ = {};
   targets_.assign(plan.passes.size(), nullptr);
   images_.assign(plan.passes.size(), {});
@@ -125,11 +106,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (settings.debug.checkFinite) {
     watch_.end(frame);
   }
-  if (cover_) {
-    recordCover(frame);
-  } else {
-    recordDisplayPass(frame, settings);
-  }
+  recorded_.push_back(display_.record(frame, {.descriptor = main_->descriptor()}, settings));
   if (debug) {
     recordDebugView(frame, settings, plan, *debug);
     if (ofMirror && !isHeld(plan, debug->pass)) {
@@ -137,9 +114,9 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     }
   }
   const bool imagesShown = !plan.shown.empty();
-  renderSystem_.endFrame(trace_.variant(), imagesShown, !effects.curved.empty());
+  renderSystem_.endFrame(trace_.variant(), imagesShown, !plan.effects.curved.empty());
   mirrorSystem_.endFrame(trace_.variant(), imagesShown);
-  finishLedger(settings, plan, effects);
+  finishLedger(settings, plan);
   keepHeldImages(plan);
   environmentTargets_.endFrame(plan, *frame.retired);
   if (pool_) {
@@ -154,19 +131,21 @@ void SceneRenderer::releaseViews(const std::optional<DebugView>& debug, RetireQu
     watchedDepth_->release(retired);
   }
   if (!debug) {
-    std::erase_if(displayPipelines_, [](const auto& entry) { return entry.first.multisampled; });
+    display_.releaseView();
   }
 }
 
 // What is not entered draw by draw.
-void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan, const TracedEffects& effects) {
+void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan) {
+  const TracedEffects& effects = plan.effects;
   Settings single = settings;
   single.view.samples = 1;
   single.reflection.samples = 1;
   ledger_[EffectKind::msaa].bytes = targetBytes(plan, settings) - targetBytes(plan, single);
   for (const RecordedPass& pass : recorded_) {
-    const int samples = pass.depth >= 0 ? settings.reflection.samples : settings.view.samples;
-    const bool scene = pass.depth >= 0 || pass.name == mainName;
+    const bool ofMirror = pass.kind == PassKind::mirror;
+    const int samples = ofMirror ? settings.reflection.samples : settings.view.samples;
+    const bool scene = ofMirror || pass.kind == PassKind::main;
     ledger_[EffectKind::msaa].draws += scene && samples > 1 ? pass.draws : 0;
   }
   ledger_[EffectKind::textures].bytes = ledger_[EffectKind::textures].draws > 0 ? resources_.textureBytes() : 0;
@@ -181,9 +160,7 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
   }
   ledger_[EffectKind::curved].bytes += environmentTargets_.bytes();
   ledger_[EffectKind::glyphs].pipelines = static_cast<uint32_t>(pointLightSystem_.pipelineCount());
-  for (const auto& [variant, pipeline] : displayPipelines_) {
-    ledger_.pipeline(EffectKind::toneMap, variant.toneMap == ToneMap::aces);
-  }
+  display_.countPipelines(ledger_);
   renderSystem_.countPipelines(ledger_);
   mirrorSystem_.countPipelines(ledger_);
 }
@@ -319,6 +296,7 @@ void SceneRenderer::recordMap(Frame& frame, const FrameInfo& info, size_t map, s
     const glm::ivec2 corner = faceCorner(planned, face);
     const PlannedPass& pass = planned.faces[face];
     RecordedPass recorded{.name = "environment of " + planned.name + " " + faceAxes()[face].name,
+                          .kind = PassKind::environment,
                           .areaPx = pass.areaPx};
     const VkRect2D area{{corner.x, corner.y}, {size, size}};
     const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
@@ -381,12 +359,12 @@ void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t
 }
 
 void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
-  PassDesc desc = fullPass(mainName, main_->targets());
+  PassDesc desc = fullPass("main view", main_->targets());
   desc.clearColor = clearColor(info.environment);
   desc.frontFace = frontFace(info.plan.main.view);
   desc.collectStatistics = true;
   desc.storeSamples = main_->desc().readSamples;
-  RecordedPass recorded{.name = desc.name, .areaPx = info.plan.main.areaPx};
+  RecordedPass recorded{.name = desc.name, .kind = PassKind::main, .areaPx = info.plan.main.areaPx};
   const size_t index = info.plan.passes.size();
   if (keepsDepth(index)) {
     watchedDepth_->prepare(desc, *frame.retired);
@@ -404,48 +382,16 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
   releaseImages(info.plan, info.plan.main);
 }
 
-const Pipeline& SceneRenderer::displayPipeline(const DisplayVariant& variant) {
-  std::unique_ptr<Pipeline>& pipeline = displayPipelines_[variant];
-  if (!pipeline) {
-    GraphicsPipelineDesc desc{.name = "display", .vert = "full_screen.vert", .frag = "display.frag"};
-    if (variant.multisampled) {
-      desc.frag = "display_average.frag";
-    }
-    desc.fragConstants = {variant.toneMap == ToneMap::aces};
-    desc.setLayouts = {displayLayout_.get()};
-    desc.pushConstantBytes = sizeof(DisplayConstants);
-    desc.color = variant.format;
-    desc.depth = VK_FORMAT_UNDEFINED;
-    desc.depthTest = false;
-    desc.depthWrite = false;
-    pipeline = std::make_unique<Pipeline>(renderer_.pipelines(), std::move(desc));
+void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan,
+                                    const DebugView& debug) {
+  const bool ofMain = debug.pass == static_cast<int>(plan.passes.size());
+  const MirrorImage color = ofMain ? MirrorImage{.descriptor = main_->descriptor()} : images_[debug.pass];
+  const bool ofDepth = depthPass_ && watchedDepth_->exists();
+  const auto pass = ofDepth ? display_.recordDepth(frame, plan, debug, *watchedDepth_)
+                            : display_.recordColor(frame, plan, debug, color, settings);
+  if (pass) {
+    recorded_.push_back(*pass);
   }
-  return *pipeline;
-}
-
-void SceneRenderer::recordDisplay(Frame& frame, const PassDesc& desc, const MirrorImage& radiance,
-                                  const glm::vec4& lookup, const Settings& settings) {
-  const Pipeline& pipeline = displayPipeline({.toneMap = settings.view.toneMap,
-                                              .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
-                                              .format = renderer_.displayFormat()});
-  recordFullScreen(frame, desc, pipeline, radiance.descriptor, {lookup, static_cast<float>(settings.view.exposure)});
-}
-
-void SceneRenderer::recordFullScreen(Frame& frame, const PassDesc& desc, const Pipeline& pipeline,
-                                     const VkDescriptorImageInfo& image, const DisplayConstants& constants) {
-  const VkDescriptorSet set = frame.descriptors->allocate(displayLayout_.get());
-  DescriptorWriter().image(0, image).update(device_, set);
-  const PassScope scope = renderer_.beginPass(frame, desc);
-  pipeline.bind(scope.commands());
-  pipeline.bindSet(scope.commands(), 0, set);
-  pipeline.push(scope.commands(), constants);
-  vkCmdDraw(scope.commands(), 3, 1, 0, 0);
-  recorded_.push_back({.name = desc.name, .draws = 1});
-}
-
-void SceneRenderer::recordDisplayPass(Frame& frame, const Settings& settings) {
-  recordDisplay(frame, fullPass("display", renderer_.displayTargets(frame)), {.descriptor = main_->descriptor()},
-                glm::vec4(1.0f, 1.0f, 0.0f, 0.0f), settings);
 }
 
 LinearImage SceneRenderer::radiance() {
@@ -457,72 +403,6 @@ LinearImage SceneRenderer::radiance() {
     image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
   }
   return image;
-}
-
-void SceneRenderer::setCover(const Image8& picture) {
-  if (cover_) {
-    renderer_.retired().retire(std::move(cover_));
-    cover_ = Image();
-  }
-  if (picture.width < 1) {
-    return;
-  }
-  std::vector<uint64_t> texels(static_cast<size_t>(picture.width) * picture.height);
-  for (size_t i = 0; i < texels.size(); ++i) {
-    glm::vec4 linear(1.0f);
-    for (int channel = 0; channel < 3; ++channel) {
-      linear[channel] = static_cast<float>(srgbDecode(picture.rgba[4 * i + channel] / 255.0));
-    }
-    texels[i] = glm::packHalf4x16(linear);
-  }
-  // Validation layer 1.3.239 forgets the fences of frames in flight when an upload's is waited for.
-  renderer_.waitIdle();
-  const VkExtent2D extent{static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height)};
-  cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extent, colorFormat, false, "cover");
-  if (!coverSampler_) {
-    coverSampler_ = createSampler(device_, {}, "cover");
-  }
-}
-
-void SceneRenderer::recordCover(Frame& frame) {
-  const glm::vec2 scale(static_cast<float>(cover_.extent().width) / static_cast<float>(frame.extent.width),
-                        static_cast<float>(cover_.extent().height) / static_cast<float>(frame.extent.height));
-  recordDisplay(frame, fullPass("display", renderer_.displayTargets(frame)),
-                {.descriptor = cover_.descriptor(coverSampler_.get())}, glm::vec4(scale, 0.0f, 0.0f), Settings());
-}
-
-void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan,
-                                    const DebugView& debug) {
-  const bool ofMain = debug.pass == static_cast<int>(plan.passes.size());
-  const PixelRect image = ofMain ? PixelRect{0, 0, plan.width, plan.height} : plan.passes[debug.pass].view.rect;
-  PixelRect area = intersect(debug.area, {0, 0, plan.width, plan.height});
-  glm::dvec2 corner(debug.area.x, debug.area.y);  // of texel 0, 0, in pixels of the display
-  double zoom = debug.zoom;
-  if (zoom > 0.0) {
-    corner -= zoom * debug.origin;
-  } else {
-    zoom = std::min(static_cast<double>(area.width) / image.width, static_cast<double>(area.height) / image.height);
-    corner = {area.x, area.y};
-  }
-  const glm::dvec2 last = corner + zoom * glm::dvec2(image.width, image.height);
-  const glm::ivec2 low(glm::ceil(glm::max(corner - 0.5, glm::dvec2(-1.0))));
-  const glm::ivec2 high(glm::floor(glm::min(last, glm::dvec2(plan.width, plan.height) + 1.0)));
-  area = intersect(area, {low.x, low.y, high.x - low.x, high.y - low.y});
-  if (area.empty()) {
-    return;
-  }
-  PassDesc desc = fullPass("debug view", renderer_.displayTargets(frame));
-  desc.renderArea = {{area.x, area.y}, areaOf(area).extent};
-  desc.scissor = desc.renderArea;
-  desc.loadColor = true;
-  const glm::vec4 lookup(glm::dvec4(1.0 / zoom, 1.0 / zoom, -corner / zoom));
-  if (depthPass_ && watchedDepth_->exists()) {
-    const float half = static_cast<float>(plan.projection.near / debug.halfDistance);
-    recordFullScreen(frame, desc, watchedDepth_->pipeline(), watchedDepth_->descriptor(), {lookup, half});
-  } else {
-    recordDisplay(frame, desc, ofMain ? MirrorImage{.descriptor = main_->descriptor()} : images_[debug.pass], lookup,
-                  settings);
-  }
 }
 
 }  // namespace speculum

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "image/image.hpp"
+#include "systems/display_system.hpp"
 #include "systems/environment_targets.hpp"
 #include "systems/finite_watch.hpp"
 #include "systems/frame_info.hpp"
@@ -13,35 +14,10 @@
 #include "systems/mask_system.hpp"
 #include "systems/mirror_system.hpp"
 #include "systems/point_light_system.hpp"
+#include "systems/recorded_pass.hpp"
 #include "systems/render_system.hpp"
 
 namespace speculum {
-
-// What was recorded for one pass; its GPU figures follow under the same index in FrameTimings::passes.
-struct RecordedPass {
-  std::string name;
-  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
-  int depth = -1;         // -1: the main view or the display pass
-  uint32_t draws = 0;
-  double areaPx = 0.0;
-};
-
-// The name of a mirror as people see it: its `name`, or its index.
-std::string mirrorName(const Scene& scene, int mirror);
-// The mirrors of a path from the eye, as "floor > wall".
-std::string mirrorPathName(const Scene& scene, std::span<const int> path);
-
-enum class TargetKind { color, depth };
-
-// What a pass drew, shown over the picture in an area of the display image.
-struct DebugView {
-  int pass = 0;    // index into FramePlan::passes; their number stands for the main view
-  PixelRect area;  // pixels
-  TargetKind kind = TargetKind::color;
-  double zoom = 0.0;          // pixels of the display a texel; 0: the image is fitted into the area
-  glm::dvec2 origin{0.0};     // texel at the area's upper left corner; with a zoom
-  double halfDistance = 1.0;  // metres from the eye that depth shows half bright
-};
 
 // Draws one scene: mirror passes, main view, display pass. Owns the systems, the targets and the scene's resources.
 class SceneRenderer {
@@ -63,7 +39,7 @@ class SceneRenderer {
 
   // From the next frame on this picture is shown in the place of the scene's, stretched over the display image; one
   // without pixels ends that. Display sRGB.
-  void setCover(const Image8& picture);
+  void setCover(const Image8& picture) { display_.setCover(picture); }
 
   const std::vector<RecordedPass>& passes() const { return recorded_; }
   // What debug.check_finite found in the frames that have finished.
@@ -75,12 +51,6 @@ class SceneRenderer {
   LinearImage radiance();
 
  private:
-  struct DisplayVariant {
-    ToneMap toneMap;
-    bool multisampled;  // of the image that is shown
-    VkFormat format;
-    auto operator<=>(const DisplayVariant&) const = default;
-  };
   void takeHeldImages(const FramePlan& plan);
   void keepHeldImages(const FramePlan& plan);
   void prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
@@ -90,18 +60,11 @@ class SceneRenderer {
   void recordMainPass(Frame& frame, const FrameInfo& info);
   bool keepsDepth(size_t pass) const { return depthPass_ == static_cast<int>(pass); }
   void releaseViews(const std::optional<DebugView>& debug, RetireQueue& retired);
-  void recordDisplayPass(Frame& frame, const Settings& settings);
   void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
-  void recordDisplay(Frame& frame, const PassDesc& desc, const MirrorImage& radiance, const glm::vec4& lookup,
-                     const Settings& settings);
-  void recordFullScreen(Frame& frame, const PassDesc& desc, const Pipeline& pipeline,
-                        const VkDescriptorImageInfo& image, const DisplayConstants& constants);
   void checkTarget(Frame& frame, const FrameInfo& info, OffScreen& target, VkExtent2D used);
   void releaseImages(const FramePlan& plan, const PlannedPass& pass);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
-  const Pipeline& displayPipeline(const DisplayVariant& variant);
-  void recordCover(Frame& frame);
-  void finishLedger(const Settings& settings, const FramePlan& plan, const TracedEffects& effects);
+  void finishLedger(const Settings& settings, const FramePlan& plan);
 
   Renderer& renderer_;
   Device& device_;
@@ -114,8 +77,7 @@ class SceneRenderer {
   PointLightSystem pointLightSystem_;
   MirrorSystem mirrorSystem_;
   FiniteWatch watch_;
-  DescriptorSetLayoutHandle displayLayout_;
-  std::map<DisplayVariant, std::unique_ptr<Pipeline>> displayPipelines_;
+  DisplaySystem display_;
   std::unique_ptr<KeptDepth> watchedDepth_;
   std::unique_ptr<SharedDepth> depth_;
   std::unique_ptr<ImagePool> pool_;
@@ -129,8 +91,6 @@ class SceneRenderer {
   bool restart_ = false;                 // before the next frame
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
-  SamplerHandle coverSampler_;
-  Image cover_;  // empty: none
   std::vector<RecordedPass> recorded_;
   EffectLedger ledger_;
   std::optional<int> depthPass_;  // whose depth is looked at; the number of mirror passes stands for the main view

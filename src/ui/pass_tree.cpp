@@ -35,7 +35,7 @@ std::vector<PassNode> passTree(std::span<const UiPass> passes, std::span<const U
       continue;
     }
     const int pass = static_cast<int>(i);
-    roots.push_back(passes[i].name == "main view" ? nodeOf(pass, passes, skipped) : PassNode{.pass = pass});
+    roots.push_back(passes[i].kind == PassKind::main ? nodeOf(pass, passes, skipped) : PassNode{.pass = pass});
   }
   return roots;
 }

@@ -279,7 +279,7 @@ void SimpleUI::buildTargets(UiModel& model) {
   }
   if (choices_.targets && model.debugPass < 0) {
     const auto main = std::find_if(model.passes.begin(), model.passes.end(),
-                                   [](const UiPass& pass) { return pass.depth < 0 && panels::hasTarget(pass); });
+                                   [](const UiPass& pass) { return pass.kind == PassKind::main; });
     model.debugPass = main != model.passes.end() ? static_cast<int>(main - model.passes.begin()) : -1;
   }
   if (choices_.targets) {

@@ -134,7 +134,7 @@ void maskImage(const UiTargets& targets, const Rect& canvas, const glm::dvec2& c
 }  // namespace
 
 bool hasTarget(const UiPass& pass) {
-  return pass.depth >= 0 || pass.name == "main view";
+  return pass.kind == PassKind::mirror || pass.kind == PassKind::main;
 }
 
 void targets(UiModel& model) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frame/depth_readout.hpp"
+#include "frame/frame_plan.hpp"
 #include "frame/settings.hpp"
 #include "optics/projection.hpp"
 #include "ui/edit_model.hpp"
@@ -19,7 +20,8 @@ struct UiPass {
   std::string name;
   std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
   int depth = -1;         // -1: not a mirror's
-  int framesAgo = 0;      // since it ran
+  PassKind kind = PassKind::mirror;
+  int framesAgo = 0;  // since it ran
   double gpuMs = 0.0;
   double areaPx = 0.0;
   uint32_t draws = 0;

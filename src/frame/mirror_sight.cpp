@@ -1,0 +1,56 @@
+#include "frame/mirror_sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+// Distance of the eye from the mirror's plane; exactly 0 where rounding leaves no side to be on. What is rounded are
+// the coordinates themselves, so that it grows with their distance from the origin.
+double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
+  const double height = glm::dot(mirror.normal, eye - mirror.origin);
+  return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
+}
+
+}  // namespace
+
+Sight sightOf(const Scene& scene, const SceneState& state, const View& view, int mirror) {
+  const MirrorState& geometry = state.mirrors[mirror];
+  Sight sight{.draw = {.mirror = mirror, .plane = {geometry.origin, geometry.normal}},
+              .height = heightAbove(geometry, view.eye),
+              .visible = visiblePart(view, geometry.polygon)};
+  MirrorDraw& draw = sight.draw;
+  draw.back = sight.height <= 0.0 && !(scene.mirrors[mirror].twoSided && sight.height < 0.0);
+  draw.polygon = drawnPart(view, geometry.polygon);
+  if (sight.height < 0.0) {
+    draw.plane.normal = -draw.plane.normal;
+    std::reverse(draw.polygon.begin(), draw.polygon.end());
+  }
+  return sight;
+}
+
+glm::dvec3 reflectanceBound(const Mirror& mirror, const Plane& plane, const glm::dvec3& eye,
+                            std::span<const glm::dvec3> visible) {
+  if (mirror.fresnel == Fresnel::none) {
+    return mirror.reflectance;
+  }
+  double farthest = 0.0;
+  for (const glm::dvec3& p : visible) {
+    farthest = std::max(farthest, glm::length(p - eye));
+  }
+  const double cosine = farthest > 0.0 ? std::clamp(plane.distance(eye) / farthest, 0.0, 1.0) : 1.0;
+  return mirror.reflectance + (1.0 - mirror.reflectance) * std::pow(1.0 - cosine, 5.0);
+}
+
+bool isRough(const Mirror& mirror, const EffectSettings& effects) {
+  return effects.roughness && mirror.roughness > 0.0;
+}
+
+bool scatters(const Mirror& mirror, const EffectSettings& effects, bool reflects) {
+  const bool roughRays = isRough(mirror, effects) && effects.roughLookup == RoughLookup::traced;
+  return (reflects && roughRays) || (effects.ripple && mirror.ripple);
+}
+
+}  // namespace speculum

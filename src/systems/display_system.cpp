@@ -1,0 +1,160 @@
+#include "systems/display_system.hpp"
+
+#include <algorithm>
+#include <glm/gtc/packing.hpp>
+
+#include "systems/gpu_types.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Where a target is shown, and its texel for a pixel of the display: pixel * xy + zw.
+struct Placement {
+  VkRect2D area;
+  glm::vec4 lookup;
+};
+
+std::optional<Placement> placementOf(const FramePlan& plan, const DebugView& debug) {
+  const bool ofMain = debug.pass == static_cast<int>(plan.passes.size());
+  const PixelRect image = ofMain ? PixelRect{0, 0, plan.width, plan.height} : plan.passes[debug.pass].view.rect;
+  PixelRect area = intersect(debug.area, {0, 0, plan.width, plan.height});
+  glm::dvec2 corner(debug.area.x, debug.area.y);  // of texel 0, 0, in pixels of the display
+  double zoom = debug.zoom;
+  if (zoom > 0.0) {
+    corner -= zoom * debug.origin;
+  } else {
+    zoom = std::min(static_cast<double>(area.width) / image.width, static_cast<double>(area.height) / image.height);
+    corner = {area.x, area.y};
+  }
+  const glm::dvec2 last = corner + zoom * glm::dvec2(image.width, image.height);
+  const glm::ivec2 low(glm::ceil(glm::max(corner - 0.5, glm::dvec2(-1.0))));
+  const glm::ivec2 high(glm::floor(glm::min(last, glm::dvec2(plan.width, plan.height) + 1.0)));
+  area = intersect(area, {low.x, low.y, high.x - low.x, high.y - low.y});
+  if (area.empty()) {
+    return std::nullopt;
+  }
+  return Placement{{{area.x, area.y}, {static_cast<uint32_t>(area.width), static_cast<uint32_t>(area.height)}},
+                   glm::vec4(glm::dvec4(1.0 / zoom, 1.0 / zoom, -corner / zoom))};
+}
+
+PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
+  PassDesc desc = fullPass("debug view", targets);
+  desc.renderArea = area;
+  desc.scissor = area;
+  desc.loadColor = true;
+  return desc;
+}
+
+}  // namespace
+
+DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer) {
+  const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                  .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
+  layout_ = createDescriptorSetLayout(renderer.device(), {&binding, 1}, "display");
+}
+
+const Pipeline& DisplaySystem::pipelineFor(const MirrorImage& radiance, const Settings& settings) {
+  const Variant variant{.toneMap = settings.view.toneMap,
+                        .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
+                        .format = renderer_.displayFormat()};
+  std::unique_ptr<Pipeline>& pipeline = pipelines_[variant];
+  if (!pipeline) {
+    GraphicsPipelineDesc desc{.name = "display", .vert = "full_screen.vert", .frag = "display.frag"};
+    if (variant.multisampled) {
+      desc.frag = "display_average.frag";
+    }
+    desc.fragConstants = {variant.toneMap == ToneMap::aces};
+    desc.setLayouts = {layout_.get()};
+    desc.pushConstantBytes = sizeof(DisplayConstants);
+    desc.color = variant.format;
+    desc.depth = VK_FORMAT_UNDEFINED;
+    desc.depthTest = false;
+    desc.depthWrite = false;
+    pipeline = std::make_unique<Pipeline>(renderer_.pipelines(), std::move(desc));
+  }
+  return *pipeline;
+}
+
+RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, const Pipeline& pipeline,
+                                 const VkDescriptorImageInfo& image, const DisplayConstants& constants) {
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  DescriptorWriter().image(0, image).update(renderer_.device(), set);
+  const PassScope scope = renderer_.beginPass(frame, desc);
+  pipeline.bind(scope.commands());
+  pipeline.bindSet(scope.commands(), 0, set);
+  pipeline.push(scope.commands(), constants);
+  vkCmdDraw(scope.commands(), 3, 1, 0, 0);
+  return {.name = desc.name, .kind = kind, .draws = 1};
+}
+
+RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, const Settings& settings) {
+  const PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
+  if (!cover_) {
+    return draw(frame, desc, PassKind::display, pipelineFor(radiance, settings), radiance.descriptor,
+                {glm::vec4(1.0f, 1.0f, 0.0f, 0.0f), static_cast<float>(settings.view.exposure)});
+  }
+  const MirrorImage cover{.descriptor = cover_.descriptor(coverSampler_.get())};
+  const glm::vec2 scale(static_cast<float>(cover_.extent().width) / static_cast<float>(frame.extent.width),
+                        static_cast<float>(cover_.extent().height) / static_cast<float>(frame.extent.height));
+  return draw(frame, desc, PassKind::display, pipelineFor(cover, Settings()), cover.descriptor,
+              {glm::vec4(scale, 0.0f, 0.0f), 1.0f});
+}
+
+std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
+                                                       const MirrorImage& radiance, const Settings& settings) {
+  const std::optional<Placement> placement = placementOf(plan, debug);
+  if (!placement) {
+    return std::nullopt;
+  }
+  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView,
+              pipelineFor(radiance, settings), radiance.descriptor,
+              {placement->lookup, static_cast<float>(settings.view.exposure)});
+}
+
+std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
+                                                       KeptDepth& depth) {
+  const std::optional<Placement> placement = placementOf(plan, debug);
+  if (!placement) {
+    return std::nullopt;
+  }
+  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView, depth.pipeline(),
+              depth.descriptor(), {placement->lookup, static_cast<float>(plan.projection.near / debug.halfDistance)});
+}
+
+void DisplaySystem::releaseView() {
+  std::erase_if(pipelines_, [](const auto& entry) { return entry.first.multisampled; });
+}
+
+void DisplaySystem::countPipelines(EffectLedger& ledger) const {
+  for (const auto& [variant, pipeline] : pipelines_) {
+    ledger.pipeline(EffectKind::toneMap, variant.toneMap == ToneMap::aces);
+  }
+}
+
+void DisplaySystem::setCover(const Image8& picture) {
+  if (cover_) {
+    renderer_.retired().retire(std::move(cover_));
+    cover_ = Image();
+  }
+  if (picture.width < 1) {
+    return;
+  }
+  std::vector<uint64_t> texels(static_cast<size_t>(picture.width) * picture.height);
+  for (size_t i = 0; i < texels.size(); ++i) {
+    glm::vec4 linear(1.0f);
+    for (int channel = 0; channel < 3; ++channel) {
+      linear[channel] = static_cast<float>(srgbDecode(picture.rgba[4 * i + channel] / 255.0));
+    }
+    texels[i] = glm::packHalf4x16(linear);
+  }
+  // Validation layer 1.3.239 forgets the fences of frames in flight when an upload's is waited for.
+  renderer_.waitIdle();
+  const VkExtent2D extent{static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height)};
+  cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extent, colorFormat, false, "cover");
+  if (!coverSampler_) {
+    coverSampler_ = createSampler(renderer_.device(), {}, "cover");
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "image/image.hpp"
+#include "systems/effect_ledger.hpp"
+#include "systems/frame_data.hpp"
+#include "systems/kept_depth.hpp"
+#include "systems/recorded_pass.hpp"
+
+namespace speculum {
+
+enum class TargetKind { color, depth };
+
+// What a pass drew, shown over the picture in an area of the display image.
+struct DebugView {
+  int pass = 0;    // index into FramePlan::passes; their number stands for the main view
+  PixelRect area;  // pixels
+  TargetKind kind = TargetKind::color;
+  double zoom = 0.0;          // pixels of the display a texel; 0: the image is fitted into the area
+  glm::dvec2 origin{0.0};     // texel at the area's upper left corner; with a zoom
+  double halfDistance = 1.0;  // metres from the eye that depth shows half bright
+};
+
+// Records what draws into the display image: the picture, once through exposure, tone curve and sRGB, and a target that
+// is looked at over it.
+class DisplaySystem {
+ public:
+  explicit DisplaySystem(Renderer& renderer);
+
+  // One combined image, in set 0.
+  VkDescriptorSetLayout layout() const { return layout_.get(); }
+
+  // See SceneRenderer::setCover.
+  void setCover(const Image8& picture);
+
+  // The display pass: of this radiance, or of the cover.
+  RecordedPass record(Frame& frame, const MirrorImage& radiance, const Settings& settings);
+  // The target of debug.pass, radiance or depth; nothing where its area shows none of it.
+  std::optional<RecordedPass> recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
+                                          const MirrorImage& radiance, const Settings& settings);
+  std::optional<RecordedPass> recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
+                                          KeptDepth& depth);
+  // What only looking at targets took.
+  void releaseView();
+
+  size_t pipelineCount() const { return pipelines_.size(); }
+  void countPipelines(EffectLedger& ledger) const;
+
+ private:
+  struct Variant {
+    ToneMap toneMap;
+    bool multisampled;  // of the image that is shown
+    VkFormat format;
+    auto operator<=>(const Variant&) const = default;
+  };
+  const Pipeline& pipelineFor(const MirrorImage& radiance, const Settings& settings);
+  RecordedPass draw(Frame& frame, const PassDesc& desc, PassKind kind, const Pipeline& pipeline,
+                    const VkDescriptorImageInfo& image, const DisplayConstants& constants);
+
+  Renderer& renderer_;
+  DescriptorSetLayoutHandle layout_;
+  std::map<Variant, std::unique_ptr<Pipeline>> pipelines_;
+  SamplerHandle coverSampler_;
+  Image cover_;  // empty: none
+};
+
+}  // namespace speculum
