@@ -1,6 +1,7 @@
 #include "core/barriers.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "core/image.hpp"
 
@@ -63,6 +64,20 @@ BarrierKind kindFor(TargetRole role, BarrierKind offscreen, BarrierKind main) {
   return BarrierKind::swapchainBeforeWrite;
 }
 
+void discardUnless(bool keep, std::span<Image* const> images) {
+  for (Image* image : images) {
+    image->setLayout(keep ? image->layout() : VK_IMAGE_LAYOUT_UNDEFINED);
+  }
+}
+
+// The stage at which shaders read any of the images before.
+VkPipelineStageFlags readersOf(std::span<Image* const> images) {
+  const bool sampled = std::any_of(images.begin(), images.end(), [](const Image* image) {
+    return (image->desc().usage & VK_IMAGE_USAGE_SAMPLED_BIT) != 0;
+  });
+  return sampled ? sampleStage : 0;
+}
+
 }  // namespace
 
 std::string_view barrierName(BarrierKind kind) {
@@ -80,62 +95,69 @@ std::span<const BarrierKind> allBarrierKinds() {
 
 void Barriers::record(VkCommandBuffer commands, BarrierKind kind, Image& image, Scope before, Scope after,
                       VkImageLayout layout) const {
+  Image* const images[] = {&image};
+  record(commands, kind, images, before, after, layout);
+}
+
+void Barriers::record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images, Scope before,
+                      Scope after, VkImageLayout layout) const {
   const bool omit = omitted_ == kind;
-  const VkImageLayout old = image.layout();
-  image.setLayout(layout);
-  if (omit && old == layout) {
-    return;
-  }
   if (omit) {
     before = {VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
   }
-  const VkImageMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-                                     .srcAccessMask = before.access,
-                                     .dstAccessMask = after.access,
-                                     .oldLayout = old,
-                                     .newLayout = layout,
-                                     .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                     .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                     .image = image.get(),
-                                     .subresourceRange = {image.aspect(), 0, image.desc().mipLevels, 0, 1}};
-  vkCmdPipelineBarrier(commands, before.stages, after.stages, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+  std::vector<VkImageMemoryBarrier> barriers;
+  for (Image* image : images) {
+    const VkImageLayout old = image->layout();
+    image->setLayout(layout);
+    if (omit && old == layout) {
+      continue;
+    }
+    barriers.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+                        .srcAccessMask = before.access,
+                        .dstAccessMask = after.access,
+                        .oldLayout = old,
+                        .newLayout = layout,
+                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                        .image = image->get(),
+                        .subresourceRange = {image->aspect(), 0, image->desc().mipLevels, 0, 1}});
+  }
+  if (!barriers.empty()) {
+    vkCmdPipelineBarrier(commands, before.stages, after.stages, 0, 0, nullptr, 0, nullptr,
+                         static_cast<uint32_t>(barriers.size()), barriers.data());
+  }
 }
 
-void Barriers::colorBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const {
-  if (!keep) {
-    image.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
-  }
+void Barriers::colorBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images,
+                                bool keep) const {
+  discardUnless(keep, images);
   // Earlier readers: fragment shaders that sample it and copies of a read-back. The acquire semaphore of a swapchain
   // image is waited for at the colour stage, which chains it to this barrier.
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenBeforeWrite, BarrierKind::mainBeforeWrite);
   const VkPipelineStageFlags readers = role == TargetRole::swapchain ? 0 : sampleStage;
-  record(commands, kind, image, {colorStage | readers, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT}, {colorStage, colorAccess},
-         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  record(commands, kind, images, {colorStage | readers, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
+         {colorStage, colorAccess}, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
 
-void Barriers::samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const {
-  if (!keep) {
-    image.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
-  }
+void Barriers::samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images,
+                                  bool keep) const {
+  discardUnless(keep, images);
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenSamplesBeforeWrite, BarrierKind::mainSamplesBeforeWrite);
-  const VkPipelineStageFlags readers = image.desc().usage & VK_IMAGE_USAGE_SAMPLED_BIT ? sampleStage : 0;
-  record(commands, kind, image, {colorStage | readers, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT}, {colorStage, colorAccess},
-         VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  record(commands, kind, images, {colorStage | readersOf(images), VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
+         {colorStage, colorAccess}, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
 
-void Barriers::depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const {
-  if (!keep) {
-    image.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
-  }
+void Barriers::depthBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images,
+                                bool keep) const {
+  discardUnless(keep, images);
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenDepthBeforeWrite, BarrierKind::mainDepthBeforeWrite);
-  const VkPipelineStageFlags readers = image.desc().usage & VK_IMAGE_USAGE_SAMPLED_BIT ? sampleStage : 0;
-  record(commands, kind, image, {depthStages | readers, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
+  record(commands, kind, images, {depthStages | readersOf(images), VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
          {depthStages, depthAccess}, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
 }
 
-void Barriers::colorToSample(VkCommandBuffer commands, TargetRole role, Image& image) const {
+void Barriers::colorToSample(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images) const {
   const BarrierKind kind = kindFor(role, BarrierKind::offscreenToSample, BarrierKind::mainToSample);
-  record(commands, kind, image, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
+  record(commands, kind, images, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
          {sampleStage, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 

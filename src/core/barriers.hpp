@@ -53,11 +53,12 @@ class Barriers {
   void omit(std::optional<BarrierKind> kind) { omitted_ = kind; }
   std::optional<BarrierKind> omitted() const { return omitted_; }
 
-  // With `keep` the content survives; otherwise all of it becomes undefined, also outside a pass's render area.
-  void colorBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
-  void samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
-  void depthBeforeWrite(VkCommandBuffer commands, TargetRole role, Image& image, bool keep) const;
-  void colorToSample(VkCommandBuffer commands, TargetRole role, Image& image) const;
+  // Of one pass or of several that share no image, in one command. With `keep` the content survives; otherwise all of
+  // it becomes undefined, also outside a pass's render area.
+  void colorBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images, bool keep) const;
+  void samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images, bool keep) const;
+  void depthBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images, bool keep) const;
+  void colorToSample(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images) const;
   void depthToSample(VkCommandBuffer commands, Image& image) const;
   // Of a pass's output or its samples, which become readable in compute shaders.
   void targetToCheck(VkCommandBuffer commands, Image& image) const;
@@ -82,6 +83,8 @@ class Barriers {
     VkAccessFlags access;
   };
   void record(VkCommandBuffer commands, BarrierKind kind, Image& image, Scope before, Scope after,
+              VkImageLayout layout) const;
+  void record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images, Scope before, Scope after,
               VkImageLayout layout) const;
 
   std::optional<BarrierKind> omitted_;

@@ -107,4 +107,11 @@ PassTargets OffScreen::targets() {
           .role = desc_.role};
 }
 
+PassTargets OffScreen::targets(SharedDepth& depth, RetireQueue& retired) {
+  depth.require(desc_.extent, retired);
+  PassTargets with = targets();
+  with.depth = depth.image();
+  return with;
+}
+
 }  // namespace speculum

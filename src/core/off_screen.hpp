@@ -64,6 +64,8 @@ class OffScreen {
   Image* samplesImage() { return samples_ ? &samples_ : nullptr; }
   VkDescriptorImageInfo samplesDescriptor() const { return samples_.descriptor(sampler_.get()); }
   PassTargets targets();
+  // With depth that is shared with other targets than its own is; of the same samples, made to cover the target.
+  PassTargets targets(SharedDepth& depth, RetireQueue& retired);
   VkDescriptorImageInfo descriptor() const { return color_.descriptor(sampler_.get()); }
 
  private:

@@ -1,6 +1,7 @@
 #include "core/pass.hpp"
 
 #include <cstring>
+#include <vector>
 
 #include "core/gpu_timer.hpp"
 #include "core/render_pass_cache.hpp"
@@ -31,6 +32,39 @@ bool storesColor(const PassDesc& desc) {
   return !desc.targets.resolve || desc.storeSamples;
 }
 
+void recordBarriersBefore(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes) {
+  std::vector<Image*> samples;
+  std::vector<Image*> outputs;
+  std::vector<Image*> depths;
+  for (const PassDesc& pass : passes) {
+    if (pass.targets.samples() != VK_SAMPLE_COUNT_1_BIT) {
+      samples.push_back(pass.targets.color);
+    }
+    if (pass.targets.output().samples() == VK_SAMPLE_COUNT_1_BIT) {
+      outputs.push_back(&pass.targets.output());
+    }
+    if (pass.targets.depth) {
+      depths.push_back(pass.targets.depth);
+    }
+  }
+  const PassDesc& any = passes.front();
+  const TargetRole role = any.targets.role;
+  barriers.samplesBeforeWrite(commands, role, samples, any.loadColor);
+  barriers.colorBeforeWrite(commands, role, outputs, role != TargetRole::swapchain || any.loadColor);
+  barriers.depthBeforeWrite(commands, role, depths, any.loadDepth);
+}
+
+void recordBarriersAfter(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes) {
+  const TargetRole role = passes.front().targets.role;
+  std::vector<Image*> outputs;
+  for (const PassDesc& pass : passes) {
+    if (pass.sampledAfterwards && role != TargetRole::swapchain) {
+      outputs.push_back(&pass.targets.output());
+    }
+  }
+  barriers.colorToSample(commands, role, outputs);
+}
+
 }  // namespace
 
 PassDesc fullPass(std::string name, const PassTargets& targets) {
@@ -40,6 +74,15 @@ PassDesc fullPass(std::string name, const PassTargets& targets) {
           .renderArea = {{0, 0}, extent},
           .viewport = {0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height)},
           .scissor = {{0, 0}, extent}};
+}
+
+PassGroup::PassGroup(Device& device, VkCommandBuffer commands, std::span<const PassDesc> passes)
+    : device_(device), commands_(commands), passes_(passes) {
+  recordBarriersBefore(device_.barriers(), commands_, passes_);
+}
+
+PassGroup::~PassGroup() {
+  recordBarriersAfter(device_.barriers(), commands_, passes_);
 }
 
 PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands,
@@ -52,7 +95,11 @@ PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& ti
       dynamic_(kind == Kind::scene && device.renderPath() == RenderPath::dynamic) {
   device_.beginLabel(commands_, desc_.name);
   timerSlot_ = timer_.begin(commands_, desc_.name, desc_.collectStatistics);
-  recordBarriersBefore(kind);
+  if (kind == Kind::overlay) {
+    device_.barriers().swapchainBeforeOverlay(commands_, *desc_.targets.color);
+  } else if (!desc_.grouped) {
+    recordBarriersBefore(device_.barriers(), commands_, {&desc_, 1});
+  }
   if (dynamic_) {
     beginDynamic();
   } else {
@@ -78,30 +125,11 @@ PassScope::~PassScope() {
   } else {
     vkCmdEndRenderPass(commands_);
   }
-  if (desc_.sampledAfterwards && desc_.targets.role != TargetRole::swapchain) {
-    device_.barriers().colorToSample(commands_, desc_.targets.role, desc_.targets.output());
+  if (!desc_.grouped) {
+    recordBarriersAfter(device_.barriers(), commands_, {&desc_, 1});
   }
   timer_.end(commands_, timerSlot_);
   device_.endLabel(commands_);
-}
-
-void PassScope::recordBarriersBefore(Kind kind) {
-  const Barriers& barriers = device_.barriers();
-  const PassTargets& targets = desc_.targets;
-  if (kind == Kind::overlay) {
-    barriers.swapchainBeforeOverlay(commands_, *targets.color);
-    return;
-  }
-  if (targets.samples() != VK_SAMPLE_COUNT_1_BIT) {
-    barriers.samplesBeforeWrite(commands_, targets.role, *targets.color, desc_.loadColor);
-  }
-  if (targets.output().samples() == VK_SAMPLE_COUNT_1_BIT) {
-    const bool keep = targets.role != TargetRole::swapchain || desc_.loadColor;
-    barriers.colorBeforeWrite(commands_, targets.role, targets.output(), keep);
-  }
-  if (targets.depth) {
-    barriers.depthBeforeWrite(commands_, targets.role, *targets.depth, desc_.loadDepth);
-  }
 }
 
 void PassScope::beginDynamic() {

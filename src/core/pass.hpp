@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,10 +51,29 @@ struct PassDesc {
   bool storeSamples = false;       // multisampled colour is kept for those who load or read it
   bool sampledAfterwards = true;   // the output becomes readable in fragment shaders; ignored for the swapchain
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
+  bool grouped = false;            // its barriers are those of its PassGroup
 };
 
 // The whole of `targets` in one go: area, viewport and scissor cover the output.
 PassDesc fullPass(std::string name, const PassTargets& targets);
+
+// The barriers of several passes that touch none of each other's targets: all before the first and all after the last,
+// so that the device may draw the passes side by side. Their PassDesc::grouped is set; they are alike in role, samples
+// and in what they load. From construction to end. Made by Renderer::beginGroup.
+class PassGroup {
+ public:
+  PassGroup(const PassGroup&) = delete;
+  PassGroup& operator=(const PassGroup&) = delete;
+  ~PassGroup();
+
+ private:
+  friend class Renderer;
+  PassGroup(Device& device, VkCommandBuffer commands, std::span<const PassDesc> passes);
+
+  Device& device_;
+  VkCommandBuffer commands_;
+  std::span<const PassDesc> passes_;
+};
 
 // From construction to end: debug label, timestamps, statistics, barriers before and after, rendering on the device's
 // render path. Viewport, scissor and front face are set. Made by Renderer::beginPass.
@@ -76,7 +96,6 @@ class PassScope {
   enum class Kind { scene, overlay };
   PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc,
             Kind kind);
-  void recordBarriersBefore(Kind kind);
   void beginDynamic();
   void beginRenderPass();
 

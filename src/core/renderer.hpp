@@ -57,6 +57,8 @@ class Renderer {
   // Nothing while the window is paused or its swapchain could not be made. Waits for the frame before the last one.
   std::optional<Frame> beginFrame();
   PassScope beginPass(Frame& frame, const PassDesc& desc);
+  // `passes`, at least one, outlive the group; each is begun and ended within it.
+  PassGroup beginGroup(Frame& frame, std::span<const PassDesc> passes);
   // A pass of its own that loads and stores the display image, within a VkRenderPass on either path.
   PassScope beginOverlay(Frame& frame);
   void endFrame(Frame& frame);

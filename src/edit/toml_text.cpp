@@ -27,11 +27,11 @@ std::string tomlText(double value) {
 }
 
 std::string tomlText(const glm::dvec2& value) {
-  return "[" + tomlText(value.x) + ", " + tomlText(value.y) + "]";
+  return fmt::format("[{}, {}]", tomlText(value.x), tomlText(value.y));
 }
 
 std::string tomlText(const glm::dvec3& value) {
-  return "[" + tomlText(value.x) + ", " + tomlText(value.y) + ", " + tomlText(value.z) + "]";
+  return fmt::format("[{}, {}, {}]", tomlText(value.x), tomlText(value.y), tomlText(value.z));
 }
 
 std::string tomlText(bool value) {

@@ -1,7 +1,10 @@
 #include "frame/memory_fit.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
+
+#include "frame/pass_range.hpp"
 
 #include "frame/image_reuse.hpp"
 
@@ -27,18 +30,35 @@ uint64_t heldPixels(const FramePlan& plan) {
   return sum;
 }
 
-// The most pixels of mirror images that are alive together: each from its own pass until its parent's.
-uint64_t peakPixels(const FramePlan& plan) {
+// The most pixels of mirror images that are alive together: each from its own range of passes until its parent's.
+uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   uint64_t alive = heldPixels(plan);
   uint64_t peak = alive;
-  for (const PlannedPass& pass : plan.passes) {
-    alive += pixels(pass.view.rect);
+  for (const PassRange& range : ranges) {
+    for (size_t i = range.first; i < range.end; ++i) {
+      alive += pixels(plan.passes[i].view.rect);
+    }
     peak = std::max(peak, alive);
-    for (const MirrorDraw& draw : pass.mirrors) {
-      alive -= draw.pass >= 0 ? pixels(plan.passes[draw.pass].view.rect) : 0;
+    for (size_t i = range.first; i < range.end; ++i) {
+      for (const MirrorDraw& draw : plan.passes[i].mirrors) {
+        alive -= draw.pass >= 0 ? pixels(plan.passes[draw.pass].view.rect) : 0;
+      }
     }
   }
   return peak;
+}
+
+// Of the depth images of a range's passes, which those of other ranges use in turn.
+uint64_t depthPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
+  std::vector<uint64_t> largest;
+  for (const PassRange& range : ranges) {
+    const std::vector<size_t> passes = largestFirst(plan, range);
+    largest.resize(std::max(largest.size(), passes.size()), 0);
+    for (size_t place = 0; place < passes.size(); ++place) {
+      largest[place] = std::max(largest[place], pixels(plan.passes[passes[place]].view.rect));
+    }
+  }
+  return std::accumulate(largest.begin(), largest.end(), uint64_t{0});
 }
 
 bool lower(Settings& settings, bool hasMaps, std::string& what) {
@@ -82,12 +102,10 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
   const auto viewSamples = static_cast<uint64_t>(settings.view.samples);
   const auto imageSamples = static_cast<uint64_t>(settings.reflection.samples);
   const uint64_t multisampled = viewSamples > 1 ? viewSamples * colorBytes : 0;
-  uint64_t largest = 0;
-  for (const PlannedPass& pass : plan.passes) {
-    largest = std::max(largest, pixels(pass.view.rect));
-  }
+  const std::vector<PassRange> ranges = independentPasses(plan);
   return pixels(plan.main.view.rect) * (colorBytes + multisampled + viewSamples * depthBytes) +
-         peakPixels(plan) * imageSamples * colorBytes + largest * imageSamples * depthBytes + environmentBytes(plan);
+         peakPixels(plan, ranges) * imageSamples * colorBytes + depthPixels(plan, ranges) * imageSamples * depthBytes +
+         environmentBytes(plan);
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,

@@ -8,7 +8,6 @@ namespace speculum {
 namespace {
 
 constexpr uint32_t granularity = 64;  // texels: a mirror that moves a little finds its image again
-constexpr int framesKept = 30;
 constexpr uint64_t wasteAllowed = 4;  // times the area asked for
 
 uint32_t roundedUp(uint32_t size) {

@@ -13,6 +13,8 @@ namespace speculum {
 // Targets are kept for later frames and dropped when a number of frames went by without need of them.
 class ImagePool {
  public:
+  static constexpr int framesKept = 30;  // without need of a target
+
   // Targets are called by `name` and a number.
   ImagePool(Device& device, SharedDepth& depth, std::string name);
 

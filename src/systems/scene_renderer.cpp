@@ -32,11 +32,6 @@ VkFrontFace frontFace(const View& view) {
   return view.mirrored() ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
 }
 
-// Whether the image that a pass renders is kept for the next frame.
-bool isHeld(const FramePlan& plan, int pass) {
-  return std::any_of(plan.held.begin(), plan.held.end(), [&](const HeldImage& image) { return image.pass == pass; });
-}
-
 }  // namespace
 
 SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
@@ -53,6 +48,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       watch_(renderer),
       display_(renderer),
       watchedDepth_(std::make_unique<KeptDepth>(renderer, display_.layout())),
+      mirrorTargets_(device_),
       environmentTargets_(device_) {}
 
 SceneRenderer::~SceneRenderer() {
@@ -73,20 +69,28 @@ const FiniteWatch& SceneRenderer::finiteWatch() {
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
                            const std::optional<DebugView>& debug) {
   const bool ofMirror = debug && debug->pass < static_cast<int>(plan.passes.size());
-  keptPass_ = ofMirror ? std::optional(debug->pass) : std::nullopt;
   releaseViews(debug, *frame.retired);
-  takeHeldImages(plan);
-  prepareTargets(settings, plan, *frame.retired);
+  mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples),
+                       ofMirror ? std::optional(debug->pass) : std::nullopt, *frame.retired);
+  prepareMain(settings, plan, *frame.retired);
   prepareMaps(frame, plan);
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
   ledger_ = {};
-  targets_.assign(plan.passes.size(), nullptr);
-  images_.assign(plan.passes.size(), {});
   recorded_.clear();
-  const FrameInfo info{frame, scene_, settings, environment, plan,        resources_,
-                       data_, trace_, ledger_,  images_,     heldImages_, mapSets_};
+  const FrameInfo info{frame,
+                       scene_,
+                       settings,
+                       environment,
+                       plan,
+                       resources_,
+                       data_,
+                       trace_,
+                       ledger_,
+                       mirrorTargets_.images(),
+                       mirrorTargets_.held(),
+                       mapSets_};
   if (settings.debug.checkFinite) {
     watch_.begin(frame, plan.maps.size() + plan.passes.size() + 2);  // the main view's samples and their mean
   } else {
@@ -99,8 +103,8 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
       facePass += plan.maps[i].faces.size();
     }
   }
-  for (size_t i = 0; i < plan.passes.size(); ++i) {
-    recordMirrorPass(frame, info, i);
+  for (const PassRange& range : independentPasses(plan)) {
+    recordMirrorPasses(frame, info, range);
   }
   recordMainPass(frame, info);
   if (settings.debug.checkFinite) {
@@ -109,19 +113,14 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   recorded_.push_back(display_.record(frame, {.descriptor = main_->descriptor()}, settings));
   if (debug) {
     recordDebugView(frame, settings, plan, *debug);
-    if (ofMirror && !isHeld(plan, debug->pass)) {
-      pool_->release(*targets_[debug->pass]);
-    }
   }
   const bool imagesShown = !plan.shown.empty();
   renderSystem_.endFrame(trace_.variant(), imagesShown, !plan.effects.curved.empty());
   mirrorSystem_.endFrame(trace_.variant(), imagesShown);
   finishLedger(settings, plan);
-  keepHeldImages(plan);
+  mirrorTargets_.end(plan, *frame.retired);
+  heldRevision_ = renderer_.pipelines().revision();
   environmentTargets_.endFrame(plan, *frame.retired);
-  if (pool_) {
-    pool_->endFrame(*frame.retired);
-  }
 }
 
 // What looking at targets took, as soon as nobody does.
@@ -166,7 +165,8 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
 }
 
 std::span<const HeldImage> SceneRenderer::heldImages() const {
-  return heldRevision_ == renderer_.pipelines().revision() ? std::span(held_) : std::span<const HeldImage>();
+  return heldRevision_ == renderer_.pipelines().revision() ? std::span(mirrorTargets_.heldPlans())
+                                                           : std::span<const HeldImage>();
 }
 
 std::span<const EnvironmentMap> SceneRenderer::environmentMaps() const {
@@ -176,62 +176,10 @@ std::span<const EnvironmentMap> SceneRenderer::environmentMaps() const {
 
 void SceneRenderer::restart() {
   environmentTargets_.restart();
-  held_.clear();
-  heldTargets_.clear();
-  restart_ = true;
+  mirrorTargets_.restart();
 }
 
-// Gives back what the plan shows no more: its targets serve passes of this frame. Nothing to wait for, barriers order
-// frames as they do passes.
-void SceneRenderer::takeHeldImages(const FramePlan& plan) {
-  std::vector<OffScreen*> targets(plan.held.size(), nullptr);
-  heldImages_.assign(plan.held.size(), {});
-  for (size_t i = 0; i < plan.held.size(); ++i) {
-    if (plan.held[i].earlier >= 0) {
-      targets[i] = std::exchange(heldTargets_[static_cast<size_t>(plan.held[i].earlier)], nullptr);
-      heldImages_[i] = {targets[i]->descriptor(), targets[i]->samples()};
-    }
-  }
-  for (const OffScreen* unused : heldTargets_) {
-    if (unused) {
-      pool_->release(*unused);
-    }
-  }
-  heldTargets_ = std::move(targets);
-}
-
-void SceneRenderer::keepHeldImages(const FramePlan& plan) {
-  for (size_t i = 0; i < plan.held.size(); ++i) {
-    if (plan.held[i].pass >= 0) {
-      heldTargets_[i] = targets_[static_cast<size_t>(plan.held[i].pass)];
-    }
-  }
-  held_ = plan.held;
-  heldRevision_ = renderer_.pipelines().revision();
-}
-
-void SceneRenderer::prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
-  const VkSampleCountFlagBits samples = device_.sampleCount(settings.reflection.samples);
-  const bool needless = plan.passes.empty() && plan.held.empty();
-  if (depth_ && (restart_ || depth_->samples() != samples || needless)) {
-    pool_->clear(retired);
-    pool_.reset();
-    depth_->trim({0, 0}, retired);
-    depth_.reset();
-  }
-  restart_ = false;
-  if (!plan.passes.empty()) {
-    if (!depth_) {
-      depth_ = std::make_unique<SharedDepth>(device_, samples, "mirror images");
-      pool_ = std::make_unique<ImagePool>(device_, *depth_, "mirror image");
-    }
-    VkExtent2D largest{1, 1};
-    for (const PlannedPass& pass : plan.passes) {
-      largest.width = std::max(largest.width, static_cast<uint32_t>(pass.view.rect.width));
-      largest.height = std::max(largest.height, static_cast<uint32_t>(pass.view.rect.height));
-    }
-    depth_->require(largest, retired);
-  }
+void SceneRenderer::prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
   const VkExtent2D extent{static_cast<uint32_t>(plan.width), static_cast<uint32_t>(plan.height)};
   const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
   const bool readSamples = settings.debug.checkFinite && mainSamples != VK_SAMPLE_COUNT_1_BIT;
@@ -257,25 +205,16 @@ uint32_t SceneRenderer::recordSystems(const PassScope& scope, const FrameInfo& i
   return draws;
 }
 
-// Of the pass recorded last. Samples before their mean: it hides what is negative in one of them.
-void SceneRenderer::checkTarget(Frame& frame, const FrameInfo& info, OffScreen& target, VkExtent2D used) {
+// Samples before their mean: it hides what is negative in one of them.
+void SceneRenderer::checkTarget(Frame& frame, const FrameInfo& info, const RecordedPass& pass, OffScreen& target,
+                                VkExtent2D used) {
   if (!info.settings.debug.checkFinite) {
     return;
   }
-  const RecordedPass& pass = recorded_.back();
   if (Image* samples = target.samplesImage()) {
     watch_.check(frame, pass.name + " (samples)", pass.path, *samples, target.samplesDescriptor(), used);
   }
   watch_.check(frame, pass.name, pass.path, target.color(), target.descriptor(), used);
-}
-
-// Not those that are kept: for the debug view until the frame ends, for the next frames.
-void SceneRenderer::releaseImages(const FramePlan& plan, const PlannedPass& pass) {
-  for (const MirrorDraw& draw : pass.mirrors) {
-    if (draw.pass >= 0 && draw.pass != keptPass_ && !isHeld(plan, draw.pass)) {
-      pool_->release(*targets_[draw.pass]);
-    }
-  }
 }
 
 void SceneRenderer::prepareMaps(Frame& frame, const FramePlan& plan) {
@@ -317,45 +256,59 @@ void SceneRenderer::recordMap(Frame& frame, const FrameInfo& info, size_t map, s
     ledger_[EffectKind::curved].draws = drawsBefore + recorded.draws;  // curved mirrors in it were entered already
     recorded_.push_back(std::move(recorded));
   }
-  checkTarget(frame, info, target, {3 * size, 2 * size});
+  checkTarget(frame, info, recorded_.back(), target, {3 * size, 2 * size});
 }
 
-void SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index) {
-  const PlannedPass& pass = info.plan.passes[index];
-  const View& view = pass.view;
+PassDesc SceneRenderer::mirrorPass(const FrameInfo& info, size_t index, const PassTargets& targets) const {
+  const View& view = info.plan.passes[index].view;
   const VkRect2D area = areaOf(view.rect);
-  OffScreen& target = pool_->acquire(area.extent, *frame.retired);
-  RecordedPass recorded{.name = "mirror " + mirrorPathName(scene_, view.path),
-                        .path = view.path,
-                        .depth = pass.depth,
-                        .areaPx = pass.areaPx};
-  PassDesc desc{.name = recorded.name,
-                .targets = target.targets(),
-                .renderArea = area,
-                .viewport = viewportOf(view),
-                .scissor = area,
-                .frontFace = frontFace(view),
-                .clearColor = clearColor(info.environment),
-                .clearDepth = MaskSystem::clearDepth(info.data.passes()[index]),
-                .collectStatistics = true};
-  if (keepsDepth(index)) {
-    watchedDepth_->prepare(desc, *frame.retired);
+  return {.name = "mirror " + mirrorPathName(scene_, view.path),
+          .targets = targets,
+          .renderArea = area,
+          .viewport = viewportOf(view),
+          .scissor = area,
+          .frontFace = frontFace(view),
+          .clearColor = clearColor(info.environment),
+          .clearDepth = MaskSystem::clearDepth(info.data.passes()[index]),
+          .collectStatistics = true,
+          .grouped = true};
+}
+
+RecordedPass SceneRenderer::recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index, const PassDesc& desc) {
+  const PlannedPass& pass = info.plan.passes[index];
+  RecordedPass recorded{.name = desc.name, .path = pass.view.path, .depth = pass.depth, .areaPx = pass.areaPx};
+  PassScope scope = renderer_.beginPass(frame, desc);
+  const PassFormat format{.samples = desc.targets.samples(), .mirrorView = true};
+  recorded.draws = maskSystem_.record(scope, info, index, format);
+  scope.countSamples();
+  recorded.draws += recordSystems(scope, info, index, format);
+  return recorded;
+}
+
+// Images are given back and checked when the whole range is drawn: barriers stand around it.
+void SceneRenderer::recordMirrorPasses(Frame& frame, const FrameInfo& info, const PassRange& range) {
+  const std::vector<PassTargets> targets = mirrorTargets_.acquire(info.plan, range, *frame.retired);
+  std::vector<PassDesc> passes;
+  for (size_t i = range.first; i < range.end; ++i) {
+    passes.push_back(mirrorPass(info, i, targets[i - range.first]));
+    if (keepsDepth(i)) {
+      watchedDepth_->prepare(passes.back(), *frame.retired);
+    }
   }
   {
-    PassScope scope = renderer_.beginPass(frame, desc);
-    const PassFormat format{.samples = target.samples(), .mirrorView = true};
-    recorded.draws = maskSystem_.record(scope, info, index, format);
-    scope.countSamples();
-    recorded.draws += recordSystems(scope, info, index, format);
+    const PassGroup group = renderer_.beginGroup(frame, passes);
+    for (size_t i = range.first; i < range.end; ++i) {
+      recorded_.push_back(recordMirrorPass(frame, info, i, passes[i - range.first]));
+    }
   }
-  if (keepsDepth(index)) {
-    watchedDepth_->finish(frame.commands);
+  for (size_t i = range.first; i < range.end; ++i) {
+    if (keepsDepth(i)) {
+      watchedDepth_->finish(frame.commands);
+    }
+    checkTarget(frame, info, recorded_[recorded_.size() - range.end + i], mirrorTargets_[i],
+                passes[i - range.first].renderArea.extent);
+    mirrorTargets_.releaseShown(info.plan, info.plan.passes[i]);
   }
-  recorded_.push_back(std::move(recorded));
-  checkTarget(frame, info, target, area.extent);
-  targets_[index] = &target;
-  images_[index] = {target.descriptor(), target.samples()};
-  releaseImages(info.plan, pass);
 }
 
 void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
@@ -378,14 +331,15 @@ void SceneRenderer::recordMainPass(Frame& frame, const FrameInfo& info) {
     watchedDepth_->finish(frame.commands);
   }
   recorded_.push_back(std::move(recorded));
-  checkTarget(frame, info, *main_, main_->extent());
-  releaseImages(info.plan, info.plan.main);
+  checkTarget(frame, info, recorded_.back(), *main_, main_->extent());
+  mirrorTargets_.releaseShown(info.plan, info.plan.main);
 }
 
 void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan,
                                     const DebugView& debug) {
   const bool ofMain = debug.pass == static_cast<int>(plan.passes.size());
-  const MirrorImage color = ofMain ? MirrorImage{.descriptor = main_->descriptor()} : images_[debug.pass];
+  const MirrorImage color =
+      ofMain ? MirrorImage{.descriptor = main_->descriptor()} : mirrorTargets_.images()[debug.pass];
   const bool ofDepth = depthPass_ && watchedDepth_->exists();
   const auto pass = ofDepth ? display_.recordDepth(frame, plan, debug, *watchedDepth_)
                             : display_.recordColor(frame, plan, debug, color, settings);

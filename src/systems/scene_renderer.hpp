@@ -9,10 +9,10 @@
 #include "systems/environment_targets.hpp"
 #include "systems/finite_watch.hpp"
 #include "systems/frame_info.hpp"
-#include "systems/image_pool.hpp"
 #include "systems/kept_depth.hpp"
 #include "systems/mask_system.hpp"
 #include "systems/mirror_system.hpp"
+#include "systems/mirror_targets.hpp"
 #include "systems/point_light_system.hpp"
 #include "systems/recorded_pass.hpp"
 #include "systems/render_system.hpp"
@@ -51,18 +51,17 @@ class SceneRenderer {
   LinearImage radiance();
 
  private:
-  void takeHeldImages(const FramePlan& plan);
-  void keepHeldImages(const FramePlan& plan);
-  void prepareTargets(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
+  void prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void prepareMaps(Frame& frame, const FramePlan& plan);
   void recordMap(Frame& frame, const FrameInfo& info, size_t map, size_t firstPass);
-  void recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index);
+  PassDesc mirrorPass(const FrameInfo& info, size_t index, const PassTargets& targets) const;
+  void recordMirrorPasses(Frame& frame, const FrameInfo& info, const PassRange& range);
+  RecordedPass recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index, const PassDesc& desc);
   void recordMainPass(Frame& frame, const FrameInfo& info);
   bool keepsDepth(size_t pass) const { return depthPass_ == static_cast<int>(pass); }
   void releaseViews(const std::optional<DebugView>& debug, RetireQueue& retired);
   void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
-  void checkTarget(Frame& frame, const FrameInfo& info, OffScreen& target, VkExtent2D used);
-  void releaseImages(const FramePlan& plan, const PlannedPass& pass);
+  void checkTarget(Frame& frame, const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void finishLedger(const Settings& settings, const FramePlan& plan);
 
@@ -79,22 +78,14 @@ class SceneRenderer {
   FiniteWatch watch_;
   DisplaySystem display_;
   std::unique_ptr<KeptDepth> watchedDepth_;
-  std::unique_ptr<SharedDepth> depth_;
-  std::unique_ptr<ImagePool> pool_;
   std::unique_ptr<OffScreen> main_;
-  std::vector<OffScreen*> targets_;  // of the plan's passes while they are alive
-  std::vector<MirrorImage> images_;  // likewise
-  std::vector<HeldImage> held_;
-  std::vector<OffScreen*> heldTargets_;  // of held_, taken from the pool
-  std::vector<MirrorImage> heldImages_;  // of the present plan's held images
-  uint64_t heldRevision_ = 0;            // of the pipelines that rendered them
-  bool restart_ = false;                 // before the next frame
+  MirrorTargets mirrorTargets_;
+  uint64_t heldRevision_ = 0;  // of the pipelines that rendered the images held
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
   std::vector<RecordedPass> recorded_;
   EffectLedger ledger_;
   std::optional<int> depthPass_;  // whose depth is looked at; the number of mirror passes stands for the main view
-  std::optional<int> keptPass_;   // its image is not given back before the frame ends
 };
 
 }  // namespace speculum

@@ -1,0 +1,45 @@
+#include "frame/pass_range.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace speculum {
+
+namespace {
+
+double area(const PlannedPass& pass) {
+  return static_cast<double>(pass.view.rect.area());
+}
+
+bool showsImageOf(const PlannedPass& pass, size_t first) {
+  return std::any_of(pass.mirrors.begin(), pass.mirrors.end(),
+                     [&](const MirrorDraw& draw) { return draw.pass >= static_cast<int>(first); });
+}
+
+}  // namespace
+
+std::vector<PassRange> independentPasses(const FramePlan& plan) {
+  std::vector<PassRange> ranges;
+  double covered = 0.0;  // pixels, by the last range
+  for (size_t i = 0; i < plan.passes.size(); ++i) {
+    const PlannedPass& pass = plan.passes[i];
+    const double picture = pass.view.pictureSize.x * pass.view.pictureSize.y;
+    if (ranges.empty() || showsImageOf(pass, ranges.back().first) || covered + area(pass) > picture) {
+      ranges.push_back({i, i});
+      covered = 0.0;
+    }
+    ranges.back().end = i + 1;
+    covered += area(pass);
+  }
+  return ranges;
+}
+
+std::vector<size_t> largestFirst(const FramePlan& plan, const PassRange& range) {
+  std::vector<size_t> passes(range.end - range.first);
+  std::iota(passes.begin(), passes.end(), range.first);
+  std::stable_sort(passes.begin(), passes.end(),
+                   [&](size_t a, size_t b) { return area(plan.passes[a]) > area(plan.passes[b]); });
+  return passes;
+}
+
+}  // namespace speculum

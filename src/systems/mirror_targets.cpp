@@ -1,0 +1,130 @@
+#include "systems/mirror_targets.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace speculum {
+
+namespace {
+
+VkExtent2D extentOf(const PixelRect& rect) {
+  return {static_cast<uint32_t>(rect.width), static_cast<uint32_t>(rect.height)};
+}
+
+}  // namespace
+
+MirrorTargets::MirrorTargets(Device& device) : device_(device) {}
+
+void MirrorTargets::restart() {
+  heldPlans_.clear();
+  heldTargets_.clear();
+  restart_ = true;
+}
+
+// Gives back what the plan shows no more: its targets serve passes of this frame. Nothing to wait for, barriers order
+// frames as they do passes.
+void MirrorTargets::takeHeld(const FramePlan& plan) {
+  std::vector<OffScreen*> targets(plan.held.size(), nullptr);
+  heldImages_.assign(plan.held.size(), {});
+  for (size_t i = 0; i < plan.held.size(); ++i) {
+    if (plan.held[i].earlier >= 0) {
+      targets[i] = std::exchange(heldTargets_[static_cast<size_t>(plan.held[i].earlier)], nullptr);
+      heldImages_[i] = {targets[i]->descriptor(), targets[i]->samples()};
+    }
+  }
+  for (const OffScreen* unused : heldTargets_) {
+    if (unused) {
+      pool_->release(*unused);
+    }
+  }
+  heldTargets_ = std::move(targets);
+}
+
+void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> kept,
+                          RetireQueue& retired) {
+  kept_ = kept;
+  takeHeld(plan);
+  const bool needless = plan.passes.empty() && plan.held.empty();
+  if (pool_ && (restart_ || depths_.front().image->samples() != samples || needless)) {
+    pool_->clear(retired);
+    pool_.reset();
+    dropDepth(0, retired);
+  }
+  restart_ = false;
+  if (!plan.passes.empty() && !pool_) {
+    depths_.push_back({std::make_unique<SharedDepth>(device_, samples, "mirror images")});
+    pool_ = std::make_unique<ImagePool>(device_, *depths_.front().image, "mirror image");
+  }
+  targets_.assign(plan.passes.size(), nullptr);
+  images_.assign(plan.passes.size(), {});
+}
+
+SharedDepth& MirrorTargets::depth(size_t place) {
+  if (place == depths_.size()) {
+    depths_.push_back({std::make_unique<SharedDepth>(device_, depths_.front().image->samples(),
+                                                     "mirror images " + std::to_string(place))});
+  }
+  depths_[place].idleFrames = 0;
+  return *depths_[place].image;
+}
+
+std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired) {
+  const std::vector<size_t> order = largestFirst(plan, range);
+  std::vector<PassTargets> targets(order.size());
+  for (size_t place = 0; place < order.size(); ++place) {
+    const size_t pass = order[place];
+    OffScreen& target = pool_->acquire(extentOf(plan.passes[pass].view.rect), retired);
+    targets_[pass] = &target;
+    images_[pass] = {target.descriptor(), target.samples()};
+    targets[pass - range.first] = target.targets(depth(place), retired);
+  }
+  return targets;
+}
+
+// For the debug view until the frame ends, for the next frames.
+bool MirrorTargets::isKept(const FramePlan& plan, int pass) const {
+  return pass == kept_ ||
+         std::any_of(plan.held.begin(), plan.held.end(), [&](const HeldImage& image) { return image.pass == pass; });
+}
+
+void MirrorTargets::releaseShown(const FramePlan& plan, const PlannedPass& pass) {
+  for (const MirrorDraw& draw : pass.mirrors) {
+    if (draw.pass >= 0 && !isKept(plan, draw.pass)) {
+      pool_->release(*targets_[static_cast<size_t>(draw.pass)]);
+    }
+  }
+}
+
+void MirrorTargets::dropDepth(size_t from, RetireQueue& retired) {
+  for (size_t i = from; i < depths_.size(); ++i) {
+    depths_[i].image->trim({0, 0}, retired);
+  }
+  depths_.resize(from);
+}
+
+void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
+  for (size_t i = 0; i < plan.held.size(); ++i) {
+    if (plan.held[i].pass >= 0) {
+      heldTargets_[i] = targets_[static_cast<size_t>(plan.held[i].pass)];
+    }
+  }
+  if (kept_ && std::find(heldTargets_.begin(), heldTargets_.end(), targets_[*kept_]) == heldTargets_.end()) {
+    pool_->release(*targets_[*kept_]);
+  }
+  heldPlans_ = plan.held;
+  if (!pool_) {
+    return;
+  }
+  pool_->endFrame(retired);
+  size_t used = depths_.size();
+  for (Depth& depth : depths_) {
+    ++depth.idleFrames;
+  }
+  // The first one serves as long as there are targets.
+  while (used > 1 && depths_[used - 1].idleFrames > ImagePool::framesKept) {
+    --used;
+  }
+  dropDepth(used, retired);
+}
+
+}  // namespace speculum

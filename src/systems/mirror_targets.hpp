@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+
+#include "frame/pass_range.hpp"
+#include "systems/frame_data.hpp"
+#include "systems/image_pool.hpp"
+
+namespace speculum {
+
+// The targets of mirror passes: of those of a frame while their images are needed, and of the images that are held for
+// the next one. Nothing exists while no frame has a mirror image.
+class MirrorTargets {
+ public:
+  explicit MirrorTargets(Device& device);
+
+  // The images that the next frame can be planned with.
+  const std::vector<HeldImage>& heldPlans() const { return heldPlans_; }
+  void restart();  // forgets them and, in the next frame, every target
+
+  // At the start of the plan's frame: takes over the images that it shows again. `kept` is a pass whose image is not
+  // given back before the frame ends.
+  void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> kept, RetireQueue& retired);
+  // Targets for the passes of a range, in order, each with depth of its own. None is one that the range's passes show.
+  std::vector<PassTargets> acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired);
+  // The images that a pass shows are needed no more.
+  void releaseShown(const FramePlan& plan, const PlannedPass& pass);
+  void end(const FramePlan& plan, RetireQueue& retired);
+
+  OffScreen& operator[](size_t pass) { return *targets_[pass]; }
+  std::span<const MirrorImage> images() const { return images_; }  // of plan.passes, by index; set once acquired
+  std::span<const MirrorImage> held() const {
+    return heldImages_;
+  }  // of plan.held, by index, where of an earlier frame
+
+ private:
+  // Depth that the passes of one place in their ranges use in turn.
+  struct Depth {
+    std::unique_ptr<SharedDepth> image;
+    int idleFrames = 0;
+  };
+  void takeHeld(const FramePlan& plan);
+  bool isKept(const FramePlan& plan, int pass) const;
+  SharedDepth& depth(size_t place);
+  void dropDepth(size_t from, RetireQueue& retired);
+
+  Device& device_;
+  std::vector<Depth> depths_;
+  std::unique_ptr<ImagePool> pool_;
+  std::vector<OffScreen*> targets_;
+  std::vector<MirrorImage> images_;
+  std::vector<HeldImage> heldPlans_;
+  std::vector<OffScreen*> heldTargets_;  // of heldPlans_ between frames, of the plan's in one
+  std::vector<MirrorImage> heldImages_;
+  std::optional<int> kept_;
+  bool restart_ = false;
+};
+
+}  // namespace speculum
