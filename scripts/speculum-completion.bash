@@ -22,7 +22,8 @@ _speculum_settings() {
     reflection.max_passes reflection.update_interval reflection.skip_unchanged reflection.clip view.samples view.exposure view.tone_map
     view.clear_color view.texture_filter view.wireframe view.continuous effects.shadows effects.roughness
     effects.rough_samples effects.rough_lookup effects.per_sample effects.ripple effects.casts_light effects.curved
-    effects.curved_lookup effects.environment_size effects.environment_interval effects.environment_box quality.budget_ms quality.max_error
+    effects.curved_lookup effects.environment_size effects.environment_interval effects.environment_box effects.fresnel
+    effects.textures effects.glyphs quality.budget_ms quality.max_error
     debug.omit_barrier debug.check_finite debug.skip_hidden debug.cull_clusters debug.mask_passes"
 }
 

@@ -351,22 +351,32 @@ TEST_F(CommandLine, SmallestAndFlattestPicturesAreDrawn) {
 }
 
 TEST_F(CommandLine, BenchSaysWhatEachEffectCosts) {
-  const std::string scene = writeScene(
-      "effects", smallScene + "[[mirror]]\nname = 'rough'\nposition = [1, 1, -1]\nsize = [1, 1]\nroughness = 0.2\n");
+  const std::string scene =
+      writeScene("effects", smallScene +
+                                "[[mirror]]\nname = 'rough'\nposition = [1, 1, -1]\nsize = [1, 1]\nroughness = 0.2\n"
+                                "[[mirror]]\nname = 'glass'\nposition = [-1, 1, -1]\nsize = [1, 1]\n"
+                                "fresnel = 'schlick'\n"
+                                "[[object]]\nname = 'floor'\nmodel = 'MODELS/chequer.obj'\n");
   const ProcessResult result = speculum({"bench", "--scene", scene, "--size", "32x18", "--frames", "2", "--warmup", "0",
                                          "--prices", "--json", out("e.json")});
   EXPECT_EQ(result.exitCode, 0) << result.output;
   EXPECT_NE(result.output.find("roughness"), std::string::npos) << result.output;
   const auto stats = readJson(out("e.json"));
+  std::map<std::string, std::string> called;
   for (const auto& effect : stats["effects"]) {
-    if (effect["name"] == "roughness") {
-      EXPECT_EQ(effect["why"], "mirror 'rough'");
+    if (effect["called_for"]) {
+      called[effect["name"].get<std::string>()] = effect["why"].get<std::string>();
       EXPECT_TRUE(effect["gpu_ms"].contains("median")) << effect;
-    } else if (effect["name"] == "shadows") {
-      EXPECT_EQ(effect["called_for"], false);
+    } else {
       EXPECT_TRUE(effect["gpu_ms"].is_null()) << effect;
     }
   }
+  const std::map<std::string, std::string> expected = {{"roughness", "mirror 'rough'"},
+                                                       {"fresnel", "mirror 'glass'"},
+                                                       {"textures", "object 'floor' with chequer.obj"},
+                                                       {"glyphs", "light 0"},
+                                                       {"msaa", "view.samples = 4"}};
+  EXPECT_EQ(called, expected);
 }
 
 }  // namespace

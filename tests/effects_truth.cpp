@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include "accuracy/image_metrics.hpp"
@@ -358,6 +359,52 @@ TEST(Effects, CanBeSwitchedOff) {
                 {"effects.casts_light", "false"}});
   const Image8 off = draw(options);
   EXPECT_EQ(off.rgba, draw(truthOptions(corner("effects_none", none), size, 3)).rgba);
+}
+
+// The same, of those that trace no rays: seen directly, in a mirror and by rays in a curved one.
+TEST(Effects, FresnelTexturesAndGlyphsCanBeSwitchedOff) {
+  const auto panel = [](const std::string& name, const std::string& material) {
+    const std::filesystem::path file = sceneDirectory() / (name + ".obj");
+    std::ofstream(sceneDirectory() / (name + ".mtl")) << "newmtl m\nKd 0.8 0.7 0.3\n" << material;
+    std::ofstream(file) << "mtllib " << name << ".mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                        << "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    return "[[object]]\nmodel = \"" + file.string() + "\"\nposition = [-0.4, 0.1, 0.8]\n";
+  };
+  Image8 texture(2, 2);
+  for (size_t i = 0; i < texture.rgba.size(); ++i) {
+    texture.rgba[i] = static_cast<uint8_t>(37 * i % 256);
+  }
+  writePng(sceneDirectory() / "squares.png", texture);
+  const std::string ball = "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.3, 1.2, 1]\nscale = 0.3\n";
+  const std::string pot =
+      "[environment]\nbackground = [0.25, 0.3, 0.4]\n[camera]\nposition = [0.3, 1.7, 3.6]\n"
+      "target = [0, 0.6, 0]\n[[object]]\nmodel = \"MODELS/teapot.obj\"\nposition = [0.9, 0.1, 0.4]\n";
+  const std::string light = "[[light]]\nposition = [-0.9, 1.3, 1]\nradius = 0.1\nintensity = 5\n";
+  const std::string schlick = "fresnel = \"schlick\"\n";
+  const std::string dim = "reflectance = [0.5, 0.6, 0.7]\n";
+  const std::string all = pot + light + "glow = 3\n" + wall + dim + schlick +
+                          panel("textured", "map_Kd squares.png\n") + ball +
+                          "mirror = { reflectance = [0.5, 0.6, 0.7], fresnel = \"schlick\" }\n";
+  const std::string none = pot + light + "glow = 0\n" + wall + dim + panel("plain", "") + ball +
+                           "mirror = { reflectance = [0.5, 0.6, 0.7] }\n";
+  const std::filesystem::path expected = writeScene("switched_none", none);
+  for (const char* lookup : {"traced", "environment"}) {
+    const std::pair<std::string, std::string> how{"effects.curved_lookup", lookup};
+    Options options = truthOptions(writeScene("switched_off", all), size, 3);
+    set(options, {how});
+    const Image8 on = draw(options);
+    Image8 last = on;
+    for (const char* key : {"effects.fresnel", "effects.textures", "effects.glyphs"}) {
+      set(options, {{key, "false"}});
+      const Image8 off = draw(options);
+      EXPECT_NE(off.rgba, last.rgba) << key;
+      last = off;
+    }
+    Options plain = truthOptions(expected, size, 3);
+    set(plain, {how});
+    EXPECT_EQ(last.rgba, draw(plain).rgba) << lookup;
+  }
+  expectTruth(expected, size, 3, trace(expected, size, 3));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // with the correction by a box. What they cost, and that they give it back, is in effects_ledger.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/stats.hpp"
@@ -247,6 +248,17 @@ TEST(EnvironmentMaps, FacesAreListedWhenTheyAreRendered) {
   EXPECT_EQ(mapPasses(session, 0.0).size(), 6u);
   EXPECT_EQ(session.picture().rgba, first.rgba);
   expectQuiet(session);
+}
+
+// Faces have no path of mirrors either, and are recorded before the main view.
+TEST(EnvironmentMaps, AMirrorIsSeenInTheMainViewNotInAFace) {
+  Session session(mapped(room("parents", "[[mirror]]\nposition = [-0.9, 1.4, -2.9]\nsize = [1, 1]\n")));
+  session.draw(0.0, true);
+  session.finish();
+  const nlohmann::ordered_json passes = frameStats(session, session.renderer().timings()).at("passes");
+  const auto mirror = std::find_if(passes.begin(), passes.end(), [](const auto& p) { return p.at("depth") == 0; });
+  ASSERT_NE(mirror, passes.end());
+  EXPECT_EQ(passes.at(mirror->at("parent").get<size_t>()).at("name"), "main view");
 }
 
 // A map and what shows it, with everything that moves: the same bytes whether what is unchanged is skipped or not.

@@ -55,8 +55,9 @@ ordered_json parentJson(const std::vector<RecordedPass>& passes, const RecordedP
     return nullptr;
   }
   const std::vector<int> seenIn(pass.path.begin(), pass.path.end() - 1);
-  const auto parent =
-      std::find_if(passes.begin(), passes.end(), [&](const RecordedPass& other) { return other.path == seenIn; });
+  const auto parent = std::find_if(passes.begin(), passes.end(), [&](const RecordedPass& other) {
+    return (other.kind == PassKind::mirror || other.kind == PassKind::main) && other.path == seenIn;
+  });
   return parent == passes.end() ? ordered_json(nullptr) : ordered_json(parent - passes.begin());
 }
 

@@ -40,12 +40,12 @@ Effect fresnel(const Scene& scene, const SceneState& state, const Settings& sett
   for (const int i : visible.instances) {
     const int object = state.instances[i].object;
     const std::optional<ObjectMirror>& mirror = scene.objects[object].mirror;
-    if (settings.effects.curved && mirror && mirror->fresnel == Fresnel::schlick) {
+    if (settings.effects.curved && mirror && isSchlick(mirror->fresnel, settings.effects)) {
       return {"fresnel", true, nameOf("object", scene.objects[object].name, object)};
     }
   }
   for (const int i : visible.mirrorFronts) {
-    if (scene.mirrors[i].fresnel == Fresnel::schlick) {
+    if (isSchlick(scene.mirrors[i].fresnel, settings.effects)) {
       return {"fresnel", true, nameOf("mirror", scene.mirrors[i].name, i)};
     }
   }
@@ -56,8 +56,8 @@ Effect tracedEffect(const std::string& name, const std::string& caller, const st
   return {name, !caller.empty(), caller.empty() ? otherwise : caller};
 }
 
-Effect textures(const Scene& scene, const SceneState& state, const Visible& visible) {
-  for (const int i : visible.instances) {
+Effect textures(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
+  for (const int i : settings.effects.textures ? visible.instances : std::set<int>()) {
     const InstanceState& instance = state.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];
     for (const MeshPart& part : mesh.parts) {
@@ -110,11 +110,17 @@ std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effe
     case EffectKind::wireframe:
       return {{"view.wireframe", "false"}};
     case EffectKind::fresnel:
+      return {{"effects.fresnel", "false"}};
     case EffectKind::textures:
+      return {{"effects.textures", "false"}};
     case EffectKind::glyphs:
-      break;
+      return {{"effects.glyphs", "false"}};
   }
   return {};
+}
+
+bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {
+  return !scene.textures.empty() && textures(scene, state, settings, visibleIn(plan)).calledFor;
 }
 
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
@@ -128,7 +134,7 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
       tracedEffect("ripple", traced.ripple, "no visible mirror has ripples"),
       tracedEffect("casts_light", traced.castsLight, "no mirror casts light on what is drawn"),
       fresnel(scene, state, settings, visible),
-      textures(scene, state, visible),
+      textures(scene, state, settings, visible),
       multisampling(settings, plan),
       {"tone_map", aces, aces ? "view.tone_map = aces" : "view.tone_map = clamp"},
       glyphs(scene, visible),

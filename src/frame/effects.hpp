@@ -30,8 +30,11 @@ struct Effect {
   std::string why;
 };
 
-// The settings that leave an effect out of the picture, as key and value; none for those that have no such settings.
+// The settings that leave an effect out of the picture, as key and value.
 std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effect);
+
+// Whether something with a texture is drawn, or was in the image of an earlier frame that is shown.
+bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);
 
 // All effects, in the order of EffectKind.
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,

@@ -102,7 +102,8 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
     }
   }
   for (size_t i = 0; i < scene.lights.size(); ++i) {
-    if (scene.lights[i].glow > 0.0 && sphereVisible(face.view, state.lights[i].position, scene.lights[i].radius)) {
+    if (hasGlyph(scene.lights[i], map.settings.effects) &&
+        sphereVisible(face.view, state.lights[i].position, scene.lights[i].radius)) {
       face.lights.push_back(static_cast<int>(i));
     }
   }

@@ -152,7 +152,7 @@ void Planner::fill(int node) {
   }
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
     const PointLight& light = scene_.lights[i];
-    if (light.glow > 0.0 && sphereVisible(readable, state_.lights[i].position, light.radius)) {
+    if (hasGlyph(light, allSettings_.effects) && sphereVisible(readable, state_.lights[i].position, light.radius)) {
       nodes_[node].pass.lights.push_back(static_cast<int>(i));
     }
   }
@@ -208,7 +208,8 @@ void Planner::propose(int node, Sight sight) {
   const int mirror = sight.draw.mirror;
   const Mirror& material = scene_.mirrors[mirror];
   const double area = screenArea(toClip(view, plan_.projection, sight.visible), plan_.width, plan_.height);
-  const glm::dvec3 throughput = pass.channels * reflectanceBound(material, sight.draw.plane, view.eye, sight.visible);
+  const glm::dvec3 throughput =
+      pass.channels * reflectanceBound(material, allSettings_.effects, sight.draw.plane, view.eye, sight.visible);
   const bool deep = static_cast<int>(view.path.size()) >= settings_.maxDepth;
   const bool reflects = !deep && largest(throughput) >= settings_.minThroughput;
   sight.draw.scatters = scatters(material, allSettings_.effects, reflects);

@@ -31,9 +31,9 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, int
   return sight;
 }
 
-glm::dvec3 reflectanceBound(const Mirror& mirror, const Plane& plane, const glm::dvec3& eye,
-                            std::span<const glm::dvec3> visible) {
-  if (mirror.fresnel == Fresnel::none) {
+glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects, const Plane& plane,
+                            const glm::dvec3& eye, std::span<const glm::dvec3> visible) {
+  if (!isSchlick(mirror.fresnel, effects)) {
     return mirror.reflectance;
   }
   double farthest = 0.0;

@@ -17,8 +17,8 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, int
 
 // Upper bound of the reflectance of what is visible. Schlick's F grows towards grazing; the flattest view of a polygon
 // is that of its farthest vertex.
-glm::dvec3 reflectanceBound(const Mirror& mirror, const Plane& plane, const glm::dvec3& eye,
-                            std::span<const glm::dvec3> visible);
+glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects, const Plane& plane,
+                            const glm::dvec3& eye, std::span<const glm::dvec3> visible);
 
 bool isRough(const Mirror& mirror, const EffectSettings& effects);
 

@@ -216,6 +216,9 @@ std::vector<Setting> effectTable() {
       boolean<E>({"effects.ripple", "true | false", "ripples of mirrors"}, group, &E::ripple),
       boolean<E>({"effects.casts_light", "true | false", "light bounced off mirrors"}, group, &E::castsLight),
       boolean<E>({"effects.curved", "true | false", "objects that are mirrors"}, group, &E::curved),
+      boolean<E>({"effects.fresnel", "true | false", "mirrors that reflect more towards grazing"}, group, &E::fresnel),
+      boolean<E>({"effects.textures", "true | false", "textures of objects"}, group, &E::textures),
+      boolean<E>({"effects.glyphs", "true | false", "the spheres of lights that glow"}, group, &E::glyphs),
       choice<E, CurvedLookup>({"effects.curved_lookup", "traced | environment",
                                "what curved mirrors look up: rays, or six images about the object's centre"},
                               group, &E::curvedLookup,
@@ -298,6 +301,14 @@ bool takesText(const Setting& setting) {
 }
 
 }  // namespace
+
+bool isSchlick(Fresnel fresnel, const EffectSettings& effects) {
+  return effects.fresnel && fresnel == Fresnel::schlick;
+}
+
+bool hasGlyph(const PointLight& light, const EffectSettings& effects) {
+  return effects.glyphs && light.glow > 0.0;
+}
 
 std::span<const SettingInfo> settingInfos() {
   static const std::vector<SettingInfo> infos = [] {

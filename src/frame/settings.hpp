@@ -55,6 +55,9 @@ struct EffectSettings {
   bool ripple = true;
   bool castsLight = true;
   bool curved = true;
+  bool fresnel = true;
+  bool textures = true;
+  bool glyphs = true;
   int roughSamples = 16;  // rays a pixel of rough mirrors
   RoughLookup roughLookup = RoughLookup::traced;
   bool perSample = false;  // rays at each sample of a pixel, not once
@@ -65,6 +68,10 @@ struct EffectSettings {
 
   bool operator==(const EffectSettings&) const = default;
 };
+
+// What a mirror or a light of the scene asks for, as far as it is not switched off.
+bool isSchlick(Fresnel fresnel, const EffectSettings& effects);
+bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 
 // Bounds that a measured sweep is asked to keep; see accuracy/pareto.hpp. Nothing in the frame plan reads them.
 struct QualitySettings {

@@ -6,6 +6,9 @@
 
 namespace speculum {
 
+// After so many frames without a call for it, what only an effect needs is given back.
+inline constexpr int idleFramesKept = 120;
+
 // What an effect took part in, of the frame recorded last.
 struct EffectCost {
   uint32_t draws = 0;

@@ -86,10 +86,11 @@ const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
   return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.held ? &plan.held[draw.held->image].view : nullptr;
 }
 
-MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const View& view, const View* image) {
+MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const EffectSettings& effects, const View& view,
+                      const View* image) {
   MirrorData data{};
   data.plane = glm::vec4(glm::dvec4(draw.plane.normal, draw.plane.distance(view.eye)));
-  data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), mirror.fresnel == Fresnel::schlick ? 1.0f : 0.0f);
+  data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), isSchlick(mirror.fresnel, effects) ? 1.0f : 0.0f);
   const MirrorShows shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
   data.baseColor = glm::vec4(glm::vec3(draw.back ? mirror.backColor : mirror.baseColor), static_cast<float>(shows));
   if (image) {
@@ -193,7 +194,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   view.throughput = glm::vec4(glm::dvec4(pass.channels, settings.reflection.minThroughput));
   view.depth = static_cast<uint32_t>(pass.view.path.size());
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
-  addLights(pass, scene, state, view);
+  addLights(source, pass, view);
   views_.push_back(view);
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(source, pass, projection, data);
@@ -202,7 +203,8 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
 }
 
 // Lights whose glyphs are visible come first, so that one instanced draw covers them.
-void FrameData::addLights(const PlannedPass& pass, const Scene& scene, const SceneState& state, ViewData& view) {
+void FrameData::addLights(const Source& source, const PlannedPass& pass, ViewData& view) {
+  const Scene& scene = source.scene;
   view.firstLight = static_cast<uint32_t>(lights_.size());
   view.lightCount = static_cast<uint32_t>(scene.lights.size());
   std::vector<int> order(scene.lights.size());
@@ -211,11 +213,12 @@ void FrameData::addLights(const PlannedPass& pass, const Scene& scene, const Sce
                         [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); });
   for (const int i : order) {
     const PointLight& light = scene.lights[i];
-    const glm::dvec3 relative = state.lights[i].position - pass.view.eye;
+    const glm::dvec3 relative = source.state.lights[i].position - pass.view.eye;
+    const bool glows = hasGlyph(light, source.settings.effects);
     lights_.push_back(
         {.position = glm::vec4(glm::dvec4(relative, light.radius)),
          .irradiance = glm::vec4(glm::vec3(light.color * light.intensity), light.castsShadow ? 1.0f : 0.0f),
-         .glow = glm::vec4(glm::vec3(light.color * light.glow), light.glow > 0.0 ? 1.0f : 0.0f)});
+         .glow = glm::vec4(glm::vec3(light.color * light.glow), glows ? 1.0f : 0.0f)});
   }
 }
 
@@ -271,7 +274,8 @@ void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, in
   const bool exists = map != maps.end() && !inFace;
   const ObjectMirror& mirror = *source.scene.objects[source.state.instances[instance].object].mirror;
   MirrorData data{};
-  data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), mirror.fresnel == Fresnel::schlick ? 1.0f : 0.0f);
+  const bool schlick = isSchlick(mirror.fresnel, source.settings.effects);
+  data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), schlick ? 1.0f : 0.0f);
   data.baseColor = glm::vec4(glm::vec3(mirror.baseColor), 0.0f);
   if (exists) {
     const bool box = source.settings.effects.environmentBox;
@@ -330,9 +334,9 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
                       .scatters = draw.scatters,
                       .rippled = draw.scatters && effects.ripple && mirror.ripple,
                       .rough = draw.blurs || (draw.scatters && effects.roughness && mirror.roughness > 0.0),
-                      .fresnel = !draw.back && mirror.fresnel != Fresnel::none,
+                      .fresnel = !draw.back && isSchlick(mirror.fresnel, effects),
                       .base = mirror.baseColor != glm::dvec3(0.0)};
-    mirrors_.push_back(mirrorData(draw, mirror, pass.view, imageView(draw, plan)));
+    mirrors_.push_back(mirrorData(draw, mirror, effects, pass.view, imageView(draw, plan)));
     range.lookup = static_cast<Lookup>(mirrors_.back().image.z);
     if (draw.blurs) {
       mirrors_.back().reproject[0] = glm::vec4(static_cast<float>(mirror.roughness * mirror.roughness),

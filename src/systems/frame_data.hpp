@@ -82,7 +82,7 @@ class FrameData {
   };
   // `corner`: where in its target the pass is drawn, in pixels.
   void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
-  void addLights(const PlannedPass& pass, const Scene& scene, const SceneState& state, ViewData& view);
+  void addLights(const Source& source, const PlannedPass& pass, ViewData& view);
   void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
   // Makes an instance's batch one that looks up its map.
   void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);

@@ -11,7 +11,9 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
   if (data.glyphCount == 0) {
     return 0;
   }
-  std::unique_ptr<Pipeline>& pipeline = pipelines_[format.samples];
+  Entry& entry = pipelines_[format.samples];
+  entry.idleFrames = 0;
+  std::unique_ptr<Pipeline>& pipeline = entry.pipeline;
   if (!pipeline) {
     GraphicsPipelineDesc desc{.name = "point_light", .vert = "point_light.vert", .frag = "point_light.frag"};
     desc.setLayouts = {frameLayout_};
@@ -27,6 +29,13 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
   vkCmdDraw(scope.commands(), 36, data.glyphCount, 0, 0);
   info.ledger.draw(EffectKind::glyphs);
   return 1;
+}
+
+void PointLightSystem::endFrame(bool stays) {
+  for (auto& [samples, entry] : pipelines_) {
+    entry.idleFrames += !stays;
+  }
+  std::erase_if(pipelines_, [](const auto& item) { return item.second.idleFrames > idleFramesKept; });
 }
 
 }  // namespace speculum

@@ -14,12 +14,18 @@ class PointLightSystem {
   PointLightSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  // Drops pipelines that have not been used for some frames. `stays`: images of earlier frames show glyphs.
+  void endFrame(bool stays);
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   PipelineFactory& factory_;
   VkDescriptorSetLayout frameLayout_;
-  std::map<VkSampleCountFlagBits, std::unique_ptr<Pipeline>> pipelines_;
+  struct Entry {
+    std::unique_ptr<Pipeline> pipeline;
+    int idleFrames = 0;
+  };
+  std::map<VkSampleCountFlagBits, Entry> pipelines_;
 };
 
 }  // namespace speculum

@@ -78,8 +78,7 @@ std::vector<IndexRange> drawnRanges(const SceneResources::Part& part, const Batc
 
 }  // namespace
 
-void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant, const SceneResources::Part& part) {
-  ledger.draw(EffectKind::textures, part.textured);
+void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
   ledger.draw(EffectKind::shadows, variant.trace.shadows);
   ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
   ledger.draw(EffectKind::curved, variant.curved);
@@ -109,12 +108,13 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     vkCmdBindIndexBuffer(commands, mesh.indices.get(), 0, VK_INDEX_TYPE_UINT32);
     scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
     for (const SceneResources::Part& part : mesh.parts) {
-      pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : part.texture);
+      pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
       for (const IndexRange& range : drawnRanges(part, batch)) {
         pipeline.push(commands, DrawConstants{data.view, part.material, range.first / 3});
         vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
         ++draws;
-        countDraw(info.ledger, variant, part);
+        countDraw(info.ledger, variant);
+        info.ledger.draw(EffectKind::textures, part.texture >= 0 && info.settings.effects.textures);
       }
     }
     scope.endLabel();

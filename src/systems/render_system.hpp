@@ -35,7 +35,7 @@ class RenderSystem {
   static bool tracesRays(const Variant& variant);
   const Pipeline& objects(const Variant& variant, VkDescriptorSetLayout traceLayout);
   const Pipeline& sky(VkSampleCountFlagBits samples);
-  static void countDraw(EffectLedger& ledger, const Variant& variant, const SceneResources::Part& part);
+  static void countDraw(EffectLedger& ledger, const Variant& variant);
   uint32_t recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data, Variant variant);
 
   PipelineFactory& factory_;

@@ -74,6 +74,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                        ofMirror ? std::optional(debug->pass) : std::nullopt, *frame.retired);
   prepareMain(settings, plan, *frame.retired);
   prepareMaps(frame, plan);
+  resources_.prepare(frame, settings.effects.textures, drawsTextures(scene_, state, settings, plan));
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
@@ -117,6 +118,8 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   const bool imagesShown = !plan.shown.empty();
   renderSystem_.endFrame(trace_.variant(), imagesShown, !plan.effects.curved.empty());
   mirrorSystem_.endFrame(trace_.variant(), imagesShown);
+  pointLightSystem_.endFrame(
+      std::any_of(plan.shown.begin(), plan.shown.end(), [](const auto& p) { return !p.lights.empty(); }));
   finishLedger(settings, plan);
   mirrorTargets_.end(plan, *frame.retired);
   heldRevision_ = renderer_.pipelines().revision();

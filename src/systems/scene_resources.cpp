@@ -1,6 +1,10 @@
 #include "systems/scene_resources.hpp"
 
+#include <algorithm>
 #include <glm/gtc/packing.hpp>
+#include <utility>
+
+#include "systems/effect_ledger.hpp"
 
 namespace speculum {
 
@@ -15,8 +19,9 @@ std::vector<uint64_t> halfTexels(const Texture& texture) {
   return texels;
 }
 
-MaterialData materialData(const Material& material) {
-  return {.diffuse = glm::vec4(glm::vec3(material.diffuse), static_cast<float>(material.diffuseTexture + 1)),
+MaterialData materialData(const Material& material, bool textured) {
+  const int texture = textured ? material.diffuseTexture + 1 : 0;
+  return {.diffuse = glm::vec4(glm::vec3(material.diffuse), static_cast<float>(texture)),
           .specular = glm::vec4(glm::vec3(material.specular), static_cast<float>(material.shininess)),
           .emission = glm::vec4(glm::vec3(material.emission), 0.0f)};
 }
@@ -24,33 +29,59 @@ MaterialData materialData(const Material& material) {
 }  // namespace
 
 SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& scene)
-    : device_(device), descriptors_(device) {
+    : device_(device), uploader_(uploader), scene_(scene), descriptors_(device) {
   const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
   textureLayout_ = createDescriptorSetLayout(device, {&binding, 1}, "texture");
   sampler_ = createSampler(device, {.addressMode = VK_SAMPLER_ADDRESS_MODE_REPEAT}, "texture");
-  createTextures(uploader, scene);
-  createMeshes(uploader, scene);
+  noTexture_ = upload(Texture{.width = 1, .height = 1, .texels = {glm::vec3(1.0f)}}, "no texture");
+  noTextureSet_ = descriptors_.allocate(textureLayout_.get());
+  DescriptorWriter().image(0, noTexture_.descriptor(sampler_.get())).update(device_, noTextureSet_);
+  createMeshes();
 }
 
-void SceneResources::createTextures(Uploader& uploader, const Scene& scene) {
-  const auto add = [&](const Texture& texture, const std::string& name) {
-    const std::vector<uint64_t> texels = halfTexels(texture);
-    const VkExtent2D extent{static_cast<uint32_t>(texture.width), static_cast<uint32_t>(texture.height)};
-    textures_.push_back(uploader.image(std::as_bytes(std::span(texels)), extent, colorFormat, true, name));
-    const VkDescriptorSet set = descriptors_.allocate(textureLayout_.get());
-    DescriptorWriter().image(0, textures_.back().descriptor(sampler_.get())).update(device_, set);
-    textureSets_.push_back(set);
-  };
-  for (const Texture& texture : scene.textures) {
-    add(texture, "texture " + texture.source.filename().string());
+void SceneResources::prepare(Frame& frame, bool asked, bool drawn) {
+  const bool textured = asked && !scene_.textures.empty();
+  const bool uploads = !materials_ || textured != textured_ || (drawn && textures_.empty());
+  if (uploads) {
+    // An upload waits for its own fence; frames in flight are waited for first, as in DisplaySystem::setCover.
+    check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
   }
-  add(Texture{.width = 1, .height = 1, .texels = {glm::vec3(1.0f)}}, "no texture");
+  if (!materials_ || textured != textured_) {
+    frame.retired->retire(std::exchange(materials_, {}));
+    createMaterials(textured);
+  }
+  idleFrames_ = drawn ? 0 : idleFrames_ + 1;
+  if (drawn && textures_.empty()) {
+    createTextures();
+  } else if (idleFrames_ > idleFramesKept) {
+    for (Image& texture : textures_) {
+      frame.retired->retire(std::move(texture));
+    }
+    textures_.clear();
+  }
 }
 
-void SceneResources::createMeshes(Uploader& uploader, const Scene& scene) {
-  std::vector<MaterialData> materials;
-  for (const Mesh& mesh : scene.meshes) {
+Image SceneResources::upload(const Texture& texture, const std::string& name) {
+  const std::vector<uint64_t> texels = halfTexels(texture);
+  const VkExtent2D extent{static_cast<uint32_t>(texture.width), static_cast<uint32_t>(texture.height)};
+  return uploader_.image(std::as_bytes(std::span(texels)), extent, colorFormat, true, name);
+}
+
+void SceneResources::createTextures() {
+  for (const Texture& texture : scene_.textures) {
+    textures_.push_back(upload(texture, "texture " + texture.source.filename().string()));
+    if (textureSets_.size() < textures_.size()) {
+      textureSets_.push_back(descriptors_.allocate(textureLayout_.get()));
+    }
+    const size_t last = textures_.size() - 1;
+    DescriptorWriter().image(0, textures_[last].descriptor(sampler_.get())).update(device_, textureSets_[last]);
+  }
+}
+
+void SceneResources::createMeshes() {
+  uint32_t materials = 0;
+  for (const Mesh& mesh : scene_.meshes) {
     const std::string name = mesh.source.filename().string();
     std::vector<GpuVertex> vertices;
     vertices.reserve(mesh.vertices.size());
@@ -59,32 +90,41 @@ void SceneResources::createMeshes(Uploader& uploader, const Scene& scene) {
     }
     GpuMesh& gpu = meshes_.emplace_back();
     gpu.vertices =
-        uploader.buffer(std::span<const GpuVertex>(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
+        uploader_.buffer(std::span<const GpuVertex>(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
     gpu.indices =
-        uploader.buffer(std::span<const uint32_t>(mesh.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
+        uploader_.buffer(std::span<const uint32_t>(mesh.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
     for (const MeshPart& part : mesh.parts) {
-      gpu.parts.push_back({part.firstIndex, part.indexCount, static_cast<uint32_t>(materials.size()),
-                           textureSet(part.material.diffuseTexture), part.material.diffuseTexture >= 0});
-      materials.push_back(materialData(part.material));
+      gpu.parts.push_back({part.firstIndex, part.indexCount, materials++, part.material.diffuseTexture});
+    }
+  }
+}
+
+// In the order of GpuMesh::parts.
+void SceneResources::createMaterials(bool textured) {
+  std::vector<MaterialData> materials;
+  for (const Mesh& mesh : scene_.meshes) {
+    for (const MeshPart& part : mesh.parts) {
+      materials.push_back(materialData(part.material, textured));
     }
   }
   materials.resize(std::max<size_t>(materials.size(), 1));
   materials_ =
-      uploader.buffer(std::span<const MaterialData>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
+      uploader_.buffer(std::span<const MaterialData>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
+  textured_ = textured;
 }
 
 uint64_t SceneResources::textureBytes() const {
   uint64_t bytes = 0;
-  for (size_t i = 0; i + 1 < textures_.size(); ++i) {
-    const VkExtent2D extent = textures_[i].extent();
+  for (const Image& texture : textures_) {
+    const VkExtent2D extent = texture.extent();
     // RGBA16F; levels that halve both sides add a third.
     bytes += uint64_t{8} * extent.width * extent.height * 4 / 3;
   }
   return bytes;
 }
 
-VkDescriptorSet SceneResources::textureSet(int texture) {
-  return texture < 0 ? textureSets_.back() : textureSets_[static_cast<size_t>(texture)];
+VkDescriptorSet SceneResources::texture(const Part& part) const {
+  return part.texture < 0 || textures_.empty() ? noTextureSet_ : textureSets_[static_cast<size_t>(part.texture)];
 }
 
 }  // namespace speculum

@@ -3,21 +3,21 @@
 #include <vector>
 
 #include "core/descriptors.hpp"
+#include "core/renderer.hpp"
 #include "core/uploader.hpp"
 #include "scene/scene.hpp"
 #include "systems/gpu_types.hpp"
 
 namespace speculum {
 
-// What a scene keeps on the GPU as long as it is shown: meshes, materials, textures. Finished on return.
+// What a scene keeps on the GPU: meshes and materials as long as it is shown, textures while something drawn has one.
 class SceneResources {
  public:
   struct Part {
     uint32_t firstIndex = 0;
     uint32_t indexCount = 0;
     uint32_t material = 0;  // index into materials()
-    VkDescriptorSet texture = VK_NULL_HANDLE;
-    bool textured = false;
+    int texture = -1;       // index into Scene::textures; -1: none
   };
   struct GpuMesh {
     Buffer vertices;
@@ -27,23 +27,34 @@ class SceneResources {
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
 
+  // At the start of a frame. `asked`: effects.textures, `drawn`: drawsTextures. Uploads are finished on return.
+  void prepare(Frame& frame, bool asked, bool drawn);
+
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
-  uint64_t textureBytes() const;  // with all levels, as far as the scene has textures
+  uint64_t textureBytes() const;  // with all levels, of those that are there
+  VkDescriptorSet texture(const Part& part) const;
   VkDescriptorSetLayout textureLayout() const { return textureLayout_.get(); }
 
  private:
-  void createTextures(Uploader& uploader, const Scene& scene);
-  void createMeshes(Uploader& uploader, const Scene& scene);
-  VkDescriptorSet textureSet(int texture);
+  Image upload(const Texture& texture, const std::string& name);
+  void createTextures();
+  void createMeshes();
+  void createMaterials(bool textured);
 
   Device& device_;
+  Uploader& uploader_;
+  const Scene& scene_;
   DescriptorSetLayoutHandle textureLayout_;
   SamplerHandle sampler_;
   DescriptorAllocator descriptors_;
-  std::vector<Image> textures_;  // the last one is a white texel, for materials without a texture
-  std::vector<VkDescriptorSet> textureSets_;
+  Image noTexture_;  // a white texel
+  VkDescriptorSet noTextureSet_ = VK_NULL_HANDLE;
+  std::vector<Image> textures_;               // of the scene, or none
+  std::vector<VkDescriptorSet> textureSets_;  // made with them, and kept
+  int idleFrames_ = 0;                        // since textures_ were drawn
   Buffer materials_;
+  bool textured_ = false;  // materials_ name textures
   std::vector<GpuMesh> meshes_;
 };
 

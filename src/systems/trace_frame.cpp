@@ -17,13 +17,14 @@ namespace {
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
 constexpr uint32_t frameDataBindings = 6;
 
-void setMirror(const std::optional<ObjectMirror>& mirror, TraceInstance& data) {
+void setMirror(const std::optional<ObjectMirror>& mirror, const EffectSettings& effects, TraceInstance& data) {
   CurvedMirror kind = CurvedMirror::none;
-  if (mirror) {
-    kind = mirror->fresnel == Fresnel::schlick ? CurvedMirror::schlick : CurvedMirror::constant;
+  if (mirror && effects.curved) {
+    kind = isSchlick(mirror->fresnel, effects) ? CurvedMirror::schlick : CurvedMirror::constant;
     data.baseColor = glm::vec4(glm::vec3(mirror->baseColor), 0.0f);
   }
-  data.reflectance = glm::vec4(mirror ? glm::vec3(mirror->reflectance) : glm::vec3(0.0f), static_cast<float>(kind));
+  const bool reflects = kind != CurvedMirror::none;
+  data.reflectance = glm::vec4(reflects ? glm::vec3(mirror->reflectance) : glm::vec3(0.0f), static_cast<float>(kind));
 }
 
 TraceInstance instanceData(const InstanceState& instance, const Object& object, const glm::dvec3& eye) {
@@ -189,7 +190,7 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings,
     data.root = mesh.root;
     data.firstTriangle = mesh.firstTriangle;
     data.firstVertex = mesh.firstVertex;
-    setMirror(settings.effects.curved ? object.mirror : std::nullopt, data);
+    setMirror(object.mirror, settings.effects, data);
     instances_.push_back(data);
     if (!scene_.meshes[instance.mesh].indices.empty()) {
       boxes.push_back(boundsOf(instance, scene_.meshes[instance.mesh], eye));
@@ -219,19 +220,19 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
     const MirrorState& placed = state.mirrors[i];
     const double alpha = settings.effects.roughness ? mirror.roughness * mirror.roughness : 0.0;
     const bool ripples = settings.effects.ripple && mirror.ripple;
-    mirrors_.push_back(
-        {.origin = glm::vec3(placed.origin - state.camera.eye),
-         .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
-         .normal = glm::vec3(placed.normal),
-         .vertexCount = static_cast<uint32_t>(placed.polygon.size()),
-         .axisX = glm::vec3(placed.axisX),
-         .twoSided = mirror.twoSided,
-         .axisY = glm::vec3(placed.axisY),
-         .alpha = static_cast<float>(alpha),
-         .reflectance = glm::vec4(glm::vec3(mirror.reflectance), mirror.fresnel == Fresnel::schlick ? 1.0f : 0.0f),
-         .baseColor = glm::vec4(glm::vec3(mirror.baseColor), 0.0f),
-         .backColor = glm::vec4(glm::vec3(mirror.backColor), 0.0f),
-         .ripple = ripples ? rippleData(*mirror.ripple, state.time) : glm::vec4(0.0f)});
+    const bool schlick = isSchlick(mirror.fresnel, settings.effects);
+    mirrors_.push_back({.origin = glm::vec3(placed.origin - state.camera.eye),
+                        .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
+                        .normal = glm::vec3(placed.normal),
+                        .vertexCount = static_cast<uint32_t>(placed.polygon.size()),
+                        .axisX = glm::vec3(placed.axisX),
+                        .twoSided = mirror.twoSided,
+                        .axisY = glm::vec3(placed.axisY),
+                        .alpha = static_cast<float>(alpha),
+                        .reflectance = glm::vec4(glm::vec3(mirror.reflectance), schlick ? 1.0f : 0.0f),
+                        .baseColor = glm::vec4(glm::vec3(mirror.baseColor), 0.0f),
+                        .backColor = glm::vec4(glm::vec3(mirror.backColor), 0.0f),
+                        .ripple = ripples ? rippleData(*mirror.ripple, state.time) : glm::vec4(0.0f)});
     for (const glm::dvec3& p : placed.polygon) {
       const glm::dvec3 local = p - placed.origin;
       mirrorVertices_.emplace_back(glm::dvec2(glm::dot(local, placed.axisX), glm::dot(local, placed.axisY)));

@@ -6,12 +6,10 @@
 
 #include "core/renderer.hpp"
 #include "frame/traced_effects.hpp"
+#include "systems/effect_ledger.hpp"
 #include "systems/trace_scene.hpp"
 
 namespace speculum {
-
-// After so many frames without a call for it, what only traced effects need is given back.
-inline constexpr int idleFramesKept = 120;
 
 // What a pipeline needs to know of the traced effects of a frame: its specialisation constants.
 struct TraceVariant {

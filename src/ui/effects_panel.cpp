@@ -38,6 +38,9 @@ void switches(UiModel& model) {
   effectSwitch(model, "roughness", e.roughness, "effects.roughness");
   effectSwitch(model, "curved mirrors", e.curved, "effects.curved");
   environmentMaps(model, e);
+  effectSwitch(model, "Fresnel", e.fresnel, "effects.fresnel");
+  effectSwitch(model, "textures", e.textures, "effects.textures");
+  effectSwitch(model, "glowing lights", e.glyphs, "effects.glyphs");
   effectSwitch(model, "rays at every sample", e.perSample, "effects.per_sample");
   int lookup = static_cast<int>(e.roughLookup);
   ImGui::Combo("rough look-up", &lookup, "traced\0image\0");

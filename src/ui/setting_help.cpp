@@ -10,7 +10,7 @@ namespace {
 
 using Cost = std::pair<std::string_view, std::string_view>;
 
-constexpr std::array<Cost, 34> costs{{
+constexpr std::array<Cost, 37> costs{{
     {"reflection.scale",
      "Pixels of mirror images grow with its square. Below 1 reflections blur, above 1 edges smooth."},
     {"reflection.samples",
@@ -57,6 +57,10 @@ constexpr std::array<Cost, 34> costs{{
     {"effects.environment_box",
      "Nothing measurable; without it the mirror shows everything as if it were infinitely far."},
     {"effects.curved", "Rays. On an H200 at every sample: 70.5 ms of 130.0 in mirror_ball."},
+    {"effects.fresnel", "One power of five for each pixel of a mirror that asks for it."},
+    {"effects.textures",
+     "Four texels read for each pixel of what has one, and the memory of them all while one is in view."},
+    {"effects.glyphs", "One draw in each pass that sees a light: a sphere at every sample of the boxes around them."},
     {"quality.budget_ms", "It chooses among what was measured and costs nothing itself."},
     {"quality.max_error", "It chooses among what was measured and costs nothing itself."},
     {"debug.check_finite", "Reads every sample of every target once more on the GPU, each frame."},
