@@ -66,6 +66,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       pointLightSystem_(renderer.pipelines(), data_.layout()),
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
       watch_(renderer),
+      probe_(renderer),
       environmentTargets_(device_) {
   const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
@@ -80,7 +81,7 @@ SceneRenderer::~SceneRenderer() {
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
          mirrorSystem_.pipelineCount() + displayPipelines_.size() + watch_.pipelineCount() +
-         watchedDepth_->pipelineCount();
+         watchedDepth_->pipelineCount() + probe_.pipelineCount();
 }
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
@@ -132,6 +133,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   }
   if (debug) {
     recordDebugView(frame, settings, plan, *debug);
+    recordProbe(frame, plan, *debug);
     if (ofMirror && !isHeld(plan, debug->pass)) {
       pool_->release(*targets_[debug->pass]);
     }
@@ -152,6 +154,9 @@ void SceneRenderer::releaseViews(const std::optional<DebugView>& debug, RetireQu
   depthPass_ = debug && debug->kind == TargetKind::depth ? std::optional(debug->pass) : std::nullopt;
   if (!depthPass_) {
     watchedDepth_->release(retired);
+  }
+  if (!debug || !debug->probe) {
+    probe_.release();
   }
   if (!debug) {
     std::erase_if(displayPipelines_, [](const auto& entry) { return entry.first.multisampled; });
@@ -489,6 +494,17 @@ void SceneRenderer::recordCover(Frame& frame) {
                         static_cast<float>(cover_.extent().height) / static_cast<float>(frame.extent.height));
   recordDisplay(frame, fullPass("display", renderer_.displayTargets(frame)),
                 {.descriptor = cover_.descriptor(coverSampler_.get())}, glm::vec4(scale, 0.0f, 0.0f), Settings());
+}
+
+void SceneRenderer::recordProbe(Frame& frame, const FramePlan& plan, const DebugView& debug) {
+  if (!debug.probe) {
+    return;
+  }
+  if (depthPass_ && watchedDepth_->exists()) {
+    return probe_.probe(frame, watchedDepth_->image(), watchedDepth_->descriptor(), *debug.probe);
+  }
+  OffScreen& target = debug.pass == static_cast<int>(plan.passes.size()) ? *main_ : *targets_[debug.pass];
+  probe_.probe(frame, target.color(), target.descriptor(), *debug.probe);
 }
 
 void SceneRenderer::recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan,

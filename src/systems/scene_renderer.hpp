@@ -14,6 +14,7 @@
 #include "systems/mirror_system.hpp"
 #include "systems/point_light_system.hpp"
 #include "systems/render_system.hpp"
+#include "systems/texel_probe.hpp"
 
 namespace speculum {
 
@@ -38,9 +39,10 @@ struct DebugView {
   int pass = 0;    // index into FramePlan::passes; their number stands for the main view
   PixelRect area;  // pixels
   TargetKind kind = TargetKind::color;
-  double zoom = 0.0;          // pixels of the display a texel; 0: the image is fitted into the area
-  glm::dvec2 origin{0.0};     // texel at the area's upper left corner; with a zoom
-  double halfDistance = 1.0;  // metres from the eye that depth shows half bright
+  double zoom = 0.0;                // pixels of the display a texel; 0: the image is fitted into the area
+  glm::dvec2 origin{0.0};           // texel at the area's upper left corner; with a zoom
+  double halfDistance = 1.0;        // metres from the eye that depth shows half bright
+  std::optional<glm::ivec2> probe;  // texel to be read: see SceneRenderer::probed
 };
 
 // Draws one scene: mirror passes, main view, display pass. Owns the systems, the targets and the scene's resources.
@@ -68,6 +70,8 @@ class SceneRenderer {
   const std::vector<RecordedPass>& passes() const { return recorded_; }
   // What debug.check_finite found in the frames that have finished.
   const FiniteWatch& finiteWatch();
+  // What DebugView::probe asked for, of the last frame that asked and has finished; nothing while none asks.
+  const std::optional<TexelValue>& probed() { return probe_.value(); }
   size_t pipelineCount() const;
   // What each effect took part in, of the last recorded frame.
   const EffectLedger& ledger() const { return ledger_; }
@@ -92,6 +96,7 @@ class SceneRenderer {
   void releaseViews(const std::optional<DebugView>& debug, RetireQueue& retired);
   void recordDisplayPass(Frame& frame, const Settings& settings);
   void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
+  void recordProbe(Frame& frame, const FramePlan& plan, const DebugView& debug);
   void recordDisplay(Frame& frame, const PassDesc& desc, const MirrorImage& radiance, const glm::vec4& lookup,
                      const Settings& settings);
   void recordFullScreen(Frame& frame, const PassDesc& desc, const Pipeline& pipeline,
@@ -117,6 +122,7 @@ class SceneRenderer {
   DescriptorSetLayoutHandle displayLayout_;
   std::map<DisplayVariant, std::unique_ptr<Pipeline>> displayPipelines_;
   std::unique_ptr<KeptDepth> watchedDepth_;
+  TexelProbe probe_;
   std::unique_ptr<SharedDepth> depth_;
   std::unique_ptr<ImagePool> pool_;
   std::unique_ptr<OffScreen> main_;
