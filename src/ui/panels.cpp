@@ -264,14 +264,16 @@ void textAcrossColumns(const std::string& text) {
   ImGui::PopClipRect();
 }
 
-void skippedRows(const UiModel& model, const PassNode& node) {
+void skippedRows(UiModel& model, const PassNode& node) {
   if (node.skipped.empty()) {
     return;
   }
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const std::string title = std::to_string(node.skipped.size()) + " skipped###skipped";
-  if (!ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth)) {
+  const bool open = ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
+  notePlace(model, "skipped in " + model.passes[static_cast<size_t>(node.pass)].name);
+  if (!open) {
     return;
   }
   for (const int i : node.skipped) {
@@ -284,7 +286,9 @@ void skippedRows(const UiModel& model, const PassNode& node) {
     const bool nameHovered = ImGui::IsItemHovered();
     ImGui::TableNextColumn();
     textAcrossColumns(why);
+    notePlace(model, "skipped." + skip.path);
     if (nameHovered || ImGui::IsItemHovered()) {
+      model.hoveredSkipped = i;
       ImGui::SetTooltip("%s\n%s", skip.path.c_str(), why.c_str());
     }
   }
@@ -331,7 +335,36 @@ void passRow(UiModel& model, const PassNode& node) {
 
 }  // namespace
 
+namespace {
+
+// Dark below light: it can be seen on any picture.
+template <typename Draw>
+void inTwoTones(const Draw& draw) {
+  const float line = std::max(1.0f, 0.14f * ImGui::GetFontSize());
+  draw(IM_COL32(0, 0, 0, 190), 2.5f * line);
+  draw(IM_COL32(255, 196, 40, 255), line);
+}
+
+void skippedOutline(const UiModel& model) {
+  const auto hovered = static_cast<size_t>(model.hoveredSkipped);
+  if (hovered >= model.skipped.size() || model.skipped[hovered].mirrors != model.outlinedSkipped) {
+    return;
+  }
+  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+  const auto onScreen = [&](const glm::dvec2& p) {
+    return ImVec2(static_cast<float>(p.x) / pixels.x, static_cast<float>(p.y) / pixels.y);
+  };
+  inTwoTones([&](ImU32 color, float thickness) {
+    for (const PixelLine& line : model.skippedOutline) {
+      ImGui::GetBackgroundDrawList()->AddLine(onScreen(line.a), onScreen(line.b), color, thickness);
+    }
+  });
+}
+
+}  // namespace
+
 void passOutline(const UiModel& model) {
+  skippedOutline(model);
   if (model.hoveredPass < 0 || model.hoveredPass >= static_cast<int>(model.passes.size())) {
     return;
   }
@@ -341,11 +374,9 @@ void passOutline(const UiModel& model) {
     corners.emplace_back(corner.x / pixels.x, corner.y / pixels.y);
   }
   const int count = static_cast<int>(corners.size());
-  const float line = std::max(1.0f, 0.14f * ImGui::GetFontSize());
-  // Dark below light: it can be seen on any picture.
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddPolyline(corners.data(), count, IM_COL32(0, 0, 0, 190), ImDrawFlags_Closed, 2.5f * line);
-  list.AddPolyline(corners.data(), count, IM_COL32(255, 196, 40, 255), ImDrawFlags_Closed, line);
+  inTwoTones([&](ImU32 color, float thickness) {
+    ImGui::GetBackgroundDrawList()->AddPolyline(corners.data(), count, color, ImDrawFlags_Closed, thickness);
+  });
 }
 
 void passes(UiModel& model) {
