@@ -318,15 +318,15 @@ void SceneEditor::show(UiEdit& edit) const {
   }
 }
 
-std::span<const glm::dvec3> SceneEditor::outlinePoints() {
+const MeshOutline& SceneEditor::meshOutline() {
   const Scene& scene = document_.scene();
   if (document_.selection().kind == Selection::Kind::object) {
     const int mesh = scene.objects.at(static_cast<size_t>(document_.selection().index)).mesh;
     if (std::exchange(outlineMesh_, mesh) != mesh) {
-      outlinePoints_ = speculum::outlinePoints(scene.meshes.at(static_cast<size_t>(mesh)));
+      outline_ = speculum::meshOutline(scene.meshes.at(static_cast<size_t>(mesh)));
     }
   }
-  return outlinePoints_;
+  return outline_;
 }
 
 UiOverlay SceneEditor::overlay(const Look& look, const std::optional<glm::dvec2>& pointer) {
@@ -337,11 +337,11 @@ UiOverlay SceneEditor::overlay(const Look& look, const std::optional<glm::dvec2>
     document_.select(selected);
   }
   UiOverlay overlay;
-  const std::span<const glm::dvec3> points = outlinePoints();
+  const MeshOutline& shape = meshOutline();
   const PictureView image = clickedImage(look);
-  overlay.outline = outlineOf(scene, look.state, selected, image, points);
+  overlay.outline = outlineOf(scene, look.state, selected, image, shape);
   if (!image.path().empty()) {
-    overlay.itself = outlineOf(scene, look.state, selected, look.picture, points);
+    overlay.itself = outlineOf(scene, look.state, selected, look.picture, shape);
   }
   const Gizmo handles = gizmo(look);
   overlay.gizmo = handles.shapes(image);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "edit/mesh_outline.hpp"
 #include "edit/pick.hpp"
 #include "edit/scene_document.hpp"
 #include "ui/edit_model.hpp"
@@ -85,7 +86,7 @@ class SceneEditor {
   void showThings(UiEdit& edit) const;
   PictureView clickedImage(const Look& look) const;
   Gizmo gizmo(const Look& look) const;
-  std::span<const glm::dvec3> outlinePoints();
+  const MeshOutline& meshOutline();
   glm::dvec3 placeAhead(const Look& look, double part);
   std::string dragLabel() const;
 
@@ -100,7 +101,7 @@ class SceneEditor {
   GizmoMode mode_ = GizmoMode::move;
   std::optional<Drag> drag_;
   std::optional<Clicked> clicked_;
-  std::vector<glm::dvec3> outlinePoints_;
+  MeshOutline outline_;
   int outlineMesh_ = -1;  // that they are of
   uint64_t shownRevision_ = 0;
 };
