@@ -192,7 +192,8 @@ void scene(UiModel& model) {
   time(model);
   model.copyCommand = ImGui::Button("copy command line");
   notePlace(model, "copy");
-  tip("the call of speculum render that draws this view to the same bytes");
+  tip("the call of speculum render that draws this view to the same bytes, with unsaved changes from a copy of the "
+      "scene");
   ImGui::SameLine();
   inspectorButton(model);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
