@@ -204,7 +204,7 @@ void polygonFields(UiModel& model, Fields& fields, Mirror& mirror) {
   if (polygon.mirror != model.edit.selected.index || polygon.taken != mirror.polygon) {
     polygon = {.vertices = mirror.polygon, .taken = mirror.polygon, .mirror = model.edit.selected.index};
   }
-  ImGui::TextDisabled("vertices, m, counter-clockwise as seen from its front");
+  ImGui::TextDisabled("vertices, m, counter-clockwise in front");
   bool changed = false;
   for (size_t i = 0; i < polygon.vertices.size(); ++i) {
     changed = polygonVertex(model, fields, polygon.vertices, i) || changed;
