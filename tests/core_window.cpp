@@ -1,6 +1,8 @@
+#include <GLFW/glfw3.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 
 #include "core_fixture.hpp"
@@ -138,6 +140,69 @@ TEST(WindowOptions, FifoIsAlwaysThere) {
   EXPECT_EQ(chain.presentMode(), PresentMode::fifo);
   EXPECT_GE(chain.imageCount(), 2u);
   EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+}
+
+// By what a German, a French, an American and a Russian keyboard say.
+TEST(WindowKeys, LettersGoByWhatIsPrintedAndFlyingByPlace) {
+  EXPECT_EQ(keyMeant(Key::y, "z", true), Key::z);
+  EXPECT_EQ(keyMeant(Key::z, "y", true), Key::y);
+  EXPECT_EQ(keyMeant(Key::z, "w", true), Key::w);
+  EXPECT_EQ(keyMeant(Key::w, "z", true), Key::z);
+  EXPECT_EQ(keyMeant(Key::w, "z", false), Key::w) << "forwards";
+  EXPECT_EQ(keyMeant(Key::a, "q", false), Key::a) << "left";
+  EXPECT_EQ(keyMeant(Key::unknown, "m", false), Key::m);
+  EXPECT_EQ(keyMeant(Key::m, ",", false), Key::comma);
+  EXPECT_EQ(keyMeant(Key::b, "x", true), Key::unknown);
+  EXPECT_EQ(keyMeant(Key::leftBracket, "\u00fc", false), Key::leftBracket);
+  EXPECT_EQ(keyMeant(Key::comma, ";", false), Key::comma);
+  EXPECT_EQ(keyMeant(Key::z, "Z", true), Key::z);
+  EXPECT_EQ(keyMeant(Key::z, "\u044f", true), Key::z);
+  EXPECT_EQ(keyMeant(Key::escape, "", true), Key::escape);
+}
+
+TEST(WindowMonitors, AWindowThatNoneShowsIsBroughtBack) {
+  const std::vector<ScreenRect> two{{0, 30, 1920, 1050}, {1920, 0, 1280, 1024}};
+  EXPECT_FALSE(broughtBack({100, 100, 800, 600}, two));
+  EXPECT_FALSE(broughtBack({3100, 900, 800, 600}, two)) << "there is enough to take hold of";
+  EXPECT_FALSE(broughtBack({5000, 100, 800, 600}, {})) << "nowhere to go";
+  const std::vector<ScreenRect> one{two.front()};
+  EXPECT_EQ(broughtBack({2000, 100, 800, 600}, one), (ScreenRect{560, 255, 800, 600}));
+  EXPECT_EQ(broughtBack({1910, 100, 800, 600}, one), (ScreenRect{560, 255, 800, 600})) << "a sliver";
+  EXPECT_EQ(broughtBack({0, -5000, 4000, 3000}, one), one.front()) << "no larger than what is there";
+}
+
+TEST(WindowMonitors, FullScreenEndsWithItsMonitor) {
+  const VirtualDisplay display(1280, 900);
+  Window window(WindowOptions{.width = 320, .height = 200});
+  const std::vector<ScreenRect> monitors{{0, 0, 1280, 900}};
+  const auto sized = [&](uint32_t width, uint32_t height) {
+    return waitUntil(window, [&] { return window.size().width == width && window.size().height == height; });
+  };
+  ASSERT_TRUE(sized(320, 200));
+  window.setFullScreen(true);
+  ASSERT_TRUE(sized(1280, 900));
+  // What GLFW does when a monitor goes, before it tells.
+  glfwSetWindowMonitor(window.native(), nullptr, 0, 0, 1280, 900, GLFW_DONT_CARE);
+  ASSERT_FALSE(window.fullScreen());
+  window.takeActivity();
+  window.followMonitors(monitors);
+  EXPECT_TRUE(sized(320, 200));
+  EXPECT_TRUE(window.takeActivity());
+  glfwSetWindowPos(window.native(), 700, 500);
+  int x = 0;
+  const auto at = [&](int wanted) {
+    return waitUntil(window, [&] {
+      glfwGetWindowPos(window.native(), &x, nullptr);
+      return std::abs(x - wanted) < 5;
+    });
+  };
+  ASSERT_TRUE(at(700)) << x;
+  window.followMonitors(monitors);
+  EXPECT_TRUE(at(700)) << x;
+  const std::vector<ScreenRect> smaller{{0, 0, 640, 480}};
+  window.followMonitors(smaller);
+  EXPECT_TRUE(at(160)) << x;
+  EXPECT_TRUE(sized(320, 200));
 }
 
 TEST(WindowErrors, NoDisplaySaysWhatToDo) {

@@ -78,8 +78,12 @@ TEST_F(AccuracyPanel, AMeasurementCanBeCancelled) {
   run(2);
   EXPECT_TRUE(accuracy().stage.empty());
   EXPECT_TRUE(accuracy().points.empty());
+  press("shift+n");
+  press("Delete");
+  press("F2");
+  ASSERT_TRUE(demo_->model().edit.selected.kind == Selection::Kind::none);
   click("accuracy.measure");
-  EXPECT_FALSE(accuracy().stage.empty()) << "and begun anew; closing the window ends it";
+  EXPECT_FALSE(accuracy().stage.empty()) << "and begun anew, with unsaved changes; closing the window ends it";
 }
 
 TEST_F(AccuracyPanel, TheDifferenceFromTheReferenceCoversThePicture) {

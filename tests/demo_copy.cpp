@@ -18,7 +18,7 @@ class CopiedCommand : public DemoWindow {
   Image8 drawn() {
     click("copy");
     const std::string command = demo_->window().clipboard();
-    EXPECT_EQ(command, demo_->model().command);
+    EXPECT_EQ(demo_->model().command.find(command), 0u) << demo_->model().command;
     const ProcessResult result = runProcess(
         {"bash", "-c", "cd '" + out_.path().string() + "' && PATH=" SPECULUM_BINARY_DIR ":$PATH && " + command});
     EXPECT_EQ(result.exitCode, 0) << command << "\n" << result.output;
@@ -47,6 +47,22 @@ TEST_F(CopiedCommand, DrawsTheSceneAtThatTime) {
   press("space");
   expectSame();
   EXPECT_EQ(demo_->model().command.find("--camera"), std::string::npos) << "the camera is the scene's";
+  expectQuiet();
+}
+
+TEST_F(CopiedCommand, DrawsUnsavedChangesFromACopyOfTheScene) {
+  press("space");
+  press("shift+n");
+  ASSERT_EQ(demo_->model().edit.selected.kind, Selection::Kind::object);
+  press("Delete");
+  press("F2");
+  expectSame();
+  EXPECT_NE(demo_->model().command.find("unsaved changes"), std::string::npos) << demo_->model().command;
+  EXPECT_EQ(loadScene(options_.scene).objects.size(), 1u) << "the scene's own file is as it was";
+  press("ctrl+z");
+  press("Escape");
+  expectSame();
+  EXPECT_EQ(demo_->model().command, demo_->window().clipboard());
   expectQuiet();
 }
 

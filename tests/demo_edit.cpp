@@ -62,6 +62,20 @@ TEST_F(EditWindow, DraggingAnAxisMovesByTheMetresOfThePixels) {
   expectQuiet();
 }
 
+TEST_F(EditWindow, ControlGoesByTheLetterThatIsPrinted) {
+  ASSERT_EQ(runProcess({"setxkbmap", "de"}).exitCode, 0);
+  run(5);
+  clickBall();
+  press("Delete");
+  const auto left = [&] { return edit().things.size(); };
+  const size_t without = left();
+  press("ctrl+z");  // where an American keyboard has Y
+  EXPECT_EQ(left(), without + 1);
+  press("ctrl+y");
+  EXPECT_EQ(left(), without);
+  expectQuiet();
+}
+
 TEST_F(EditWindow, AnImageInAMirrorIsDraggedInTheMirror) {
   const glm::ivec2 image = pixel({0.3, 1.0, -4.5});
   click(image.x + 4, image.y);

@@ -125,8 +125,13 @@ TEST_F(EditWindow, ASecondSaveKeepsTheSettingsOfTheFirst) {
   drag("view.exposure", 0.5, 30);
   const double exposure = demo_->model().settings.view.exposure;
   ASSERT_NE(exposure, 1.0);
-  press("ctrl+s");
+  press("F2");
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_TRUE(edit().unsavedSettings);
+  click("edit.save");
+  EXPECT_FALSE(edit().unsavedSettings);
   EXPECT_EQ(settingsOf(onDisk()).view.exposure, exposure);
+  press("F2");
   press("Tab");
   clickBall();
   press("Delete");

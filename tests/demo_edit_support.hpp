@@ -50,6 +50,7 @@ inline const Selection behind{Selection::Kind::mirror, 1};
 class EditWindow : public DemoWindow {
  protected:
   explicit EditWindow(const Options& more = {}) : DemoWindow(corridor, more) { press("Tab"); }
+  explicit EditWindow(const std::string& toml) : DemoWindow(toml) { press("Tab"); }
 
   using DemoWindow::click;
   void click(int x, int y) {

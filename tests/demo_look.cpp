@@ -1,4 +1,6 @@
 // What the window remembers of how it looks, and what it takes from the monitor.
+#include <algorithm>
+
 #include "demo_window_support.hpp"
 
 namespace speculum {
@@ -28,11 +30,26 @@ TEST_F(DemoLook, TheLayoutIsTheUsersAndNotTheDirectorys) {
   const PixelRect moved = widget("time");
   EXPECT_EQ(moved.x - before.x, 130);
   EXPECT_EQ(moved.y - before.y, 80);
+  click("panel.Performance");
+  const PixelRect pause = widget("performance.pause");
+  moveTo(pause.x + 4, pause.y - 18);  // the arrow of its title
+  xdotool({"mousedown", "1"});
+  run(3);
+  xdotool({"mouseup", "1"});
+  run(3);
+  const auto shown = [&](const std::string& key) {
+    const auto& widgets = demo_->model().widgets;
+    return std::any_of(widgets.begin(), widgets.end(), [&](const auto& w) { return w.first == key; });
+  };
+  EXPECT_FALSE(shown("performance.pause")) << "collapsed";
+  click("panel.Log");
   demo_.reset();
   EXPECT_TRUE(std::filesystem::exists(config_.path() / "speculum" / "layout.ini"));
   EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
   start();
   EXPECT_EQ(widget("time"), moved);
+  EXPECT_FALSE(shown("performance.pause")) << "still";
+  EXPECT_TRUE(shown("log.copy")) << "the other is not";
   expectQuiet();
 }
 
@@ -63,6 +80,9 @@ TEST_F(DemoLook, SizesFollowTheScaleOfTheMonitor) {
   start();
   ASSERT_EQ(demo_->window().contentScale(), 2.0f);
   EXPECT_NEAR(widget("time").height, 2 * before.height, 2);
+  demo_->window().followContentScale(1.0f);  // to another monitor
+  run(3);
+  EXPECT_EQ(widget("time").height, before.height);
   expectQuiet();
 }
 

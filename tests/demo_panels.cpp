@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "demo_window_support.hpp"
 
@@ -102,6 +103,39 @@ TEST_F(Panels, ThePresentModeIsChosenAmongThoseOffered) {
 class PanelsWithTwoMirrors : public Panels {
  protected:
   PanelsWithTwoMirrors() : Panels(twoMirrors) {}
+
+  // That pointing at the widget draws along these lines of the picture, and nothing else.
+  void expectOutline(const std::string& key, const std::function<std::vector<PixelLine>()>& outline) {
+    scrollTo(key);
+    const PixelRect row = widget(key);
+    moveTo(row.x + row.width / 2, 22);  // the title bar
+    run(2);
+    const Pixels without = picture();
+    moveTo(row.x + row.width / 2, row.y + row.height / 2);
+    run(2);
+    const Pixels with = picture();
+    lines_ = outline();
+    int changed = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 440; x < width; ++x) {
+        const size_t at = 4 * (static_cast<size_t>(y) * width + x);
+        if (!std::equal(&with.rgba[at], &with.rgba[at] + 3, &without.rgba[at])) {
+          ++changed;
+          double nearest = 1e9;
+          for (const PixelLine& line : lines_) {
+            const glm::dvec2 along = line.b - line.a;
+            const glm::dvec2 p = glm::dvec2(x, y) + 0.5 - line.a;
+            const double t = std::clamp(glm::dot(p, along) / std::max(glm::dot(along, along), 1e-6), 0.0, 1.0);
+            nearest = std::min(nearest, glm::length(p - t * along));
+          }
+          ASSERT_LT(nearest, 6.0) << key << ": " << x << " " << y;
+        }
+      }
+    }
+    EXPECT_GT(changed, 100) << key;
+  }
+
+  std::vector<PixelLine> lines_;
 };
 
 TEST_F(PanelsWithTwoMirrors, PointingAtAPassOutlinesItsMirror) {
@@ -112,40 +146,42 @@ TEST_F(PanelsWithTwoMirrors, PointingAtAPassOutlinesItsMirror) {
     ASSERT_NE(pass, passes.end()) << name;
     ASSERT_GE(pass->outline.size(), 3u);
     const std::vector<glm::vec2> outline = pass->outline;
-    scrollTo("pass." + name);
-    const PixelRect row = widget("pass." + name);
-    moveTo(row.x + row.width / 2, 22);  // the title bar: no pass
-    run(2);
-    const Pixels without = picture();
-    moveTo(row.x + row.width / 2, row.y + row.height / 2);
-    run(2);
-    const Pixels with = picture();
-    glm::vec2 low(1e9f);
-    glm::vec2 high(-1e9f);
-    for (const glm::vec2& corner : outline) {
-      low = glm::min(low, corner);
-      high = glm::max(high, corner);
-    }
-    int changed = 0;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 440; x < width; ++x) {
-        const size_t at = 4 * (static_cast<size_t>(y) * width + x);
-        if (!std::equal(&with.rgba[at], &with.rgba[at] + 3, &without.rgba[at])) {
-          ++changed;
-          ASSERT_TRUE(x > low.x - 5 && x < high.x + 5 && y > low.y - 5 && y < high.y + 5) << name << x << " " << y;
-          float nearest = 1e9f;
-          for (size_t i = 0; i < outline.size(); ++i) {
-            const glm::vec2 a = outline[i];
-            const glm::vec2 along = outline[(i + 1) % outline.size()] - a;
-            const glm::vec2 p = glm::vec2(x, y) + 0.5f - a;
-            const float t = std::clamp(glm::dot(p, along) / std::max(glm::dot(along, along), 1e-6f), 0.0f, 1.0f);
-            nearest = std::min(nearest, glm::length(p - t * along));
-          }
-          ASSERT_LT(nearest, 6.0f) << name << ": " << x << " " << y;
-        }
+    expectOutline("pass." + name, [&] {
+      std::vector<PixelLine> lines;
+      for (size_t i = 0; i < outline.size(); ++i) {
+        lines.push_back({outline[i], outline[(i + 1) % outline.size()]});
       }
+      return lines;
+    });
+  }
+  expectQuiet();
+}
+
+TEST_F(PanelsWithTwoMirrors, PointingAtASkippedMirrorOutlinesIt) {
+  press("space");
+  const auto& skipped = demo_->model().skipped;
+  const auto door =
+      std::find_if(skipped.begin(), skipped.end(), [](const UiSkipped& s) { return s.mirrors == std::vector<int>{1}; });
+  ASSERT_NE(door, skipped.end()) << "its back is seen";
+  scrollTo("skipped in main view");
+  const PixelRect list = widget("skipped in main view");
+  moveTo(list.x + 10, list.y + list.height / 2);
+  xdotool({"click", "1"});
+  run(3);
+  expectOutline("skipped.door", [&] { return demo_->model().skippedOutline; });
+  // Its corners: 0.5 m beside and 0.8 m above and below the middle, turned by 200 degrees, four metres from the eye.
+  const double turn = glm::radians(200.0);
+  for (const double x : {-0.5, 0.5}) {
+    for (const double y : {-0.8, 0.8}) {
+      const glm::dvec3 p(1.6 + x * std::cos(turn), 0.2 + y, 4.0 - (0.5 - x * std::sin(turn)));
+      const glm::dvec2 at =
+          0.5 * glm::dvec2(width, height) + 0.5 * height * std::sqrt(3.0) * glm::dvec2(p.x, -p.y) / p.z;
+      const auto meets = [&](const PixelLine& line) {
+        return std::min(glm::distance(line.a, at), glm::distance(line.b, at)) < 0.01;
+      };
+      const bool inside = at.x > 0.0 && at.x < width && at.y > 0.0 && at.y < height;
+      EXPECT_EQ(std::any_of(lines_.begin(), lines_.end(), meets), inside) << at.x << " " << at.y;
     }
-    EXPECT_GT(changed, 100) << name;
   }
   expectQuiet();
 }
@@ -177,8 +213,25 @@ TEST_F(Panels, TargetsZoomAndMove) {
   xdotool({"click", "4"});
   run(3);
   EXPECT_GT(targets.shownZoom, 1.1);
+  // What stands under the pointer is what the picture shows there.
+  run(4);
+  ASSERT_TRUE(targets.pointed && targets.value);
+  const UiTexel value = *targets.value;
+  ASSERT_EQ(value.texel, *targets.pointed);
+  EXPECT_FALSE(value.depth);
+  press("Tab");
+  const Pixels plain = picture();
+  EXPECT_FALSE(targets.value) << "nobody points";
+  const uint8_t* there = &plain.rgba[4 * (static_cast<size_t>(value.texel.y) * width + value.texel.x)];
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(there[i], 255.0 * srgbEncode(std::clamp(value.value[i], 0.0, 1.0)), 0.6);
+  }
+  press("Tab");
   click("targets.depth");
-  run(3);
+  moveTo(x, y);
+  run(4);
+  ASSERT_TRUE(targets.value && targets.value->depth);
+  EXPECT_GT(targets.value->metres, 3.0);
   const Pixels grey = picture();
   const uint8_t* middle = &grey.rgba[4 * (static_cast<size_t>(y) * width + x)];
   EXPECT_EQ(middle[0], middle[1]);

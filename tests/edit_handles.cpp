@@ -235,8 +235,9 @@ TEST(Outline, SurroundsAnObjectClosely) {
       mesh.vertices.push_back({{std::sin(b) * std::cos(a), std::cos(b), std::sin(b) * std::sin(a)}, {}, {}});
     }
   }
-  const std::vector<glm::dvec3> points = outlinePoints(mesh);
-  EXPECT_LE(points.size(), 512u);
+  const MeshOutline points = meshOutline(mesh);
+  EXPECT_LE(points.points.size(), 512u);
+  EXPECT_TRUE(points.edges.empty()) << "no triangles: the hull";
   scene.meshes.push_back(mesh);
   scene.objects.push_back({.mesh = 0});
   scene.mirrors.push_back({.position = {0, 0, -3}, .size = {1.0, 8.0}});
@@ -259,6 +260,85 @@ TEST(Outline, SurroundsAnObjectClosely) {
   }
   const auto inside = outlineOf(scene, state, sphere, lookingAt({0, 0, 0.5}, {0, 0, 0}), points);
   EXPECT_LE(inside.size(), 12u) << "the edges of its box";
+}
+
+// A ring about the Z axis, of radius 1 and thickness 0.25, with as many steps around as across.
+Mesh ring(uint32_t steps) {
+  Mesh mesh{.halfExtent = {1.25, 1.25, 0.25}, .radius = 1.3};
+  for (uint32_t i = 0; i <= steps; ++i) {
+    for (uint32_t j = 0; j <= steps; ++j) {
+      const double a = 2.0 * std::numbers::pi * (i % steps) / steps;  // both ends at the same place
+      const double b = 2.0 * std::numbers::pi * (j % steps) / steps;
+      const double r = 1.0 + 0.25 * std::cos(b);
+      mesh.vertices.push_back({{r * std::cos(a), r * std::sin(a), 0.25 * std::sin(b)}, {}, {}});
+      if (i < steps && j < steps) {
+        const uint32_t k = i * (steps + 1) + j;
+        for (const uint32_t corner : {k, k + steps + 1, k + steps + 2, k, k + steps + 2, k + 1}) {
+          mesh.indices.push_back(corner);
+        }
+      }
+    }
+  }
+  return mesh;
+}
+
+TEST(Outline, FollowsTheSilhouetteAlsoInside) {
+  Scene scene;
+  scene.meshes.push_back(ring(64));
+  scene.objects.push_back({.mesh = 0, .scale = {2.0, 2.0, 0.5}});
+  scene.mirrors.push_back({.position = {0, 0, -3}, .size = {1.0, 20.0}});
+  const SceneState state = evaluate(scene, 0.0);
+  const Selection object{Selection::Kind::object, 0};
+  const MeshOutline shape = meshOutline(scene.meshes[0]);
+  const auto lines = outlineOf(scene, state, object, lookingAt({0, 0, 50}, {0, 0, 0}), shape);
+  const double perMetre = 350.0 / std::tan(glm::radians(30.0)) / 50.0;
+  int inner = 0;
+  int outer = 0;
+  for (const PixelLine& line : lines) {
+    const double r = glm::distance(line.a, glm::dvec2(450.0, 350.0)) / perMetre;
+    inner += std::abs(r - 1.5) < 0.02;
+    outer += std::abs(r - 2.5) < 0.02;
+  }
+  EXPECT_EQ(static_cast<size_t>(inner + outer), lines.size());
+  EXPECT_GE(inner, 64);
+  EXPECT_GE(outer, 64);
+  const PictureView eye = lookingAt({0, 0, 50}, {0, 0, 0});
+  const auto image = outlineOf(scene, state, object, eye.through(scene, state, std::vector<int>{0}).value(), shape);
+  ASSERT_FALSE(image.empty());
+  const double halfWidth = 350.0 / std::tan(glm::radians(30.0)) * 0.5 / 53.0;
+  for (const PixelLine& line : image) {
+    EXPECT_LE(std::abs(line.a.x - 450.0), halfWidth + 1e-6);
+  }
+  EXPECT_TRUE(meshOutline(ring(200)).edges.empty()) << "80000 triangles";
+}
+
+TEST(Outline, ABoxHasSixEdges) {
+  Mesh mesh{.halfExtent = glm::dvec3(1.0), .radius = std::sqrt(3.0)};
+  // Each side with corners of its own.
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      const auto first = static_cast<uint32_t>(mesh.vertices.size());
+      for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+        glm::dvec3 p(0.0);
+        p[axis] = side;
+        p[(axis + 1) % 3] = corner.x;
+        p[(axis + 2) % 3] = corner.y;
+        mesh.vertices.push_back({p, {}, {}});
+      }
+      for (const uint32_t k : {0, 1, 2, 0, 2, 3}) {
+        mesh.indices.push_back(first + k);
+      }
+    }
+  }
+  Scene scene;
+  scene.meshes.push_back(mesh);
+  scene.objects.push_back({.mesh = 0});
+  const SceneState state = evaluate(scene, 0.0);
+  const Selection box{Selection::Kind::object, 0};
+  const auto lines = outlineOf(scene, state, box, lookingAt({4, 3, 5}, {0, 0, 0}), meshOutline(mesh));
+  EXPECT_EQ(lines.size(), 6u);
+  const auto front = outlineOf(scene, state, box, lookingAt({0, 0, 5}, {0, 0, 0}), meshOutline(mesh));
+  EXPECT_EQ(front.size(), 4u);
 }
 
 }  // namespace

@@ -130,5 +130,35 @@ TEST(LoadProgress, WhatItThrowsEndsTheLoading) {
   EXPECT_GT(calls, 2);
 }
 
+TEST(AddModel, LoadsAFileOnceAndLeavesTheSceneAsItWasOnAnError) {
+  const TemporaryFolder folder;
+  const fs::path own = folder.write("box.obj", box(1.0));
+  Scene scene = modelScene(own);
+  EXPECT_EQ(addModel(scene, own.parent_path() / "." / "box.obj"), 0) << "it is there already";
+  EXPECT_EQ(addModel(scene, folder.write("triangle.obj", kTriangleObj)), 1);
+  EXPECT_EQ(scene.meshes.size(), 2u);
+  const fs::path huge = folder.write("huge.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nf 1 2 3\n");
+  for (const fs::path& file : {huge, folder.write("empty.obj", "v 0 0 0\n"), own.parent_path() / "nowhere.obj"}) {
+    const std::string error = inputErrorOf([&] { addModel(scene, file); });
+    EXPECT_EQ(error.find(file.string() + ":"), 0u) << error;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    EXPECT_EQ(scene.meshes.size(), 2u);
+    EXPECT_TRUE(scene.textures.empty());
+  }
+}
+
+TEST(MirrorPolygon, IsRefusedAsInAFile) {
+  using Polygon = std::vector<glm::dvec3>;
+  EXPECT_FALSE(mirrorPolygonProblem(Polygon{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  for (const auto& [polygon, wrong] :
+       {std::pair(Polygon{{0, 0, 0}, {1, 0, 0}}, "has fewer than 3 vertices"),
+        std::pair(Polygon{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}}, "is not planar"),
+        std::pair(Polygon{{0, 0, 0}, {1, 0, 0}, {0.1, 0.1, 0}, {0, 1, 0}}, "is not convex"),
+        std::pair(Polygon{{0, 0, 0}, {1, 0, 0}, {2e15, 1, 0}}, "has a vertex that is too far away"),
+        std::pair(Polygon(1001, glm::dvec3(0.0)), "has 1001 vertices")}) {
+    EXPECT_EQ(mirrorPolygonProblem(polygon).value_or("").find(std::string("polygon: ") + wrong + " ("), 0u) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace speculum

@@ -81,6 +81,53 @@ TEST_P(TargetView, DepthIsShownByDistance) {
   expectQuiet(session);
 }
 
+// Until the frame that asked has finished.
+TexelValue probed(Session& session, const DebugView& debug) {
+  for (int frame = 0; frame < 4; ++frame) {
+    drawWith(session, debug);
+  }
+  return session.sceneRenderer().probed().value();
+}
+
+TEST_P(TargetView, ATexelIsReadExactly) {
+  Options options = hallOptions(GetParam().second);
+  options.renderPath = GetParam().first;
+  Session session(options);
+  const FramePlan plan = session.draw(0.0, false).plan;
+  for (const glm::ivec2& texel : {glm::ivec2(80, 60), glm::ivec2(3, 5), glm::ivec2(96, 61)}) {
+    DebugView debug = inPlace(plan, 1, TargetKind::color);
+    debug.probe = texel;
+    const TexelValue color = probed(session, debug);
+    EXPECT_EQ(color.texel, texel);
+    EXPECT_FALSE(color.depth);
+    const auto& radiance =
+        session.sceneRenderer().radiance().pixels[static_cast<size_t>(texel.y) * size.width + texel.x];
+    EXPECT_EQ(glm::vec3(color.value), glm::vec3(radiance[0], radiance[1], radiance[2]));
+  }
+  // The sphere's radius is 0.5 m.
+  for (const auto& [pass, metres] : {std::pair(0, 7.5), std::pair(1, 3.5)}) {
+    DebugView debug = inPlace(plan, pass, TargetKind::depth);
+    const PixelRect rect = pass == 0 ? plan.passes[0].view.rect : PixelRect{};
+    debug.probe = glm::ivec2(size.width / 2 - rect.x, size.height / 2 - rect.y);
+    const TexelValue depth = probed(session, debug);
+    EXPECT_TRUE(depth.depth);
+    // The pixel's centre is beside the axis, and the sphere has facets.
+    EXPECT_GE(plan.projection.near / depth.storedDepth, metres) << "pass " << pass;
+    EXPECT_LE(plan.projection.near / depth.storedDepth, metres + 0.008) << "pass " << pass;
+    debug.kind = TargetKind::color;
+    const TexelValue color = probed(session, debug);
+    EXPECT_GT(color.value.r, 0.0f);
+    EXPECT_NEAR(1.0 / color.value.a, metres, 0.02) << "disparity, of half precision";
+  }
+  DebugView wall = inPlace(plan, 1, TargetKind::depth);
+  wall.probe = glm::ivec2(size.width / 2, size.height / 2 + 25);
+  EXPECT_NEAR(plan.projection.near / probed(session, wall).storedDepth, 6.0, 2e-6) << "at right angles to the view";
+  DebugView sky = inPlace(plan, 1, TargetKind::depth);
+  sky.probe = glm::ivec2(2, 2);
+  EXPECT_EQ(probed(session, sky).storedDepth, 0.0f) << "infinitely far";
+  expectQuiet(session);
+}
+
 INSTANTIATE_TEST_SUITE_P(Paths, TargetView,
                          testing::Values(std::pair(RenderPath::dynamic, "1"), std::pair(RenderPath::dynamic, "4"),
                                          std::pair(RenderPath::renderPass, "1"),

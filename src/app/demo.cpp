@@ -7,7 +7,6 @@
 
 #include "app/pass_outlines.hpp"
 #include "app/screenshot.hpp"
-#include "app/view_command.hpp"
 #include "core/platform.hpp"
 #include "frame/scene_names.hpp"
 #include "ui/panels.hpp"
@@ -33,6 +32,7 @@ Demo::Demo(const Options& options)
   installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
   findScenes();
+  findModels();
   showGallery();
   model_.settings = loaded_->settings;
   model_.sceneSettings = loaded_->settings;
@@ -73,12 +73,7 @@ void Demo::applyModel() {
   }
   followLoading();
   if (model_.copyCommand) {
-    model_.command = command();
-    window_.setClipboard(model_.command);
-    if (editor_->document().modified()) {
-      model_.command += "   (draws the scene as it was saved last)";
-    }
-    model_.command += editor_->document().modified() ? "  (the scene as it is on disk: save it first)" : "";
+    copyCommand();
   }
   if (model_.copyHistory) {
     window_.setClipboard(model_.history.csv());
@@ -90,11 +85,12 @@ void Demo::applyModel() {
   if (model_.seek) {
     goTo(*model_.seek);
   }
-  if (model_.accuracy.measure && editor_->document().modified()) {
-    model_.accuracy.measure = false;
-    model_.accuracy.about = "what is on disk is measured: save the scene first";
+  std::filesystem::path measured;
+  if (model_.accuracy.measure) {
+    measured = fileOfView(model_.accuracy.about);
+    model_.accuracy.measure = !measured.empty();
   }
-  accuracy_.apply(model_, [this] { return sweepRequest(); });
+  accuracy_.apply(model_, [&] { return sweepRequest(measured); });
 }
 
 void Demo::saveShot() {
@@ -112,27 +108,6 @@ void Demo::saveShot() {
   } catch (const std::exception& error) {
     model_.picture = "not saved: " + std::string(error.what());
   }
-}
-
-// Of the frame that was drawn last.
-std::string Demo::command() {
-  Options options = options_;
-  const VkExtent2D extent = renderer_.displayExtent();
-  options.size = {static_cast<int>(extent.width), static_cast<int>(extent.height)};
-  options.time = time_;
-  if (const auto place = camera_.place()) {
-    options.camera = CameraPlace{place->eye, place->target, std::nullopt};
-  }
-  return viewCommand(options, loaded_->scene, model_.settings);
-}
-
-SweepRequest Demo::sweepRequest() {
-  SweepRequest request{.options = options_, .base = model_.settings, .camera = camera(), .time = time_};
-  request.options.scene = loaded_->scene.file.string();
-  request.options.gpu = std::to_string(device_.info().index);
-  const VkExtent2D extent = renderer_.displayExtent();
-  request.options.size = {static_cast<int>(extent.width), static_cast<int>(extent.height)};
-  return request;
 }
 
 void Demo::drawFrame(double seconds) {
@@ -252,6 +227,8 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Setti
   model_.time = time_;
   fillPasses(plan, state, drawn.reflection.updateInterval);
   fillEffects(plan, state, drawn);
+  showTexel(plan);
+  outlineSkipped(plan, state);
   skipped_ = plan.skipped;
   model_.skipped.clear();
   for (const SkippedMirror& skip : plan.skipped) {

@@ -46,6 +46,7 @@ class Demo {
 
   void installInput();
   void findScenes();
+  void findModels();
   void showGallery();
   void showDevice();
   void showMemory();
@@ -62,12 +63,15 @@ class Demo {
   bool rest();
   void drawFrame(double seconds);
   std::optional<DebugView> debugView(const FramePlan& plan, const Settings& drawn);
+  void showTexel(const FramePlan& plan);
+  void outlineSkipped(const FramePlan& plan, const SceneState& state);
   void describeTarget(const FramePlan& plan, const PlannedPass& pass, const Settings& drawn);
   void fillEffects(const FramePlan& plan, const SceneState& state, const Settings& drawn);
   void fillModel(const FramePlan& plan, const SceneState& state, const Settings& drawn);
   void fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval);
   void applyModel();
-  SweepRequest sweepRequest();
+  std::filesystem::path fileOfView(std::string& problem);
+  SweepRequest sweepRequest(const std::filesystem::path& file);
   void handleKey(const KeyEvent& event);
   void handleSingleKey(const KeyEvent& event);
   void takeGamepad();
@@ -85,7 +89,7 @@ class Demo {
   void toggleRecording(bool bare);
   void frameScene();
   void saveShot();
-  std::string command();
+  void copyCommand();
   // demo_edit.cpp
   void startEditing();
   bool lookAtScene(double time);
@@ -99,6 +103,9 @@ class Demo {
   void showEdit(double seconds);
   void applyEdit();
   void actOn(EditAction action);
+  void addObject();
+  void useModels();
+  bool settingsChanged() const;
   void answer(EditAction action);
   void saveScene();
   void askWhere();
@@ -124,6 +131,7 @@ class Demo {
   int shownScene_ = 0;
   int shownPresentMode_ = 0;
   std::optional<std::vector<int>> watched_;  // path of the mirror image that the panel shows; empty: the main view
+  std::vector<std::filesystem::path> shippedModels_;
   BackgroundLoad load_;
   std::string sceneError_;
   uint64_t nonFinite_ = 0;               // of scenes shown before

@@ -22,7 +22,7 @@ bool isShipped(const std::filesystem::path& file) {
 
 void Demo::startEditing() {
   // A scene that is being traced in the background must not change meanwhile.
-  editor_ = std::make_unique<SceneEditor>(loaded_->scene, [this] { accuracy_.forgetScene(model_); });
+  editor_ = std::make_unique<SceneEditor>(loaded_->scene, shippedModels_, [this] { accuracy_.forgetScene(model_); });
   skipped_.clear();
   nextFile_.reset();
   pressed_.reset();
@@ -181,6 +181,7 @@ bool Demo::handleControlKey(const KeyEvent& event) {
 // As the frame that is drawn next shows it.
 void Demo::showEdit(double seconds) {
   editor_->show(model_.edit);
+  model_.edit.unsavedSettings = model_.edit.open && settingsChanged();
   const double next = time_ + (model_.paused ? 0.0 : seconds * model_.timeSpeed);
   if (editor_->document().selection() && lookAtScene(next)) {
     const bool over = !ui_->wantsMouse() && !dragging_;
@@ -205,13 +206,19 @@ void Demo::applyEdit() {
   }
 }
 
+// Whether saving would change them in the file.
+bool Demo::settingsChanged() const {
+  return settingsKey(model_.settings) != settingsKey(loaded_->settings);
+}
+
 void Demo::actOn(EditAction action) {
   switch (action) {
     case EditAction::addObject:
+      return addObject();
     case EditAction::addLight:
     case EditAction::addMirror:
       if (lookAtScene(time_)) {
-        editor_->add(look(), action, loaded_->scene.meshes.empty() ? -1 : model_.edit.model);
+        editor_->add(look(), action, -1);
       }
       return;
     case EditAction::duplicate:

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/demo.hpp"
+#include "edit/outline.hpp"
 
 namespace speculum {
 
@@ -90,6 +91,22 @@ void Demo::showDevice() {
   const std::vector<PresentMode> modes = renderer_.presentModes();
   model_.presentMode = static_cast<int>(std::find(modes.begin(), modes.end(), renderer_.presentMode()) - modes.begin());
   shownPresentMode_ = model_.presentMode;
+}
+
+// Of the skipped mirror that is pointed at, seen as what it would be seen in is.
+void Demo::outlineSkipped(const FramePlan& plan, const SceneState& state) {
+  model_.outlinedSkipped.clear();
+  model_.skippedOutline.clear();
+  const auto hovered = static_cast<size_t>(model_.hoveredSkipped);
+  if (hovered >= model_.skipped.size()) {
+    return;
+  }
+  const std::vector<int>& path = model_.skipped[hovered].mirrors;
+  const PictureView picture(state.camera, plan.width, plan.height);
+  if (const auto image = picture.through(loaded_->scene, state, std::span(path).first(path.size() - 1))) {
+    model_.outlinedSkipped = path;
+    model_.skippedOutline = outlineOf(loaded_->scene, state, {Selection::Kind::mirror, path.back()}, *image, {});
+  }
 }
 
 void Demo::showMemory() {

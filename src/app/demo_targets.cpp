@@ -6,6 +6,27 @@
 
 namespace speculum {
 
+namespace {
+
+// The one that is pointed at, if the image is still as large as when the panel said so.
+std::optional<glm::ivec2> targetTexel(const UiTargets& targets) {
+  const glm::ivec2 texel = *targets.pointed;
+  return texel.x < targets.size.x && texel.y < targets.size.y ? targets.pointed : std::nullopt;
+}
+
+}  // namespace
+
+void Demo::showTexel(const FramePlan& plan) {
+  UiTargets& targets = model_.targets;
+  targets.value.reset();
+  if (const std::optional<TexelValue>& probed = sceneRenderer_->probed()) {
+    targets.value = {.texel = probed->texel,
+                     .depth = probed->depth,
+                     .metres = plan.projection.near / static_cast<double>(probed->storedDepth),
+                     .value = probed->value};
+  }
+}
+
 std::optional<DebugView> Demo::debugView(const FramePlan& plan, const Settings& drawn) {
   const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
                                  [&](const PlannedPass& p) { return watched_ && p.view.path == *watched_; });
@@ -24,7 +45,8 @@ std::optional<DebugView> Demo::debugView(const FramePlan& plan, const Settings& 
                    .kind = targets.kind == 1 ? TargetKind::depth : TargetKind::color,
                    .zoom = targets.shownZoom,
                    .origin = targets.origin,
-                   .halfDistance = targets.halfDistance};
+                   .halfDistance = targets.halfDistance,
+                   .probe = targets.pointed && targets.kind < 2 ? targetTexel(targets) : std::nullopt};
 }
 
 void Demo::describeTarget(const FramePlan& plan, const PlannedPass& pass, const Settings& drawn) {

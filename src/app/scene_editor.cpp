@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "edit/outline.hpp"
+#include "scene/input_error.hpp"
 
 namespace speculum {
 
@@ -48,8 +49,14 @@ std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
 
 }  // namespace
 
-SceneEditor::SceneEditor(Scene& scene, std::function<void()> beforeChange)
-    : document_(scene), beforeChange_(std::move(beforeChange)), shownRevision_(document_.revision()) {}
+SceneEditor::SceneEditor(Scene& scene, std::span<const std::filesystem::path> shipped,
+                         std::function<void()> beforeChange)
+    : document_(scene),
+      shipped_(shipped),
+      beforeChange_(std::move(beforeChange)),
+      shownRevision_(document_.revision()) {
+  modelsChanged();
+}
 
 Picker& SceneEditor::picker() {
   if (!picker_) {
@@ -185,6 +192,37 @@ glm::dvec3 SceneEditor::placeAhead(const Look& look, double part) {
   return glm::round((look.picture.eye() + look.picture.forward() * ahead) * perMetre) / perMetre;
 }
 
+std::filesystem::path SceneEditor::chosenModel(const UiEdit& edit) const {
+  const auto chosen = static_cast<size_t>(edit.model);
+  if (chosen < models_.size()) {
+    return models_[chosen];
+  }
+  const std::filesystem::path typed = edit.modelFile;
+  const std::filesystem::path file = (document_.scene().file.parent_path() / typed).lexically_normal();
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) {
+    throw InputError(oneLine(file.string() + ": there is no such file (name a Wavefront OBJ file)"));
+  }
+  return file;
+}
+
+void SceneEditor::modelsChanged() {
+  models_.clear();
+  for (const Mesh& mesh : document_.scene().meshes) {
+    models_.push_back(mesh.source);
+  }
+  const size_t own = models_.size();
+  std::error_code none;
+  for (const std::filesystem::path& file : shipped_) {
+    if (std::none_of(
+            models_.begin(), models_.begin() + static_cast<std::ptrdiff_t>(own),
+            [&](const std::filesystem::path& model) { return std::filesystem::equivalent(model, file, none); })) {
+      models_.push_back(file);
+    }
+  }
+  picker_.reset();
+}
+
 void SceneEditor::add(const Look& look, EditAction kind, int mesh) {
   release();
   if (kind == EditAction::addObject && mesh < 0) {
@@ -255,10 +293,10 @@ void SceneEditor::showThings(UiEdit& edit) const {
     edit.things.emplace_back(thing, describe(scene, thing));
   }
   edit.models.clear();
-  for (const Mesh& mesh : scene.meshes) {
-    edit.models.push_back(mesh.source.stem().string());
+  for (const std::filesystem::path& model : models_) {
+    edit.models.push_back(model.stem().string());
   }
-  edit.model = std::clamp(edit.model, 0, std::max(0, static_cast<int>(edit.models.size()) - 1));
+  edit.model = std::clamp(edit.model, 0, static_cast<int>(edit.models.size()));
   edit.through.clear();
   for (const int mirror : path_) {
     edit.through.push_back(describe(scene, {Selection::Kind::mirror, mirror}));
@@ -280,15 +318,15 @@ void SceneEditor::show(UiEdit& edit) const {
   }
 }
 
-std::span<const glm::dvec3> SceneEditor::outlinePoints() {
+const MeshOutline& SceneEditor::meshOutline() {
   const Scene& scene = document_.scene();
   if (document_.selection().kind == Selection::Kind::object) {
     const int mesh = scene.objects.at(static_cast<size_t>(document_.selection().index)).mesh;
     if (std::exchange(outlineMesh_, mesh) != mesh) {
-      outlinePoints_ = speculum::outlinePoints(scene.meshes.at(static_cast<size_t>(mesh)));
+      outline_ = speculum::meshOutline(scene.meshes.at(static_cast<size_t>(mesh)));
     }
   }
-  return outlinePoints_;
+  return outline_;
 }
 
 UiOverlay SceneEditor::overlay(const Look& look, const std::optional<glm::dvec2>& pointer) {
@@ -299,11 +337,11 @@ UiOverlay SceneEditor::overlay(const Look& look, const std::optional<glm::dvec2>
     document_.select(selected);
   }
   UiOverlay overlay;
-  const std::span<const glm::dvec3> points = outlinePoints();
+  const MeshOutline& shape = meshOutline();
   const PictureView image = clickedImage(look);
-  overlay.outline = outlineOf(scene, look.state, selected, image, points);
+  overlay.outline = outlineOf(scene, look.state, selected, image, shape);
   if (!image.path().empty()) {
-    overlay.itself = outlineOf(scene, look.state, selected, look.picture, points);
+    overlay.itself = outlineOf(scene, look.state, selected, look.picture, shape);
   }
   const Gizmo handles = gizmo(look);
   overlay.gizmo = handles.shapes(image);

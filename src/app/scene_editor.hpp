@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "edit/mesh_outline.hpp"
 #include "edit/pick.hpp"
 #include "edit/scene_document.hpp"
 #include "ui/edit_model.hpp"
@@ -22,8 +23,9 @@ class SceneEditor {
     double scale = 1.0;  // pixels of the picture for one of an ordinary screen
   };
 
-  // Keeps a reference to the scene, and edits it; calls `beforeChange` before each time.
-  SceneEditor(Scene& scene, std::function<void()> beforeChange);
+  // Keeps a reference to the scene, and edits it; calls `beforeChange` before each time. `shipped`: models that come
+  // with the program.
+  SceneEditor(Scene& scene, std::span<const std::filesystem::path> shipped, std::function<void()> beforeChange);
 
   // Takes hold of a handle; false if there is none at that pixel.
   bool press(const Look& look, const glm::dvec2& pixel);
@@ -38,6 +40,9 @@ class SceneEditor {
   void selectNext(int step);  // in the order of the scene, round
   void toggleMode() { mode_ = mode_ == GizmoMode::move ? GizmoMode::turn : GizmoMode::move; }
 
+  // The file of the model that the inspector has chosen. Throws InputError for one that is not there.
+  std::filesystem::path chosenModel(const UiEdit& edit) const;
+  void modelsChanged();  // the scene has others
   // Where the view looks. Objects are of a mesh of the scene.
   void add(const Look& look, EditAction kind, int mesh);
   void duplicate();
@@ -81,20 +86,22 @@ class SceneEditor {
   void showThings(UiEdit& edit) const;
   PictureView clickedImage(const Look& look) const;
   Gizmo gizmo(const Look& look) const;
-  std::span<const glm::dvec3> outlinePoints();
+  const MeshOutline& meshOutline();
   glm::dvec3 placeAhead(const Look& look, double part);
   std::string dragLabel() const;
 
   Picker& picker();
 
   SceneDocument document_;
+  std::span<const std::filesystem::path> shipped_;
+  std::vector<std::filesystem::path> models_;  // that an object can be added of, the scene's first
   std::function<void()> beforeChange_;
   std::unique_ptr<Picker> picker_;  // made when it is needed first
   std::vector<int> path_;           // mirrors that the selected thing was picked through
   GizmoMode mode_ = GizmoMode::move;
   std::optional<Drag> drag_;
   std::optional<Clicked> clicked_;
-  std::vector<glm::dvec3> outlinePoints_;
+  MeshOutline outline_;
   int outlineMesh_ = -1;  // that they are of
   uint64_t shownRevision_ = 0;
 };

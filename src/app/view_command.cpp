@@ -58,10 +58,11 @@ std::vector<std::string> settingArguments(const Scene& scene, const Settings& se
 
 }  // namespace
 
-std::string viewCommand(const Options& options, const Scene& scene, const Settings& settings) {
+std::string viewCommand(const Options& options, const std::filesystem::path& file, const Scene& scene,
+                        const Settings& settings) {
   std::vector<std::string> arguments = {
       "speculum", "render",
-      "--scene",  sceneText(scene.file),
+      "--scene",  sceneText(file),
       "--size",   std::to_string(options.size.width) + "x" + std::to_string(options.size.height),
       "--time",   numberText(options.time)};
   if (options.camera) {

@@ -62,6 +62,30 @@ Key keyOf(int code) {
   return Key::unknown;
 }
 
+// Of a key that stands for a character; empty for others.
+std::string_view printedOn(int code, int scancode) {
+  const bool character = code >= GLFW_KEY_SPACE && code <= GLFW_KEY_WORLD_2;
+  const char* name = character ? glfwGetKeyName(code, scancode) : nullptr;
+  return name ? name : "";
+}
+
+std::vector<ScreenRect> workAreas() {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  std::vector<ScreenRect> areas(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    ScreenRect& area = areas[static_cast<size_t>(i)];
+    glfwGetMonitorWorkarea(monitors[i], &area.x, &area.y, &area.width, &area.height);
+  }
+  return areas;
+}
+
+// GLFW tells of monitors without a window.
+std::vector<Window*>& openWindows() {
+  static std::vector<Window*> windows;
+  return windows;
+}
+
 // The first one if none shows that point; null without monitors.
 GLFWmonitor* monitorAt(int x, int y) {
   int count = 0;
@@ -111,10 +135,15 @@ Window::Window(const WindowOptions& options) {
   if (!window_) {
     fail("the window could not be opened", "without a display use the render command");
   }
+  float unused = 1.0f;
+  glfwGetWindowContentScale(window_.get(), &contentScale_, &unused);
   installCallbacks();
+  openWindows().push_back(this);
 }
 
-Window::~Window() = default;
+Window::~Window() {
+  std::erase(openWindows(), this);
+}
 
 Window* Window::of(GLFWwindow* window) {
   return static_cast<Window*>(glfwGetWindowUserPointer(window));
@@ -130,11 +159,18 @@ void Window::installCallbacks() {
   glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
   glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
   glfwSetCharCallback(window_.get(), [](GLFWwindow* w, unsigned) { of(w)->active_ = true; });
-  glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int modifiers) {
+  glfwSetWindowContentScaleCallback(window_.get(), [](GLFWwindow* w, float x, float) { of(w)->followContentScale(x); });
+  glfwSetMonitorCallback([](GLFWmonitor*, int) {
+    for (Window* window : openWindows()) {
+      window->followMonitors(workAreas());
+    }
+  });
+  glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int scancode, int action, int modifiers) {
     of(w)->active_ = true;
     if (const auto& key = of(w)->callbacks_.key) {
-      key({keyOf(code), action != GLFW_RELEASE, action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0,
-           (modifiers & GLFW_MOD_CONTROL) != 0});
+      const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
+      key({keyMeant(keyOf(code), printedOn(code, scancode), control), action != GLFW_RELEASE, action == GLFW_REPEAT,
+           (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
     }
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {
@@ -203,22 +239,53 @@ bool Window::fullScreen() const {
   return glfwGetWindowMonitor(window_.get()) != nullptr;
 }
 
+ScreenRect Window::place() const {
+  ScreenRect rect;
+  glfwGetWindowPos(window_.get(), &rect.x, &rect.y);
+  glfwGetWindowSize(window_.get(), &rect.width, &rect.height);
+  return rect;
+}
+
+void Window::setPlace(const ScreenRect& place) {
+  glfwSetWindowMonitor(window_.get(), nullptr, place.x, place.y, place.width, place.height, GLFW_DONT_CARE);
+}
+
 void Window::setFullScreen(bool on) {
-  auto& [x, y, width, height] = windowed_;
   if (on == fullScreen()) {
     return;
   }
+  covers_ = false;
   if (!on) {
-    glfwSetWindowMonitor(window_.get(), nullptr, x, y, width, height, GLFW_DONT_CARE);
-    return;
+    // The monitor that it was on may have gone meanwhile.
+    return setPlace(broughtBack(windowed_, workAreas()).value_or(windowed_));
   }
-  glfwGetWindowPos(window_.get(), &x, &y);
-  glfwGetWindowSize(window_.get(), &width, &height);
-  GLFWmonitor* monitor = monitorAt(x + width / 2, y + height / 2);
+  windowed_ = place();
+  GLFWmonitor* monitor = monitorAt(windowed_.x + windowed_.width / 2, windowed_.y + windowed_.height / 2);
   const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
   if (mode) {
     glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    covers_ = true;
   }
+}
+
+// GLFW has made a window of one whose monitor is gone by then, as large as that was.
+void Window::followMonitors(std::span<const ScreenRect> workAreas) {
+  active_ = true;
+  if (fullScreen()) {
+    return;
+  }
+  const bool left = std::exchange(covers_, false);
+  const ScreenRect wanted = left ? windowed_ : place();
+  if (const auto back = broughtBack(wanted, workAreas)) {
+    setPlace(*back);
+  } else if (left) {
+    setPlace(wanted);
+  }
+}
+
+void Window::followContentScale(float scale) {
+  active_ = true;
+  contentScale_ = scale;
 }
 
 void Window::iconify() {
@@ -267,13 +334,6 @@ std::optional<GamepadState> Window::gamepad() const {
       std::any_of(state.buttons + GLFW_GAMEPAD_BUTTON_DPAD_UP, state.buttons + GLFW_GAMEPAD_BUTTON_DPAD_LEFT + 1,
                   [](unsigned char button) { return button == GLFW_PRESS; });
   return pad;
-}
-
-float Window::contentScale() const {
-  float x = 1.0f;
-  float y = 1.0f;
-  glfwGetWindowContentScale(window_.get(), &x, &y);
-  return x;
 }
 
 void Window::setTitle(const std::string& title) {

@@ -7,10 +7,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/gamepad.hpp"
+#include "core/screen_place.hpp"
 
 struct GLFWwindow;
 
@@ -51,6 +54,11 @@ enum class Key {
   f11,
   f12
 };
+// What the key at `place` of an American keyboard means on which `printed` stands (empty: none, or not known). Those
+// that fly keep their places; others go by their letter, with Control all. Where that is not one of the Latin alphabet
+// the place counts.
+Key keyMeant(Key place, std::string_view printed, bool control);
+
 enum class MouseButton { left, right, middle };
 
 struct KeyEvent {
@@ -111,7 +119,11 @@ class Window {
   // Whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
   bool takeActivity();
   std::optional<GamepadState> gamepad() const;  // the first one; nothing if there is none
-  float contentScale() const;
+  float contentScale() const { return contentScale_; }
+  // Monitors came, went or changed: takes a window that none shows to one that does, and one that covered a monitor
+  // that is gone back to its place. `workAreas` of those that are there.
+  void followMonitors(std::span<const ScreenRect> workAreas);
+  void followContentScale(float scale);  // the monitor asks for another
   void setTitle(const std::string& title);
   bool keyDown(Key key) const;
   void setClipboard(const std::string& text);
@@ -134,11 +146,15 @@ class Window {
   };
   static Window* of(GLFWwindow* window);
   void installCallbacks();
+  ScreenRect place() const;
+  void setPlace(const ScreenRect& place);
 
   Library library_;
   std::unique_ptr<GLFWwindow, Destroy> window_;
   WindowCallbacks callbacks_;
-  std::array<int, 4> windowed_{};  // place and size before full screen, screen coordinates
+  ScreenRect windowed_;  // before full screen
+  bool covers_ = false;  // a monitor, as was asked for
+  float contentScale_ = 1.0f;
   bool resized_ = false;
   bool active_ = true;
 };

@@ -10,7 +10,7 @@ namespace speculum {
 
 namespace {
 
-constexpr size_t mostPoints = 512;
+constexpr size_t mostLines = 4000;
 constexpr double lightGap = 5.0;  // pixels between a light and its circle
 constexpr int circleSteps = 48;
 
@@ -95,12 +95,8 @@ std::vector<PixelLine> boxOutline(const InstanceState& instance, const glm::dvec
   return lines;
 }
 
-std::vector<PixelLine> objectOutline(const InstanceState& instance, const glm::dvec3& half, const PictureView& picture,
-                                     std::span<const glm::dvec3> points) {
-  std::vector<PixelLine> lines;
-  if (!picture.sees(instance.center, instance.radius)) {
-    return lines;
-  }
+std::vector<PixelLine> hullOutline(const InstanceState& instance, const glm::dvec3& half, const PictureView& picture,
+                                   std::span<const glm::dvec3> points) {
   std::vector<glm::dvec2> pixels;
   for (const glm::dvec3& point : points) {
     const glm::dvec3 world = instance.worldFromMesh.point(point);
@@ -114,42 +110,63 @@ std::vector<PixelLine> objectOutline(const InstanceState& instance, const glm::d
     }
     pixels.push_back(*pixel);
   }
+  std::vector<PixelLine> lines;
   addEdges(hullOf(std::move(pixels)), picture, lines);
   return lines;
 }
 
-}  // namespace
-
-// Directions on a Fibonacci lattice: Gonzalez, "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude
-// Lattices" (2010).
-std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
-  std::vector<glm::dvec3> points;
-  if (mesh.vertices.size() <= mostPoints) {
-    for (const Vertex& vertex : mesh.vertices) {
-      points.push_back(vertex.position);
+// The part of it that the mirrors of the picture show.
+std::optional<PixelLine> lineInFront(const PictureView& picture, glm::dvec3 a, glm::dvec3 b) {
+  if (const auto& clip = picture.view().clip) {
+    const double da = clip->distance(a);
+    const double db = clip->distance(b);
+    if (da < 0.0 && db < 0.0) {
+      return std::nullopt;
     }
-    return points;
+    if (da < 0.0 || db < 0.0) {
+      (da < 0.0 ? a : b) = glm::mix(a, b, da / (da - db));
+    }
   }
-  std::vector<size_t> farthest;
-  for (size_t i = 0; i < mostPoints; ++i) {
-    const double y = 1.0 - (2.0 * i + 1.0) / mostPoints;
-    const double angle = 2.0 * std::numbers::pi * std::numbers::phi * static_cast<double>(i);
-    const glm::dvec3 d(std::sqrt(1.0 - y * y) * std::cos(angle), y, std::sqrt(1.0 - y * y) * std::sin(angle));
-    const auto most = std::max_element(
-        mesh.vertices.begin(), mesh.vertices.end(),
-        [&](const Vertex& a, const Vertex& b) { return glm::dot(a.position, d) < glm::dot(b.position, d); });
-    farthest.push_back(static_cast<size_t>(most - mesh.vertices.begin()));
-  }
-  std::sort(farthest.begin(), farthest.end());
-  farthest.erase(std::unique(farthest.begin(), farthest.end()), farthest.end());
-  for (const size_t i : farthest) {
-    points.push_back(mesh.vertices[i].position);
-  }
-  return points;
+  return picture.line(a, b);
 }
 
+// Where the surface turns away from the eye. Nothing if that is more lines than are worth drawing.
+std::optional<std::vector<PixelLine>> silhouette(const InstanceState& instance, const PictureView& picture,
+                                                 std::span<const MeshEdge> edges) {
+  const Affine& placed = instance.worldFromMesh;
+  const glm::dvec3 eye = glm::inverse(placed.linear) * (picture.eye() - placed.translation);
+  std::vector<PixelLine> lines;
+  for (const MeshEdge& edge : edges) {
+    if (!edge.outlines(eye)) {
+      continue;
+    }
+    if (const auto line = lineInFront(picture, placed.point(edge.a), placed.point(edge.b))) {
+      lines.push_back(*line);
+    }
+    if (lines.size() > mostLines) {
+      return std::nullopt;
+    }
+  }
+  return lines;
+}
+
+std::vector<PixelLine> objectOutline(const InstanceState& instance, const glm::dvec3& half, const PictureView& picture,
+                                     const MeshOutline& shape) {
+  if (!picture.sees(instance.center, instance.radius)) {
+    return {};
+  }
+  if (!shape.edges.empty()) {
+    if (auto lines = silhouette(instance, picture, shape.edges)) {
+      return *std::move(lines);
+    }
+  }
+  return hullOutline(instance, half, picture, shape.points);
+}
+
+}  // namespace
+
 std::vector<PixelLine> outlineOf(const Scene& scene, const SceneState& state, const Selection& selection,
-                                 const PictureView& picture, std::span<const glm::dvec3> points) {
+                                 const PictureView& picture, const MeshOutline& shape) {
   const auto index = static_cast<size_t>(selection.index);
   if (selection.kind == Selection::Kind::mirror) {
     return mirrorOutline(state.mirrors.at(index), picture);
@@ -158,9 +175,9 @@ std::vector<PixelLine> outlineOf(const Scene& scene, const SceneState& state, co
     return lightOutline(state.lights.at(index).position, scene.lights.at(index).radius, picture);
   }
   const InstanceState* instance = instanceOf(state, selection);
-  return instance ? objectOutline(*instance, scene.meshes.at(static_cast<size_t>(instance->mesh)).halfExtent, picture,
-                                  points)
-                  : std::vector<PixelLine>();
+  return instance
+             ? objectOutline(*instance, scene.meshes.at(static_cast<size_t>(instance->mesh)).halfExtent, picture, shape)
+             : std::vector<PixelLine>();
 }
 
 }  // namespace speculum

@@ -63,7 +63,17 @@ class ModelProgress {
   double total_ = 0.0;
 };
 
-// The place of the model among the scene's meshes; each file is loaded once, whatever it is called.
+// Each file is loaded once, whatever it is called.
+std::optional<int> knownMesh(const Scene& scene, const fs::path& file) {
+  std::error_code error;
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (fs::equivalent(scene.meshes[i].source, file, error)) {
+      return static_cast<int>(i);
+    }
+  }
+  return std::nullopt;
+}
+
 int meshIndex(const TableReader& object, Scene& scene, ModelProgress& progress) {
   const std::string model = object.text("model");
   const fs::path file = modelFile(scene, model);
@@ -72,10 +82,8 @@ int meshIndex(const TableReader& object, Scene& scene, ModelProgress& progress) 
     object.fail("model", "there is no file '" + file.string() + "'",
                 "name a Wavefront OBJ file, relative to the scene file");
   }
-  for (size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (fs::equivalent(scene.meshes[i].source, file, error)) {
-      return static_cast<int>(i);
-    }
+  if (const std::optional<int> known = knownMesh(scene, file)) {
+    return *known;
   }
   scene.meshes.push_back(loadObj(file, scene.textures, progress.ofOne(file)));
   return static_cast<int>(scene.meshes.size()) - 1;
@@ -91,9 +99,13 @@ void checkCount(const TableReader& table, const Object& object, int earlier) {
 }
 
 // Beyond, squares of what follows from it are no doubles.
+bool extentInRange(const glm::dvec3& scale, const Mesh& mesh) {
+  const glm::dvec3 farthest = glm::abs(scale) * (glm::abs(mesh.center) + mesh.radius);
+  return std::max({farthest.x, farthest.y, farthest.z}) <= 1e150;
+}
+
 void checkExtent(const TableReader& table, const Object& object, const Mesh& mesh) {
-  const glm::dvec3 farthest = glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius);
-  if (!(std::max({farthest.x, farthest.y, farthest.z}) <= 1e150)) {
+  if (!extentInRange(object.scale, mesh)) {
     table.fail("scale", "leaves the range of double precision", "model and scale of at most 1e150 m are needed");
   }
 }
@@ -164,6 +176,24 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
     checkExtent(table, object, scene.meshes[object.mesh]);
   }
   return scene;
+}
+
+int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
+  if (const std::optional<int> known = knownMesh(scene, file)) {
+    return *known;
+  }
+  const size_t textures = scene.textures.size();
+  try {
+    Mesh mesh = loadObj(file, scene.textures, progress);
+    if (!extentInRange(glm::dvec3(1.0), mesh)) {
+      throwInputError(file, 1, "v", "leaves the range of double precision", "a model of at most 1e150 m is needed");
+    }
+    scene.meshes.push_back(std::move(mesh));
+  } catch (...) {
+    scene.textures.erase(scene.textures.begin() + static_cast<std::ptrdiff_t>(textures), scene.textures.end());
+    throw;
+  }
+  return static_cast<int>(scene.meshes.size()) - 1;
 }
 
 std::string sceneTitle(const fs::path& file) {

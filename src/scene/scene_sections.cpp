@@ -84,14 +84,25 @@ std::optional<Ripple> readRipple(const TableReader& mirror) {
   return ripple.amplitude > 0.0 ? std::optional(ripple) : std::nullopt;
 }
 
-void checkShape(const TableReader& table, Key key, std::span<const glm::dvec3> polygon) {
-  std::optional<std::string> defect = polygonDefect(polygon);
+std::optional<std::string> shapeDefect(std::span<const glm::dvec3> polygon) {
+  const std::optional<std::string> defect = polygonDefect(polygon);
   if (!defect && !(glm::length(newellVector(polygon)) >= kShortest * kShortest)) {
-    defect = "has no area that can be computed with";
+    return "has no area that can be computed with";
   }
-  if (defect) {
-    table.fail(key, *defect,
-               "a planar, convex polygon with an area of at least 1e-8 of its squared diameter is needed");
+  return defect;
+}
+
+constexpr Key kGoodShape = "a planar, convex polygon with an area of at least 1e-8 of its squared diameter is needed";
+
+std::string vertexCountText(size_t count) {
+  return "has " + std::to_string(count) + " vertices";
+}
+
+constexpr Key kGoodCount = "3 .. 1000 are needed";
+
+void checkShape(const TableReader& table, Key key, std::span<const glm::dvec3> polygon) {
+  if (const std::optional<std::string> defect = shapeDefect(polygon)) {
+    table.fail(key, *defect, kGoodShape);
   }
 }
 
@@ -112,7 +123,7 @@ void readShape(const TableReader& table, Mirror& mirror) {
     }
     mirror.polygon = table.points("polygon");
     if (mirror.polygon.size() > kMostVertices) {
-      table.fail("polygon", "has " + std::to_string(mirror.polygon.size()) + " vertices", "3 .. 1000 are needed");
+      table.fail("polygon", vertexCountText(mirror.polygon.size()), kGoodCount);
     }
     checkShape(table, "polygon", mirror.polygon);
     return;
@@ -305,6 +316,22 @@ Mirror readMirror(const TableReader& table) {
   mirror.backColor = table.vec3("back_color", mirror.backColor, kNotNegative);
   mirror.castsLight = table.boolean("casts_light", mirror.castsLight);
   return mirror;
+}
+
+std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> polygon) {
+  const auto line = [](const std::string& wrong, Key right) {
+    return "polygon: " + wrong + " (" + std::string(right) + ")";
+  };
+  if (polygon.size() > kMostVertices) {
+    return line(vertexCountText(polygon.size()), kGoodCount);
+  }
+  for (const glm::dvec3& p : polygon) {
+    if (!kCoordinate.contains(p.x) || !kCoordinate.contains(p.y) || !kCoordinate.contains(p.z)) {
+      return line("has a vertex that is too far away", kCoordinate.text() + " is needed for each coordinate");
+    }
+  }
+  const std::optional<std::string> defect = shapeDefect(polygon);
+  return defect ? std::optional(line(*defect, kGoodShape)) : std::nullopt;
 }
 
 Bookmark readBookmark(const TableReader& table, const CameraSpec& camera) {

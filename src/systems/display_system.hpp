@@ -19,9 +19,10 @@ struct DebugView {
   int pass = 0;    // index into FramePlan::passes; their number stands for the main view
   PixelRect area;  // pixels
   TargetKind kind = TargetKind::color;
-  double zoom = 0.0;          // pixels of the display a texel; 0: the image is fitted into the area
-  glm::dvec2 origin{0.0};     // texel at the area's upper left corner; with a zoom
-  double halfDistance = 1.0;  // metres from the eye that depth shows half bright
+  double zoom = 0.0;                // pixels of the display a texel; 0: the image is fitted into the area
+  glm::dvec2 origin{0.0};           // texel at the area's upper left corner; with a zoom
+  double halfDistance = 1.0;        // metres from the eye that depth shows half bright
+  std::optional<glm::ivec2> probe;  // texel to be read: see SceneRenderer::probed
 };
 
 // Records what draws into the display image: the picture, once through exposure, tone curve and sRGB, and a target that

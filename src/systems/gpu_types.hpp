@@ -102,6 +102,17 @@ struct CheckConstants {
   uint32_t height;
 };
 
+// What probe_texel.glsl writes and is told.
+struct ProbedTexel {
+  glm::vec4 mean;
+  glm::vec4 first;
+};
+
+struct ProbeConstants {
+  int32_t x;
+  int32_t y;
+};
+
 // Vertex buffer layout; locations 0, 1, 2 of scene.vert.
 struct GpuVertex {
   glm::vec3 position;

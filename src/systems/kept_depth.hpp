@@ -20,6 +20,7 @@ class KeptDepth {
   void release(RetireQueue& retired);
 
   bool exists() const { return static_cast<bool>(image_); }
+  Image& image() { return image_; }
   VkDescriptorImageInfo descriptor() const { return image_.descriptor(sampler_.get()); }
   // Draws it with display_depth.glsl.
   const Pipeline& pipeline();

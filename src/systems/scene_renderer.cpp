@@ -48,6 +48,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       watch_(renderer),
       display_(renderer),
       watchedDepth_(std::make_unique<KeptDepth>(renderer, display_.layout())),
+      probe_(renderer),
       mirrorTargets_(device_),
       environmentTargets_(device_) {}
 
@@ -58,7 +59,7 @@ SceneRenderer::~SceneRenderer() {
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
          mirrorSystem_.pipelineCount() + display_.pipelineCount() + watch_.pipelineCount() +
-         watchedDepth_->pipelineCount();
+         watchedDepth_->pipelineCount() + probe_.pipelineCount();
 }
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
@@ -114,6 +115,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   recorded_.push_back(display_.record(frame, {.descriptor = main_->descriptor()}, settings));
   if (debug) {
     recordDebugView(frame, settings, plan, *debug);
+    recordProbe(frame, plan, *debug);
   }
   const bool imagesShown = !plan.shown.empty();
   renderSystem_.endFrame(trace_.variant(), imagesShown, !plan.effects.curved.empty());
@@ -131,6 +133,9 @@ void SceneRenderer::releaseViews(const std::optional<DebugView>& debug, RetireQu
   depthPass_ = debug && debug->kind == TargetKind::depth ? std::optional(debug->pass) : std::nullopt;
   if (!depthPass_) {
     watchedDepth_->release(retired);
+  }
+  if (!debug || !debug->probe) {
+    probe_.release();
   }
   if (!debug) {
     display_.releaseView();
@@ -360,6 +365,18 @@ LinearImage SceneRenderer::radiance() {
     image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
   }
   return image;
+}
+
+void SceneRenderer::recordProbe(Frame& frame, const FramePlan& plan, const DebugView& debug) {
+  if (!debug.probe) {
+    return;
+  }
+  if (depthPass_ && watchedDepth_->exists()) {
+    return probe_.probe(frame, watchedDepth_->image(), watchedDepth_->descriptor(), *debug.probe);
+  }
+  OffScreen& target =
+      debug.pass == static_cast<int>(plan.passes.size()) ? *main_ : mirrorTargets_[static_cast<size_t>(debug.pass)];
+  probe_.probe(frame, target.color(), target.descriptor(), *debug.probe);
 }
 
 }  // namespace speculum

@@ -16,6 +16,7 @@
 #include "systems/point_light_system.hpp"
 #include "systems/recorded_pass.hpp"
 #include "systems/render_system.hpp"
+#include "systems/texel_probe.hpp"
 
 namespace speculum {
 
@@ -44,6 +45,8 @@ class SceneRenderer {
   const std::vector<RecordedPass>& passes() const { return recorded_; }
   // What debug.check_finite found in the frames that have finished.
   const FiniteWatch& finiteWatch();
+  // What DebugView::probe asked for, of the last frame that asked and has finished; nothing while none asks.
+  const std::optional<TexelValue>& probed() { return probe_.value(); }
   size_t pipelineCount() const;
   // What each effect took part in, of the last recorded frame.
   const EffectLedger& ledger() const { return ledger_; }
@@ -61,6 +64,7 @@ class SceneRenderer {
   bool keepsDepth(size_t pass) const { return depthPass_ == static_cast<int>(pass); }
   void releaseViews(const std::optional<DebugView>& debug, RetireQueue& retired);
   void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
+  void recordProbe(Frame& frame, const FramePlan& plan, const DebugView& debug);
   void checkTarget(Frame& frame, const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
   uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void finishLedger(const Settings& settings, const FramePlan& plan);
@@ -78,6 +82,7 @@ class SceneRenderer {
   FiniteWatch watch_;
   DisplaySystem display_;
   std::unique_ptr<KeptDepth> watchedDepth_;
+  TexelProbe probe_;
   std::unique_ptr<OffScreen> main_;
   MirrorTargets mirrorTargets_;
   uint64_t heldRevision_ = 0;  // of the pipelines that rendered the images held

@@ -235,6 +235,7 @@ void accuracy(UiModel& model) {
   if (accuracy.stage.empty()) {
     accuracy.measure = ImGui::Button("measure this view");
     notePlace(model, "accuracy.measure");
+    tip("unsaved changes are measured too, in a copy of the scene");
   } else {
     accuracy.cancel = ImGui::Button("cancel");
     notePlace(model, "accuracy.cancel");

@@ -36,6 +36,14 @@ struct UiOverlay {
   glm::dvec2 labelAt{0.0};
 };
 
+// A mirror's vertices while they are typed: one after the other, so that in between they may be no mirror.
+struct UiPolygon {
+  std::vector<glm::dvec3> vertices;  // world, metres
+  std::vector<glm::dvec3> taken;     // the mirror's, as they were when `vertices` came from them or went to them
+  int mirror = -1;                   // whose they are
+  std::string problem;               // why `vertices` are not the mirror's: one line; empty: they are
+};
+
 // The scene as it is edited. The application fills it before every frame and reads back what was changed.
 struct UiEdit {
   bool open = false;                                      // the inspector is; changed by the person
@@ -48,17 +56,20 @@ struct UiEdit {
   bool held = false;                 // set by the panel: a field is being edited, what follows belongs to the same step
   GizmoMode mode = GizmoMode::move;  // changed by the person
   std::vector<std::string> models;   // that an object can be added of
-  int model = 0;                     // index into models; changed by the person
+  int model = 0;                     // index into models, their number for modelFile; changed by the person
+  std::string modelFile;             // an OBJ file, absolute or from the scene's folder; likewise
+  UiPolygon polygon;                 // of the selected mirror; changed by the person
   std::string undo;                  // what would be undone; empty: nothing
   std::string redo;
   std::string file;  // of the scene
   bool unsaved = false;
-  bool asksSave = false;   // unsaved changes would be lost: the question is shown
-  bool asksWhere = false;  // the question for a file is shown
-  bool enter = false;      // the key was pressed in a question; taken by the panel. Dear ImGui 1.86 misses
-                           // keys that go down and up between two frames
-  std::string saveAs;      // the file that is proposed; changed by the person
-  std::string note;        // what was saved, or why it was not
+  bool unsavedSettings = false;  // differ from those that were saved or loaded
+  bool asksSave = false;         // unsaved changes would be lost: the question is shown
+  bool asksWhere = false;        // the question for a file is shown
+  bool enter = false;            // the key was pressed in a question; taken by the panel. Dear ImGui 1.86 misses
+                                 // keys that go down and up between two frames
+  std::string saveAs;            // the file that is proposed; changed by the person
+  std::string note;              // what was saved, or why it was not
   EditAction action = EditAction::none;  // set by the panel
   UiOverlay overlay;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace speculum {
 
@@ -21,6 +22,33 @@ glm::vec2 displaySize() {
 }
 
 }  // namespace
+
+// ImGui remembers only windows that stand where they were put.
+void PanelDock::rememberCollapsed() {
+  ImGuiSettingsHandler handler;
+  handler.TypeName = "Docked";
+  handler.TypeHash = ImHashStr(handler.TypeName);
+  handler.UserData = &collapsed_;
+  handler.ReadOpenFn = [](ImGuiContext*, ImGuiSettingsHandler* self, const char* name) -> void* {
+    // What was saved is saved as collapsed: others are not in the file.
+    return const_cast<std::string*>(&*static_cast<std::set<std::string>*>(self->UserData)->insert(name).first);
+  };
+  handler.ReadLineFn = [](ImGuiContext*, ImGuiSettingsHandler*, void*, const char*) {};
+  handler.WriteAllFn = [](ImGuiContext*, ImGuiSettingsHandler* self, ImGuiTextBuffer* out) {
+    for (const std::string& name : *static_cast<std::set<std::string>*>(self->UserData)) {
+      out->appendf("[%s][%s]\nCollapsed=1\n\n", self->TypeName, name.c_str());
+    }
+  };
+  ImGui::GetCurrentContext()->SettingsHandlers.push_back(handler);
+}
+
+void PanelDock::followCollapsed(const char* name, Panel& panel) {
+  const bool collapsed = panel.docked && ImGui::IsWindowCollapsed();
+  if (collapsed != collapsed_.contains(name)) {
+    collapsed ? void(collapsed_.insert(name)) : void(collapsed_.erase(name));
+    ImGui::MarkIniSettingsDirty();
+  }
+}
 
 void PanelDock::beginFrame() {
   left_ = right_ = {.inset = margin(), .top = margin()};
@@ -89,8 +117,12 @@ bool PanelDock::begin(const char* name, bool* open, Edge edge, const glm::vec2& 
     return ImGui::Begin(name, open, windowFlags);
   }
   place(panel, edge, ems);
+  if (!std::exchange(panel.begun, true)) {
+    ImGui::SetNextWindowCollapsed(collapsed_.contains(name));
+  }
   const bool visible = ImGui::Begin(name, open, windowFlags | ImGuiWindowFlags_NoSavedSettings);
   follow(panel, edge);
+  followCollapsed(name, panel);
   return visible;
 }
 

@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <map>
+#include <set>
 #include <string>
 
 namespace speculum {
@@ -12,6 +13,9 @@ class PanelDock {
  public:
   enum class Edge { left, right };
 
+  // Makes the layout file of the present ImGui context say which windows are collapsed; once, before its first frame.
+  // The dock must outlive the context.
+  void rememberCollapsed();
   // In each ImGui frame before the first begin().
   void beginFrame();
   // ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. ImGui::End must
@@ -24,6 +28,7 @@ class PanelDock {
     glm::vec2 size{0.0f};   // pixels; what the person made of it, 0: nothing
     glm::vec2 given{0.0f};  // pixels; what it was given last
     glm::vec2 corner{-1.0f};
+    bool begun = false;
   };
   // Where the next window of an edge goes.
   struct Column {
@@ -35,7 +40,10 @@ class PanelDock {
   void place(Panel& panel, Edge edge, const glm::vec2& ems);
   void follow(Panel& panel, Edge edge);
 
+  void followCollapsed(const char* name, Panel& panel);
+
   std::map<std::string, Panel> panels_;
+  std::set<std::string> collapsed_;  // docked ones
   Column left_;
   Column right_;
 };

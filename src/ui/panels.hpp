@@ -15,7 +15,7 @@ void time(UiModel& model);
 void help(UiModel& model);
 void settings(UiModel& model);
 void passes(UiModel& model);
-// Around the mirror of the pass that is pointed at, in the picture behind all windows.
+// Around the mirror that is pointed at, of a pass or skipped, in the picture behind all windows.
 void passOutline(const UiModel& model);
 void effects(UiModel& model);
 void performance(UiModel& model);

@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <cmath>
 
+#include "ui/elide.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -34,7 +35,11 @@ void graph(const char* name, std::vector<float> values, float height) {
 void row(UiModel& model, const std::string& name, const std::vector<float>& values, float height) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(name.starts_with(mirrorWord) ? name.c_str() + mirrorWord.size() : name.c_str());
+  const std::string own = name.starts_with(mirrorWord) ? name.substr(mirrorWord.size()) : name;
+  const std::string shown = endThatFits(own, ImGui::GetContentRegionAvail().x, [](std::string_view text) {
+    return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
+  });
+  ImGui::TextUnformatted(shown.c_str());
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s, milliseconds", name.c_str());
   }

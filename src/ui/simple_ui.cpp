@@ -74,7 +74,9 @@ SimpleUI::SimpleUI(Renderer& renderer, Window& window)
       window_(window),
       theme_(savedTheme()),
       choices_(savedPanelChoices()),
-      backend_(std::make_unique<Backend>(window)) {}
+      backend_(std::make_unique<Backend>(window)) {
+  dock_.rememberCollapsed();
+}
 
 SimpleUI::~SimpleUI() {
   renderer_.waitIdle();
@@ -154,6 +156,8 @@ void SimpleUI::build(UiModel& model) {
   model.copyHistory = false;
   model.copyLog = false;
   model.hoveredPass = -1;
+  model.hoveredSkipped = -1;
+  model.targets.pointed.reset();
   model.passClicked = false;
   model.accuracy.measure = false;
   model.accuracy.cancel = false;

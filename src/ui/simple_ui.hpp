@@ -52,6 +52,7 @@ class SimpleUI {
 
   Renderer& renderer_;
   Window& window_;
+  PanelDock dock_;
   Context context_;
   Theme theme_;
   Theme chosenTheme_ = theme_;
@@ -60,7 +61,6 @@ class SimpleUI {
   float scale_ = 0.0f;  // of fonts and sizes: the monitor's content's and the person's; 0: nothing is made yet
   int pendingPercent_ = choices_.percent;  // while its slider is held
   Thumbnails thumbnails_;
-  PanelDock dock_;
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
   bool visible_ = true;

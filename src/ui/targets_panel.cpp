@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "ui/panels.hpp"
 
@@ -109,6 +110,27 @@ void moveView(UiTargets& targets, const glm::dvec2& room, const glm::dvec2& poin
   targets.center = glm::clamp(targets.center, glm::dvec2(0.0), glm::dvec2(targets.size));
 }
 
+// Of the texel under the pointer; "..." until it has come from the GPU.
+std::string valueText(const UiTargets& targets) {
+  if (targets.kind == 2) {
+    return "";
+  }
+  const std::optional<UiTexel>& value = targets.value;
+  if (!value || value->texel != *targets.pointed || value->depth != (targets.kind == 1)) {
+    return "...";
+  }
+  std::array<char, 128> text{};
+  if (!value->depth) {
+    const glm::dvec4& v = value->value;
+    std::snprintf(text.data(), text.size(), "RGB %.5g %.5g %.5g  A %.5g", v.r, v.g, v.b, v.a);
+  } else if (std::isinf(value->metres)) {
+    return "infinitely far";
+  } else {
+    std::snprintf(text.data(), text.size(), "%.6g m", value->metres);
+  }
+  return text.data();
+}
+
 void maskImage(const UiTargets& targets, const Rect& canvas, const glm::dvec2& corner) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto toScreen = [&](const std::vector<glm::vec2>& polygon) {
@@ -180,9 +202,10 @@ void targets(UiModel& model) {
   }
   ImGui::SetCursorScreenPos({start.x, top - ImGui::GetTextLineHeightWithSpacing()});
   const glm::dvec2 texel = glm::floor(origin + pointer / targets.shownZoom);
+  targets.pointed.reset();
   if (there && hovered && texel.x >= 0 && texel.y >= 0 && texel.x < image.x && texel.y < image.y) {
-    ImGui::Text("%dx%d  %.0f %%  texel %.0f, %.0f", targets.size.x, targets.size.y, 100.0 * targets.shownZoom, texel.x,
-                texel.y);
+    targets.pointed = glm::ivec2(texel);
+    ImGui::Text("%d, %d  %s", targets.pointed->x, targets.pointed->y, valueText(targets).c_str());
   } else {
     ImGui::TextDisabled("%dx%d  %.0f %%  wheel: zoom  drag: move", targets.size.x, targets.size.y,
                         100.0 * targets.shownZoom);

@@ -63,6 +63,14 @@ struct UiDevice {
   std::vector<UiFeature> features;
 };
 
+// What a target holds at a texel.
+struct UiTexel {
+  glm::ivec2 texel{0};
+  bool depth = false;     // which of the next two it is
+  double metres = 0.0;    // from the eye along the view; infinite where nothing is
+  glm::dvec4 value{0.0};  // linear radiance; disparity, 1/m
+};
+
 // What the window of targets shows of the pass debugPass.
 struct UiTargets {
   int kind = 0;                                 // colour, depth, mask; changed by the person
@@ -74,6 +82,8 @@ struct UiTargets {
   glm::ivec2 size{0};                           // texels of the image
   std::vector<glm::vec2> mask;                  // what the pass shades, in texels
   std::vector<std::vector<glm::vec2>> mirrors;  // what of the mirrors is seen in it, in texels
+  std::optional<glm::ivec2> pointed;            // texel under the pointer; set by the panel
+  std::optional<UiTexel> value;                 // what is there, a few frames later
 };
 
 struct UiLog {
@@ -147,6 +157,9 @@ struct UiModel {
   std::vector<UiSkipped> skipped;
   std::vector<UiEffect> effects;                           // all, in a fixed order
   std::vector<std::pair<std::string, PixelRect>> widgets;  // where each setting's widget stands, by key
+  int hoveredSkipped = -1;                                 // likewise, into skipped
+  std::vector<int> outlinedSkipped;                        // path of the one that was pointed at in the last frame
+  std::vector<PixelLine> skippedOutline;                   // where its mirror is seen, on the picture
   int hoveredPass = -1;      // index into passes of the one that is pointed at; -1: none. Set by the panel.
   int debugPass = -1;        // index into passes of the target to show; -1: none. Changed by the person.
   bool passClicked = false;  // set by the panel: debugPass was changed by a click on a pass

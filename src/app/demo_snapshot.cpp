@@ -1,0 +1,85 @@
+// What leaves the window as the picture shows it: the command line of the view, and what is measured of it.
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
+#include "app/demo.hpp"
+#include "app/view_command.hpp"
+#include "core/platform.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// FNV-1a of 64 bits, http://www.isthe.com/chongo/tech/comp/fnv: other content gets another name, so that commands that
+// were copied before stay right.
+std::string contentName(const std::string& text) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  }
+  std::array<char, 20> name{};
+  std::snprintf(name.data(), name.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return name.data();
+}
+
+}  // namespace
+
+// A file with the scene as it is edited: its own, or with unsaved changes a copy among the user's cached files. Empty,
+// with a line in `problem`, if that cannot be written.
+fs::path Demo::fileOfView(std::string& problem) {
+  const SceneDocument& document = editor_->document();
+  const fs::path own = loaded_->scene.file;
+  if (!document.modified()) {
+    return own;
+  }
+  const fs::path folder = userCacheDir() / "views";
+  std::error_code none;
+  fs::create_directories(folder, none);
+  try {
+    const std::string text = document.text(folder / "view.toml", {});
+    fs::path file = folder / (own.stem().string() + "-" + contentName(text) + ".toml");
+    if (!replaceFile(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()})) {
+      throw std::runtime_error(file.string() + ": cannot be written (check the folder and the disk)");
+    }
+    return file;
+  } catch (const std::runtime_error& error) {
+    problem = error.what();
+    return {};
+  }
+}
+
+// Of the frame that was drawn last.
+void Demo::copyCommand() {
+  std::string problem;
+  const fs::path file = fileOfView(problem);
+  if (file.empty()) {
+    model_.command = "nothing: " + problem;
+    return;
+  }
+  Options options = options_;
+  const VkExtent2D extent = renderer_.displayExtent();
+  options.size = {static_cast<int>(extent.width), static_cast<int>(extent.height)};
+  options.time = time_;
+  if (const auto place = camera_.place()) {
+    options.camera = CameraPlace{place->eye, place->target, std::nullopt};
+  }
+  model_.command = viewCommand(options, file, loaded_->scene, model_.settings);
+  window_.setClipboard(model_.command);
+  if (file != loaded_->scene.file) {
+    model_.command += "   (of a copy of the scene: it has unsaved changes)";
+  }
+}
+
+SweepRequest Demo::sweepRequest(const fs::path& file) {
+  SweepRequest request{.options = options_, .base = model_.settings, .camera = camera(), .time = time_};
+  request.options.scene = file.string();
+  request.options.gpu = std::to_string(device_.info().index);
+  const VkExtent2D extent = renderer_.displayExtent();
+  request.options.size = {static_cast<int>(extent.width), static_cast<int>(extent.height)};
+  return request;
+}
+
+}  // namespace speculum

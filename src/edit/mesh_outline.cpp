@@ -1,0 +1,94 @@
+#include "edit/mesh_outline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+namespace speculum {
+
+namespace {
+
+constexpr size_t mostPoints = 512;
+constexpr size_t mostTriangles = 50'000;
+
+bool before(const glm::dvec3& a, const glm::dvec3& b) {
+  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+// For each vertex the first one of those that stand at the same place: normals and texture split them.
+std::vector<uint32_t> placesOf(const Mesh& mesh) {
+  const auto at = [&](uint32_t i) -> const glm::dvec3& { return mesh.vertices[i].position; };
+  std::vector<uint32_t> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return before(at(a), at(b)); });
+  std::vector<uint32_t> places(order.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    places[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? places[order[i - 1]] : order[i];
+  }
+  return places;
+}
+
+std::vector<MeshEdge> edgesOf(const Mesh& mesh) {
+  const std::vector<uint32_t> places = placesOf(mesh);
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> third;  // vertices beside an edge
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const std::array<uint32_t, 3> corner{places[mesh.indices[i]], places[mesh.indices[i + 1]],
+                                         places[mesh.indices[i + 2]]};
+    const bool flat = corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0];
+    for (size_t k = 0; !flat && k < 3; ++k) {
+      third[std::minmax({corner[k], corner[(k + 1) % 3]})].push_back(corner[(k + 2) % 3]);
+    }
+  }
+  std::vector<MeshEdge> edges;
+  edges.reserve(third.size());
+  for (const auto& [ends, beside] : third) {
+    const auto at = [&](uint32_t i) { return mesh.vertices[i].position; };
+    edges.push_back({at(ends.first), at(ends.second), at(beside.front()), at(beside.back()), beside.size() != 2});
+  }
+  return edges;
+}
+
+}  // namespace
+
+bool MeshEdge::outlines(const glm::dvec3& eye) const {
+  const glm::dvec3 normal = glm::cross(b - a, eye - a);
+  return border || glm::dot(normal, left - a) * glm::dot(normal, right - a) >= 0.0;
+}
+
+MeshOutline meshOutline(const Mesh& mesh) {
+  const bool small = mesh.indices.size() <= 3 * mostTriangles;
+  return {.points = outlinePoints(mesh), .edges = small ? edgesOf(mesh) : std::vector<MeshEdge>()};
+}
+
+// Directions on a Fibonacci lattice: Gonzalez, "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude
+// Lattices" (2010).
+std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
+  std::vector<glm::dvec3> points;
+  if (mesh.vertices.size() <= mostPoints) {
+    for (const Vertex& vertex : mesh.vertices) {
+      points.push_back(vertex.position);
+    }
+    return points;
+  }
+  std::vector<size_t> farthest;
+  for (size_t i = 0; i < mostPoints; ++i) {
+    const double y = 1.0 - (2.0 * i + 1.0) / mostPoints;
+    const double angle = 2.0 * std::numbers::pi * std::numbers::phi * static_cast<double>(i);
+    const glm::dvec3 d(std::sqrt(1.0 - y * y) * std::cos(angle), y, std::sqrt(1.0 - y * y) * std::sin(angle));
+    const auto most = std::max_element(
+        mesh.vertices.begin(), mesh.vertices.end(),
+        [&](const Vertex& a, const Vertex& b) { return glm::dot(a.position, d) < glm::dot(b.position, d); });
+    farthest.push_back(static_cast<size_t>(most - mesh.vertices.begin()));
+  }
+  std::sort(farthest.begin(), farthest.end());
+  farthest.erase(std::unique(farthest.begin(), farthest.end()), farthest.end());
+  for (const size_t i : farthest) {
+    points.push_back(mesh.vertices[i].position);
+  }
+  return points;
+}
+
+}  // namespace speculum

@@ -1,0 +1,91 @@
+#include "systems/texel_probe.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace speculum {
+
+TexelProbe::TexelProbe(Renderer& renderer) : renderer_(renderer), device_(renderer.device()) {}
+
+const Pipeline& TexelProbe::pipeline(bool multisampled) {
+  std::unique_ptr<Pipeline>& pipeline = multisampled ? multisampled_ : single_;
+  if (!pipeline) {
+    pipeline = std::make_unique<Pipeline>(
+        renderer_.pipelines(),
+        ComputePipelineDesc{.name = "probe texel",
+                            .comp = multisampled ? "probe_texel_samples.comp" : "probe_texel.comp",
+                            .setLayouts = {layout_.get()},
+                            .pushConstantBytes = sizeof(ProbeConstants)});
+  }
+  return *pipeline;
+}
+
+void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel) {
+  collect();
+  if (!layout_) {
+    constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT;
+    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
+                                 DescriptorBinding{1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages}};
+    layout_ = createDescriptorSetLayout(device_, bindings, "probe texel");
+  }
+  Slot& slot = slots_[frame.index];
+  if (!slot.result) {
+    slot.result = Buffer(device_, sizeof(ProbedTexel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
+                         "probe texel " + std::to_string(frame.index));
+  }
+  slot.asked = {.texel = texel, .depth = image.format() == depthFormat};
+  slot.frame = frame.number;
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  DescriptorWriter()
+      .image(0, descriptor)
+      .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slot.result.descriptor())
+      .update(device_, set);
+  const Pipeline& with = pipeline(image.samples() != VK_SAMPLE_COUNT_1_BIT);
+  device_.beginLabel(frame.commands, "probe texel");
+  device_.barriers().targetToCheck(frame.commands, image);
+  with.bind(frame.commands);
+  with.bindSet(frame.commands, 0, set);
+  with.push(frame.commands, ProbeConstants{texel.x, texel.y});
+  vkCmdDispatch(frame.commands, 1, 1, 1);
+  device_.barriers().checkToWrite(frame.commands, image);
+  device_.barriers().checkToHost(frame.commands);
+  device_.endLabel(frame.commands);
+}
+
+void TexelProbe::release() {
+  collect();
+  value_.reset();
+  if (std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.frame != 0; })) {
+    return;
+  }
+  single_.reset();
+  multisampled_.reset();
+  layout_.reset();
+  slots_ = {};
+}
+
+const std::optional<TexelValue>& TexelProbe::value() {
+  collect();
+  return value_;
+}
+
+void TexelProbe::collect() {
+  for (Slot& slot : slots_) {
+    if (slot.frame == 0 || slot.frame > renderer_.timings().frame) {
+      continue;
+    }
+    const uint64_t frame = std::exchange(slot.frame, 0);
+    if (value_ && frame < valueFrame_) {
+      continue;
+    }
+    ProbedTexel probed{};
+    std::memcpy(&probed, slot.result.mapped(), sizeof probed);
+    valueFrame_ = frame;
+    value_ = slot.asked;
+    value_->value = value_->depth ? glm::vec4(0.0f) : probed.mean;
+    value_->storedDepth = value_->depth ? probed.first.r : 0.0f;
+  }
+}
+
+}  // namespace speculum

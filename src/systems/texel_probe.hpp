@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "core/renderer.hpp"
+#include "systems/gpu_types.hpp"
+
+namespace speculum {
+
+// What a target holds at one texel.
+struct TexelValue {
+  glm::ivec2 texel{0};      // from the target's top left
+  bool depth = false;       // of depth: `value` is nothing then
+  glm::vec4 value{0.0f};    // linear radiance, disparity in 1/m; the mean of the texel's samples
+  float storedDepth = 0.0;  // of the first sample; near plane / metres along the view, 0: infinitely far
+};
+
+// Reads a texel of a target back from the GPU. Nothing exists there before probe() and after release().
+class TexelProbe {
+ public:
+  explicit TexelProbe(Renderer& renderer);
+
+  // Of a colour target or a kept depth that can be sampled; `descriptor` is the image's. Afterwards it is as before.
+  void probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel);
+  // Gives the GPU's objects back as soon as the frames that were probed have finished, and forgets the value.
+  void release();
+  // Of the last probed frame that has finished; nothing if there is none.
+  const std::optional<TexelValue>& value();
+  size_t pipelineCount() const { return (single_ ? 1u : 0u) + (multisampled_ ? 1u : 0u); }
+
+ private:
+  struct Slot {
+    Buffer result;
+    TexelValue asked;
+    uint64_t frame = 0;  // number of the frame that probes; 0: none
+  };
+  const Pipeline& pipeline(bool multisampled);
+  void collect();
+
+  Renderer& renderer_;
+  Device& device_;
+  DescriptorSetLayoutHandle layout_;
+  std::unique_ptr<Pipeline> single_;
+  std::unique_ptr<Pipeline> multisampled_;
+  std::array<Slot, framesInFlight> slots_;
+  std::optional<TexelValue> value_;
+  uint64_t valueFrame_ = 0;
+};
+
+}  // namespace speculum

@@ -1,0 +1,193 @@
+// The tree of passes, and the outline of the mirror that is pointed at in it.
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "ui/panels.hpp"
+#include "ui/pass_tree.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+std::string metres(const std::optional<double>& value) {
+  if (!value) {
+    return "never";
+  }
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", *value);
+  return text.data();
+}
+
+void depthResolution(const UiPass& pass, ClipMethod inUse) {
+  ImGui::TextUnformatted(pass.resolution ? metres(gapWith(*pass.resolution, inUse)).c_str() : "");
+  if (!pass.resolution || !ImGui::IsItemHovered()) {
+    return;
+  }
+  std::string text = "metres between surfaces seen at " + std::to_string(static_cast<int>(readoutAngle)) +
+                     " degrees that depth keeps in order\nwhere the pass sees farthest, " +
+                     metres(pass.resolution->distance) + " m from its eye";
+  for (const auto& [clip, name] : {std::pair(ClipMethod::clipDistance, "clip distance"),
+                                   std::pair(ClipMethod::oblique, "oblique"), std::pair(ClipMethod::none, "none")}) {
+    text +=
+        std::string("\n") + name + ": " + metres(gapWith(*pass.resolution, clip)) + (clip == inUse ? "  (in use)" : "");
+  }
+  ImGui::SetTooltip("%s", text.c_str());
+}
+
+// In the tree the last mirror of a path says enough.
+std::string ownName(const std::string& path) {
+  constexpr std::string_view kind = "mirror ";
+  const size_t last = path.rfind(" > ");
+  return last != std::string::npos ? path.substr(last + 3) : path.starts_with(kind) ? path.substr(kind.size()) : path;
+}
+
+// From the cell on over those to its right, which are empty, to the window's edge.
+void textAcrossColumns(const std::string& text) {
+  const ImVec2 corner = ImGui::GetWindowPos();
+  const ImVec2 size = ImGui::GetWindowSize();
+  const float top = corner.y + ImGui::GetFrameHeight();  // below the title
+  ImGui::PushClipRect({ImGui::GetCursorScreenPos().x, top}, {corner.x + size.x, corner.y + size.y}, false);
+  ImGui::TextDisabled("%s", text.c_str());
+  ImGui::PopClipRect();
+}
+
+void skippedRows(UiModel& model, const PassNode& node) {
+  if (node.skipped.empty()) {
+    return;
+  }
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  const std::string title = std::to_string(node.skipped.size()) + " skipped###skipped";
+  const bool open = ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
+  notePlace(model, "skipped in " + model.passes[static_cast<size_t>(node.pass)].name);
+  if (!open) {
+    return;
+  }
+  for (const int i : node.skipped) {
+    const UiSkipped& skip = model.skipped[static_cast<size_t>(i)];
+    const std::string name = ownName(skip.path);
+    const std::string why = skip.reason + (skip.detail.empty() ? "" : " (" + skip.detail + ")");
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", name.c_str());
+    const bool nameHovered = ImGui::IsItemHovered();
+    ImGui::TableNextColumn();
+    textAcrossColumns(why);
+    notePlace(model, "skipped." + skip.path);
+    if (nameHovered || ImGui::IsItemHovered()) {
+      model.hoveredSkipped = i;
+      ImGui::SetTooltip("%s\n%s", skip.path.c_str(), why.c_str());
+    }
+  }
+  ImGui::TreePop();
+}
+
+void passRow(UiModel& model, const PassNode& node) {
+  const UiPass& pass = model.passes[static_cast<size_t>(node.pass)];
+  const bool leaf = node.children.empty() && node.skipped.empty();
+  ImGuiTreeNodeFlags flags =
+      ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_DefaultOpen;
+  flags |= leaf ? ImGuiTreeNodeFlags_Leaf : 0;
+  flags |= model.debugPass == node.pass ? ImGuiTreeNodeFlags_Selected : 0;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  const std::string name = ownName(pass.name);
+  const std::string id = pass.name + "/" + std::to_string(node.pass);
+  const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
+  if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
+    model.hoveredPass = node.pass;
+  }
+  notePlace(model, "pass." + pass.name);
+  if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
+    model.debugPass = model.debugPass == node.pass ? -1 : node.pass;
+    model.passClicked = true;
+  }
+  ImGui::TableNextColumn();
+  ImGui::Text("%.3f", pass.gpuMs);
+  ImGui::TableNextColumn();
+  ImGui::Text("%u", pass.draws);
+  ImGui::TableNextColumn();
+  ImGui::Text("%.0f", pass.areaPx);
+  ImGui::TableNextColumn();
+  depthResolution(pass, model.settings.reflection.clip);
+  if (!open) {
+    return;
+  }
+  for (const PassNode& child : node.children) {
+    passRow(model, child);
+  }
+  skippedRows(model, node);
+  ImGui::TreePop();
+}
+
+// Dark below light: it can be seen on any picture.
+template <typename Draw>
+void inTwoTones(const Draw& draw) {
+  const float line = std::max(1.0f, 0.14f * ImGui::GetFontSize());
+  draw(IM_COL32(0, 0, 0, 190), 2.5f * line);
+  draw(IM_COL32(255, 196, 40, 255), line);
+}
+
+void skippedOutline(const UiModel& model) {
+  const auto hovered = static_cast<size_t>(model.hoveredSkipped);
+  if (hovered >= model.skipped.size() || model.skipped[hovered].mirrors != model.outlinedSkipped) {
+    return;
+  }
+  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+  const auto onScreen = [&](const glm::dvec2& p) {
+    return ImVec2(static_cast<float>(p.x) / pixels.x, static_cast<float>(p.y) / pixels.y);
+  };
+  inTwoTones([&](ImU32 color, float thickness) {
+    for (const PixelLine& line : model.skippedOutline) {
+      ImGui::GetBackgroundDrawList()->AddLine(onScreen(line.a), onScreen(line.b), color, thickness);
+    }
+  });
+}
+
+}  // namespace
+
+void passOutline(const UiModel& model) {
+  skippedOutline(model);
+  if (model.hoveredPass < 0 || model.hoveredPass >= static_cast<int>(model.passes.size())) {
+    return;
+  }
+  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+  std::vector<ImVec2> corners;
+  for (const glm::vec2& corner : model.passes[static_cast<size_t>(model.hoveredPass)].outline) {
+    corners.emplace_back(corner.x / pixels.x, corner.y / pixels.y);
+  }
+  const int count = static_cast<int>(corners.size());
+  inTwoTones([&](ImU32 color, float thickness) {
+    ImGui::GetBackgroundDrawList()->AddPolyline(corners.data(), count, color, ImDrawFlags_Closed, thickness);
+  });
+}
+
+void passes(UiModel& model) {
+  if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
+    return;
+  }
+  ImGui::TextWrapped("CPU %.2f ms   GPU %.2f ms   %.1f MiB of device memory", model.cpuMs, model.gpuMs,
+                     static_cast<double>(model.deviceBytes) / (1024.0 * 1024.0));
+  constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+  if (!ImGui::BeginTable("passes", 5, flags)) {
+    return;
+  }
+  const float figure = 4.0f * ImGui::GetFontSize();
+  ImGui::TableSetupColumn("pass (click it)", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableSetupColumn("draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * figure);
+  ImGui::TableSetupColumn("pixels", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableSetupColumn("depth m", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableHeadersRow();
+  ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.6f * ImGui::GetFontSize());
+  for (const PassNode& node : passTree(model.passes, model.skipped)) {
+    passRow(model, node);
+  }
+  ImGui::PopStyleVar();
+  ImGui::EndTable();
+}
+
+}  // namespace speculum::panels
