@@ -135,7 +135,10 @@ TEST_F(EditWindow, EscapeStopsTheDragThenDeselects) {
   EXPECT_FALSE(edit().selected);
   EXPECT_EQ(edit().undo, "");
   EXPECT_EQ(before, bare());
-  xdotool({"key", "--window", windowId(), "Escape"});
+  press("Escape");
+  press("Escape");
+  EXPECT_FALSE(demo_->window().shouldClose());
+  xdotool({"key", "--window", windowId(), "ctrl+q"});
   EXPECT_TRUE(stepUntilClosed()) << "nothing was changed";
   expectQuiet();
 }

@@ -166,6 +166,49 @@ TEST_F(DemoKeys, HelpListsTheKeys) {
   expectQuiet();
 }
 
+TEST_F(DemoKeys, EscapeClosesWhatIsOnTopAndNeverQuits) {
+  const auto shown = [&](const std::string& key) {
+    const auto& widgets = demo_->model().widgets;
+    return std::any_of(widgets.begin(), widgets.end(), [&](const auto& widget) { return widget.first == key; });
+  };
+  press("n");
+  click("scene");
+  ASSERT_TRUE(shown("scene.no_mirror"));
+  press("Escape");
+  EXPECT_FALSE(shown("scene.no_mirror")) << "the list of scenes";
+  EXPECT_TRUE(demo_->model().edit.open);
+  press("F1");
+  press("Escape");
+  EXPECT_FALSE(demo_->model().help);
+  EXPECT_TRUE(demo_->model().edit.open);
+  press("Escape");
+  EXPECT_FALSE(demo_->model().edit.open);
+  EXPECT_TRUE(demo_->model().edit.selected);
+  press("Escape");
+  EXPECT_FALSE(demo_->model().edit.selected);
+  press("Escape");
+  EXPECT_FALSE(demo_->window().shouldClose());
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, AClickBelongsToWhatIsUnderItsOwnPosition) {
+  press("n");
+  ASSERT_TRUE(demo_->model().edit.selected);
+  const PixelRect box = widget("pause");
+  const auto x = std::to_string(box.x + box.width / 2);
+  const auto y = std::to_string(box.y + box.height / 2);
+  for (const bool paused : {true, false}) {
+    moveTo(width / 2, 30);
+    // All before the next frame.
+    xdotool({"mousemove", "--window", windowId(), x, y, "mousedown", "1", "mouseup", "1", "mousemove", "--window",
+             windowId(), std::to_string(width / 2), "30"});
+    run(5);
+    EXPECT_TRUE(demo_->model().edit.selected) << "no click into the picture";
+    EXPECT_EQ(demo_->model().paused, paused);
+  }
+  expectQuiet();
+}
+
 TEST(KeyHelpList, IsInTheReadme) {
   std::ifstream file(sourceFile("README.md"));
   std::stringstream readme;

@@ -69,7 +69,8 @@ TEST_F(DemoWindow, KeysHideThePanelAndQuit) {
   xdotool({"key", "--window", windowId(), "Tab"});
   run(5);
   EXPECT_EQ(picture().rgba[inPanel], with.rgba[inPanel]);
-  xdotool({"key", "--window", windowId(), "Escape"});
+  press("Escape");
+  xdotool({"key", "--window", windowId(), "ctrl+q"});
   const auto end = Clock::now() + std::chrono::seconds(10);
   while (demo_->step() && Clock::now() < end) {
   }

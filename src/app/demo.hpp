@@ -103,8 +103,10 @@ class Demo {
   void saveScene();
   void askWhere();
   bool saveSceneTo(const std::filesystem::path& file);
+  // demo_leave.cpp
+  void closeTop();
+  bool hasUnsaved() const;
   void goOn();
-  bool mayClose();
   bool mayLeave();
   bool closes();
 
@@ -134,9 +136,10 @@ class Demo {
   std::optional<glm::dvec2> pressed_;              // screen coordinates; the pointer went down over the picture
   std::optional<std::filesystem::path> nextFile_;  // to be opened, while unsaved changes are asked about
   std::optional<uint64_t> discarded_;              // revision of the scene whose changes were given up
+  Settings discardedSettings_;                     // likewise
   Settings settingsAtLoad_;                        // before the person changed any
   uint64_t shownStructure_ = 0;                    // of the scene, in the last frame
-  bool closing_ = false;                           // likewise
+  bool closing_ = false;                           // once unsaved changes are answered for
   bool leaves_ = false;                            // with the answer
   std::filesystem::path refused_;                  // that was not overwritten; asked for again, it is
   bool holdsHandle_ = false;                       // what is pressed is a handle, not the picture

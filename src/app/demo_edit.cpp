@@ -1,4 +1,4 @@
-// The part of the window that edits the scene: what pointer and keys do to it, saving, questions about unsaved changes.
+// The part of the window that edits the scene: what pointer and keys do to it, and saving.
 #include <algorithm>
 #include <utility>
 
@@ -80,7 +80,7 @@ void Demo::pressPointer(const MouseButtonEvent& event) {
   const bool left = event.button == MouseButton::left;
   if (event.pressed) {
     holdsHandle_ = holdsHandle_ && editor_->dragging();
-    if (ui_ && !ui_->wantsMouse() && !editor_->dragging()) {
+    if (ui_ && !ui_->takesPointer(cursorX_, cursorY_) && !editor_->dragging()) {
       pressed_ = {cursorX_, cursorY_};
       pressedButton_ = event.button;
       if (left && lookAtScene(time_)) {
@@ -151,13 +151,7 @@ bool Demo::handleEditKey(const KeyEvent& event) {
     case Key::del:
       return editor_->remove(), true;
     case Key::escape:
-      if (editor_->dragging()) {
-        return editor_->cancelDrag(), true;
-      }
-      if (editor_->document().selection()) {
-        return editor_->select({}), true;
-      }
-      return false;
+      return closeTop(), true;
     default:
       return false;
   }
@@ -183,7 +177,7 @@ void Demo::showEdit(double seconds) {
   editor_->show(model_.edit);
   const double next = time_ + (model_.paused ? 0.0 : seconds * model_.timeSpeed);
   if (editor_->document().selection() && lookAtScene(next)) {
-    const bool over = !ui_->wantsMouse() && !dragging_;
+    const bool over = !ui_->takesPointer(cursorX_, cursorY_) && !dragging_;
     model_.edit.overlay = editor_->overlay(look(), over ? std::optional(pointerPixel()) : std::nullopt);
   }
 }
@@ -299,47 +293,6 @@ bool Demo::saveSceneTo(const std::filesystem::path& file) {
     refused_ = file;
     return false;
   }
-}
-
-// With what unsaved changes were asked about for.
-void Demo::goOn() {
-  discarded_ = editor_->document().revision();
-  const std::optional<std::filesystem::path> file = std::exchange(nextFile_, std::nullopt);
-  if (std::exchange(closing_, false)) {
-    leaves_ = true;
-    return window_.requestClose();
-  }
-  if (file) {
-    openFile(*file);
-  }
-}
-
-// Whether the scene may be left as it is: unsaved changes are asked about, those that were given up only once.
-bool Demo::mayLeave() {
-  const bool given = discarded_ == editor_->document().revision();
-  if (given || options_.frames > 0 || !editor_->document().modified()) {
-    return true;
-  }
-  model_.edit.asksSave = !model_.edit.asksWhere;
-  return false;
-}
-
-// Whether the window may go: it stays while unsaved changes are asked about.
-bool Demo::closes() {
-  if (!window_.shouldClose()) {
-    return false;
-  }
-  if (leaves_ || options_.frames > 0 || !editor_->document().modified()) {
-    return true;
-  }
-  window_.refuseClose();
-  if (window_.iconified()) {
-    window_.restore();
-  }
-  closing_ = true;
-  model_.edit.asksSave = !model_.edit.asksWhere;
-  framesDue_ = std::max(framesDue_, 4);
-  return false;
 }
 
 }  // namespace speculum

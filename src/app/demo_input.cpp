@@ -31,7 +31,7 @@ void Demo::installInput() {
   callbacks.mouseButton = [this](const MouseButtonEvent& event) { pressPointer(event); };
   callbacks.cursor = [this](double x, double y) { movePointer(x, y); };
   callbacks.scroll = [this](double, double dy) {
-    if (!(ui_ && ui_->wantsMouse())) {
+    if (!(ui_ && ui_->takesPointer(cursorX_, cursorY_))) {
       camera_.zoom(dy);
     }
   };
@@ -40,7 +40,13 @@ void Demo::installInput() {
 }
 
 void Demo::handleKey(const KeyEvent& event) {
-  if (!event.pressed || !ui_ || handleQuestionKey(event) || ui_->wantsKeyboard() || handleEditKey(event)) {
+  if (!event.pressed || !ui_ || handleQuestionKey(event)) {
+    return;
+  }
+  if (event.key == Key::q && event.control) {
+    return window_.requestClose();
+  }
+  if (ui_->wantsKeyboard() || handleEditKey(event)) {
     return;
   }
   if (event.key == Key::period || event.key == Key::comma) {
@@ -53,8 +59,6 @@ void Demo::handleKey(const KeyEvent& event) {
 
 void Demo::handleSingleKey(const KeyEvent& event) {
   switch (event.key) {
-    case Key::escape:
-      return window_.requestClose();
     case Key::f1:
       model_.help = !model_.help;
       return ui_->setVisible(ui_->visible() || model_.help);

@@ -342,7 +342,7 @@ void inspector(UiModel& model) {
   if (model.edit.focus) {
     ImGui::SetNextWindowFocus();
   }
-  if (ImGui::Begin("Inspector", &model.edit.open)) {
+  if (ImGui::Begin(inspectorTitle, &model.edit.open)) {
     thingList(model);
     addButtons(model);
     historyButtons(model);

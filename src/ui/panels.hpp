@@ -7,6 +7,9 @@
 
 namespace speculum::panels {
 
+inline constexpr const char* helpTitle = "Keys";
+inline constexpr const char* inspectorTitle = "Inspector";
+
 // The sections of the panel, each within the current ImGui window.
 void message(const UiModel& model);
 void scene(UiModel& model);

@@ -3,14 +3,17 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "core/platform.hpp"
+#include "ui/glfw_input.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {
@@ -18,6 +21,7 @@ namespace speculum {
 namespace {
 
 constexpr float fontPixels = 15.0f;
+constexpr float edgeReach = 4.0f;  // screen coordinates around a window that belong to it, as in ImGui
 
 DescriptorPoolHandle createPool(Device& device) {
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 64};
@@ -56,9 +60,13 @@ SimpleUI::Context::~Context() {
 
 // The two halves of the backend, shut down in reverse.
 struct SimpleUI::Backend {
-  explicit Backend(Window& window) { ImGui_ImplGlfw_InitForVulkan(window.native(), true); }
+  explicit Backend(Window& window) {
+    ImGui_ImplGlfw_InitForVulkan(window.native(), false);
+    input.emplace(window.native());
+  }
   ~Backend() {
     shutdownVulkan();
+    input.reset();
     ImGui_ImplGlfw_Shutdown();
   }
   void shutdownVulkan() {
@@ -66,6 +74,7 @@ struct SimpleUI::Backend {
       ImGui_ImplVulkan_Shutdown();
     }
   }
+  std::optional<GlfwInput> input;
   bool vulkan = false;
 };
 
@@ -140,7 +149,7 @@ void SimpleUI::initVulkan() {
 void SimpleUI::build(UiModel& model) {
   prepareLook();
   ImGui_ImplVulkan_NewFrame();
-  ImGui_ImplGlfw_NewFrame();
+  backend_->input->newFrame();
   ImGui::NewFrame();
   model.widgets.clear();
   model.debugArea.reset();
@@ -300,8 +309,44 @@ void SimpleUI::record(const PassScope& scope) {
   ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), scope.commands());
 }
 
-bool SimpleUI::wantsMouse() const {
-  return ImGui::GetIO().WantCaptureMouse;
+// Of the frame before the event: the pointer may have come from elsewhere since.
+bool SimpleUI::takesPointer(double x, double y) const {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (!context.OpenPopupStack.empty() || (context.ActiveId != 0 && ImGui::IsAnyMouseDown())) {
+    return true;
+  }
+  const ImVec2 point(static_cast<float>(x), static_cast<float>(y));
+  return std::any_of(context.Windows.begin(), context.Windows.end(), [&](const ImGuiWindow* window) {
+    ImRect reach = window->OuterRectClipped;
+    reach.Expand((window->Flags & ImGuiWindowFlags_NoResize) == 0 ? edgeReach : 0.0f);
+    return window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&
+           reach.Contains(point);
+  });
+}
+
+bool SimpleUI::holdsEscape() const {
+  return !ImGui::GetCurrentContext()->OpenPopupStack.empty() || ImGui::IsAnyItemActive();
+}
+
+bool SimpleUI::closeTop(UiModel& model) {
+  const auto close = [&](const ImGuiWindow& window) {
+    const std::string_view name = window.Name;
+    const auto panel =
+        std::find_if(panelNames.begin(), panelNames.end(), [&](const PanelName& p) { return p.name == name; });
+    bool* open = name == panels::helpTitle        ? &model.help
+                 : name == panels::inspectorTitle ? &model.edit.open
+                 : panel != panelNames.end()      ? &(choices_.*panel->open)
+                 : name == "Dear ImGui Demo"      ? &showDemoWindow_
+                                                  : nullptr;
+    return open && window.Active && !window.Hidden && std::exchange(*open, false);
+  };
+  const ImVector<ImGuiWindow*>& windows = ImGui::GetCurrentContext()->WindowsFocusOrder;  // the last one is the top
+  for (int i = windows.Size - 1; i >= 0; --i) {
+    if (close(*windows[i])) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool SimpleUI::wantsKeyboard() const {
@@ -313,7 +358,7 @@ bool SimpleUI::navigating() const {
 }
 
 bool SimpleUI::wantsFrames() const {
-  return wantsKeyboard() || ImGui::IsAnyMouseDown();
+  return wantsKeyboard() || ImGui::IsAnyMouseDown() || backend_->input->waiting();
 }
 
 }  // namespace speculum

@@ -26,10 +26,14 @@ class SimpleUI {
   void build(UiModel& model);
   void record(const PassScope& scope);
 
-  bool wantsMouse() const;     // the pointer is over the panel or holds one of its widgets
-  bool wantsKeyboard() const;  // a text field is being edited
-  bool navigating() const;     // a widget is chosen by keyboard or gamepad
-  bool wantsFrames() const;    // something of the panel changes by itself: a text cursor, a button that is held
+  // Whether what the pointer does there is the panel's: one of its windows is there, or it holds one of its widgets.
+  // Screen coordinates of the window.
+  bool takesPointer(double x, double y) const;
+  bool holdsEscape() const;       // ImGui closes something at Esc by itself, or lets go of it
+  bool closeTop(UiModel& model);  // the window on top, but for the panel itself; false if there is none
+  bool wantsKeyboard() const;     // a text field is being edited
+  bool navigating() const;        // a widget is chosen by keyboard or gamepad
+  bool wantsFrames() const;       // something of the panel changes by itself: a text cursor, a button that is held
   bool visible() const { return visible_; }
   void setVisible(bool visible) { visible_ = visible; }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
-constexpr std::array<KeyHelp, 33> keys{{
+constexpr std::array<KeyHelp, 34> keys{{
     {"click", "select what is there, in mirrors too; again: the mirror it is seen in"},
     {"G", "handles that move, handles that turn (Ctrl while dragging: steps)"},
     {"N Shift+N", "select the next thing, the one before"},
@@ -45,7 +45,8 @@ constexpr std::array<KeyHelp, 33> keys{{
     {"F11", "full screen and back"},
     {"Tab", "hide or show the panel"},
     {"F1", "this list"},
-    {"Esc", "stop dragging, deselect, quit"},
+    {"Esc", "stop dragging; close what is on top; deselect"},
+    {"Ctrl+Q", "quit"},
 }};
 
 constexpr std::array<KeyHelp, 9> gamepad{{
@@ -127,7 +128,7 @@ void help(UiModel& model) {
   }
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowBgAlpha(1.0f);  // text over text cannot be read
-  if (ImGui::Begin("Keys", &model.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+  if (ImGui::Begin(helpTitle, &model.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     helpTable("keys", keys);
     ImGui::Spacing();
     ImGui::TextDisabled("gamepad");
