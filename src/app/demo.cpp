@@ -32,7 +32,6 @@ Demo::Demo(const Options& options)
   installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
   findScenes();
-  showGallery();
   model_.settings = loaded_->settings;
   model_.sceneSettings = loaded_->settings;
   showDevice();
@@ -40,22 +39,6 @@ Demo::Demo(const Options& options)
   camera_.reset(loaded_->scene.camera);
   startEditing();
   last_ = Clock::now();
-}
-
-// Shipped scenes first; then a file from elsewhere.
-void Demo::findScenes() {
-  std::vector<std::filesystem::path> shipped;
-  for (const auto& entry : std::filesystem::directory_iterator(dataDirectory("scenes"))) {
-    if (entry.path().extension() == ".toml") {
-      shipped.push_back(entry.path());
-    }
-  }
-  std::sort(shipped.begin(), shipped.end());
-  for (const std::filesystem::path& file : shipped) {
-    noteSceneFile(file);
-  }
-  shownScene_ = static_cast<int>(noteSceneFile(loaded_->scene.file));
-  model_.scene = shownScene_;
 }
 
 void Demo::applyModel() {
@@ -79,6 +62,12 @@ void Demo::applyModel() {
     }
     model_.command += editor_->document().modified() ? "  (the scene as it is on disk: save it first)" : "";
   }
+  if (model_.copyCommand) {
+    tell("copied: " + model_.command);
+  }
+  if (model_.screenshot) {
+    shot_ = Shot::window;
+  }
   if (model_.copyHistory) {
     window_.setClipboard(model_.history.csv());
   }
@@ -100,6 +89,7 @@ void Demo::saveShot() {
   if (recorder_.running()) {
     recorder_.add(pictureOf(renderer_.readback()));
     model_.picture = recorder_.message();
+    show(model_.picture);
   }
   if (std::exchange(shot_, Shot::none) == Shot::none) {
     return;
@@ -111,6 +101,7 @@ void Demo::saveShot() {
   } catch (const std::exception& error) {
     model_.picture = "not saved: " + std::string(error.what());
   }
+  tell(model_.picture);
 }
 
 // Of the frame that was drawn last.
@@ -138,6 +129,7 @@ void Demo::drawFrame(double seconds) {
   seconds = recorder_.running() ? 1.0 / Recorder::framesPerSecond : seconds;
   moveCamera(seconds);
   showEdit(seconds);
+  followStatus();
   ui_->build(model_);
   applyModel();
   time_ += model_.paused ? 0.0 : seconds * model_.timeSpeed;
@@ -236,6 +228,7 @@ void Demo::fillEffects(const FramePlan& plan, const SceneState& state, const Set
 void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Settings& drawn) {
   const FrameTimings& timings = renderer_.timings();
   model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
+  model_.sceneSky = loaded_->scene.environment.sky.has_value();
   model_.gpuMs = timings.gpuMs;
   model_.deviceBytes = device_.allocatedBytes();
   showMemory();

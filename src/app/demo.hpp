@@ -55,6 +55,11 @@ class Demo {
   void openDropped(const std::vector<std::filesystem::path>& files);
   void chooseScene(int index);
   void followLoading();
+  // demo_status.cpp
+  void tell(const std::string& text);  // in the panel's status line and the log
+  void show(const std::string& text);  // in the line alone
+  void followStatus();
+  bool statusFades() const;
   void showScene(std::unique_ptr<LoadedScene> scene);
   void moveCamera(double seconds);
   glm::dvec3 heldDirection() const;
@@ -101,6 +106,8 @@ class Demo {
   void actOn(EditAction action);
   void answer(EditAction action);
   void saveScene();
+  void undo();
+  void redo();
   void askWhere();
   bool saveSceneTo(const std::filesystem::path& file);
   // demo_leave.cpp
@@ -151,6 +158,7 @@ class Demo {
   bool gamepadChanged_ = false;  // since the last step
   int lookedFrom_ = -1;          // the mirror, index into Scene::mirrors; -1: none yet
   Recorder recorder_;
+  Clock::time_point statusSince_;
   double time_ = 0.0;  // seconds of animation
   Clock::time_point last_;
   int framesDue_ = 0;       // to draw, although nothing changes any more

@@ -4,6 +4,7 @@
 
 #include "app/demo.hpp"
 #include "core/platform.hpp"
+#include "edit/save_place.hpp"
 
 namespace speculum {
 
@@ -16,6 +17,11 @@ bool isShipped(const std::filesystem::path& file) {
   std::error_code none;
   const std::filesystem::path below = std::filesystem::relative(file, dataDirectory("scenes"), none);
   return !below.empty() && *below.begin() != "..";
+}
+
+// Where scenes are saved unless a person names another place; made when it is needed.
+std::filesystem::path ownFolder() {
+  return documentsDir() / "Speculum";
 }
 
 }  // namespace
@@ -160,9 +166,9 @@ bool Demo::handleEditKey(const KeyEvent& event) {
 bool Demo::handleControlKey(const KeyEvent& event) {
   switch (event.key) {
     case Key::z:
-      return event.shift ? editor_->redo() : editor_->undo(), true;
+      return event.shift ? redo() : undo(), true;
     case Key::y:
-      return editor_->redo(), true;
+      return redo(), true;
     case Key::d:
       return event.repeat ? void() : editor_->duplicate(), true;
     case Key::s:
@@ -175,6 +181,7 @@ bool Demo::handleControlKey(const KeyEvent& event) {
 // As the frame that is drawn next shows it.
 void Demo::showEdit(double seconds) {
   editor_->show(model_.edit);
+  model_.edit.unsavedSettings = model_.edit.open && !settingChanges(loaded_->settings, model_.settings).empty();
   const double next = time_ + (model_.paused ? 0.0 : seconds * model_.timeSpeed);
   if (editor_->document().selection() && lookAtScene(next)) {
     const bool over = !ui_->takesPointer(cursorX_, cursorY_) && !dragging_;
@@ -212,13 +219,29 @@ void Demo::actOn(EditAction action) {
       return editor_->duplicate();
     case EditAction::remove:
       return editor_->remove();
+    case EditAction::lookOut:
+      return lookFromMirror(CameraController::MirrorSide::front);
+    case EditAction::lookBehind:
+      return lookFromMirror(CameraController::MirrorSide::back);
     case EditAction::undo:
-      return editor_->undo();
+      return undo();
     case EditAction::redo:
-      return editor_->redo();
+      return redo();
     default:
       return answer(action);
   }
+}
+
+void Demo::undo() {
+  const std::string what = editor_->document().undoLabel();
+  editor_->undo();
+  tell(what.empty() ? "nothing to undo" : "undone: " + what);
+}
+
+void Demo::redo() {
+  const std::string what = editor_->document().redoLabel();
+  editor_->redo();
+  tell(what.empty() ? "nothing to redo" : "redone: " + what);
 }
 
 void Demo::answer(EditAction action) {
@@ -270,16 +293,26 @@ void Demo::saveScene() {
 void Demo::askWhere() {
   const std::filesystem::path file = editor_->document().usualFile();
   model_.edit.note.clear();
-  model_.edit.saveAs = (isWritable(file) ? file : documentsDir() / "Speculum" / file.filename()).string();
+  const bool usual = isWritable(file) && !isShipped(file);
+  model_.edit.saveAs = (usual ? file : ownFolder() / file.filename()).string();
   model_.edit.asksWhere = true;
 }
 
-bool Demo::saveSceneTo(const std::filesystem::path& file) {
+bool Demo::saveSceneTo(const std::filesystem::path& named) {
+  std::filesystem::path file = named;
   try {
-    std::error_code none;
-    std::filesystem::create_directories(file.parent_path(), none);
+    file = sceneFileNamed(named);
+    if (file.parent_path() == ownFolder()) {
+      std::error_code none;
+      std::filesystem::create_directories(ownFolder(), none);
+    }
+    requireFolder(file);
+    if (isShipped(file) && file != refused_) {
+      throw SaveError(file.string() + ": not saved: it comes with the program");
+    }
     editor_->document().save(file, settingChanges(settingsAtLoad_, model_.settings), file == refused_);
     model_.edit.note = "saved " + file.string();
+    tell(model_.edit.note);
     shownScene_ = static_cast<int>(noteSceneFile(file));
     model_.scene = shownScene_;
     loaded_->settings = model_.settings;

@@ -102,12 +102,14 @@ void Demo::stepTime(int steps) {
 
 void Demo::toggleRecording(bool bare) {
   if (recorder_.running()) {
-    return recorder_.stop();
+    recorder_.stop();
+    return tell(model_.picture);
   }
   try {
     recorder_.start(loaded_->scene.file.stem().string(), bare);
   } catch (const std::filesystem::filesystem_error& error) {
     model_.picture = "not recorded: " + std::string(error.what());
+    tell(model_.picture);
   }
 }
 
@@ -144,7 +146,7 @@ bool Demo::changing() {
 bool Demo::rest() {
   rested_ = true;
   window_.waitEvents(restSeconds);
-  return ui_->wantsFrames() || working_;
+  return ui_->wantsFrames() || working_ || statusFades();
 }
 
 bool Demo::step() {

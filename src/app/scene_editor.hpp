@@ -82,7 +82,7 @@ class SceneEditor {
   PictureView clickedImage(const Look& look) const;
   Gizmo gizmo(const Look& look) const;
   std::span<const glm::dvec3> outlinePoints();
-  glm::dvec3 placeAhead(const Look& look, double part);
+  glm::dvec3 placeAhead(const Look& look, double part, double least = 0.0);
   std::string dragLabel() const;
 
   Picker& picker();

@@ -17,6 +17,8 @@ enum class EditAction {
   addMirror,
   duplicate,
   remove,
+  lookOut,  // of the selected mirror
+  lookBehind,
   undo,
   redo,
   save,
@@ -43,6 +45,7 @@ struct UiEdit {
   std::vector<std::pair<Selection, std::string>> things;  // all of the scene, with their names
   Selection selected;                                     // changed by the person
   std::vector<std::string> through;  // mirrors that the selected thing was picked through, from the eye
+  std::vector<int> throughMirrors;   // the same, indices into Scene::mirrors
   Thing thing;                       // the selected one; edited in place
   bool edited = false;               // set by the panel: `thing` was
   bool held = false;                 // set by the panel: a field is being edited, what follows belongs to the same step
@@ -53,12 +56,13 @@ struct UiEdit {
   std::string redo;
   std::string file;  // of the scene
   bool unsaved = false;
-  bool asksSave = false;   // unsaved changes would be lost: the question is shown
-  bool asksWhere = false;  // the question for a file is shown
-  bool enter = false;      // the key was pressed in a question; taken by the panel. Dear ImGui 1.86 misses
-                           // keys that go down and up between two frames
-  std::string saveAs;      // the file that is proposed; changed by the person
-  std::string note;        // what was saved, or why it was not
+  bool unsavedSettings = false;  // differ from those that were saved or loaded
+  bool asksSave = false;         // unsaved changes would be lost: the question is shown
+  bool asksWhere = false;        // the question for a file is shown
+  bool enter = false;            // the key was pressed in a question; taken by the panel. Dear ImGui 1.86 misses
+                                 // keys that go down and up between two frames
+  std::string saveAs;            // the file that is proposed; changed by the person
+  std::string note;              // what was saved, or why it was not
   EditAction action = EditAction::none;  // set by the panel
   UiOverlay overlay;
 };

@@ -27,17 +27,20 @@ class Fields {
   bool vec(const char* key, const char* label, glm::dvec3& v, double speed, const char* tip) {
     const double low = -farthest;
     const double high = farthest;
+    number_ = true;
     return done(ImGui::DragScalarN(label, ImGuiDataType_Double, &v.x, 3, static_cast<float>(speed), &low, &high, "%.3f",
                                    ImGuiSliderFlags_AlwaysClamp),
                 key, tip);
   }
   bool number(const char* key, const char* label, double& v, double speed, double low, double high, const char* format,
               const char* tip, ImGuiSliderFlags flags = 0) {
+    number_ = true;
     return done(ImGui::DragScalar(label, ImGuiDataType_Double, &v, static_cast<float>(speed), &low, &high, format,
                                   flags | ImGuiSliderFlags_AlwaysClamp),
                 key, tip);
   }
   bool count(const char* key, const char* label, int& v, int low, int high, const char* tip) {
+    number_ = true;
     return done(ImGui::DragInt(label, &v, 0.1f, low, high, "%d", ImGuiSliderFlags_AlwaysClamp), key, tip);
   }
   bool check(const char* key, const char* label, bool& v, const char* tip) {
@@ -89,13 +92,15 @@ class Fields {
   bool done(bool changed, const char* key, const char* tip) {
     notePlace(model_, std::string("edit.") + key);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
-      ImGui::SetTooltip("%s", tip);
+      ImGui::SetTooltip("%s%s", tip, std::exchange(number_, false) ? "\ndrag, or click to type" : "");
     }
+    number_ = false;
     model_.edit.edited = model_.edit.edited || changed;
     return changed;
   }
 
   UiModel& model_;
+  bool number_ = false;  // the widget is a number
 };
 
 constexpr const char* rotationTip = "pitch about X, yaw about Y, roll about Z, degrees; R = Ry Rx Rz";
@@ -172,7 +177,7 @@ void mirrorShape(Fields& fields, Mirror& mirror) {
 }
 
 void mirrorFields(Fields& fields, Mirror& mirror) {
-  fields.text("name", "name", mirror.name, "figures name the mirror by it");
+  fields.text("name", "name", mirror.name, "what lists, passes and statistics call the mirror");
   mirrorShape(fields, mirror);
   fields.color("reflectance", "reflectance", mirror.reflectance,
                "share of light reflected, by channel; at normal incidence with Fresnel");
@@ -256,6 +261,8 @@ void addButtons(UiModel& model) {
   notePlace(model, "edit.model");
 }
 
+constexpr const char* undoneIs = "\n(things and bookmarks; settings go back by the arrows at their lines' ends)";
+
 void historyButtons(UiModel& model) {
   const UiEdit& edit = model.edit;
   const bool any = static_cast<bool>(edit.selected);
@@ -263,24 +270,30 @@ void historyButtons(UiModel& model) {
   ImGui::SameLine();
   actionButton(model, "delete", "delete", EditAction::remove, any, "Del");
   ImGui::SameLine();
-  actionButton(model, "undo", "undo", EditAction::undo, !edit.undo.empty(), "Ctrl+Z   " + edit.undo);
+  actionButton(model, "undo", "undo", EditAction::undo, !edit.undo.empty(), "Ctrl+Z   " + edit.undo + undoneIs);
   ImGui::SameLine();
-  actionButton(model, "redo", "redo", EditAction::redo, !edit.redo.empty(), "Ctrl+Shift+Z   " + edit.redo);
-  if (!edit.undo.empty()) {
-    ImGui::TextDisabled("undo: %s", edit.undo.c_str());
-  }
-  if (!edit.redo.empty()) {
-    ImGui::TextDisabled("redo: %s", edit.redo.c_str());
-  }
-  actionButton(model, "save", "save", EditAction::save, edit.unsaved, "Ctrl+S   " + edit.file);
+  actionButton(model, "redo", "redo", EditAction::redo, !edit.redo.empty(), "Ctrl+Shift+Z   " + edit.redo + undoneIs);
+  actionButton(model, "save", "save", EditAction::save, edit.unsaved || edit.unsavedSettings, "Ctrl+S   " + edit.file);
   ImGui::SameLine();
   actionButton(model, "save as ...", "save_as", EditAction::askWhere, true, "Ctrl+Shift+S");
   ImGui::SameLine();
-  ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : "saved");
-  if (!edit.note.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s", edit.note.c_str());
-    ImGui::PopStyleColor();
+  ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : edit.unsavedSettings ? "unsaved settings" : "saved");
+}
+
+// Each selects the mirror.
+void throughButtons(UiModel& model) {
+  UiEdit& edit = model.edit;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("seen through:");
+  for (size_t i = 0; i < edit.through.size(); ++i) {
+    ImGui::SameLine();
+    ImGui::PushID(static_cast<int>(i));  // a mirror may come twice
+    if (ImGui::SmallButton(edit.through[i].c_str())) {
+      edit.selected = {Selection::Kind::mirror, edit.throughMirrors[i]};
+    }
+    notePlace(model, "edit.through." + std::to_string(i));
+    ImGui::PopID();
+    tip("select it");
   }
 }
 
@@ -291,11 +304,14 @@ void selectedThing(UiModel& model) {
     return;
   }
   if (!edit.through.empty()) {
-    std::string seen;
-    for (const std::string& mirror : edit.through) {
-      seen += (seen.empty() ? "" : ", ") + mirror;
-    }
-    ImGui::TextWrapped("seen through: %s", seen.c_str());
+    throughButtons(model);
+  }
+  if (edit.selected.kind == Selection::Kind::mirror) {
+    actionButton(model, "look out of it", "look_out", EditAction::lookOut, true,
+                 "Shift+B: the view that the mirror has");
+    ImGui::SameLine();
+    actionButton(model, "look from behind", "look_behind", EditAction::lookBehind, true,
+                 "B: what the mirror shows, seen through it");
   }
   int mode = static_cast<int>(edit.mode);
   for (const auto& [label, key, value] :
@@ -332,17 +348,12 @@ void answerButton(UiModel& model, const char* label, const char* key, EditAction
   notePlace(model, std::string("edit.") + key);
 }
 
-void inspector(UiModel& model) {
-  const float unit = ImGui::GetFontSize();
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const ImVec2 size(25.0f * unit, std::min(display.y - 1.6f * unit, 46.0f * unit));
-  ImGui::SetNextWindowPos(ImVec2(std::max(0.8f * unit, display.x - size.x - 0.8f * unit), 0.8f * unit),
-                          ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
+void inspector(UiModel& model, PanelDock& dock) {
   if (model.edit.focus) {
     ImGui::SetNextWindowFocus();
   }
-  if (ImGui::Begin(inspectorTitle, &model.edit.open)) {
+  ImGui::SetNextWindowBgAlpha(1.0f);
+  if (dock.begin(inspectorTitle, &model.edit.open, PanelDock::Edge::right, {25.0f, 46.0f})) {
     thingList(model);
     addButtons(model);
     historyButtons(model);
@@ -385,7 +396,7 @@ void questions(UiModel& model) {
     if (ImGui::IsWindowAppearing()) {
       ImGui::SetKeyboardFocusHere();
     }
-    ImGui::InputText("##file", &edit.saveAs);
+    ImGui::InputText("##file", &edit.saveAs, ImGuiInputTextFlags_AutoSelectAll);
     notePlace(model, "edit.file");
     if (!edit.note.empty()) {
       ImGui::TextWrapped("%s", edit.note.c_str());
@@ -415,12 +426,12 @@ void inspectorButton(UiModel& model) {
   }
 }
 
-void edit(UiModel& model, bool inspectorShown) {
+void edit(UiModel& model, PanelDock* dock) {
   model.edit.edited = false;
   model.edit.action = EditAction::none;
   drawOverlay(model.edit.overlay);
-  if (model.edit.open && inspectorShown) {
-    inspector(model);
+  if (model.edit.open && dock) {
+    inspector(model, *dock);
   }
   questions(model);
   model.edit.enter = false;

@@ -54,6 +54,9 @@ void clearColor(UiModel& model) {
     model.settings.view.clearColor = glm::dvec3(srgbDecode(encoded[0]), srgbDecode(encoded[1]), srgbDecode(encoded[2]));
   }
   describe(model, "view.clear_color");
+  if (model.sceneSky && !model.settings.view.clearColor) {
+    ImGui::TextDisabled("the scene's sky is shown; a colour replaces it");
+  }
 }
 
 void reflectionSettings(UiModel& model) {
@@ -164,7 +167,7 @@ void bookmarks(UiModel& model) {
 }  // namespace
 
 void scene(UiModel& model) {
-  const bool open = ImGui::BeginCombo("scene", model.scenes[model.scene].c_str());
+  const bool open = ImGui::BeginCombo("scene", model.scenes[model.scene].c_str(), ImGuiComboFlags_HeightLargest);
   notePlace(model, "scene");
   if (open) {
     for (int i = 0; i < static_cast<int>(model.scenes.size()); ++i) {
@@ -177,7 +180,9 @@ void scene(UiModel& model) {
     }
     ImGui::EndCombo();
   }
-  tip("what is shown; Scenes has pictures of them");
+  if (!open) {
+    tip((model.scenePaths[static_cast<size_t>(model.scene)] + "\nScenes has pictures of them").c_str());
+  }
   int mode = static_cast<int>(model.cameraMode);
   ImGui::RadioButton("orbit", &mode, static_cast<int>(CameraMode::orbit));
   tip("dragging turns about what is looked at");
@@ -195,14 +200,10 @@ void scene(UiModel& model) {
   tip("the call of speculum render that draws this view to the same bytes");
   ImGui::SameLine();
   inspectorButton(model);
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  if (!model.command.empty()) {
-    ImGui::TextWrapped("copied: %s", model.command.c_str());
-  }
-  if (!model.picture.empty()) {
-    ImGui::TextWrapped("%s", model.picture.c_str());
-  }
-  ImGui::PopStyleColor();
+  ImGui::SameLine();
+  model.screenshot = ImGui::Button("screenshot");
+  notePlace(model, "screenshot");
+  tip("F12: save the window as a picture; Shift+F12: without the panel");
 }
 
 void settings(UiModel& model) {
@@ -260,7 +261,9 @@ void textAcrossColumns(const std::string& text) {
   const ImVec2 size = ImGui::GetWindowSize();
   const float top = corner.y + ImGui::GetFrameHeight();  // below the title
   ImGui::PushClipRect({ImGui::GetCursorScreenPos().x, top}, {corner.x + size.x, corner.y + size.y}, false);
+  ImGui::PushTextWrapPos(size.x - ImGui::GetStyle().ScrollbarSize - ImGui::GetStyle().WindowPadding.x);
   ImGui::TextDisabled("%s", text.c_str());
+  ImGui::PopTextWrapPos();
   ImGui::PopClipRect();
 }
 
@@ -312,7 +315,12 @@ void passRow(UiModel& model, const PassNode& node) {
     model.passClicked = true;
   }
   ImGui::TableNextColumn();
-  ImGui::Text("%.3f", pass.gpuMs);
+  if (pass.framesAgo > 0) {
+    ImGui::TextDisabled("kept");
+    tip("nothing in it changed, or it was not its turn: the image of an earlier frame is shown, for nothing");
+  } else {
+    ImGui::Text("%.3f", pass.gpuMs);
+  }
   ImGui::TableNextColumn();
   ImGui::Text("%u", pass.draws);
   ImGui::TableNextColumn();

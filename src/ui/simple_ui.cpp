@@ -46,6 +46,7 @@ SimpleUI::Context::Context() {
   io.KeyMap[ImGuiKey_Tab] = -1;  // hides the panel instead of walking through it, as the arrow keys do as well
 #endif
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+  io.ConfigDragClickToInputText = true;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
   // The layout is the person's, not the working directory's.
   std::error_code error;
@@ -83,7 +84,9 @@ SimpleUI::SimpleUI(Renderer& renderer, Window& window)
       window_(window),
       theme_(savedTheme()),
       choices_(savedPanelChoices()),
-      backend_(std::make_unique<Backend>(window)) {}
+      backend_(std::make_unique<Backend>(window)) {
+  dock_.remember();
+}
 
 SimpleUI::~SimpleUI() {
   renderer_.waitIdle();
@@ -168,9 +171,10 @@ void SimpleUI::build(UiModel& model) {
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
   model.cancelLoading = false;
+  model.screenshot = false;
   panels::loading(model);
+  dock_.beginFrame(panels::statusHeight());
   if (visible_) {
-    dock_.beginFrame();
     buildPanel(model);
     buildWindows(model);
     panels::passOutline(model);
@@ -179,7 +183,7 @@ void SimpleUI::build(UiModel& model) {
       ImGui::ShowDemoWindow(&showDemoWindow_);
     }
   }
-  panels::edit(model, visible_);
+  panels::edit(model, visible_ ? &dock_ : nullptr);
   ImGui::Render();
 }
 
@@ -187,6 +191,7 @@ void SimpleUI::buildPanel(UiModel& model) {
   if (dock_.begin("Speculum", nullptr, PanelDock::Edge::left, {28.0f, 0.0f})) {
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());  // the rest is for the labels
     ImGui::Text("%.2f ms/frame (%.1f FPS)", model.frameMs, model.frameMs > 0.0 ? 1000.0 / model.frameMs : 0.0);
+    const float width = ImGui::GetWindowWidth();
     const char* hint = "F1: keys   Tab: hide";
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(hint).x);
     ImGui::TextDisabled("%s", hint);
@@ -197,8 +202,10 @@ void SimpleUI::buildPanel(UiModel& model) {
     panels::passes(model);
     panels::effects(model);
     ImGui::PopItemWidth();
+    statusWidth_ = width;
   }
   ImGui::End();
+  panels::statusLine(model, std::max(statusWidth_, 20.0f * ImGui::GetFontSize()));
 }
 
 // The windows beside the panel, and what is said about the panel itself.
@@ -224,6 +231,11 @@ void SimpleUI::panelChoices(UiModel& model) {
       choices_.percent = pendingPercent_;
     }
     presentMode(model);
+    if (ImGui::Button("reset layout")) {
+      dock_.reset();
+    }
+    panels::notePlace(model, "window.reset");
+    panels::tip("all windows back to the edges, as large as at first");
     ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
   }
 }
@@ -231,6 +243,7 @@ void SimpleUI::panelChoices(UiModel& model) {
 void SimpleUI::buildWindows(UiModel& model) {
   const auto window = [&](const char* name, bool& open, const glm::vec2& ems, const auto& content) {
     if (open) {
+      ImGui::SetNextWindowBgAlpha(1.0f);  // figures over the picture cannot be read
       if (dock_.begin(name, &open, PanelDock::Edge::right, ems)) {
         content();
       }

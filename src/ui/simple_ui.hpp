@@ -56,6 +56,7 @@ class SimpleUI {
 
   Renderer& renderer_;
   Window& window_;
+  PanelDock dock_;  // outlives the context, which saves it
   Context context_;
   Theme theme_;
   Theme chosenTheme_ = theme_;
@@ -64,9 +65,9 @@ class SimpleUI {
   float scale_ = 0.0f;  // of fonts and sizes: the monitor's content's and the person's; 0: nothing is made yet
   int pendingPercent_ = choices_.percent;  // while its slider is held
   Thumbnails thumbnails_;
-  PanelDock dock_;
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
+  float statusWidth_ = 0.0f;  // pixels
   bool visible_ = true;
   bool showDemoWindow_ = false;
 };
