@@ -95,7 +95,8 @@ TEST_F(DemoOpen, TheFolderOfAnOpenedSceneIsListedFirst) {
   const fs::path own = fs::path(options_.scene).parent_path();
   EXPECT_EQ(fs::path(ui.scenePaths.front()).parent_path(), own);
   for (const char* name : {"b_scene", "a_scene"}) {
-    std::ofstream(config_.path() / (std::string(name) + ".toml")) << "[camera]\nposition = [0, 0, 4]\n";
+    std::ofstream(config_.path() / (std::string(name) + ".toml"))
+        << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
   }
   std::ofstream(config_.path() / "notes.toml") << "something = 1\n";
   demo_->window().dropFiles({config_.path() / "b_scene.toml"});

@@ -27,7 +27,7 @@ class Panels : public DemoWindow {
   void scrollTo(const std::string& key) {
     const auto within = [&] {
       for (const auto& [name, rect] : demo_->model().widgets) {
-        if (name == key && rect.y > 40 && rect.y + rect.height < height - 20) {
+        if (name == key && rect.y > 40 && rect.y + rect.height < height - 70) {
           return true;
         }
       }
@@ -168,10 +168,10 @@ TEST_F(Panels, WindowsStandBesideEachOtherAndComeBackFromATinyWindow) {
   EXPECT_EQ(widget("log.copy").y, copy.y);
   EXPECT_EQ(widget("log.copy").x, copy.x);
   // Moved by its title.
-  moveTo(copy.x + 150, copy.y - 22);
+  moveTo(copy.x - 100, copy.y - 16);
   xdotool({"mousedown", "1"});
   run(3);
-  moveTo(copy.x + 50, copy.y - 122);
+  moveTo(copy.x - 200, copy.y - 116);
   xdotool({"mouseup", "1"});
   run(3);
   const PixelRect moved = widget("log.copy");

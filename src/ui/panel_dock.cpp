@@ -65,6 +65,8 @@ void PanelDock::read(Panel& panel, const char* line) {
   if (std::sscanf(line, "Pos=%f,%f", &v.x, &v.y) == 2) {
     panel.docked = false;
     panel.wish.corner = v;
+  } else if (std::sscanf(line, "Display=%f,%f", &v.x, &v.y) == 2) {
+    panel.display = v;
   } else if (std::sscanf(line, "Size=%f,%f", &v.x, &v.y) == 2) {
     panel.wish.size = v;
   } else if (std::string_view(line) == "Collapsed=1") {
@@ -79,6 +81,8 @@ std::string PanelDock::saved() const {
     std::array<char, 64> line{};
     if (!panel.docked) {
       std::snprintf(line.data(), line.size(), "Pos=%.0f,%.0f\n", panel.wish.corner.x, panel.wish.corner.y);
+      lines += line.data();
+      std::snprintf(line.data(), line.size(), "Display=%.0f,%.0f\n", panel.display.x, panel.display.y);
       lines += line.data();
     }
     if (panel.wish.size.x > 0.0f) {
@@ -146,6 +150,7 @@ void PanelDock::follow(Panel& panel) {
     panel.docked = panel.docked && !moved;
     panel.wish = now;
     panel.given = now;
+    panel.display = displaySize();
     ImGui::MarkIniSettingsDirty();
   }
   if (panel.collapsed != window->Collapsed) {
@@ -165,8 +170,9 @@ bool PanelDock::begin(const char* name, bool* open, Edge edge, const glm::vec2& 
     panel.given = {};
   }
   const glm::vec2 size = panel.wish.size.x > 0.0f ? panel.wish.size : ems * ImGui::GetFontSize();
-  const WindowRect fitted = fitWindow({panel.wish.corner, size}, displaySize());
-  const WindowRect place = panel.docked ? docked_[&panel] : fitted;
+  const WindowRect wish{panel.wish.corner, size};
+  const bool room = glm::all(glm::greaterThanEqual(displaySize(), panel.display));
+  const WindowRect place = panel.docked ? docked_[&panel] : room ? wish : fitWindow(wish, displaySize());
   const bool held = ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsMouseDown(ImGuiMouseButton_Left);
   if (place != panel.given && !(held && !panel.docked)) {
     ImGui::SetNextWindowPos({place.corner.x, place.corner.y});

@@ -30,8 +30,9 @@ class PanelDock {
   struct Panel {
     bool docked = true;
     bool collapsed = false;
-    WindowRect wish;   // the person's; a docked one's size alone, 0: none
-    WindowRect given;  // last
+    WindowRect wish;          // the person's; a docked one's size alone, 0: none
+    glm::vec2 display{0.0f};  // that was, when it was put there; as large a one does not move it
+    WindowRect given;         // last
     Edge edge = Edge::left;
     glm::vec2 ems{0.0f};
     bool shown = false;  // in this frame or the last

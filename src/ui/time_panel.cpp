@@ -73,7 +73,7 @@ constexpr std::array<KeyHelp, 9> gamepad{{
 void helpTable(const char* title, std::span<const KeyHelp> rows) {
   ImGui::TextDisabled("%s", title);
   const float em = ImGui::GetFontSize();
-  const float keysWidth = 10.5f * em;
+  const float keysWidth = 11.5f * em;
   const float textWidth =
       std::clamp(0.5f * ImGui::GetIO().DisplaySize.x - keysWidth - 4.0f * em, 12.0f * em, 30.0f * em);
   constexpr ImGuiTableFlags flags =
