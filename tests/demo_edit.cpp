@@ -16,6 +16,10 @@ TEST_F(EditWindow, AClickSelectsWhatIsSeenDirectlyAndInMirrors) {
   click(pixel({0.3, 1.0, -7.5}).x - 4, 350);
   EXPECT_EQ(edit().selected, ball);
   EXPECT_EQ(edit().through, std::vector<std::string>({"mirror 'ahead'", "mirror 'behind'"}));
+  press("Tab");
+  click("edit.through.1");
+  EXPECT_EQ(edit().selected, behind) << "the buttons select the mirrors";
+  press("Tab");
   click(pixel({-0.5, 1.5, 0.0}).x, pixel({-0.5, 1.5, 0.0}).y);
   EXPECT_EQ(edit().selected, lamp);
   click(width - 5, 5);
@@ -149,7 +153,10 @@ TEST_F(EditWindow, EscapeStopsTheDragThenDeselects) {
   EXPECT_FALSE(edit().selected);
   EXPECT_EQ(edit().undo, "");
   EXPECT_EQ(before, bare());
-  xdotool({"key", "--window", windowId(), "Escape"});
+  press("Escape");
+  press("Escape");
+  EXPECT_FALSE(demo_->window().shouldClose());
+  xdotool({"key", "--window", windowId(), "ctrl+q"});
   EXPECT_TRUE(stepUntilClosed()) << "nothing was changed";
   expectQuiet();
 }

@@ -141,6 +141,64 @@ TEST_F(EditWindow, ASecondSaveKeepsTheSettingsOfTheFirst) {
   expectQuiet();
 }
 
+TEST_F(EditWindow, ThePathIsSelectedAtEveryOpening) {
+  for (const std::string name : {"first", "second"}) {
+    press("ctrl+shift+s");
+    run(5);
+    const auto place = std::filesystem::path(options_.scene).parent_path() / name;
+    xdotool({"type", "--window", windowId(), (place / "scene").string()});
+    run(5);
+    EXPECT_EQ(edit().saveAs, (place / "scene").string()) << "what was there is replaced";
+    press("Return");
+    run(3);
+    EXPECT_TRUE(edit().asksWhere);
+    EXPECT_NE(edit().note.find("no folder " + place.string() + " "), std::string::npos) << edit().note;
+    press("Escape");
+    EXPECT_FALSE(edit().asksWhere);
+  }
+  press("ctrl+shift+s");
+  run(5);
+  const auto place = std::filesystem::path(options_.scene).replace_filename("named");
+  xdotool({"type", "--window", windowId(), place.string()});
+  run(5);
+  press("Return");
+  run(3);
+  EXPECT_FALSE(edit().asksWhere) << edit().note;
+  EXPECT_EQ(edit().file, place.string() + ".toml");
+  expectQuiet();
+}
+
+TEST_F(EditWindow, UnsavedSettingsAreAskedAbout) {
+  press("Tab");
+  drag("view.exposure", 0.5, 30);
+  EXPECT_FALSE(edit().unsaved);
+  askToClose();
+  press("Escape");
+  run(3);
+  EXPECT_FALSE(edit().asksSave);
+  drag("view.exposure", 0.5, -60);
+  askToClose();
+  const PixelRect discard = widget("edit.ask.discard");
+  moveTo(discard.x + 10, discard.y + 5);
+  xdotool({"mousedown", "1"});
+  run(3);
+  xdotool({"mouseup", "1"});
+  EXPECT_TRUE(stepUntilClosed());
+  expectQuiet();
+}
+
+TEST_F(EditWindow, TapsBetweenTwoFramesReachTheTextField) {
+  press("ctrl+shift+s");
+  run(5);
+  // All of it before the next frame.
+  xdotool({"type", "--window", windowId(), "--delay", "1", "abcd"});
+  xdotool({"key", "--window", windowId(), "--delay", "1", "BackSpace", "BackSpace", "Left", "x"});
+  run(15);
+  EXPECT_EQ(edit().saveAs, "axb");
+  press("Escape");
+  expectQuiet();
+}
+
 TEST_F(EditWindow, AFileThatSomebodyElseChangedIsNotOverwrittenUnasked) {
   clickBall();
   press("Delete");

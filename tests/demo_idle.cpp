@@ -125,6 +125,12 @@ TEST_F(IdleWindow, KeysAndSizeAreFollowed) {
 TEST_F(IdleWindow, HeldImagesAreRenewedBeforeItRests) {
   settle();
   demo_->setCapture(true);
+  pointAt(25, 400);
+  for (int i = 0; i < 3; ++i) {
+    xdotool({"click", "5"});
+    during(0.3);
+  }
+  settle();
   const PixelRect interval = widget("reflection.update_interval");
   pointAt(interval.x + 5, interval.y + 5);
   during(0.3);

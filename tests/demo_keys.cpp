@@ -56,6 +56,21 @@ TEST_F(DemoKeys, PicturesAreSavedWithAndWithoutThePanel) {
   expectQuiet();
 }
 
+TEST_F(DemoKeys, MessagesPushNoWidgetAndFade) {
+  const PixelRect before = widget("view.exposure");
+  click("screenshot");
+  EXPECT_EQ(pictures().size(), 1u);
+  EXPECT_EQ(demo_->model().status.text, demo_->model().picture);
+  EXPECT_EQ(widget("view.exposure").y, before.y);
+  const auto end = Clock::now() + std::chrono::seconds(15);
+  while (!demo_->model().status.text.empty() && Clock::now() < end) {
+    run(1);
+  }
+  EXPECT_EQ(demo_->model().status.text, "");
+  EXPECT_NE(demo_->model().log.history->lines().back().text.find("saved "), std::string::npos) << "the log keeps it";
+  expectQuiet();
+}
+
 TEST_F(DemoKeys, APictureThatCannotBeSavedSaysSo) {
   std::ofstream(config_.path() / "pictures") << "a file in the folder's place";
   press("F12");
@@ -166,6 +181,49 @@ TEST_F(DemoKeys, HelpListsTheKeys) {
   expectQuiet();
 }
 
+TEST_F(DemoKeys, EscapeClosesWhatIsOnTopAndNeverQuits) {
+  const auto shown = [&](const std::string& key) {
+    const auto& widgets = demo_->model().widgets;
+    return std::any_of(widgets.begin(), widgets.end(), [&](const auto& widget) { return widget.first == key; });
+  };
+  press("n");
+  click("scene");
+  ASSERT_TRUE(shown("scene.no_mirror"));
+  press("Escape");
+  EXPECT_FALSE(shown("scene.no_mirror")) << "the list of scenes";
+  EXPECT_TRUE(demo_->model().edit.open);
+  press("F1");
+  press("Escape");
+  EXPECT_FALSE(demo_->model().help);
+  EXPECT_TRUE(demo_->model().edit.open);
+  press("Escape");
+  EXPECT_FALSE(demo_->model().edit.open);
+  EXPECT_TRUE(demo_->model().edit.selected);
+  press("Escape");
+  EXPECT_FALSE(demo_->model().edit.selected);
+  press("Escape");
+  EXPECT_FALSE(demo_->window().shouldClose());
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, AClickBelongsToWhatIsUnderItsOwnPosition) {
+  press("n");
+  ASSERT_TRUE(demo_->model().edit.selected);
+  const PixelRect box = widget("pause");
+  const auto x = std::to_string(box.x + box.width / 2);
+  const auto y = std::to_string(box.y + box.height / 2);
+  for (const bool paused : {true, false}) {
+    moveTo(width / 2, 30);
+    // All before the next frame.
+    xdotool({"mousemove", "--window", windowId(), x, y, "mousedown", "1", "mouseup", "1", "mousemove", "--window",
+             windowId(), std::to_string(width / 2), "30"});
+    run(5);
+    EXPECT_TRUE(demo_->model().edit.selected) << "no click into the picture";
+    EXPECT_EQ(demo_->model().paused, paused);
+  }
+  expectQuiet();
+}
+
 TEST(KeyHelpList, IsInTheReadme) {
   std::ifstream file(sourceFile("README.md"));
   std::stringstream readme;
@@ -199,6 +257,31 @@ TEST(CameraControl, FramesASphereInPicturesOfAnyShape) {
     const double narrower = std::min(half, std::atan(std::tan(half) * aspect));
     EXPECT_NEAR(-seen.z * std::sin(narrower), sphere.radius, 1e-9);
     EXPECT_NEAR(glm::distance(pose.worldToView[0], start.worldToView[0]), 0.0, 1e-9) << "the direction stays";
+  }
+}
+
+TEST(CameraControl, ADragOfNinetyPixelsTurnsByLessThanThirtyDegreesAndStopsBeforeThePole) {
+  CameraSpec spec;
+  spec.position = {0.0, 2.0, 4.0};
+  spec.target = {0.0, 1.0, 0.0};
+  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
+  for (const CameraMode mode : {CameraMode::orbit, CameraMode::fly}) {
+    CameraController camera;
+    camera.setMode(mode);
+    camera.reset(spec);
+    const auto forward = [&] { return -glm::dvec3(glm::transpose(camera.pose(start).worldToView)[2]); };
+    const glm::dvec3 before = forward();
+    camera.drag(0.0, 90.0);
+    const double turned = glm::degrees(std::acos(glm::dot(before, forward())));
+    EXPECT_GT(turned, 5.0);
+    EXPECT_LT(turned, 30.0);
+    for (const double way : {1.0, -1.0}) {
+      camera.drag(0.0, way * 5000.0);
+      const double pitch = glm::degrees(std::asin(forward().y));
+      EXPECT_GT(std::abs(pitch), 80.0) << "as far as it goes, in one large step too";
+      EXPECT_LT(std::abs(pitch), 89.0);
+      EXPECT_LT(pitch * way, 0.0) << "down to look up, in both modes";
+    }
   }
 }
 

@@ -90,6 +90,28 @@ TEST_F(DemoOpen, ASceneIsReadWhileTheWindowGoesOn) {
   expectQuiet();
 }
 
+TEST_F(DemoOpen, TheFolderOfAnOpenedSceneIsListedFirst) {
+  const UiModel& ui = demo_->model();
+  const fs::path own = fs::path(options_.scene).parent_path();
+  EXPECT_EQ(fs::path(ui.scenePaths.front()).parent_path(), own);
+  for (const char* name : {"b_scene", "a_scene"}) {
+    std::ofstream(config_.path() / (std::string(name) + ".toml"))
+        << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
+  }
+  std::ofstream(config_.path() / "notes.toml") << "something = 1\n";
+  demo_->window().dropFiles({config_.path() / "b_scene.toml"});
+  wait();
+  ASSERT_EQ(shown(), "b_scene");
+  ASSERT_GT(ui.scenes.size(), 4u);
+  EXPECT_EQ(ui.scenes[0], "a_scene");
+  EXPECT_EQ(ui.scenes[1], "b_scene");
+  EXPECT_EQ(ui.scenePaths[1], (config_.path() / "b_scene.toml").string());
+  EXPECT_EQ(std::count(ui.scenes.begin(), ui.scenes.end(), "notes"), 0) << "no scene";
+  EXPECT_EQ(std::count(ui.scenes.begin(), ui.scenes.end(), "gallery"), 1);
+  EXPECT_EQ(std::count(ui.scenePaths.begin(), ui.scenePaths.end(), options_.scene), 1) << "what was open";
+  expectQuiet();
+}
+
 TEST_F(DemoOpen, WhatIsWrongIsOneLineAndTheSceneStays) {
   const std::string before = shown();
   const fs::path broken = config_.path() / "broken.toml";

@@ -28,7 +28,7 @@ class Panels : public DemoWindow {
   void scrollTo(const std::string& key) {
     const auto within = [&] {
       for (const auto& [name, rect] : demo_->model().widgets) {
-        if (name == key && rect.y > 40 && rect.y + rect.height < height - 20) {
+        if (name == key && rect.y > 40 && rect.y + rect.height < height - 70) {
           return true;
         }
       }
@@ -183,6 +183,52 @@ TEST_F(PanelsWithTwoMirrors, PointingAtASkippedMirrorOutlinesIt) {
       EXPECT_EQ(std::any_of(lines_.begin(), lines_.end(), meets), inside) << at.x << " " << at.y;
     }
   }
+  expectQuiet();
+}
+
+TEST_F(Panels, WindowsStandBesideEachOtherAndComeBackFromATinyWindow) {
+  press("F2");
+  for (const char* name : {"panel.Performance", "panel.Log"}) {
+    click(name);
+  }
+  const PixelRect list = widget("edit.add_mirror");
+  const PixelRect copy = widget("log.copy");
+  const PixelRect csv = widget("performance.copy");
+  EXPECT_LT(list.y + list.height, csv.y);
+  EXPECT_LT(csv.y + csv.height, copy.y);
+  EXPECT_LT(copy.y + copy.height, height);
+  demo_->window().resize(300, 200);
+  run(8);
+  demo_->window().resize(width, height);
+  run(8);
+  EXPECT_EQ(widget("log.copy").y, copy.y);
+  EXPECT_EQ(widget("log.copy").x, copy.x);
+  // Moved by its title.
+  moveTo(copy.x - 100, copy.y - 16);
+  xdotool({"mousedown", "1"});
+  run(3);
+  moveTo(copy.x - 200, copy.y - 116);
+  xdotool({"mouseup", "1"});
+  run(3);
+  const PixelRect moved = widget("log.copy");
+  EXPECT_EQ(moved.x, copy.x - 100);
+  demo_->window().resize(500, 300);
+  run(8);
+  EXPECT_LT(widget("log.copy").x, 500);
+  EXPECT_LT(widget("log.copy").y, 300);
+  demo_->window().resize(width, height);
+  run(8);
+  EXPECT_EQ(widget("log.copy").x, moved.x) << "what a tiny window forced is forgotten";
+  EXPECT_EQ(widget("log.copy").y, moved.y);
+  demo_.reset();
+  start();
+  EXPECT_EQ(widget("log.copy").x, moved.x) << "the layout file has it";
+  scrollTo("section.window");
+  click("section.window");
+  scrollTo("window.reset");
+  click("window.reset");
+  run(3);
+  EXPECT_GT(widget("log.copy").x, moved.x + 50);
   expectQuiet();
 }
 

@@ -69,7 +69,8 @@ TEST_F(DemoWindow, KeysHideThePanelAndQuit) {
   xdotool({"key", "--window", windowId(), "Tab"});
   run(5);
   EXPECT_EQ(picture().rgba[inPanel], with.rgba[inPanel]);
-  xdotool({"key", "--window", windowId(), "Escape"});
+  press("Escape");
+  xdotool({"key", "--window", windowId(), "ctrl+q"});
   const auto end = Clock::now() + std::chrono::seconds(10);
   while (demo_->step() && Clock::now() < end) {
   }
@@ -114,6 +115,11 @@ TEST_F(DemoWindow, TwoHundredRandomResizesLeakNothing) {
 }
 
 TEST_F(DemoWindow, ImagesAreHeldWhileTheCameraMovesAndTheWindowIsResized) {
+  moveTo(25, 400);
+  for (int i = 0; i < 3; ++i) {
+    xdotool({"click", "5"});
+    run(2);
+  }
   drag("reflection.update_interval", 0.05, 200);
   ASSERT_GT(demo_->model().settings.reflection.updateInterval, 1);
   const auto heldMirrors = [&] {

@@ -1,2 +1,3 @@
-speculum_test(edit_tests SOURCES edit_document.cpp edit_writer.cpp edit_text.cpp edit_random.cpp edit_support.cpp
+speculum_test(edit_tests SOURCES edit_document.cpp edit_writer.cpp edit_text.cpp edit_random.cpp edit_save_place.cpp
+              edit_support.cpp
               LIBRARIES edit ext::rapidcheck)

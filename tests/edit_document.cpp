@@ -168,10 +168,10 @@ TEST(SceneDocument, AddedThingsFollowTheViewer) {
   EXPECT_EQ(text.scene.lights[1].radius, 0.02);
   EXPECT_EQ(document.addObject(0, {7, 1, 0}), (Selection{Kind::object, 1}));
   const Object& object = text.scene.objects[1];
-  // The triangle spans 0 .. 1 in x and y, here twice that.
-  EXPECT_EQ(object.position, glm::dvec3(6, 1, 0));
+  // The triangle spans 0 .. 1 in x and y.
+  EXPECT_EQ(object.position, glm::dvec3(6.5, 1, 0));
   EXPECT_EQ(object.name, "triangle");
-  EXPECT_EQ(object.scale, glm::dvec3(2));
+  EXPECT_EQ(object.scale, glm::dvec3(1)) << "the model's own, whatever another object makes of it";
   EXPECT_EQ(object.copies.count, 1);
   document.undo();
   document.undo();

@@ -108,12 +108,12 @@ void CameraController::turn(double yawDegrees, double pitchDegrees) {
   const glm::dvec3 right = glm::dvec3(glm::transpose(last_.worldToView)[0]);
   const glm::dmat3 yaw = rotationAboutAxis(up, -yawDegrees);
   glm::dvec3 turned = yaw * arm;
-  const glm::dvec3 pitched = rotationAboutAxis(yaw * right, -pitchDegrees) * turned;
-  const auto steepness = [&](const glm::dvec3& v) { return std::abs(glm::dot(glm::normalize(v), up)); };
-  // A scene may start steeper than that; back from there must be possible.
-  if (steepness(pitched) < std::max(steepest, steepness(turned))) {
-    turned = pitched;
-  }
+  // Towards the pole as far as is allowed. A scene may start steeper than that; back from there must be possible.
+  const double height = glm::degrees(std::asin(std::clamp(glm::dot(glm::normalize(turned), up), -1.0, 1.0)));
+  const double limit = std::max(glm::degrees(std::asin(steepest)), std::abs(height));
+  const double rise = orbit ? pitchDegrees : -pitchDegrees;
+  const double pitch = std::clamp(height + rise, -limit, limit) - height;
+  turned = rotationAboutAxis(yaw * right, orbit ? -pitch : pitch) * turned;
   (orbit ? eye_ : target_) = orbit ? target_ + turned : eye_ + turned;
 }
 

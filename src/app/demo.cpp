@@ -33,7 +33,6 @@ Demo::Demo(const Options& options)
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
   findScenes();
   findModels();
-  showGallery();
   model_.settings = loaded_->settings;
   model_.sceneSettings = loaded_->settings;
   showDevice();
@@ -41,22 +40,6 @@ Demo::Demo(const Options& options)
   camera_.reset(loaded_->scene.camera);
   startEditing();
   last_ = Clock::now();
-}
-
-// Shipped scenes first; then a file from elsewhere.
-void Demo::findScenes() {
-  std::vector<std::filesystem::path> shipped;
-  for (const auto& entry : std::filesystem::directory_iterator(dataDirectory("scenes"))) {
-    if (entry.path().extension() == ".toml") {
-      shipped.push_back(entry.path());
-    }
-  }
-  std::sort(shipped.begin(), shipped.end());
-  for (const std::filesystem::path& file : shipped) {
-    noteSceneFile(file);
-  }
-  shownScene_ = static_cast<int>(noteSceneFile(loaded_->scene.file));
-  model_.scene = shownScene_;
 }
 
 void Demo::applyModel() {
@@ -74,6 +57,10 @@ void Demo::applyModel() {
   followLoading();
   if (model_.copyCommand) {
     copyCommand();
+    tell("copied: " + model_.command);
+  }
+  if (model_.screenshot) {
+    shot_ = Shot::window;
   }
   if (model_.copyHistory) {
     window_.setClipboard(model_.history.csv());
@@ -97,6 +84,7 @@ void Demo::saveShot() {
   if (recorder_.running()) {
     recorder_.add(pictureOf(renderer_.readback()));
     model_.picture = recorder_.message();
+    show(model_.picture);
   }
   if (std::exchange(shot_, Shot::none) == Shot::none) {
     return;
@@ -108,12 +96,14 @@ void Demo::saveShot() {
   } catch (const std::exception& error) {
     model_.picture = "not saved: " + std::string(error.what());
   }
+  tell(model_.picture);
 }
 
 void Demo::drawFrame(double seconds) {
   seconds = recorder_.running() ? 1.0 / Recorder::framesPerSecond : seconds;
   moveCamera(seconds);
   showEdit(seconds);
+  followStatus();
   ui_->build(model_);
   applyModel();
   time_ += model_.paused ? 0.0 : seconds * model_.timeSpeed;
@@ -212,6 +202,7 @@ void Demo::fillEffects(const FramePlan& plan, const SceneState& state, const Set
 void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Settings& drawn) {
   const FrameTimings& timings = renderer_.timings();
   model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
+  model_.sceneSky = loaded_->scene.environment.sky.has_value();
   model_.gpuMs = timings.gpuMs;
   model_.deviceBytes = device_.allocatedBytes();
   showMemory();

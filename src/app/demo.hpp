@@ -56,6 +56,11 @@ class Demo {
   void openDropped(const std::vector<std::filesystem::path>& files);
   void chooseScene(int index);
   void followLoading();
+  // demo_status.cpp
+  void tell(const std::string& text);  // in the panel's status line and the log
+  void show(const std::string& text);  // in the line alone
+  void followStatus();
+  bool statusFades() const;
   void showScene(std::unique_ptr<LoadedScene> scene);
   void moveCamera(double seconds);
   glm::dvec3 heldDirection() const;
@@ -108,10 +113,14 @@ class Demo {
   bool settingsChanged() const;
   void answer(EditAction action);
   void saveScene();
+  void undo();
+  void redo();
   void askWhere();
   bool saveSceneTo(const std::filesystem::path& file);
+  // demo_leave.cpp
+  void closeTop();
+  bool hasUnsaved() const;
   void goOn();
-  bool mayClose();
   bool mayLeave();
   bool closes();
 
@@ -142,9 +151,10 @@ class Demo {
   std::optional<glm::dvec2> pressed_;              // screen coordinates; the pointer went down over the picture
   std::optional<std::filesystem::path> nextFile_;  // to be opened, while unsaved changes are asked about
   std::optional<uint64_t> discarded_;              // revision of the scene whose changes were given up
+  Settings discardedSettings_;                     // likewise
   Settings settingsAtLoad_;                        // before the person changed any
   uint64_t shownStructure_ = 0;                    // of the scene, in the last frame
-  bool closing_ = false;                           // likewise
+  bool closing_ = false;                           // once unsaved changes are answered for
   bool leaves_ = false;                            // with the answer
   std::filesystem::path refused_;                  // that was not overwritten; asked for again, it is
   bool holdsHandle_ = false;                       // what is pressed is a handle, not the picture
@@ -156,6 +166,7 @@ class Demo {
   bool gamepadChanged_ = false;  // since the last step
   int lookedFrom_ = -1;          // the mirror, index into Scene::mirrors; -1: none yet
   Recorder recorder_;
+  Clock::time_point statusSince_;
   double time_ = 0.0;  // seconds of animation
   Clock::time_point last_;
   int framesDue_ = 0;       // to draw, although nothing changes any more

@@ -1,9 +1,10 @@
-// The part of the window that edits the scene: what pointer and keys do to it, saving, questions about unsaved changes.
+// The part of the window that edits the scene: what pointer and keys do to it, and saving.
 #include <algorithm>
 #include <utility>
 
 #include "app/demo.hpp"
 #include "core/platform.hpp"
+#include "edit/save_place.hpp"
 
 namespace speculum {
 
@@ -16,6 +17,11 @@ bool isShipped(const std::filesystem::path& file) {
   std::error_code none;
   const std::filesystem::path below = std::filesystem::relative(file, dataDirectory("scenes"), none);
   return !below.empty() && *below.begin() != "..";
+}
+
+// Where scenes are saved unless a person names another place; made when it is needed.
+std::filesystem::path ownFolder() {
+  return documentsDir() / "Speculum";
 }
 
 }  // namespace
@@ -80,7 +86,7 @@ void Demo::pressPointer(const MouseButtonEvent& event) {
   const bool left = event.button == MouseButton::left;
   if (event.pressed) {
     holdsHandle_ = holdsHandle_ && editor_->dragging();
-    if (ui_ && !ui_->wantsMouse() && !editor_->dragging()) {
+    if (ui_ && !ui_->takesPointer(cursorX_, cursorY_) && !editor_->dragging()) {
       pressed_ = {cursorX_, cursorY_};
       pressedButton_ = event.button;
       if (left && lookAtScene(time_)) {
@@ -151,13 +157,7 @@ bool Demo::handleEditKey(const KeyEvent& event) {
     case Key::del:
       return editor_->remove(), true;
     case Key::escape:
-      if (editor_->dragging()) {
-        return editor_->cancelDrag(), true;
-      }
-      if (editor_->document().selection()) {
-        return editor_->select({}), true;
-      }
-      return false;
+      return closeTop(), true;
     default:
       return false;
   }
@@ -166,9 +166,9 @@ bool Demo::handleEditKey(const KeyEvent& event) {
 bool Demo::handleControlKey(const KeyEvent& event) {
   switch (event.key) {
     case Key::z:
-      return event.shift ? editor_->redo() : editor_->undo(), true;
+      return event.shift ? redo() : undo(), true;
     case Key::y:
-      return editor_->redo(), true;
+      return redo(), true;
     case Key::d:
       return event.repeat ? void() : editor_->duplicate(), true;
     case Key::s:
@@ -184,7 +184,7 @@ void Demo::showEdit(double seconds) {
   model_.edit.unsavedSettings = model_.edit.open && settingsChanged();
   const double next = time_ + (model_.paused ? 0.0 : seconds * model_.timeSpeed);
   if (editor_->document().selection() && lookAtScene(next)) {
-    const bool over = !ui_->wantsMouse() && !dragging_;
+    const bool over = !ui_->takesPointer(cursorX_, cursorY_) && !dragging_;
     model_.edit.overlay = editor_->overlay(look(), over ? std::optional(pointerPixel()) : std::nullopt);
   }
 }
@@ -225,13 +225,29 @@ void Demo::actOn(EditAction action) {
       return editor_->duplicate();
     case EditAction::remove:
       return editor_->remove();
+    case EditAction::lookOut:
+      return lookFromMirror(CameraController::MirrorSide::front);
+    case EditAction::lookBehind:
+      return lookFromMirror(CameraController::MirrorSide::back);
     case EditAction::undo:
-      return editor_->undo();
+      return undo();
     case EditAction::redo:
-      return editor_->redo();
+      return redo();
     default:
       return answer(action);
   }
+}
+
+void Demo::undo() {
+  const std::string what = editor_->document().undoLabel();
+  editor_->undo();
+  tell(what.empty() ? "nothing to undo" : "undone: " + what);
+}
+
+void Demo::redo() {
+  const std::string what = editor_->document().redoLabel();
+  editor_->redo();
+  tell(what.empty() ? "nothing to redo" : "redone: " + what);
 }
 
 void Demo::answer(EditAction action) {
@@ -283,16 +299,26 @@ void Demo::saveScene() {
 void Demo::askWhere() {
   const std::filesystem::path file = editor_->document().usualFile();
   model_.edit.note.clear();
-  model_.edit.saveAs = (isWritable(file) ? file : documentsDir() / "Speculum" / file.filename()).string();
+  const bool usual = isWritable(file) && !isShipped(file);
+  model_.edit.saveAs = (usual ? file : ownFolder() / file.filename()).string();
   model_.edit.asksWhere = true;
 }
 
-bool Demo::saveSceneTo(const std::filesystem::path& file) {
+bool Demo::saveSceneTo(const std::filesystem::path& named) {
+  std::filesystem::path file = named;
   try {
-    std::error_code none;
-    std::filesystem::create_directories(file.parent_path(), none);
+    file = sceneFileNamed(named);
+    if (file.parent_path() == ownFolder()) {
+      std::error_code none;
+      std::filesystem::create_directories(ownFolder(), none);
+    }
+    requireFolder(file);
+    if (isShipped(file) && file != refused_) {
+      throw SaveError(file.string() + ": not saved: it comes with the program");
+    }
     editor_->document().save(file, settingChanges(settingsAtLoad_, model_.settings), file == refused_);
     model_.edit.note = "saved " + file.string();
+    tell(model_.edit.note);
     shownScene_ = static_cast<int>(noteSceneFile(file));
     model_.scene = shownScene_;
     loaded_->settings = model_.settings;
@@ -306,47 +332,6 @@ bool Demo::saveSceneTo(const std::filesystem::path& file) {
     refused_ = file;
     return false;
   }
-}
-
-// With what unsaved changes were asked about for.
-void Demo::goOn() {
-  discarded_ = editor_->document().revision();
-  const std::optional<std::filesystem::path> file = std::exchange(nextFile_, std::nullopt);
-  if (std::exchange(closing_, false)) {
-    leaves_ = true;
-    return window_.requestClose();
-  }
-  if (file) {
-    openFile(*file);
-  }
-}
-
-// Whether the scene may be left as it is: unsaved changes are asked about, those that were given up only once.
-bool Demo::mayLeave() {
-  const bool given = discarded_ == editor_->document().revision();
-  if (given || options_.frames > 0 || !editor_->document().modified()) {
-    return true;
-  }
-  model_.edit.asksSave = !model_.edit.asksWhere;
-  return false;
-}
-
-// Whether the window may go: it stays while unsaved changes are asked about.
-bool Demo::closes() {
-  if (!window_.shouldClose()) {
-    return false;
-  }
-  if (leaves_ || options_.frames > 0 || !editor_->document().modified()) {
-    return true;
-  }
-  window_.refuseClose();
-  if (window_.iconified()) {
-    window_.restore();
-  }
-  closing_ = true;
-  model_.edit.asksSave = !model_.edit.asksWhere;
-  framesDue_ = std::max(framesDue_, 4);
-  return false;
 }
 
 }  // namespace speculum

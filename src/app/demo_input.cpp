@@ -31,7 +31,7 @@ void Demo::installInput() {
   callbacks.mouseButton = [this](const MouseButtonEvent& event) { pressPointer(event); };
   callbacks.cursor = [this](double x, double y) { movePointer(x, y); };
   callbacks.scroll = [this](double, double dy) {
-    if (!(ui_ && ui_->wantsMouse())) {
+    if (!(ui_ && ui_->takesPointer(cursorX_, cursorY_))) {
       camera_.zoom(dy);
     }
   };
@@ -40,7 +40,13 @@ void Demo::installInput() {
 }
 
 void Demo::handleKey(const KeyEvent& event) {
-  if (!event.pressed || !ui_ || handleQuestionKey(event) || ui_->wantsKeyboard() || handleEditKey(event)) {
+  if (!event.pressed || !ui_ || handleQuestionKey(event)) {
+    return;
+  }
+  if (event.key == Key::q && event.control) {
+    return window_.requestClose();
+  }
+  if (ui_->wantsKeyboard() || handleEditKey(event)) {
     return;
   }
   if (event.key == Key::period || event.key == Key::comma) {
@@ -53,8 +59,6 @@ void Demo::handleKey(const KeyEvent& event) {
 
 void Demo::handleSingleKey(const KeyEvent& event) {
   switch (event.key) {
-    case Key::escape:
-      return window_.requestClose();
     case Key::f1:
       model_.help = !model_.help;
       return ui_->setVisible(ui_->visible() || model_.help);
@@ -98,12 +102,14 @@ void Demo::stepTime(int steps) {
 
 void Demo::toggleRecording(bool bare) {
   if (recorder_.running()) {
-    return recorder_.stop();
+    recorder_.stop();
+    return tell(model_.picture);
   }
   try {
     recorder_.start(loaded_->scene.file.stem().string(), bare);
   } catch (const std::filesystem::filesystem_error& error) {
     model_.picture = "not recorded: " + std::string(error.what());
+    tell(model_.picture);
   }
 }
 
@@ -140,7 +146,7 @@ bool Demo::changing() {
 bool Demo::rest() {
   rested_ = true;
   window_.waitEvents(restSeconds);
-  return ui_->wantsFrames() || working_;
+  return ui_->wantsFrames() || working_ || statusFades();
 }
 
 bool Demo::step() {

@@ -27,6 +27,7 @@ size_t Demo::noteSceneFile(const fs::path& file) {
   }
   sceneFiles_.push_back(file);
   model_.scenes.push_back((isModelFile(file) ? file.filename() : file.stem()).string());
+  model_.scenePaths.push_back(fs::absolute(file, error).lexically_normal().string());
   model_.sceneTitles.push_back(isModelFile(file) ? std::string() : sceneTitle(file));
   return sceneFiles_.size() - 1;
 }
@@ -101,8 +102,12 @@ void Demo::showScene(std::unique_ptr<LoadedScene> scene) {
   camera_.reset(loaded_->scene.camera);
   lookedFrom_ = -1;
   time_ = 0.0;
+  const size_t known = sceneFiles_.size();
   shownScene_ = static_cast<int>(noteSceneFile(loaded_->scene.file));
   model_.scene = shownScene_;
+  if (sceneFiles_.size() > known) {
+    findScenes();
+  }
 }
 
 }  // namespace speculum

@@ -15,6 +15,7 @@ namespace {
 constexpr double armPixels = 92.0;     // of the handles
 constexpr double handleReach = 7.0;    // pixels within which one is taken hold of
 constexpr double sameSpot = 4.0;       // pixels within which a click repeats the last one
+constexpr double objectAhead = 2.5;    // half diagonals of a model, to stand before it and not in it
 constexpr double farthestAhead = 4.0;  // metres from the eye to where things are added
 
 std::vector<Selection> allThings(const Scene& scene) {
@@ -183,11 +184,11 @@ void SceneEditor::cancelDrag() {
 }
 
 // On the way to what the middle of the picture shows.
-glm::dvec3 SceneEditor::placeAhead(const Look& look, double part) {
+glm::dvec3 SceneEditor::placeAhead(const Look& look, double part, double least) {
   const glm::dvec2 middle = 0.5 * look.picture.view().pictureSize;
   const std::vector<Picked> found = picker().at(look.state, look.picture, middle, {.maxDepth = 0});
   const double far = found.empty() ? farthestAhead : look.picture.depth(found[0].point);
-  const double ahead = std::min(part * far, farthestAhead);
+  const double ahead = std::max(std::min(part * far, farthestAhead), least);
   const double perMetre = std::pow(10.0, std::ceil(2.0 - std::log10(ahead)));  // hundredths of it, for short numbers
   return glm::round((look.picture.eye() + look.picture.forward() * ahead) * perMetre) / perMetre;
 }
@@ -235,7 +236,8 @@ void SceneEditor::add(const Look& look, EditAction kind, int mesh) {
   } else if (kind == EditAction::addLight) {
     select(document_.addLight(placeAhead(look, 0.6), eye));
   } else {
-    select(document_.addObject(mesh, placeAhead(look, 0.9)));
+    const double size = glm::length(document_.scene().meshes.at(static_cast<size_t>(mesh)).halfExtent);
+    select(document_.addObject(mesh, placeAhead(look, 0.9, objectAhead * size)));
   }
 }
 
@@ -301,6 +303,7 @@ void SceneEditor::showThings(UiEdit& edit) const {
   for (const int mirror : path_) {
     edit.through.push_back(describe(scene, {Selection::Kind::mirror, mirror}));
   }
+  edit.throughMirrors = path_;
 }
 
 void SceneEditor::show(UiEdit& edit) const {

@@ -87,7 +87,7 @@ class SceneEditor {
   PictureView clickedImage(const Look& look) const;
   Gizmo gizmo(const Look& look) const;
   const MeshOutline& meshOutline();
-  glm::dvec3 placeAhead(const Look& look, double part);
+  glm::dvec3 placeAhead(const Look& look, double part, double least = 0.0);
   std::string dragLabel() const;
 
   Picker& picker();

@@ -107,12 +107,8 @@ Selection SceneDocument::addLight(const glm::dvec3& position, const glm::dvec3& 
 
 Selection SceneDocument::addObject(int mesh, const glm::dvec3& position) {
   const Mesh& model = scene_.meshes.at(mesh);
-  const auto like = std::find_if(scene_.objects.begin(), scene_.objects.end(),
-                                 [&](const Object& object) { return object.mesh == mesh; });
-  Object object = like == scene_.objects.end() ? Object{.mesh = mesh} : *like;
+  Object object{.mesh = mesh};
   object.name = freeName(model.source.stem().string(), scene_.objects);
-  object.copies = {};
-  object.spin = glm::dvec3(0.0);
   const glm::dvec3 center = linearOf(object) * model.center;
   object.position = position - center + glm::dvec3(0.0, halfExtent(object, model).y, 0.0);
   return structural("add object '" + object.name + "'",

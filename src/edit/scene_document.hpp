@@ -41,8 +41,8 @@ class SceneDocument {
   // The new thing is selected, and its place returned. Sizes follow the distance to `viewer`, the eye.
   Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer);  // upright, facing the viewer
   Selection addLight(const glm::dvec3& position, const glm::dvec3& viewer);
-  // Of a mesh that the scene has; `position` (world) is under the middle of it. Scale, rotation and colours are those
-  // of the first object with this mesh.
+  // Of a mesh that the scene has, as the model is: scale 1, its own colours. `position` (world) is under the middle of
+  // it.
   Selection addObject(int mesh, const glm::dvec3& position);
   // A little beside; an object with copies as a whole. Throws std::out_of_range for what does not exist.
   Selection duplicate(const Selection& selection);

@@ -204,4 +204,13 @@ std::string sceneTitle(const fs::path& file) {
   }
 }
 
+bool isSceneFile(const fs::path& file) {
+  try {
+    const toml::table root = readToml(file, "scene file");
+    return root.contains("camera") || root.contains("object") || root.contains("mirror");
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 }  // namespace speculum

@@ -41,6 +41,8 @@ int addModel(Scene& scene, const std::filesystem::path& file, const LoadProgress
 
 // The scene's `title` alone, without models; empty for a file that has none or cannot be read.
 std::string sceneTitle(const std::filesystem::path& file);
+// Whether the file looks like a scene, which may still be a wrong one. Models do not.
+bool isSceneFile(const std::filesystem::path& file);
 
 // The OBJ file with its MTL; appends the textures it names to `textures`. Throws InputError.
 Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});

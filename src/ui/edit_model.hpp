@@ -17,6 +17,8 @@ enum class EditAction {
   addMirror,
   duplicate,
   remove,
+  lookOut,  // of the selected mirror
+  lookBehind,
   undo,
   redo,
   save,
@@ -51,6 +53,7 @@ struct UiEdit {
   std::vector<std::pair<Selection, std::string>> things;  // all of the scene, with their names
   Selection selected;                                     // changed by the person
   std::vector<std::string> through;  // mirrors that the selected thing was picked through, from the eye
+  std::vector<int> throughMirrors;   // the same, indices into Scene::mirrors
   Thing thing;                       // the selected one; edited in place
   bool edited = false;               // set by the panel: `thing` was
   bool held = false;                 // set by the panel: a field is being edited, what follows belongs to the same step

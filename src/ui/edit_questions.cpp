@@ -58,7 +58,7 @@ void questions(UiModel& model) {
     if (ImGui::IsWindowAppearing()) {
       ImGui::SetKeyboardFocusHere();
     }
-    ImGui::InputText("##file", &edit.saveAs);
+    ImGui::InputText("##file", &edit.saveAs, ImGuiInputTextFlags_AutoSelectAll);
     notePlace(model, "edit.file");
     if (!edit.note.empty()) {
       ImGui::TextWrapped("%s", edit.note.c_str());

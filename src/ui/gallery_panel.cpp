@@ -31,7 +31,7 @@ void tile(UiModel& model, const Thumbnails& thumbnails, int scene, const ImVec2&
   notePlace(model, "gallery." + name);
   const bool hot = ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible);
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", name.c_str());
+    ImGui::SetTooltip("%s\n%s", name.c_str(), model.scenePaths[static_cast<size_t>(scene)].c_str());
   }
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high(low.x + size.x, low.y + size.y);

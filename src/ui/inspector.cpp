@@ -12,9 +12,6 @@
 
 namespace speculum::panels {
 
-namespace {
-
-// A button that asks for something; greyed out while there is nothing to do.
 void actionButton(UiModel& model, const char* label, const char* key, EditAction action, bool enabled,
                   const std::string& tip) {
   ImGui::BeginDisabled(!enabled);
@@ -27,6 +24,8 @@ void actionButton(UiModel& model, const char* label, const char* key, EditAction
     ImGui::SetTooltip("%s", tip.c_str());
   }
 }
+
+namespace {
 
 void thingList(UiModel& model) {
   UiEdit& edit = model.edit;
@@ -89,6 +88,8 @@ void addButtons(UiModel& model) {
   modelChoice(model);
 }
 
+constexpr const char* undoneIs = "\n(things and bookmarks; settings go back by the arrows at their lines' ends)";
+
 void historyButtons(UiModel& model) {
   const UiEdit& edit = model.edit;
   const bool any = static_cast<bool>(edit.selected);
@@ -96,38 +97,22 @@ void historyButtons(UiModel& model) {
   ImGui::SameLine();
   actionButton(model, "delete", "delete", EditAction::remove, any, "Del");
   ImGui::SameLine();
-  actionButton(model, "undo", "undo", EditAction::undo, !edit.undo.empty(), "Ctrl+Z   " + edit.undo);
+  actionButton(model, "undo", "undo", EditAction::undo, !edit.undo.empty(), "Ctrl+Z   " + edit.undo + undoneIs);
   ImGui::SameLine();
-  actionButton(model, "redo", "redo", EditAction::redo, !edit.redo.empty(), "Ctrl+Shift+Z   " + edit.redo);
-  if (!edit.undo.empty()) {
-    ImGui::TextDisabled("undo: %s", edit.undo.c_str());
-  }
-  if (!edit.redo.empty()) {
-    ImGui::TextDisabled("redo: %s", edit.redo.c_str());
-  }
+  actionButton(model, "redo", "redo", EditAction::redo, !edit.redo.empty(), "Ctrl+Shift+Z   " + edit.redo + undoneIs);
   actionButton(model, "save", "save", EditAction::save, edit.unsaved || edit.unsavedSettings, "Ctrl+S   " + edit.file);
   ImGui::SameLine();
   actionButton(model, "save as ...", "save_as", EditAction::askWhere, true, "Ctrl+Shift+S");
   ImGui::SameLine();
   ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : edit.unsavedSettings ? "unsaved settings" : "saved");
-  if (!edit.note.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s", edit.note.c_str());
-    ImGui::PopStyleColor();
-  }
 }
 
-void inspector(UiModel& model) {
-  const float unit = ImGui::GetFontSize();
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const ImVec2 size(25.0f * unit, std::min(display.y - 1.6f * unit, 46.0f * unit));
-  ImGui::SetNextWindowPos(ImVec2(std::max(0.8f * unit, display.x - size.x - 0.8f * unit), 0.8f * unit),
-                          ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(size, ImGuiCond_FirstUseEver);
+void inspector(UiModel& model, PanelDock& dock) {
   if (model.edit.focus) {
     ImGui::SetNextWindowFocus();
   }
-  if (ImGui::Begin("Inspector", &model.edit.open)) {
+  ImGui::SetNextWindowBgAlpha(1.0f);
+  if (dock.begin(inspectorTitle, &model.edit.open, PanelDock::Edge::right, {25.0f, 46.0f})) {
     thingList(model);
     addButtons(model);
     historyButtons(model);
@@ -149,12 +134,12 @@ void inspectorButton(UiModel& model) {
   }
 }
 
-void edit(UiModel& model, bool inspectorShown) {
+void edit(UiModel& model, PanelDock* dock) {
   model.edit.edited = false;
   model.edit.action = EditAction::none;
   drawOverlay(model.edit.overlay);
-  if (model.edit.open && inspectorShown) {
-    inspector(model);
+  if (model.edit.open && dock) {
+    inspector(model, *dock);
   }
   questions(model);
   model.edit.enter = false;

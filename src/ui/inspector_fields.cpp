@@ -27,17 +27,20 @@ class Fields {
   bool vec(const char* key, const char* label, glm::dvec3& v, double speed, const char* tip) {
     const double low = -farthest;
     const double high = farthest;
+    number_ = true;
     return done(ImGui::DragScalarN(label, ImGuiDataType_Double, &v.x, 3, static_cast<float>(speed), &low, &high, "%.3f",
                                    ImGuiSliderFlags_AlwaysClamp),
                 key, tip);
   }
   bool number(const char* key, const char* label, double& v, double speed, double low, double high, const char* format,
               const char* tip, ImGuiSliderFlags flags = 0) {
+    number_ = true;
     return done(ImGui::DragScalar(label, ImGuiDataType_Double, &v, static_cast<float>(speed), &low, &high, format,
                                   flags | ImGuiSliderFlags_AlwaysClamp),
                 key, tip);
   }
   bool count(const char* key, const char* label, int& v, int low, int high, const char* tip) {
+    number_ = true;
     return done(ImGui::DragInt(label, &v, 0.1f, low, high, "%d", ImGuiSliderFlags_AlwaysClamp), key, tip);
   }
   bool check(const char* key, const char* label, bool& v, const char* tip) {
@@ -67,6 +70,7 @@ class Fields {
     const double high = farthest;
     const bool changed = ImGui::DragScalarN(label, ImGuiDataType_Double, &v.x, 3, 0.01f, &low, &high, "%.6g",
                                             ImGuiSliderFlags_AlwaysClamp);
+    number_ = true;
     explain(key, "metres; the polygon must stay planar and convex");
     return changed;
   }
@@ -98,8 +102,9 @@ class Fields {
   void explain(const char* key, const char* tip) {
     notePlace(model_, std::string("edit.") + key);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
-      ImGui::SetTooltip("%s", tip);
+      ImGui::SetTooltip("%s%s", tip, number_ ? "\ndrag, or click to type" : "");
     }
+    number_ = false;
   }
   bool done(bool changed, const char* key, const char* tip) {
     explain(key, tip);
@@ -108,6 +113,7 @@ class Fields {
   }
 
   UiModel& model_;
+  bool number_ = false;  // the widget is a number
 };
 
 constexpr const char* rotationTip = "pitch about X, yaw about Y, roll about Z, degrees; R = Ry Rx Rz";
@@ -241,7 +247,7 @@ void mirrorShape(UiModel& model, Fields& fields, Mirror& mirror) {
 }
 
 void mirrorFields(UiModel& model, Fields& fields, Mirror& mirror) {
-  fields.text("name", "name", mirror.name, "figures name the mirror by it");
+  fields.text("name", "name", mirror.name, "what lists, passes and statistics call the mirror");
   mirrorShape(model, fields, mirror);
   fields.color("reflectance", "reflectance", mirror.reflectance,
                "share of light reflected, by channel; at normal incidence with Fresnel");
@@ -266,6 +272,23 @@ void mirrorFields(UiModel& model, Fields& fields, Mirror& mirror) {
   }
 }
 
+// Each selects the mirror.
+void throughButtons(UiModel& model) {
+  UiEdit& edit = model.edit;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("seen through:");
+  for (size_t i = 0; i < edit.through.size(); ++i) {
+    ImGui::SameLine();
+    ImGui::PushID(static_cast<int>(i));  // a mirror may come twice
+    if (ImGui::SmallButton(edit.through[i].c_str())) {
+      edit.selected = {Selection::Kind::mirror, edit.throughMirrors[i]};
+    }
+    notePlace(model, "edit.through." + std::to_string(i));
+    ImGui::PopID();
+    tip("select it");
+  }
+}
+
 }  // namespace
 
 void selectedThing(UiModel& model) {
@@ -275,11 +298,14 @@ void selectedThing(UiModel& model) {
     return;
   }
   if (!edit.through.empty()) {
-    std::string seen;
-    for (const std::string& mirror : edit.through) {
-      seen += (seen.empty() ? "" : ", ") + mirror;
-    }
-    ImGui::TextWrapped("seen through: %s", seen.c_str());
+    throughButtons(model);
+  }
+  if (edit.selected.kind == Selection::Kind::mirror) {
+    actionButton(model, "look out of it", "look_out", EditAction::lookOut, true,
+                 "Shift+B: the view that the mirror has");
+    ImGui::SameLine();
+    actionButton(model, "look from behind", "look_behind", EditAction::lookBehind, true,
+                 "B: what the mirror shows, seen through it");
   }
   int mode = static_cast<int>(edit.mode);
   for (const auto& [label, key, value] :

@@ -4,14 +4,15 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <cstdio>
 
 namespace speculum {
 
 namespace {
 
-constexpr float lowest = 12.0f;  // sizes of the font that a window is high at least
+constexpr float lowest = 12.0f;  // sizes of the font that a window is high at least, where there is room
 
 float margin() {
   return std::floor(0.8f * ImGui::GetFontSize());
@@ -21,108 +22,171 @@ glm::vec2 displaySize() {
   return {ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
 }
 
+glm::vec2 vec(const ImVec2& v) {
+  return {v.x, v.y};
+}
+
+bool apart(const glm::vec2& a, const glm::vec2& b) {
+  return glm::distance(a, b) > 0.5f;
+}
+
+// Whether the present window is being sized by that widget.
+bool holdsEdge(ImGuiID active) {
+  ImGuiWindow* window = ImGui::GetCurrentWindow();
+  bool held = false;
+  for (int i = 0; active != 0 && i < 4; ++i) {
+    held = held || active == ImGui::GetWindowResizeCornerID(window, i) ||
+           active == ImGui::GetWindowResizeBorderID(window, static_cast<ImGuiDir>(i));
+  }
+  return held;
+}
+
 }  // namespace
 
-// ImGui remembers only windows that stand where they were put.
-void PanelDock::rememberCollapsed() {
+void PanelDock::remember() {
   ImGuiSettingsHandler handler;
-  handler.TypeName = "Docked";
+  handler.TypeName = "Panel";
   handler.TypeHash = ImHashStr(handler.TypeName);
-  handler.UserData = &collapsed_;
+  handler.UserData = this;
   handler.ReadOpenFn = [](ImGuiContext*, ImGuiSettingsHandler* self, const char* name) -> void* {
-    // What was saved is saved as collapsed: others are not in the file.
-    return const_cast<std::string*>(&*static_cast<std::set<std::string>*>(self->UserData)->insert(name).first);
+    return &static_cast<PanelDock*>(self->UserData)->panels_[name];
   };
-  handler.ReadLineFn = [](ImGuiContext*, ImGuiSettingsHandler*, void*, const char*) {};
+  handler.ReadLineFn = [](ImGuiContext*, ImGuiSettingsHandler* self, void* entry, const char* line) {
+    static_cast<PanelDock*>(self->UserData)->read(*static_cast<Panel*>(entry), line);
+  };
   handler.WriteAllFn = [](ImGuiContext*, ImGuiSettingsHandler* self, ImGuiTextBuffer* out) {
-    for (const std::string& name : *static_cast<std::set<std::string>*>(self->UserData)) {
-      out->appendf("[%s][%s]\nCollapsed=1\n\n", self->TypeName, name.c_str());
-    }
+    out->append(static_cast<PanelDock*>(self->UserData)->saved().c_str());
   };
   ImGui::GetCurrentContext()->SettingsHandlers.push_back(handler);
 }
 
-void PanelDock::followCollapsed(const char* name, Panel& panel) {
-  const bool collapsed = panel.docked && ImGui::IsWindowCollapsed();
-  if (collapsed != collapsed_.contains(name)) {
-    collapsed ? void(collapsed_.insert(name)) : void(collapsed_.erase(name));
-    ImGui::MarkIniSettingsDirty();
-  }
-}
-
-void PanelDock::beginFrame() {
-  left_ = right_ = {.inset = margin(), .top = margin()};
-}
-
-PanelDock::Panel& PanelDock::panel(const char* name) {
-  const auto [found, fresh] = panels_.try_emplace(name);
-  if (fresh) {
-    // Only what was moved is in the layout file.
-    found->second.docked = !ImGui::FindWindowSettings(ImHashStr(name));
-  }
-  return found->second;
-}
-
-// Below the last window of the edge, lower than wanted where there is little room; beside it where there is none; over
-// it where there is none either.
-void PanelDock::place(Panel& panel, Edge edge, const glm::vec2& ems) {
-  Column& column = edge == Edge::left ? left_ : right_;
-  const Column& other = edge == Edge::left ? right_ : left_;
-  const float em = ImGui::GetFontSize();
-  const glm::vec2 display = displaySize();
-  const glm::vec2 room = glm::max(display - 2.0f * margin(), glm::vec2(1.0f));
-  const glm::vec2 wanted(panel.size.x > 0.0f ? panel.size.x : ems.x * em, panel.size.y > 0.0f ? panel.size.y
-                                                                          : ems.y > 0.0f      ? ems.y * em
-                                                                                              : room.y);
-  glm::vec2 size = glm::floor(glm::min(wanted, room));
-  if (column.width > 0.0f && display.y - margin() - column.top < std::min(size.y, lowest * em)) {
-    const float beside = column.inset + column.width + margin();
-    const bool free = beside + size.x + other.inset + other.width + margin() <= display.x;
-    column = {.inset = free ? beside : column.inset, .top = free ? margin() : display.y - margin() - lowest * em};
-  }
-  column.top = std::max(column.top, margin());
-  size.y = std::max(std::min(size.y, std::floor(display.y - margin() - column.top)), 1.0f);
-  const float x = edge == Edge::left ? column.inset : std::max(display.x - column.inset - size.x, margin());
-  const glm::vec2 corner(std::floor(x), std::floor(column.top));
-  if (corner != panel.corner || size != panel.given) {
-    ImGui::SetNextWindowPos({corner.x, corner.y});
-    ImGui::SetNextWindowSize({size.x, size.y});
-    panel.corner = corner;
-    panel.given = size;
-  }
-}
-
-// What the person did to the window that was just begun. Without the pointer it was ImGui, in a window too small.
-void PanelDock::follow(Panel& panel, Edge edge) {
-  const ImVec2 corner = ImGui::GetWindowPos();
-  const ImVec2 size = ImGui::GetWindowSize();
-  const bool held = ImGui::IsMouseDown(ImGuiMouseButton_Left);
-  if (held && glm::distance(glm::vec2(corner.x, corner.y), panel.corner) > 0.5f) {
+void PanelDock::read(Panel& panel, const char* line) {
+  glm::vec2 v(0.0f);
+  if (std::sscanf(line, "Pos=%f,%f", &v.x, &v.y) == 2) {
     panel.docked = false;
+    panel.wish.corner = v;
+  } else if (std::sscanf(line, "Display=%f,%f", &v.x, &v.y) == 2) {
+    panel.display = v;
+  } else if (std::sscanf(line, "Size=%f,%f", &v.x, &v.y) == 2) {
+    panel.wish.size = v;
+  } else if (std::string_view(line) == "Collapsed=1") {
+    panel.collapsed = true;
+  }
+}
+
+std::string PanelDock::saved() const {
+  std::string text;
+  for (const auto& [name, panel] : panels_) {
+    std::string lines = panel.collapsed ? "Collapsed=1\n" : "";
+    std::array<char, 64> line{};
+    if (!panel.docked) {
+      std::snprintf(line.data(), line.size(), "Pos=%.0f,%.0f\n", panel.wish.corner.x, panel.wish.corner.y);
+      lines += line.data();
+      std::snprintf(line.data(), line.size(), "Display=%.0f,%.0f\n", panel.display.x, panel.display.y);
+      lines += line.data();
+    }
+    if (panel.wish.size.x > 0.0f) {
+      std::snprintf(line.data(), line.size(), "Size=%.0f,%.0f\n", panel.wish.size.x, panel.wish.size.y);
+      lines += line.data();
+    }
+    text += lines.empty() ? "" : "[Panel][" + name + "]\n" + lines + "\n";
+  }
+  return text;
+}
+
+void PanelDock::reset() {
+  for (auto& [name, panel] : panels_) {
+    panel.docked = true;
+    panel.collapsed = panel.begun = false;
+    panel.wish = {};
+  }
+  ImGui::MarkIniSettingsDirty();
+}
+
+void PanelDock::beginFrame(float bottom) {
+  bottom_ = bottom;
+  std::erase_if(order_, [](const Panel* panel) { return !panel->shown; });
+  arrange(Edge::left);
+  arrange(Edge::right);
+  for (auto& [name, panel] : panels_) {
+    panel.shown = false;
+  }
+}
+
+void PanelDock::arrange(Edge edge) {
+  const float em = ImGui::GetFontSize();
+  WindowRoom room{.display = displaySize(), .margin = margin(), .right = edge == Edge::right};
+  room.bottom = edge == Edge::left ? bottom_ : 0.0f;
+  std::vector<const Panel*> panels;
+  std::vector<WindowWish> wishes;
+  for (const Panel* panel : order_) {
+    if (panel->docked && panel->edge != edge) {
+      room.taken = std::max(room.taken, room.margin + panel->given.size.x);
+    } else if (panel->docked) {
+      const float height = panel->ems.y > 0.0f ? panel->ems.y * em : room.display.y;
+      const bool sized = panel->wish.size.x > 0.0f;
+      WindowWish wish{sized ? panel->wish.size : glm::vec2(panel->ems.x * em, height), lowest * em};
+      wish.least = sized ? wish.size.y : wish.least;
+      wish.size.y = panel->collapsed ? ImGui::GetFrameHeight() : wish.size.y;
+      panels.push_back(panel);
+      wishes.push_back(wish);
+    }
+  }
+  const std::vector<WindowRect> places = arrangeWindows(wishes, room);
+  for (size_t i = 0; i < panels.size(); ++i) {
+    docked_[panels[i]] = places[i];
+  }
+}
+
+// What the person did to the window that was just begun; what else moved or sized it was the display.
+void PanelDock::follow(Panel& panel) {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  const ImGuiWindow* window = ImGui::GetCurrentWindow();
+  const WindowRect now{vec(window->Pos), vec(window->SizeFull)};
+  const bool moved =
+      context.MovingWindow && context.MovingWindow->RootWindow == window && apart(now.corner, panel.given.corner);
+  const bool sized = holdsEdge(context.ActiveId) && apart(now.size, panel.given.size);
+  if (moved || sized) {
+    panel.docked = panel.docked && !moved;
+    panel.wish = now;
+    panel.given = now;
+    panel.display = displaySize();
     ImGui::MarkIniSettingsDirty();
-    return;
   }
-  if (held && !ImGui::IsWindowCollapsed() && glm::distance(glm::vec2(size.x, size.y), panel.given) > 0.5f) {
-    panel.size = panel.given = {size.x, size.y};
+  if (panel.collapsed != window->Collapsed) {
+    panel.collapsed = window->Collapsed;
+    ImGui::MarkIniSettingsDirty();
   }
-  Column& column = edge == Edge::left ? left_ : right_;
-  column.top += size.y + margin();
-  column.width = std::max(column.width, size.x);
 }
 
 bool PanelDock::begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags) {
-  Panel& panel = this->panel(name);
-  if (!panel.docked) {
-    ImGui::SetNextWindowSize({ems.x * ImGui::GetFontSize(), ems.y * ImGui::GetFontSize()}, ImGuiCond_FirstUseEver);
-    return ImGui::Begin(name, open, windowFlags);
+  Panel& panel = panels_[name];
+  panel.edge = edge;
+  panel.ems = ems;
+  panel.shown = true;
+  if (std::find(order_.begin(), order_.end(), &panel) == order_.end()) {
+    order_.push_back(&panel);
+    arrange(edge);
+    panel.given = {};
   }
-  place(panel, edge, ems);
-  if (!std::exchange(panel.begun, true)) {
-    ImGui::SetNextWindowCollapsed(collapsed_.contains(name));
+  const glm::vec2 size = panel.wish.size.x > 0.0f ? panel.wish.size : ems * ImGui::GetFontSize();
+  const WindowRect wish{panel.wish.corner, size};
+  const bool room = glm::all(glm::greaterThanEqual(displaySize(), panel.display));
+  const WindowRect place = panel.docked ? docked_[&panel] : room ? wish : fitWindow(wish, displaySize());
+  const bool held = ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+  if (place != panel.given && !(held && !panel.docked)) {
+    ImGui::SetNextWindowPos({place.corner.x, place.corner.y});
+    if (!panel.collapsed) {
+      ImGui::SetNextWindowSize({place.size.x, place.size.y});
+    }
+    panel.given = place;
+  }
+  if (!panel.begun) {
+    ImGui::SetNextWindowCollapsed(panel.collapsed);
+    panel.begun = true;
   }
   const bool visible = ImGui::Begin(name, open, windowFlags | ImGuiWindowFlags_NoSavedSettings);
-  follow(panel, edge);
-  followCollapsed(name, panel);
+  follow(panel);
   return visible;
 }
 

@@ -1,51 +1,52 @@
 #pragma once
 
-#include <glm/glm.hpp>
 #include <map>
-#include <set>
 #include <string>
+#include <vector>
+
+#include "ui/panel_layout.hpp"
 
 namespace speculum {
 
 // Places windows along the left and right edge of the display, those of an edge below each other, until a person moves
-// them. What was moved keeps its place, also in the layout file; the others follow the display's size and each other.
+// them. What was moved stays where it was put as far as the display shows it; the others follow the display's size and
+// each other. The layout file has what the person did: moved, sized, collapsed.
 class PanelDock {
  public:
   enum class Edge { left, right };
 
-  // Makes the layout file of the present ImGui context say which windows are collapsed; once, before its first frame.
-  // The dock must outlive the context.
-  void rememberCollapsed();
-  // In each ImGui frame before the first begin().
-  void beginFrame();
+  // Makes the layout file of the present ImGui context keep that; once, before its first frame. The dock must outlive
+  // the context.
+  void remember();
+  // In each ImGui frame before the first begin(). `bottom`: pixels kept free below the windows of the left edge.
+  void beginFrame(float bottom);
   // ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. ImGui::End must
   // follow whatever it returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
+  // All windows go back to where they are without a person's doing.
+  void reset();
 
  private:
   struct Panel {
     bool docked = true;
-    glm::vec2 size{0.0f};   // pixels; what the person made of it, 0: nothing
-    glm::vec2 given{0.0f};  // pixels; what it was given last
-    glm::vec2 corner{-1.0f};
+    bool collapsed = false;
+    WindowRect wish;          // the person's; a docked one's size alone, 0: none
+    glm::vec2 display{0.0f};  // that was, when it was put there; as large a one does not move it
+    WindowRect given;         // last
+    Edge edge = Edge::left;
+    glm::vec2 ems{0.0f};
+    bool shown = false;  // in this frame or the last
     bool begun = false;
   };
-  // Where the next window of an edge goes.
-  struct Column {
-    float inset = 0.0f;  // pixels from the edge
-    float top = 0.0f;
-    float width = 0.0f;  // of the widest window in it
-  };
-  Panel& panel(const char* name);
-  void place(Panel& panel, Edge edge, const glm::vec2& ems);
-  void follow(Panel& panel, Edge edge);
-
-  void followCollapsed(const char* name, Panel& panel);
+  void arrange(Edge edge);
+  void follow(Panel& panel);
+  std::string saved() const;
+  void read(Panel& panel, const char* line);
 
   std::map<std::string, Panel> panels_;
-  std::set<std::string> collapsed_;  // docked ones
-  Column left_;
-  Column right_;
+  std::vector<Panel*> order_;  // in which those that are shown were opened
+  std::map<const Panel*, WindowRect> docked_;
+  float bottom_ = 0.0f;
 };
 
 }  // namespace speculum

@@ -52,6 +52,9 @@ void clearColor(UiModel& model) {
     model.settings.view.clearColor = glm::dvec3(srgbDecode(encoded[0]), srgbDecode(encoded[1]), srgbDecode(encoded[2]));
   }
   describe(model, "view.clear_color");
+  if (model.sceneSky && !model.settings.view.clearColor) {
+    ImGui::TextDisabled("the scene's sky is shown; a colour replaces it");
+  }
 }
 
 void reflectionSettings(UiModel& model) {
@@ -162,7 +165,7 @@ void bookmarks(UiModel& model) {
 }  // namespace
 
 void scene(UiModel& model) {
-  const bool open = ImGui::BeginCombo("scene", model.scenes[model.scene].c_str());
+  const bool open = ImGui::BeginCombo("scene", model.scenes[model.scene].c_str(), ImGuiComboFlags_HeightLargest);
   notePlace(model, "scene");
   if (open) {
     for (int i = 0; i < static_cast<int>(model.scenes.size()); ++i) {
@@ -175,7 +178,9 @@ void scene(UiModel& model) {
     }
     ImGui::EndCombo();
   }
-  tip("what is shown; Scenes has pictures of them");
+  if (!open) {
+    tip((model.scenePaths[static_cast<size_t>(model.scene)] + "\nScenes has pictures of them").c_str());
+  }
   int mode = static_cast<int>(model.cameraMode);
   ImGui::RadioButton("orbit", &mode, static_cast<int>(CameraMode::orbit));
   tip("dragging turns about what is looked at");
@@ -194,14 +199,10 @@ void scene(UiModel& model) {
       "scene");
   ImGui::SameLine();
   inspectorButton(model);
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  if (!model.command.empty()) {
-    ImGui::TextWrapped("copied: %s", model.command.c_str());
-  }
-  if (!model.picture.empty()) {
-    ImGui::TextWrapped("%s", model.picture.c_str());
-  }
-  ImGui::PopStyleColor();
+  ImGui::SameLine();
+  model.screenshot = ImGui::Button("screenshot");
+  notePlace(model, "screenshot");
+  tip("F12: save the window as a picture; Shift+F12: without the panel");
 }
 
 void settings(UiModel& model) {

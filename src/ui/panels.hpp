@@ -2,10 +2,14 @@
 
 #include <span>
 
+#include "ui/panel_dock.hpp"
 #include "ui/thumbnails.hpp"
 #include "ui/ui_model.hpp"
 
 namespace speculum::panels {
+
+inline constexpr const char* helpTitle = "Keys";
+inline constexpr const char* inspectorTitle = "Inspector";
 
 // The sections of the panel, each within the current ImGui window.
 void message(const UiModel& model);
@@ -28,9 +32,14 @@ void accuracy(UiModel& model);
 // A window of its own, while something is loaded.
 void loading(UiModel& model);
 
-// What is drawn over the picture, the window that edits the scene, if `inspector`, and questions about saving it.
-void edit(UiModel& model, bool inspector);
+// What is drawn over the picture, the window that edits the scene, unless `dock` is null, and questions about saving
+// it.
+void edit(UiModel& model, PanelDock* dock);
 void inspectorButton(UiModel& model);
+
+// At the lower left edge of the display, over nothing else: PanelDock keeps its place free.
+float statusHeight();  // pixels
+void statusLine(const UiModel& model, float width);
 
 // What a key or a movement of the pointer does in the window.
 struct KeyHelp {

@@ -50,7 +50,9 @@ void textAcrossColumns(const std::string& text) {
   const ImVec2 size = ImGui::GetWindowSize();
   const float top = corner.y + ImGui::GetFrameHeight();  // below the title
   ImGui::PushClipRect({ImGui::GetCursorScreenPos().x, top}, {corner.x + size.x, corner.y + size.y}, false);
+  ImGui::PushTextWrapPos(size.x - ImGui::GetStyle().ScrollbarSize - ImGui::GetStyle().WindowPadding.x);
   ImGui::TextDisabled("%s", text.c_str());
+  ImGui::PopTextWrapPos();
   ImGui::PopClipRect();
 }
 
@@ -106,7 +108,12 @@ void passRow(UiModel& model, const PassNode& node) {
     model.passClicked = true;
   }
   ImGui::TableNextColumn();
-  ImGui::Text("%.3f", pass.gpuMs);
+  if (pass.framesAgo > 0) {
+    ImGui::TextDisabled("kept");
+    tip("nothing in it changed, or it was not its turn: the image of an earlier frame is shown, for nothing");
+  } else {
+    ImGui::Text("%.3f", pass.gpuMs);
+  }
   ImGui::TableNextColumn();
   ImGui::Text("%u", pass.draws);
   ImGui::TableNextColumn();

@@ -36,7 +36,7 @@ constexpr std::array<Cost, 37> costs{{
      "1.11 ms with 1, 3.18 ms with 4, 5.75 ms with 8."},
     {"view.exposure", "One factor a pixel in the display pass."},
     {"view.tone_map", "A few operations a pixel in the display pass."},
-    {"view.clear_color", "No more than the sky that it replaces."},
+    {"view.clear_color", "Costs nothing: it is drawn where nothing else is, in the place of background and sky."},
     {"view.texture_filter", "trilinear reads eight texels where bilinear reads four; far textures grow calmer."},
     {"view.wireframe", "To see triangles; a device without wireframe fills them."},
     {"view.continuous", "Costs the energy of drawing all the time; without it a still picture costs nothing."},

@@ -3,14 +3,17 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "core/platform.hpp"
+#include "ui/glfw_input.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {
@@ -18,6 +21,7 @@ namespace speculum {
 namespace {
 
 constexpr float fontPixels = 15.0f;
+constexpr float edgeReach = 4.0f;  // screen coordinates around a window that belong to it, as in ImGui
 
 DescriptorPoolHandle createPool(Device& device) {
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 64};
@@ -42,6 +46,7 @@ SimpleUI::Context::Context() {
   io.KeyMap[ImGuiKey_Tab] = -1;  // hides the panel instead of walking through it, as the arrow keys do as well
 #endif
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+  io.ConfigDragClickToInputText = true;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
   // The layout is the person's, not the working directory's.
   std::error_code error;
@@ -56,9 +61,13 @@ SimpleUI::Context::~Context() {
 
 // The two halves of the backend, shut down in reverse.
 struct SimpleUI::Backend {
-  explicit Backend(Window& window) { ImGui_ImplGlfw_InitForVulkan(window.native(), true); }
+  explicit Backend(Window& window) {
+    ImGui_ImplGlfw_InitForVulkan(window.native(), false);
+    input.emplace(window.native());
+  }
   ~Backend() {
     shutdownVulkan();
+    input.reset();
     ImGui_ImplGlfw_Shutdown();
   }
   void shutdownVulkan() {
@@ -66,6 +75,7 @@ struct SimpleUI::Backend {
       ImGui_ImplVulkan_Shutdown();
     }
   }
+  std::optional<GlfwInput> input;
   bool vulkan = false;
 };
 
@@ -75,7 +85,7 @@ SimpleUI::SimpleUI(Renderer& renderer, Window& window)
       theme_(savedTheme()),
       choices_(savedPanelChoices()),
       backend_(std::make_unique<Backend>(window)) {
-  dock_.rememberCollapsed();
+  dock_.remember();
 }
 
 SimpleUI::~SimpleUI() {
@@ -142,7 +152,7 @@ void SimpleUI::initVulkan() {
 void SimpleUI::build(UiModel& model) {
   prepareLook();
   ImGui_ImplVulkan_NewFrame();
-  ImGui_ImplGlfw_NewFrame();
+  backend_->input->newFrame();
   ImGui::NewFrame();
   model.widgets.clear();
   model.debugArea.reset();
@@ -163,9 +173,10 @@ void SimpleUI::build(UiModel& model) {
   model.accuracy.cancel = false;
   model.accuracy.apply = -1;
   model.cancelLoading = false;
+  model.screenshot = false;
   panels::loading(model);
+  dock_.beginFrame(panels::statusHeight());
   if (visible_) {
-    dock_.beginFrame();
     buildPanel(model);
     buildWindows(model);
     panels::passOutline(model);
@@ -174,7 +185,7 @@ void SimpleUI::build(UiModel& model) {
       ImGui::ShowDemoWindow(&showDemoWindow_);
     }
   }
-  panels::edit(model, visible_);
+  panels::edit(model, visible_ ? &dock_ : nullptr);
   ImGui::Render();
 }
 
@@ -182,6 +193,7 @@ void SimpleUI::buildPanel(UiModel& model) {
   if (dock_.begin("Speculum", nullptr, PanelDock::Edge::left, {28.0f, 0.0f})) {
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());  // the rest is for the labels
     ImGui::Text("%.2f ms/frame (%.1f FPS)", model.frameMs, model.frameMs > 0.0 ? 1000.0 / model.frameMs : 0.0);
+    const float width = ImGui::GetWindowWidth();
     const char* hint = "F1: keys   Tab: hide";
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(hint).x);
     ImGui::TextDisabled("%s", hint);
@@ -192,8 +204,10 @@ void SimpleUI::buildPanel(UiModel& model) {
     panels::passes(model);
     panels::effects(model);
     ImGui::PopItemWidth();
+    statusWidth_ = width;
   }
   ImGui::End();
+  panels::statusLine(model, std::max(statusWidth_, 20.0f * ImGui::GetFontSize()));
 }
 
 // The windows beside the panel, and what is said about the panel itself.
@@ -219,6 +233,11 @@ void SimpleUI::panelChoices(UiModel& model) {
       choices_.percent = pendingPercent_;
     }
     presentMode(model);
+    if (ImGui::Button("reset layout")) {
+      dock_.reset();
+    }
+    panels::notePlace(model, "window.reset");
+    panels::tip("all windows back to the edges, as large as at first");
     ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
   }
 }
@@ -226,6 +245,7 @@ void SimpleUI::panelChoices(UiModel& model) {
 void SimpleUI::buildWindows(UiModel& model) {
   const auto window = [&](const char* name, bool& open, const glm::vec2& ems, const auto& content) {
     if (open) {
+      ImGui::SetNextWindowBgAlpha(1.0f);  // figures over the picture cannot be read
       if (dock_.begin(name, &open, PanelDock::Edge::right, ems)) {
         content();
       }
@@ -304,8 +324,44 @@ void SimpleUI::record(const PassScope& scope) {
   ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), scope.commands());
 }
 
-bool SimpleUI::wantsMouse() const {
-  return ImGui::GetIO().WantCaptureMouse;
+// Of the frame before the event: the pointer may have come from elsewhere since.
+bool SimpleUI::takesPointer(double x, double y) const {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (!context.OpenPopupStack.empty() || (context.ActiveId != 0 && ImGui::IsAnyMouseDown())) {
+    return true;
+  }
+  const ImVec2 point(static_cast<float>(x), static_cast<float>(y));
+  return std::any_of(context.Windows.begin(), context.Windows.end(), [&](const ImGuiWindow* window) {
+    ImRect reach = window->OuterRectClipped;
+    reach.Expand((window->Flags & ImGuiWindowFlags_NoResize) == 0 ? edgeReach : 0.0f);
+    return window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&
+           reach.Contains(point);
+  });
+}
+
+bool SimpleUI::holdsEscape() const {
+  return !ImGui::GetCurrentContext()->OpenPopupStack.empty() || ImGui::IsAnyItemActive();
+}
+
+bool SimpleUI::closeTop(UiModel& model) {
+  const auto close = [&](const ImGuiWindow& window) {
+    const std::string_view name = window.Name;
+    const auto panel =
+        std::find_if(panelNames.begin(), panelNames.end(), [&](const PanelName& p) { return p.name == name; });
+    bool* open = name == panels::helpTitle        ? &model.help
+                 : name == panels::inspectorTitle ? &model.edit.open
+                 : panel != panelNames.end()      ? &(choices_.*panel->open)
+                 : name == "Dear ImGui Demo"      ? &showDemoWindow_
+                                                  : nullptr;
+    return open && window.Active && !window.Hidden && std::exchange(*open, false);
+  };
+  const ImVector<ImGuiWindow*>& windows = ImGui::GetCurrentContext()->WindowsFocusOrder;  // the last one is the top
+  for (int i = windows.Size - 1; i >= 0; --i) {
+    if (close(*windows[i])) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool SimpleUI::wantsKeyboard() const {
@@ -317,7 +373,7 @@ bool SimpleUI::navigating() const {
 }
 
 bool SimpleUI::wantsFrames() const {
-  return wantsKeyboard() || ImGui::IsAnyMouseDown();
+  return wantsKeyboard() || ImGui::IsAnyMouseDown() || backend_->input->waiting();
 }
 
 }  // namespace speculum

@@ -26,10 +26,14 @@ class SimpleUI {
   void build(UiModel& model);
   void record(const PassScope& scope);
 
-  bool wantsMouse() const;     // the pointer is over the panel or holds one of its widgets
-  bool wantsKeyboard() const;  // a text field is being edited
-  bool navigating() const;     // a widget is chosen by keyboard or gamepad
-  bool wantsFrames() const;    // something of the panel changes by itself: a text cursor, a button that is held
+  // Whether what the pointer does there is the panel's: one of its windows is there, or it holds one of its widgets.
+  // Screen coordinates of the window.
+  bool takesPointer(double x, double y) const;
+  bool holdsEscape() const;       // ImGui closes something at Esc by itself, or lets go of it
+  bool closeTop(UiModel& model);  // the window on top, but for the panel itself; false if there is none
+  bool wantsKeyboard() const;     // a text field is being edited
+  bool navigating() const;        // a widget is chosen by keyboard or gamepad
+  bool wantsFrames() const;       // something of the panel changes by itself: a text cursor, a button that is held
   bool visible() const { return visible_; }
   void setVisible(bool visible) { visible_ = visible; }
 
@@ -52,7 +56,7 @@ class SimpleUI {
 
   Renderer& renderer_;
   Window& window_;
-  PanelDock dock_;
+  PanelDock dock_;  // outlives the context, which saves it
   Context context_;
   Theme theme_;
   Theme chosenTheme_ = theme_;
@@ -63,6 +67,7 @@ class SimpleUI {
   Thumbnails thumbnails_;
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
+  float statusWidth_ = 0.0f;  // pixels
   bool visible_ = true;
   bool showDemoWindow_ = false;
 };

@@ -12,17 +12,7 @@ namespace {
 
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
-constexpr std::array<KeyHelp, 33> keys{{
-    {"click", "select what is there, in mirrors too; again: the mirror it is seen in"},
-    {"G", "handles that move, handles that turn (Ctrl while dragging: steps)"},
-    {"N Shift+N", "select the next thing, the one before"},
-    {"F2", "inspector: everything in the scene, with its numbers"},
-    {"Ctrl+D", "duplicate the selected thing"},
-    {"Del", "delete it"},
-    {"Ctrl+Z", "undo"},
-    {"Ctrl+Shift+Z", "redo, as Ctrl+Y"},
-    {"Ctrl+S", "save the scene"},
-    {"Ctrl+Shift+S", "save it as another file"},
+constexpr std::array<KeyHelp, 34> keys{{
     {"drag", "look around: about the target (orbit) or from where you are (fly)"},
     {"drag middle or right", "move sideways and up or down"},
     {"wheel", "nearer or farther"},
@@ -42,11 +32,31 @@ constexpr std::array<KeyHelp, 33> keys{{
     {"Shift+F12", "the same without the panel"},
     {"F10", "record the window as numbered pictures, and end it"},
     {"Shift+F10", "the same without the panel"},
+    {"click", "select what is there, in mirrors too; again: the mirror it is seen in"},
+    {"G", "handles that move, handles that turn (Ctrl while dragging: steps)"},
+    {"N Shift+N", "select the next thing, the one before"},
+    {"F2", "inspector: everything in the scene, with its numbers"},
+    {"Ctrl+D", "duplicate the selected thing"},
+    {"Del", "delete it"},
+    {"Ctrl+Z", "undo"},
+    {"Ctrl+Shift+Z", "redo, as Ctrl+Y"},
+    {"Ctrl+S", "save the scene"},
+    {"Ctrl+Shift+S", "save it as another file"},
     {"F11", "full screen and back"},
     {"Tab", "hide or show the panel"},
     {"F1", "this list"},
-    {"Esc", "stop dragging, deselect, quit"},
+    {"Esc", "stop dragging; close what is on top; deselect"},
+    {"Ctrl+Q", "quit"},
 }};
+
+// Groups of the keys, in their order; those of a column stand below each other.
+struct KeyGroup {
+  const char* name;
+  size_t count;
+  bool columnEnds;
+};
+constexpr std::array<KeyGroup, 5> groups{
+    {{"view", 10, false}, {"time", 5, false}, {"pictures", 4, true}, {"edit", 10, false}, {"window", 5, false}}};
 
 constexpr std::array<KeyHelp, 9> gamepad{{
     {"left stick", "forwards, back, left, right"},
@@ -61,17 +71,44 @@ constexpr std::array<KeyHelp, 9> gamepad{{
 }};
 
 void helpTable(const char* title, std::span<const KeyHelp> rows) {
-  if (!ImGui::BeginTable(title, 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
+  ImGui::TextDisabled("%s", title);
+  const float em = ImGui::GetFontSize();
+  const float keysWidth = 11.5f * em;
+  const float textWidth =
+      std::clamp(0.5f * ImGui::GetIO().DisplaySize.x - keysWidth - 4.0f * em, 12.0f * em, 30.0f * em);
+  constexpr ImGuiTableFlags flags =
+      ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg | ImGuiTableFlags_NoHostExtendX;
+  if (!ImGui::BeginTable(title, 2, flags)) {
     return;
   }
+  ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed, keysWidth);
+  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, textWidth);
   for (const KeyHelp& row : rows) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(row.keys);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(row.what);
+    ImGui::TextWrapped("%s", row.what);
   }
   ImGui::EndTable();
+  ImGui::Spacing();
+}
+
+// In two columns side by side.
+void keyTables() {
+  ImGui::BeginGroup();
+  size_t begin = 0;
+  for (const KeyGroup& group : groups) {
+    helpTable(group.name, std::span(keys).subspan(begin, group.count));
+    begin += group.count;
+    if (group.columnEnds) {
+      ImGui::EndGroup();
+      ImGui::SameLine(0.0f, 2.0f * ImGui::GetFontSize());
+      ImGui::BeginGroup();
+    }
+  }
+  helpTable("gamepad", gamepad);
+  ImGui::EndGroup();
 }
 
 }  // namespace
@@ -127,11 +164,9 @@ void help(UiModel& model) {
   }
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowBgAlpha(1.0f);  // text over text cannot be read
-  if (ImGui::Begin("Keys", &model.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-    helpTable("keys", keys);
-    ImGui::Spacing();
-    ImGui::TextDisabled("gamepad");
-    helpTable("gamepad", gamepad);
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, ImGui::GetIO().DisplaySize);
+  if (ImGui::Begin(helpTitle, &model.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    keyTables();
   }
   ImGui::End();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -120,6 +121,17 @@ struct UiAccuracy {
   bool showDifference = false;     // changed by the person
 };
 
+// What was done last, to be read and forgotten.
+struct UiStatus {
+  std::string text;
+  double age = 0.0;  // seconds
+};
+inline constexpr double statusSeconds = 8.0;  // that it is shown, fading in the last one
+
+inline float statusAlpha(double age) {
+  return static_cast<float>(std::clamp(statusSeconds - age, 0.0, 1.0));
+}
+
 inline constexpr double timeStep = 1.0 / 60.0;  // seconds, of a single step
 inline constexpr double slowestTime = 1.0 / 64.0;
 inline constexpr double fastestTime = 64.0;
@@ -135,9 +147,11 @@ struct UiModel {
   int presentMode = 0;                    // index into presentModes; changed by the person
   std::vector<std::string> scenes;        // names
   std::vector<std::string> sceneTitles;   // of the same
+  std::vector<std::string> scenePaths;    // likewise
   int scene = 0;                          // index into scenes; changed by the person
   Settings settings;
   Settings sceneSettings;           // as the scene and the command line have them: what a reset goes back to
+  bool sceneSky = false;            // shown in the place of the clear colour while none is set
   glm::vec3 sceneBackground{0.0f};  // linear; shown as the clear colour while none is set
   CameraMode cameraMode = CameraMode::orbit;
   bool paused = false;
@@ -175,11 +189,13 @@ struct UiModel {
   bool copyCommand = false;            // set by the panel: put the command line of this view into the clipboard
   std::string command;                 // that was copied last
   bool help = false;                   // the list of keys is open; changed by the person
-  std::string picture;                 // where the last screenshot is, or why it is not
-  std::string loading;                 // the file that is read in the background; empty: none
-  double loadingDone = 0.0;            // share, 0 .. 1
-  bool cancelLoading = false;          // set by the panel
-  std::string message;                 // an error to show until the next one, e.g. of a shader or a scene
+  bool screenshot = false;             // set by the panel: save the window as a picture
+  UiStatus status;
+  std::string picture;         // where the last screenshot is, or why it is not
+  std::string loading;         // the file that is read in the background; empty: none
+  double loadingDone = 0.0;    // share, 0 .. 1
+  bool cancelLoading = false;  // set by the panel
+  std::string message;         // an error to show until the next one, e.g. of a shader or a scene
 };
 
 inline std::vector<LogLine> shownLog(const UiModel& model) {

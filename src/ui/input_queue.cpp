@@ -1,0 +1,37 @@
+#include "ui/input_queue.hpp"
+
+namespace speculum {
+
+void InputQueue::push(const InputEvent& event) {
+  const bool moves = event.kind == InputEvent::Kind::pointer;
+  if (moves && !events_.empty() && events_.back().kind == InputEvent::Kind::pointer) {
+    events_.back() = event;
+  } else {
+    events_.push_back(event);
+  }
+}
+
+std::vector<InputEvent> InputQueue::take() {
+  using Kind = InputEvent::Kind;
+  std::vector<InputEvent> taken;
+  bool keyReleased = false;
+  bool buttonReleased = false;
+  while (!events_.empty()) {
+    const InputEvent event = events_.front();
+    // Typed letters come as text: of their keys no frame needs to see anything.
+    const bool pressed = event.down && (event.kind == Kind::button || (event.kind == Kind::key && event.command));
+    if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased)) {
+      break;
+    }
+    taken.push_back(event);
+    events_.pop_front();
+    if (pressed) {
+      break;
+    }
+    keyReleased = keyReleased || (event.kind == Kind::key && !event.down);
+    buttonReleased = buttonReleased || (event.kind == Kind::button && !event.down);
+  }
+  return taken;
+}
+
+}  // namespace speculum

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+namespace speculum {
+
+struct InputEvent {
+  enum class Kind { key, text, button, pointer, wheel };
+  Kind kind = Kind::key;
+  int code = 0;          // GLFW's of the key or button; the character
+  bool down = false;     // of key and button
+  bool command = false;  // a key that stands for no character and is no modifier, or any while Control or Alt is held
+  double x = 0.0;        // of pointer (screen coordinates) and wheel (notches)
+  double y = 0.0;
+};
+
+// Input in the order in which it came, for a panel that looks at the state of keys and buttons once a frame: what goes
+// down and up between two frames is seen down in one and up in the next, where the pointer was then.
+class InputQueue {
+ public:
+  void push(const InputEvent& event);
+  // What the next frame may see at once.
+  std::vector<InputEvent> take();
+  bool empty() const { return events_.empty(); }
+
+ private:
+  std::deque<InputEvent> events_;
+};
+
+}  // namespace speculum

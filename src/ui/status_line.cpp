@@ -1,0 +1,45 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/panels.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+constexpr float lines = 2.0f;       // of text, whatever there is to say
+constexpr float mostWidth = 0.75f;  // of the display
+
+}  // namespace
+
+float statusHeight() {
+  return std::floor(lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().FramePadding.y);
+}
+
+void statusLine(const UiModel& model, float width) {
+  const float alpha = statusAlpha(model.status.age);
+  if (model.status.text.empty() || alpha <= 0.0f) {
+    return;
+  }
+  const float margin = std::floor(0.8f * ImGui::GetFontSize());
+  const float height = statusHeight();
+  ImGui::SetNextWindowPos({margin, std::max(ImGui::GetIO().DisplaySize.y - height - 0.5f * margin, 0.0f)});
+  // Paths have no spaces to wrap at: beyond the panel if need be.
+  const float text = ImGui::CalcTextSize(model.status.text.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextWindowSize(
+      {std::clamp(text, width, std::max(width, mostWidth * ImGui::GetIO().DisplaySize.x)), height});
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImGui::GetStyle().FramePadding);
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  if (ImGui::Begin("##status", nullptr, flags)) {
+    ImGui::TextWrapped("%s", model.status.text.c_str());
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+}  // namespace speculum::panels

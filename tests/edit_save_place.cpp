@@ -1,0 +1,41 @@
+// Where a scene is saved that a person names a file for.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "edit/save_place.hpp"
+#include "edit/scene_writer.hpp"
+#include "temporary_folder.hpp"
+
+namespace speculum {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(SavePlace, TomlIsAddedWhereItIsMissing) {
+  EXPECT_EQ(sceneFileNamed("/a/b.toml"), "/a/b.toml");
+  EXPECT_EQ(sceneFileNamed("/a/b"), "/a/b.toml");
+  EXPECT_EQ(sceneFileNamed("b.v2"), "b.v2.toml");
+  EXPECT_EQ(sceneFileNamed("b.obj"), "b.obj") << "a model: refused later, with its reason";
+  EXPECT_THROW(sceneFileNamed(""), SaveError);
+  EXPECT_THROW(sceneFileNamed("/a/"), SaveError);
+}
+
+TEST(SavePlace, AMissingFolderIsNamed) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(requireFolder(folder / "a.toml"));
+  EXPECT_NO_THROW(requireFolder("a.toml")) << "the working directory";
+  try {
+    requireFolder(folder / "one" / "two" / "a.toml");
+    FAIL();
+  } catch (const SaveError& error) {
+    EXPECT_NE(std::string(error.what()).find("no folder " + (folder / "one").string() + " ("), std::string::npos)
+        << error.what();
+  }
+  std::ofstream(folder / "file") << "no folder";
+  EXPECT_THROW(requireFolder(folder / "file" / "a.toml"), SaveError);
+  EXPECT_FALSE(fs::exists(folder / "one"));
+}
+
+}  // namespace
+}  // namespace speculum

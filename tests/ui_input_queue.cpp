@@ -1,0 +1,91 @@
+// Input that comes between two frames: what each of the next ones sees of it.
+#include <gtest/gtest.h>
+
+#include "ui/input_queue.hpp"
+
+namespace speculum {
+namespace {
+
+using Kind = InputEvent::Kind;
+
+InputEvent command(int code, bool down) {
+  return {.kind = Kind::key, .code = code, .down = down, .command = true};
+}
+InputEvent letter(int code, bool down) {
+  return {.kind = Kind::key, .code = code, .down = down};
+}
+InputEvent button(bool down) {
+  return {.kind = Kind::button, .down = down};
+}
+InputEvent pointer(double x) {
+  return {.kind = Kind::pointer, .x = x};
+}
+InputEvent text(int character) {
+  return {.kind = Kind::text, .code = character};
+}
+
+TEST(InputQueue, ATapIsSeenDownInOneFrameAndUpInTheNext) {
+  InputQueue queue;
+  for (int tap = 0; tap < 3; ++tap) {
+    queue.push(command(1, true));
+    queue.push(command(1, false));
+  }
+  for (int tap = 0; tap < 3; ++tap) {
+    const std::vector<InputEvent> first = queue.take();
+    ASSERT_FALSE(first.empty());
+    EXPECT_TRUE(first.back().down);
+    if (tap == 0) {
+      EXPECT_EQ(first.size(), 1u);
+    }
+    EXPECT_FALSE(queue.empty());
+    const std::vector<InputEvent> second = queue.take();
+    ASSERT_EQ(second.size(), 1u);
+    EXPECT_FALSE(second[0].down);
+  }
+  EXPECT_TRUE(queue.empty());
+  EXPECT_TRUE(queue.take().empty());
+}
+
+TEST(InputQueue, TypedTextTakesOneFrame) {
+  InputQueue queue;
+  for (const int c : {'a', 'b', 'c'}) {
+    queue.push(letter(c, true));
+    queue.push(text(c));
+    queue.push(letter(c, false));
+  }
+  EXPECT_EQ(queue.take().size(), 9u);
+  EXPECT_TRUE(queue.empty());
+}
+
+TEST(InputQueue, WhatIsTypedAfterACommandWaitsForIt) {
+  InputQueue queue;
+  queue.push(text('a'));
+  queue.push(command(1, true));
+  queue.push(command(1, false));
+  queue.push(text('b'));
+  const std::vector<InputEvent> first = queue.take();
+  ASSERT_EQ(first.size(), 2u);
+  EXPECT_EQ(first[0].code, 'a');
+  EXPECT_TRUE(first[1].command);
+  EXPECT_EQ(queue.take().size(), 2u);
+}
+
+TEST(InputQueue, AClickHappensWhereThePointerWas) {
+  InputQueue queue;
+  queue.push(pointer(1.0));
+  queue.push(pointer(2.0));
+  queue.push(button(true));
+  queue.push(button(false));
+  queue.push(pointer(3.0));
+  const std::vector<InputEvent> press = queue.take();
+  ASSERT_EQ(press.size(), 2u);
+  EXPECT_EQ(press[0].x, 2.0) << "the last of the movements";
+  EXPECT_TRUE(press[1].down);
+  const std::vector<InputEvent> release = queue.take();
+  ASSERT_EQ(release.size(), 1u) << "before the pointer goes on";
+  EXPECT_FALSE(release[0].down);
+  EXPECT_EQ(queue.take().size(), 1u);
+}
+
+}  // namespace
+}  // namespace speculum
