@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include "frame/memory_fit.hpp"
+#include "frame/pass_range.hpp"
+
+namespace speculum {
+namespace {
+
+Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size) {
+  Mirror mirror;
+  mirror.position = position;
+  mirror.rotation = {0, yaw, 0};
+  mirror.size = size;
+  return mirror;
+}
+
+FramePlan planOf(std::vector<Mirror> mirrors, int maxDepth) {
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  scene.mirrors = std::move(mirrors);
+  Settings settings;
+  settings.reflection.maxDepth = maxDepth;
+  return planFrame(scene, evaluate(scene, 0.0), settings, 640, 360);
+}
+
+void expectWhole(const FramePlan& plan, const std::vector<PassRange>& ranges) {
+  size_t next = 0;
+  for (const PassRange& range : ranges) {
+    EXPECT_EQ(range.first, next);
+    EXPECT_GT(range.end, range.first);
+    next = range.end;
+  }
+  EXPECT_EQ(next, plan.passes.size());
+}
+
+TEST(PassRange, MirrorsSideBySideAreOneRangeTheLargestWithTheFirstDepth) {
+  const FramePlan plan =
+      planOf({wall({-2, 0, -5}, 0, {1, 1}), wall({0, 0, -5}, 0, {2, 2}), wall({2, 0, -5}, 0, {1.5, 1})}, 1);
+  ASSERT_EQ(plan.passes.size(), 3u);
+  const std::vector<PassRange> ranges = independentPasses(plan);
+  ASSERT_EQ(ranges.size(), 1u);
+  expectWhole(plan, ranges);
+  const std::vector<size_t> order = largestFirst(plan, ranges[0]);
+  for (size_t i = 1; i < order.size(); ++i) {
+    EXPECT_GE(plan.passes[order[i - 1]].view.rect.area(), plan.passes[order[i]].view.rect.area());
+  }
+}
+
+TEST(PassRange, NoRangeHoldsAPassAndWhatItShows) {
+  const FramePlan plan =
+      planOf({wall({-1, 0, -2}, 70, {3, 2}), wall({1, 0, -2}, -70, {3, 2}), wall({0, 0, -5}, 0, {1, 2})}, 4);
+  ASSERT_GT(plan.passes.size(), 6u);
+  const std::vector<PassRange> ranges = independentPasses(plan);
+  expectWhole(plan, ranges);
+  EXPECT_LT(ranges.size(), plan.passes.size());
+  for (const PassRange& range : ranges) {
+    for (size_t i = range.first; i < range.end; ++i) {
+      for (const MirrorDraw& draw : plan.passes[i].mirrors) {
+        EXPECT_LT(draw.pass, static_cast<int>(range.first)) << "pass " << i;
+      }
+    }
+  }
+}
+
+TEST(PassRange, ARangeCoversNoMoreThanAPicture) {
+  // Each covers more than half of the picture, the second beside and behind the first.
+  const FramePlan plan = planOf({wall({-1, 0, -3}, 0, {6, 4}), wall({3, 0, -5}, 0, {8, 8})}, 1);
+  ASSERT_EQ(plan.passes.size(), 2u);
+  ASSERT_GT(plan.passes[0].view.rect.area() + plan.passes[1].view.rect.area(), 640 * 360);
+  EXPECT_EQ(independentPasses(plan).size(), 2u);
+}
+
+TEST(PassRange, MemoryCountsTheDepthOfEachPassOfTheLargestRange) {
+  Settings settings;
+  settings.reflection.samples = 1;
+  settings.view.samples = 1;
+  const FramePlan one = planOf({wall({-2, 0, -5}, 0, {1, 1})}, 1);
+  const FramePlan two = planOf({wall({-2, 0, -5}, 0, {1, 1}), wall({2, 0, -5}, 0, {1, 1})}, 1);
+  ASSERT_EQ(two.passes.size(), 2u);
+  const auto added = static_cast<uint64_t>(two.passes[1].view.rect.area());
+  EXPECT_EQ(targetBytes(two, settings) - targetBytes(one, settings), added * (8 + 4));
+}
+
+}  // namespace
+}  // namespace speculum
