@@ -267,7 +267,7 @@ TEST(EnvironmentMaps, SkippingChangesNoByte) {
       "skipping", everything + "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [1.4, 0, 1]\nspin = [0, 90, 0]\n");
   for (const char* interval : {"1", "3"}) {
     Options options = mapped(file, {{"effects.environment_interval", interval}, {"effects.environment_size", "64"}});
-    options.size = {120, 90};
+    options.size = {80, 60};
     Session skipping(options);
     int captures = 0;
     std::vector<std::vector<uint8_t>> pictures;

@@ -277,7 +277,7 @@ TEST(Unchanged, WithAnIntervalNothingIsRenderedInItsTurnUnlessItChanged) {
 TEST(Unchanged, WhereMemoryIsShortImagesAreRenderedAnewRatherThanWorse) {
   Scene scene = room();
   scene.mirrors[left] = wall({-2.5, 0, -5}, 0, {4.9, 5});
-  scene.mirrors[right] = wall({2.5, 0, -5}, 60, {4, 4});
+  scene.mirrors[right] = wall({2.5, 0, -5}, 0, {3, 3});
   scene.mirrors[behind] = wall({0, 0, 3}, 180, {12, 6});
   scene.objects[seenLeft].position = {-2.4, 0, -4};
   const auto fit = [&](uint64_t budget, std::span<const HeldImage> held) {

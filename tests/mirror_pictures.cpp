@@ -188,13 +188,13 @@ TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
 
 TEST(MirrorPictures, MovingFramesKeepTheirMemory) {
   Session session(headless(sourceFile("scenes/many_mirrors.toml"), size));
-  for (int i = 0; i < 20; ++i) {
-    session.draw(0.1 * i, false);
+  for (int i = 0; i < 10; ++i) {
+    session.draw(0.2 * i, false);
   }
   session.renderer().waitIdle();
   const uint64_t before = session.device().allocatedBytes();
-  for (int i = 0; i < 40; ++i) {
-    session.draw(0.1 * (i % 20), false);
+  for (int i = 0; i < 20; ++i) {
+    session.draw(0.2 * (i % 10), false);
   }
   session.renderer().waitIdle();
   EXPECT_LT(static_cast<double>(session.device().allocatedBytes()), 1.2 * static_cast<double>(before));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <utility>
 
 #include "core/device.hpp"
 #include "core/instance.hpp"
@@ -86,12 +87,17 @@ Image8 draw(const Options& options, double time) {
   return picture;
 }
 
+// Empty at a test's first call: what an earlier run left is not found.
 std::filesystem::path sceneDirectory() {
+  static std::filesystem::path made;
   std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "speculum_scenes";
   if (const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info()) {
     std::string name = std::string(test->test_suite_name()) + "." + test->name();
     std::replace(name.begin(), name.end(), '/', '_');
     directory /= name;
+    if (std::exchange(made, directory) != directory) {
+      std::filesystem::remove_all(directory);
+    }
   }
   std::filesystem::create_directories(directory);
   return directory;

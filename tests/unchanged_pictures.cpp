@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{96, 54};
+constexpr PictureSize size{64, 36};
 
 Options optionsFor(const std::filesystem::path& file, bool skip,
                    std::vector<std::pair<std::string, std::string>> more) {
