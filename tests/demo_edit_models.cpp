@@ -45,6 +45,7 @@ TEST_F(EditModels, ObjectsOfAnyModelAreAddedAndSaved) {
   const Object vase = object();
   typeModel("nowhere.obj");
   EXPECT_EQ(edit().note, (folder() / "nowhere.obj").string() + ": there is no such file (name a Wavefront OBJ file)");
+  EXPECT_EQ(demo_->model().status.text, edit().note) << "it is said";
   std::ofstream(folder() / "empty.obj") << "v 0 0 0\n";
   typeModel("empty.obj");
   EXPECT_NE(edit().note.find("empty.obj:1: f: the model has no triangle"), std::string::npos) << edit().note;

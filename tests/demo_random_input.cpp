@@ -15,11 +15,11 @@ constexpr double seconds = 60.0;
 constexpr unsigned defaultSeed = 20261121;  // SPECULUM_SEED takes another
 
 const std::vector<std::string> keys{
-    "w",       "a",        "s",   "d",      "q",      "e",      "f",           "b",
-    "g",       "t",        "r",   "space",  "period", "comma",  "bracketleft", "Tab",
-    "F1",      "F11",      "F12", "Escape", "Delete", "ctrl+d", "ctrl+z",      "ctrl+y",
-    "ctrl+s",  "Return",   "Up",  "Down",   "Left",   "Right",  "shift+F12",   "bracketright",
-    "shift+b", "shift+F10"};
+    "w",       "a",         "s",      "d",      "q",      "e",           "f",           "b",
+    "g",       "t",         "r",      "space",  "period", "comma",       "bracketleft", "Tab",
+    "F1",      "F11",       "F12",    "Escape", "Delete", "ctrl+d",      "ctrl+z",      "ctrl+y",
+    "ctrl+s",  "Return",    "Up",     "Down",   "Left",   "Right",       "shift+F12",   "bracketright",
+    "shift+b", "shift+F10", "ctrl+q", "n",      "F2",     "ctrl+shift+s"};
 
 class RandomInput : public DemoWindow {
  protected:

@@ -90,7 +90,7 @@ Image8 draw(const Options& options, double time) {
 // Empty at a test's first call: what an earlier run left is not found.
 std::filesystem::path sceneDirectory() {
   static std::filesystem::path made;
-  std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "speculum_scenes";
+  std::filesystem::path directory = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "scenes";
   if (const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info()) {
     std::string name = std::string(test->test_suite_name()) + "." + test->name();
     std::replace(name.begin(), name.end(), '/', '_');

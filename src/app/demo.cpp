@@ -57,7 +57,6 @@ void Demo::applyModel() {
   followLoading();
   if (model_.copyCommand) {
     copyCommand();
-    tell("copied: " + model_.command);
   }
   if (model_.screenshot) {
     shot_ = Shot::window;

@@ -46,7 +46,6 @@ class Demo {
 
   void installInput();
   void findScenes();
-  void findModels();
   void showGallery();
   void showDevice();
   void showMemory();
@@ -95,6 +94,10 @@ class Demo {
   void frameScene();
   void saveShot();
   void copyCommand();
+  // demo_models.cpp
+  void findModels();
+  void addObject();
+  void useModels();
   // demo_edit.cpp
   void startEditing();
   bool lookAtScene(double time);
@@ -108,8 +111,6 @@ class Demo {
   void showEdit(double seconds);
   void applyEdit();
   void actOn(EditAction action);
-  void addObject();
-  void useModels();
   bool settingsChanged() const;
   void answer(EditAction action);
   void saveScene();

@@ -130,8 +130,6 @@ bool Demo::handleQuestionKey(const KeyEvent& event) {
   }
   if (event.key == Key::escape) {
     answer(EditAction::stay);
-  } else if (event.key == Key::enter && !event.repeat) {
-    model_.edit.enter = true;
   }
   return true;
 }
@@ -272,6 +270,7 @@ void Demo::answer(EditAction action) {
       model_.edit.asksWhere = false;
       closing_ = false;
       nextFile_.reset();
+      refused_.clear();
       if (load_.arrived()) {
         load_.cancel();
       }
@@ -327,9 +326,10 @@ bool Demo::saveSceneTo(const std::filesystem::path& named) {
     return true;
   } catch (const SaveError& error) {
     std::error_code none;
+    const bool overwritable = file.extension() == ".toml" && std::filesystem::is_regular_file(file, none);
     model_.edit.note = error.what();
-    model_.edit.note += std::filesystem::exists(file, none) ? "\nSave once more to overwrite it." : "";
-    refused_ = file;
+    model_.edit.note += overwritable ? "\nSave once more to overwrite it." : "";
+    refused_ = overwritable ? file : std::filesystem::path();
     return false;
   }
 }

@@ -18,7 +18,7 @@ void Demo::closeTop() {
 
 // Settings are in the scene's file too.
 bool Demo::hasUnsaved() const {
-  return editor_->document().modified() || !settingChanges(loaded_->settings, model_.settings).empty();
+  return editor_->document().modified() || settingsChanged();
 }
 
 // With what unsaved changes were asked about for.

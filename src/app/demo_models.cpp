@@ -39,6 +39,7 @@ void Demo::addObject() {
     editor_->add(look(), EditAction::addObject, mesh);
   } catch (const std::exception& error) {
     model_.edit.note = error.what();
+    tell(model_.edit.note);
     if (scene.meshes.size() > meshes) {
       scene.meshes.erase(scene.meshes.begin() + static_cast<std::ptrdiff_t>(meshes), scene.meshes.end());
       scene.textures.erase(scene.textures.begin() + static_cast<std::ptrdiff_t>(textures), scene.textures.end());

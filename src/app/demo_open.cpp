@@ -98,6 +98,7 @@ void Demo::showScene(std::unique_ptr<LoadedScene> scene) {
   model_.sceneSettings = loaded_->settings;
   model_.debugPass = -1;
   model_.passes.clear();
+  model_.skipped.clear();
   model_.history.clear();
   camera_.reset(loaded_->scene.camera);
   lookedFrom_ = -1;

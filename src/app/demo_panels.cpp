@@ -102,6 +102,11 @@ void Demo::outlineSkipped(const FramePlan& plan, const SceneState& state) {
     return;
   }
   const std::vector<int>& path = model_.skipped[hovered].mirrors;
+  // The list is the last frame's: an edit may have taken mirrors away since.
+  const auto isGone = [&](int mirror) { return static_cast<size_t>(mirror) >= state.mirrors.size(); };
+  if (std::any_of(path.begin(), path.end(), isGone)) {
+    return;
+  }
   const PictureView picture(state.camera, plan.width, plan.height);
   if (const auto image = picture.through(loaded_->scene, state, std::span(path).first(path.size() - 1))) {
     model_.outlinedSkipped = path;

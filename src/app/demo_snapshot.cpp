@@ -1,6 +1,8 @@
 // What leaves the window as the picture shows it: the command line of the view, and what is measured of it.
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <functional>
 #include <stdexcept>
 
 #include "app/demo.hpp"
@@ -25,6 +27,22 @@ std::string contentName(const std::string& text) {
   return name.data();
 }
 
+// All that is older than the copies that somebody may still want goes.
+void keepNewest(const fs::path& folder) {
+  constexpr size_t kept = 100;
+  std::error_code none;
+  std::vector<std::pair<fs::file_time_type, fs::path>> files;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".toml") {
+      files.emplace_back(entry.last_write_time(none), entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end(), std::greater<>());
+  for (size_t i = kept; i < files.size(); ++i) {
+    fs::remove(files[i].second, none);
+  }
+}
+
 }  // namespace
 
 // A file with the scene as it is edited: its own, or with unsaved changes a copy among the user's cached files. Empty,
@@ -39,8 +57,9 @@ fs::path Demo::fileOfView(std::string& problem) {
   std::error_code none;
   fs::create_directories(folder, none);
   try {
-    const std::string text = document.text(folder / "view.toml", {});
+    const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, loaded_->settings));
     fs::path file = folder / (own.stem().string() + "-" + contentName(text) + ".toml");
+    keepNewest(folder);
     if (!replaceFile(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()})) {
       throw std::runtime_error(file.string() + ": cannot be written (check the folder and the disk)");
     }
@@ -57,7 +76,7 @@ void Demo::copyCommand() {
   const fs::path file = fileOfView(problem);
   if (file.empty()) {
     model_.command = "nothing: " + problem;
-    return;
+    return tell("not copied: " + problem);
   }
   Options options = options_;
   const VkExtent2D extent = renderer_.displayExtent();
@@ -71,6 +90,7 @@ void Demo::copyCommand() {
   if (file != loaded_->scene.file) {
     model_.command += "   (of a copy of the scene: it has unsaved changes)";
   }
+  tell("copied: " + model_.command);
 }
 
 SweepRequest Demo::sweepRequest(const fs::path& file) {

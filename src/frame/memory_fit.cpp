@@ -4,9 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "frame/pass_range.hpp"
-
 #include "frame/image_reuse.hpp"
+#include "frame/pass_range.hpp"
 
 namespace speculum {
 

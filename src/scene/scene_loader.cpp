@@ -67,7 +67,7 @@ class ModelProgress {
 std::optional<int> knownMesh(const Scene& scene, const fs::path& file) {
   std::error_code error;
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (fs::equivalent(scene.meshes[i].source, file, error)) {
+    if (scene.meshes[i].source == file || fs::equivalent(scene.meshes[i].source, file, error)) {
       return static_cast<int>(i);
     }
   }

@@ -7,8 +7,8 @@
 
 namespace speculum {
 
-// The depth of one pass, kept for being looked at: mirror passes share one depth image, so the watched one gets an
-// image of its own. Nothing exists on the GPU before prepare() and after release().
+// The depth of one pass, kept for being looked at: passes of different ranges share depth images, so the watched one
+// gets an image of its own. Nothing exists on the GPU before prepare() and after release().
 class KeptDepth {
  public:
   KeptDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout);

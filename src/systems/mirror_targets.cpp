@@ -11,6 +11,10 @@ VkExtent2D extentOf(const PixelRect& rect) {
   return {static_cast<uint32_t>(rect.width), static_cast<uint32_t>(rect.height)};
 }
 
+uint64_t area(VkExtent2D extent) {
+  return uint64_t{extent.width} * extent.height;
+}
+
 }  // namespace
 
 MirrorTargets::MirrorTargets(Device& device) : device_(device) {}
@@ -59,13 +63,15 @@ void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, 
   images_.assign(plan.passes.size(), {});
 }
 
-SharedDepth& MirrorTargets::depth(size_t place) {
+SharedDepth& MirrorTargets::depth(size_t place, VkExtent2D needed) {
   if (place == depths_.size()) {
     depths_.push_back({std::make_unique<SharedDepth>(device_, depths_.front().image->samples(),
                                                      "mirror images " + std::to_string(place))});
   }
-  depths_[place].idleFrames = 0;
-  return *depths_[place].image;
+  Depth& depth = depths_[place];
+  depth.idleFrames = 0;
+  depth.needed = {std::max(depth.needed.width, needed.width), std::max(depth.needed.height, needed.height)};
+  return *depth.image;
 }
 
 std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired) {
@@ -76,7 +82,7 @@ std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const Pas
     OffScreen& target = pool_->acquire(extentOf(plan.passes[pass].view.rect), retired);
     targets_[pass] = &target;
     images_[pass] = {target.descriptor(), target.samples()};
-    targets[pass - range.first] = target.targets(depth(place), retired);
+    targets[pass - range.first] = target.targets(depth(place, target.extent()), retired);
   }
   return targets;
 }
@@ -116,11 +122,22 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
     return;
   }
   pool_->endFrame(retired);
+  fitDepth(retired);
+}
+
+// The first depth image serves as long as there are targets. Images grow with what is asked for and would never shrink.
+void MirrorTargets::fitDepth(RetireQueue& retired) {
   size_t used = depths_.size();
   for (Depth& depth : depths_) {
     ++depth.idleFrames;
+    if (++depth.frames > ImagePool::framesKept) {
+      if (depth.needed.width > 0 && area(depth.image->extent()) > area(depth.needed) * 3 / 2) {
+        depth.image->trim(depth.needed, retired);
+      }
+      depth.needed = {0, 0};
+      depth.frames = 0;
+    }
   }
-  // The first one serves as long as there are targets.
   while (used > 1 && depths_[used - 1].idleFrames > ImagePool::framesKept) {
     --used;
   }

@@ -38,10 +38,13 @@ class MirrorTargets {
   struct Depth {
     std::unique_ptr<SharedDepth> image;
     int idleFrames = 0;
+    VkExtent2D needed{0, 0};  // since it was last made to fit
+    int frames = 0;           // since then
   };
   void takeHeld(const FramePlan& plan);
   bool isKept(const FramePlan& plan, int pass) const;
-  SharedDepth& depth(size_t place);
+  SharedDepth& depth(size_t place, VkExtent2D needed);
+  void fitDepth(RetireQueue& retired);
   void dropDepth(size_t from, RetireQueue& retired);
 
   Device& device_;

@@ -69,13 +69,16 @@ Image SceneResources::upload(const Texture& texture, const std::string& name) {
 }
 
 void SceneResources::createTextures() {
+  std::vector<Image> uploaded;  // all or none
   for (const Texture& texture : scene_.textures) {
-    textures_.push_back(upload(texture, "texture " + texture.source.filename().string()));
-    if (textureSets_.size() < textures_.size()) {
+    uploaded.push_back(upload(texture, "texture " + texture.source.filename().string()));
+  }
+  textures_ = std::move(uploaded);
+  for (size_t i = 0; i < textures_.size(); ++i) {
+    if (i == textureSets_.size()) {
       textureSets_.push_back(descriptors_.allocate(textureLayout_.get()));
     }
-    const size_t last = textures_.size() - 1;
-    DescriptorWriter().image(0, textures_[last].descriptor(sampler_.get())).update(device_, textureSets_[last]);
+    DescriptorWriter().image(0, textures_[i].descriptor(sampler_.get())).update(device_, textureSets_[i]);
   }
 }
 

@@ -66,13 +66,11 @@ struct UiEdit {
   std::string redo;
   std::string file;  // of the scene
   bool unsaved = false;
-  bool unsavedSettings = false;  // differ from those that were saved or loaded
-  bool asksSave = false;         // unsaved changes would be lost: the question is shown
-  bool asksWhere = false;        // the question for a file is shown
-  bool enter = false;            // the key was pressed in a question; taken by the panel. Dear ImGui 1.86 misses
-                                 // keys that go down and up between two frames
-  std::string saveAs;            // the file that is proposed; changed by the person
-  std::string note;              // what was saved, or why it was not
+  bool unsavedSettings = false;          // differ from those that were saved or loaded
+  bool asksSave = false;                 // unsaved changes would be lost: the question is shown
+  bool asksWhere = false;                // the question for a file is shown
+  std::string saveAs;                    // the file that is proposed; changed by the person
+  std::string note;                      // what was saved, or why it was not
   EditAction action = EditAction::none;  // set by the panel
   UiOverlay overlay;
 };

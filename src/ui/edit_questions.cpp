@@ -13,10 +13,15 @@ void centerNext() {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
 }
 
+bool enterPressed() {
+  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
+  return !ImGui::IsWindowAppearing() && (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter));
+}
+
 void answerButton(UiModel& model, const char* label, const char* key, EditAction action) {
   // Dear ImGui presses what has the keyboard with the space bar only.
   const bool pressed = ImGui::Button(label);
-  if (pressed || (ImGui::IsItemFocused() && model.edit.enter)) {
+  if (pressed || (ImGui::IsItemFocused() && enterPressed())) {
     model.edit.action = action;
     ImGui::CloseCurrentPopup();
   }
@@ -66,7 +71,7 @@ void questions(UiModel& model) {
     answerButton(model, "Save", "where.save", EditAction::saveAs);
     ImGui::SameLine();
     answerButton(model, "Cancel", "where.cancel", EditAction::stay);
-    if (edit.action == EditAction::none && edit.enter) {
+    if (edit.action == EditAction::none && enterPressed()) {
       edit.action = EditAction::saveAs;
     }
     if (!edit.asksWhere) {

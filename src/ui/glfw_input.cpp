@@ -36,11 +36,18 @@ bool isCommand(int key, int modifiers) {
   return !modifier && (!character || (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0);
 }
 
+// Shortcuts of text fields go by the printed letter too; what is typed comes as text.
+int meantCode(int key, int scancode) {
+  const char* name = key >= GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2 ? glfwGetKeyName(key, scancode) : nullptr;
+  const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0';
+  return letter ? GLFW_KEY_A + (name[0] - 'a') : key;
+}
+
 void onKey(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
   passOn(chain.key, window, key, scancode, action, modifiers);
   if (action != GLFW_REPEAT) {  // ImGui repeats by itself
     chain.queue->push({.kind = InputEvent::Kind::key,
-                       .code = key,
+                       .code = meantCode(key, scancode),
                        .down = action == GLFW_PRESS,
                        .command = isCommand(key, modifiers)});
   }

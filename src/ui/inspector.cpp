@@ -142,7 +142,6 @@ void edit(UiModel& model, PanelDock* dock) {
     inspector(model, *dock);
   }
   questions(model);
-  model.edit.enter = false;
   model.edit.held = model.edit.selected && ImGui::IsAnyItemActive();
 }
 

@@ -103,7 +103,10 @@ void PanelDock::reset() {
   ImGui::MarkIniSettingsDirty();
 }
 
-void PanelDock::beginFrame(float bottom) {
+void PanelDock::beginFrame(float bottom, bool hidden) {
+  if (hidden) {
+    return;
+  }
   bottom_ = bottom;
   std::erase_if(order_, [](const Panel* panel) { return !panel->shown; });
   arrange(Edge::left);

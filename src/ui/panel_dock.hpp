@@ -19,7 +19,8 @@ class PanelDock {
   // the context.
   void remember();
   // In each ImGui frame before the first begin(). `bottom`: pixels kept free below the windows of the left edge.
-  void beginFrame(float bottom);
+  // While all windows are `hidden` they keep their order.
+  void beginFrame(float bottom, bool hidden);
   // ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. ImGui::End must
   // follow whatever it returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);

@@ -175,7 +175,7 @@ void SimpleUI::build(UiModel& model) {
   model.cancelLoading = false;
   model.screenshot = false;
   panels::loading(model);
-  dock_.beginFrame(panels::statusHeight());
+  dock_.beginFrame(panels::statusHeight(), !visible_);
   if (visible_) {
     buildPanel(model);
     buildWindows(model);
