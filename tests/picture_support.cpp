@@ -87,10 +87,11 @@ Image8 draw(const Options& options, double time) {
   return picture;
 }
 
-// Empty at a test's first call: what an earlier run left is not found.
+// Empty at a test's first call: what an earlier run left is not found. Not called scenes: the programs beside it would
+// take it for the folder that they come with.
 std::filesystem::path sceneDirectory() {
   static std::filesystem::path made;
-  std::filesystem::path directory = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "scenes";
+  std::filesystem::path directory = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "written";
   if (const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info()) {
     std::string name = std::string(test->test_suite_name()) + "." + test->name();
     std::replace(name.begin(), name.end(), '/', '_');
