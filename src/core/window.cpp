@@ -251,7 +251,8 @@ void Window::setPlace(const ScreenRect& place) {
 }
 
 void Window::setFullScreen(bool on) {
-  if (on == fullScreen()) {
+  // GLFW 3.3 would wait without end for one that is not on the screen, as long as there are other events.
+  if (on == fullScreen() || !glfwGetWindowAttrib(window_.get(), GLFW_VISIBLE)) {
     return;
   }
   covers_ = false;

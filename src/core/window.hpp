@@ -107,7 +107,8 @@ class Window {
   VkExtent2D framebufferExtent() const;  // pixels; 0x0 is possible
   VkExtent2D size() const;               // screen coordinates
   void resize(int width, int height);    // screen coordinates
-  // Covers the monitor that holds the window's centre, or goes back to place and size as they were.
+  // Covers the monitor that holds the window's centre, or goes back to place and size as they were. Nothing while the
+  // window is iconified.
   void setFullScreen(bool on);
   bool fullScreen() const;
   void iconify();
