@@ -47,11 +47,7 @@ TEST_F(EditWindow, ClosingAsksAboutUnsavedChanges) {
   run(5);
   EXPECT_FALSE(edit().asksSave) << "Escape cancels";
   askToClose();
-  const PixelRect discard = widget("edit.ask.discard");
-  moveTo(discard.x + 10, discard.y + 5);
-  xdotool({"mousedown", "1"});
-  run(3);
-  xdotool({"mouseup", "1"});
+  answer("discard");
   EXPECT_TRUE(stepUntilClosed());
   EXPECT_EQ(onDisk().objects.size(), 1u) << "nothing was saved";
   expectQuiet();
@@ -61,11 +57,7 @@ TEST_F(EditWindow, SavingOnTheWayOutWritesTheScene) {
   clickBall();
   press("Delete");
   askToClose();
-  const PixelRect save = widget("edit.ask.save");
-  moveTo(save.x + 10, save.y + 5);
-  xdotool({"mousedown", "1"});
-  run(3);
-  xdotool({"mouseup", "1"});
+  answer("save");
   EXPECT_TRUE(stepUntilClosed());
   EXPECT_TRUE(onDisk().objects.empty());
   expectQuiet();
@@ -178,11 +170,7 @@ TEST_F(EditWindow, UnsavedSettingsAreAskedAbout) {
   EXPECT_FALSE(edit().asksSave);
   drag("view.exposure", 0.5, -60);
   askToClose();
-  const PixelRect discard = widget("edit.ask.discard");
-  moveTo(discard.x + 10, discard.y + 5);
-  xdotool({"mousedown", "1"});
-  run(3);
-  xdotool({"mouseup", "1"});
+  answer("discard");
   EXPECT_TRUE(stepUntilClosed());
   expectQuiet();
 }

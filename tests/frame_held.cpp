@@ -8,21 +8,16 @@
 #include "frame/frame_plan.hpp"
 #include "frame/image_reuse.hpp"
 #include "frame/memory_fit.hpp"
+#include "frame_support.hpp"
 #include "optics/affine.hpp"
 
 namespace speculum {
 namespace {
 
+using testing_support::wall;
+
 constexpr int width = 640;
 constexpr int height = 360;
-
-Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size) {
-  Mirror mirror;
-  mirror.position = position;
-  mirror.rotation = {0, yaw, 0};
-  mirror.size = size;
-  return mirror;
-}
 
 // Six mirrors in a row before the camera, which stands at the origin and looks along -z.
 Scene row() {

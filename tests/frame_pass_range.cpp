@@ -2,17 +2,12 @@
 
 #include "frame/memory_fit.hpp"
 #include "frame/pass_range.hpp"
+#include "frame_support.hpp"
 
 namespace speculum {
 namespace {
 
-Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size) {
-  Mirror mirror;
-  mirror.position = position;
-  mirror.rotation = {0, yaw, 0};
-  mirror.size = size;
-  return mirror;
-}
+using testing_support::wall;
 
 FramePlan planOf(std::vector<Mirror> mirrors, int maxDepth) {
   Scene scene;

@@ -4,19 +4,15 @@
 
 #include <algorithm>
 
+#include "frame_support.hpp"
+
 namespace speculum {
 namespace {
 
+using testing_support::wall;
+
 constexpr int width = 640;
 constexpr int height = 360;
-
-Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size = {2, 2}) {
-  Mirror mirror;
-  mirror.position = position;
-  mirror.rotation = {0, yaw, 0};
-  mirror.size = size;
-  return mirror;
-}
 
 // The camera stands at the origin and looks along -z.
 Scene sceneWith(std::vector<Mirror> mirrors) {

@@ -6,21 +6,16 @@
 #include "frame/draw_order.hpp"
 #include "frame/frame_plan.hpp"
 #include "frame/pass_mask.hpp"
+#include "frame_support.hpp"
 #include "optics/affine.hpp"
 
 namespace speculum {
 namespace {
 
+using testing_support::wall;
+
 constexpr int width = 640;
 constexpr int height = 360;
-
-Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size) {
-  Mirror mirror;
-  mirror.position = position;
-  mirror.rotation = {0, yaw, 0};
-  mirror.size = size;
-  return mirror;
-}
 
 // The camera stands at the origin and looks along -z. Every object is a square of 2 m that faces +z.
 Scene sceneWith(std::vector<Mirror> mirrors, const std::vector<Object>& objects) {

@@ -7,20 +7,15 @@
 
 #include "frame/effects.hpp"
 #include "frame/memory_fit.hpp"
+#include "frame_support.hpp"
 
 namespace speculum {
 namespace {
 
+using testing_support::wall;
+
 constexpr int width = 640;
 constexpr int height = 360;
-
-Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size) {
-  Mirror mirror;
-  mirror.position = position;
-  mirror.rotation = {0, yaw, 0};
-  mirror.size = size;
-  return mirror;
-}
 
 Mesh ball() {
   Mesh mesh;

@@ -1,10 +1,9 @@
 // What leaves the window as the picture shows it: the command line of the view, and what is measured of it.
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <functional>
 #include <stdexcept>
 
+#include "accuracy/fingerprint.hpp"
 #include "app/demo.hpp"
 #include "app/view_command.hpp"
 #include "core/platform.hpp"
@@ -15,16 +14,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// FNV-1a of 64 bits, http://www.isthe.com/chongo/tech/comp/fnv: other content gets another name, so that commands that
-// were copied before stay right.
-std::string contentName(const std::string& text) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  }
-  std::array<char, 20> name{};
-  std::snprintf(name.data(), name.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return name.data();
+// Other content gets another name, so that commands that were copied before stay right.
+std::string contentName(std::string_view text) {
+  Fingerprint fingerprint;
+  fingerprint.add(text);
+  return fingerprint.hex();
 }
 
 // All that is older than the copies that somebody may still want goes.

@@ -66,7 +66,9 @@ BarrierKind kindFor(TargetRole role, BarrierKind offscreen, BarrierKind main) {
 
 void discardUnless(bool keep, std::span<Image* const> images) {
   for (Image* image : images) {
-    image->setLayout(keep ? image->layout() : VK_IMAGE_LAYOUT_UNDEFINED);
+    if (!keep) {
+      image->setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
+    }
   }
 }
 
