@@ -209,7 +209,7 @@ TEST_F(CommandLine, BenchSummarisesTimes) {
   ASSERT_EQ(result.exitCode, 0) << result.output;
   const nlohmann::json json = readJson(out("b.json"));
   EXPECT_EQ(json["frames"], 5);
-  for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms"}) {
+  for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms", "interval_ms"}) {
     const nlohmann::json& total = json["totals"][key];
     EXPECT_LE(total["min"], total["median"]) << key;
     EXPECT_LE(total["median"], total["p95"]) << key;

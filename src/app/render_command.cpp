@@ -1,8 +1,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/commands.hpp"
 #include "app/effect_prices.hpp"
@@ -15,6 +17,8 @@
 namespace speculum {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 void savePicture(Session& session, const std::filesystem::path& file) {
   if (file.extension() == ".exr") {
@@ -102,6 +106,60 @@ void printEffects(const nlohmann::ordered_json& effects) {
   }
 }
 
+// One frame at a time: the times of a frame are then all its own. Nothing if it was interrupted.
+std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Options& options, int measured) {
+  Progress progress("bench", options.warmup + measured);
+  std::vector<nlohmann::ordered_json> frames;
+  for (int i = 0; i < options.warmup + measured; ++i) {
+    session.draw(options.time, false);
+    session.finish();
+    if (i >= options.warmup) {
+      frames.push_back(frameStats(session, session.renderer().timings()));
+    }
+    progress.advance();
+    if (interruptRequested()) {
+      return std::nullopt;
+    }
+  }
+  return mergeStats(frames);
+}
+
+// Milliseconds from one frame to the next when the CPU records one while the device draws the one before, as it does
+// for a window that nothing holds up.
+nlohmann::ordered_json measureIntervals(Session& session, double time, int measured) {
+  std::vector<double> intervals;
+  Clock::time_point last{};
+  for (int i = 0; i < measured + static_cast<int>(framesInFlight) + 1; ++i) {
+    session.draw(time, false);
+    const Clock::time_point now = Clock::now();
+    if (i > static_cast<int>(framesInFlight)) {
+      intervals.push_back(std::chrono::duration<double, std::milli>(now - last).count());
+    }
+    last = now;
+  }
+  session.finish();
+  return summary(std::move(intervals));
+}
+
+void printBench(const nlohmann::ordered_json& merged, int measured) {
+  std::printf("%-40s %6s %10s %10s %8s %10s %10s\n", "pass", "frames", "median ms", "p95 ms", "draws", "triangles",
+              "fragments");
+  const auto figure = [](const nlohmann::ordered_json& value) {
+    return value.is_null() ? std::string("-") : value.dump();
+  };
+  for (const auto& pass : merged["passes"]) {
+    std::printf("%-40s %6d %10.3f %10.3f %8s %10s %10s\n", pass["name"].get<std::string>().c_str(),
+                pass.value("frames", measured), pass["gpu_ms"]["median"].get<double>(),
+                pass["gpu_ms"]["p95"].get<double>(), figure(pass["draws"]).c_str(), figure(pass["triangles"]).c_str(),
+                figure(pass["fragments"]).c_str());
+  }
+  printEffects(merged["effects"]);
+  for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms", "interval_ms"}) {
+    const auto& total = merged["totals"][key];
+    std::printf("%-40s %6d %10.3f %10.3f\n", key, measured, total["median"].get<double>(), total["p95"].get<double>());
+  }
+}
+
 }  // namespace
 
 int runBench(const Options& options) {
@@ -117,43 +175,18 @@ int runBench(const Options& options) {
     session.setSettings(settings);
   }
   installInterruptHandler();
-  Progress progress("bench", options.warmup + measured);
-  std::vector<nlohmann::ordered_json> frames;
-  for (int i = 0; i < options.warmup + measured; ++i) {
-    session.draw(options.time, false);
-    // One frame at a time: the times of a frame are then all its own.
-    session.finish();
-    if (i >= options.warmup) {
-      frames.push_back(frameStats(session, session.renderer().timings()));
-    }
-    progress.advance();
-    if (interruptRequested()) {
-      return 1;
-    }
+  std::optional<nlohmann::ordered_json> merged = measureFrames(session, options, measured);
+  if (!merged) {
+    return 1;
   }
-  nlohmann::ordered_json merged = mergeStats(frames);
+  (*merged)["totals"]["interval_ms"] = measureIntervals(session, options.time, measured);
   if (options.benchPrices) {
-    addPrices(merged, effectPrices(session, options.time, std::max(5, measured / 4)));
+    addPrices(*merged, effectPrices(session, options.time, std::max(5, measured / 4)));
   }
   if (!options.json.empty()) {
-    writeJson(options.json, merged);
+    writeJson(options.json, *merged);
   }
-  std::printf("%-40s %6s %10s %10s %8s %10s %10s\n", "pass", "frames", "median ms", "p95 ms", "draws", "triangles",
-              "fragments");
-  const auto figure = [](const nlohmann::ordered_json& value) {
-    return value.is_null() ? std::string("-") : value.dump();
-  };
-  for (const auto& pass : merged["passes"]) {
-    std::printf("%-40s %6d %10.3f %10.3f %8s %10s %10s\n", pass["name"].get<std::string>().c_str(),
-                pass.value("frames", measured), pass["gpu_ms"]["median"].get<double>(),
-                pass["gpu_ms"]["p95"].get<double>(), figure(pass["draws"]).c_str(), figure(pass["triangles"]).c_str(),
-                figure(pass["fragments"]).c_str());
-  }
-  printEffects(merged["effects"]);
-  for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms"}) {
-    const auto& total = merged["totals"][key];
-    std::printf("%-40s %6d %10.3f %10.3f\n", key, measured, total["median"].get<double>(), total["p95"].get<double>());
-  }
+  printBench(*merged, measured);
   return session.exitCode();
 }
 
