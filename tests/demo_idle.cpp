@@ -1,4 +1,5 @@
 // The window draws when something changes, and only then.
+#include <algorithm>
 #include <fstream>
 
 #include "demo_window_support.hpp"
@@ -61,6 +62,10 @@ class IdleWindow : public DemoWindow {
     }
     return right;
   }
+  const UiPass& mainView() {
+    const std::vector<UiPass>& passes = demo_->model().passes;
+    return *std::find_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.kind == PassKind::main; });
+  }
   void pointAt(int x, int y) { xdotool({"mousemove", "--window", windowId(), std::to_string(x), std::to_string(y)}); }
 };
 
@@ -74,6 +79,41 @@ TEST_F(IdleWindow, AHeldStickKeepsItDrawing) {
   pad.reset();
   settle();
   demo_->setGamepadSource([] { return std::nullopt; });
+}
+
+Options withoutChecks() {
+  Options options;
+  options.settings.emplace_back("debug.check_finite", "false");
+  return options;
+}
+
+// Of every frame's picture nothing is checked, so that not every frame has to draw it.
+class UncheckedWindow : public IdleWindow {
+ protected:
+  UncheckedWindow() : IdleWindow(windowScene, withoutChecks()) {}
+};
+
+// The panel is drawn anew over the picture that is there.
+TEST_F(UncheckedWindow, ThePictureIsDrawnOnlyWhenItChanges) {
+  settle();
+  const std::vector<uint8_t> before = rightOfThePanel();
+  for (int y = 60; y < 400; y += 40) {
+    pointAt(60, y);
+    ASSERT_TRUE(draws(2));
+    EXPECT_GT(mainView().framesAgo, 0) << "pointing at " << y;
+    EXPECT_GT(mainView().gpuMs, 0.0) << "its price is known all the same";
+  }
+  pointAt(width - 100, 80);
+  settle();
+  EXPECT_TRUE(rightOfThePanel() == before);
+  const int last = mainView().framesAgo;
+  xdotool({"keydown", "--window", windowId(), "w"});
+  EXPECT_TRUE(draws(3));
+  xdotool({"keyup", "--window", windowId(), "w"});
+  settle();
+  EXPECT_LT(mainView().framesAgo, last);
+  EXPECT_FALSE(rightOfThePanel() == before);
+  expectQuiet();
 }
 
 TEST_F(IdleWindow, DrawsNothingUntilThePointerMoves) {

@@ -51,8 +51,8 @@ class DemoWindow : public testing::Test {
     options.size = {width, height};
     options.validation = true;
     options.presentMode = PresentMode::immediate;
-    options.settings.emplace_back("debug.check_finite", "true");
-    options.settings.insert(options.settings.begin(), {"view.continuous", "true"});  // so that run() can count frames
+    // The first so that run() can count frames.
+    options.settings.insert(options.settings.begin(), {{"view.continuous", "true"}, {"debug.check_finite", "true"}});
     start(frames);
   }
   ~DemoWindow() override {

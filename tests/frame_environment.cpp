@@ -55,7 +55,7 @@ class Frames {
  public:
   explicit Frames(Scene s) : scene(std::move(s)) { settings.effects.curvedLookup = CurvedLookup::environment; }
   const FramePlan& next() {
-    plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, plan.held, plan.maps);
+    plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, {.held = plan.held, .maps = plan.maps});
     return plan;
   }
   // In the next frame.

@@ -46,7 +46,7 @@ class Sequence {
     settings.reflection.skipUnchanged = false;
   }
   const FramePlan& next() {
-    plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, plan.held);
+    plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, {.held = plan.held});
     return plan;
   }
   void moveCamera(const glm::dvec3& by) {
@@ -187,7 +187,7 @@ TEST(HeldImages, ChangedSettingsAndSizesMakeFresh) {
   Sequence sequence(row(), 100);
   sequence.next();
   const FramePlan larger = planFrame(sequence.scene, evaluate(sequence.scene, 0.0), sequence.settings, width + 1,
-                                     height, sequence.plan.held);
+                                     height, {.held = sequence.plan.held});
   EXPECT_EQ(larger.passes.size(), 6u);
 }
 
@@ -301,7 +301,7 @@ TEST(HeldImages, MarginsStayWithinTheLargestSide) {
   std::vector<HeldImage> held;
   for (int frame = 0; frame < 8; ++frame) {
     const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = width}, scene, evaluate(scene, 0.0),
-                                         settings, width, height, held);
+                                         settings, width, height, {.held = held});
     for (const PlannedPass& pass : fitted.plan.passes) {
       EXPECT_LE((overscan(pass.view) * pass.view.pictureSize).x, width);
       EXPECT_LE(pass.view.rect.width, width);

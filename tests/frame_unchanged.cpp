@@ -56,7 +56,9 @@ class Frames {
  public:
   explicit Frames(Scene s) : scene(std::move(s)) {}
   const FramePlan& next(double time = 0.0) {
-    plan = planFrame(scene, evaluate(scene, time), settings, width, height, plan.held);
+    plan = planFrame(scene, evaluate(scene, time), settings, width, height,
+                     {.held = plan.held, .main = main.content.empty() ? nullptr : &main});
+    main = {settings, plan.mainContent};
     return plan;
   }
   // Mirrors seen directly that are rendered, and those that are not for being unchanged.
@@ -81,6 +83,7 @@ class Frames {
   Scene scene;
   Settings settings;
   FramePlan plan;
+  MainImage main;
 };
 
 using Mirrors = std::set<int>;
@@ -277,7 +280,7 @@ TEST(Unchanged, WhereMemoryIsShortImagesAreRenderedAnewRatherThanWorse) {
   scene.objects[seenLeft].position = {-2.4, 0, -4};
   const auto fit = [&](uint64_t budget, std::span<const HeldImage> held) {
     return planWithin({.budgetBytes = budget, .largestSide = 4096}, scene, evaluate(scene, 0.0), {}, width, height,
-                      held);
+                      {.held = held});
   };
   const FittedPlan first = fit(1ull << 40, {});
   const uint64_t needed = targetBytes(first.plan, first.settings);
@@ -291,6 +294,71 @@ TEST(Unchanged, WhereMemoryIsShortImagesAreRenderedAnewRatherThanWorse) {
   EXPECT_EQ(fitted.plan.passes.size(), first.plan.passes.size());
   EXPECT_EQ(fitted.settings.reflection, first.settings.reflection);
   EXPECT_TRUE(fitted.message.empty()) << fitted.message;
+}
+
+// The frame that renders the mirrors cannot tell; the one after it draws the main view with what is there.
+TEST(UnchangedMain, IsDrawnOnceMoreThanItsMirrors) {
+  Frames frames(room());
+  EXPECT_FALSE(frames.next().mainUnchanged);
+  EXPECT_TRUE(frames.plan.mainContent.empty());
+  EXPECT_FALSE(frames.next().mainUnchanged);
+  for (int frame = 2; frame < 5; ++frame) {
+    EXPECT_TRUE(frames.next().mainUnchanged) << "frame " << frame;
+  }
+  frames.scene.mirrors.clear();
+  EXPECT_FALSE(frames.next().mainUnchanged);
+  EXPECT_TRUE(frames.next().mainUnchanged);
+}
+
+// Whether the main view is drawn in the frame after `change` to a scene that stood still.
+bool drawnAfter(const std::function<void(Frames&)>& change, Scene scene = room(), double time = 0.0) {
+  Frames frames(std::move(scene));
+  for (int frame = 0; frame < 3; ++frame) {
+    frames.next();
+  }
+  EXPECT_TRUE(frames.plan.mainUnchanged);
+  change(frames);
+  return !frames.next(time).mainUnchanged;
+}
+
+TEST(UnchangedMain, EveryChangeThatItShowsDrawsIt) {
+  Scene scene = room();
+  scene.objects.push_back(at({0, 0, -4}));  // before the camera, in no mirror
+  const auto after = [&](auto change) { return drawnAfter(change, scene); };
+  EXPECT_TRUE(after([](Frames& f) { f.scene.objects.back().position.y += 1e-9; }));
+  EXPECT_TRUE(after([](Frames& f) { f.scene.objects.back().color = glm::dvec3(0.1); }));
+  EXPECT_TRUE(after([](Frames& f) { f.scene.objects.pop_back(); }));
+  EXPECT_TRUE(after([](Frames& f) { f.scene.objects[seenLeft].position.y += 1e-9; })) << "in a mirror";
+  EXPECT_TRUE(after([](Frames& f) { f.scene.mirrors[left].reflectance *= 0.5; }));
+  EXPECT_TRUE(after([](Frames& f) { f.scene.lights[0].intensity *= 2.0; }));
+  EXPECT_TRUE(after([](Frames& f) { f.scene.environment.background.x += 0.1; }));
+  EXPECT_TRUE(after([](Frames& f) { f.scene.camera.position.x += 1e-9; }));
+  EXPECT_FALSE(after([](Frames& f) { f.scene.objects[unseen].position.y += 1.0; }));
+  EXPECT_TRUE(drawnAfter([](Frames& f) { f.scene.objects.back().spin = {0, 10, 0}; }, scene, 7.0));
+  EXPECT_FALSE(drawnAfter([](Frames&) {}, scene, 7.0));
+}
+
+TEST(UnchangedMain, SettingsOfTheDisplayPassAloneDoNotDrawIt) {
+  const auto after = [](auto change) { return drawnAfter([&](Frames& f) { change(f.settings); }); };
+  EXPECT_FALSE(after([](Settings& s) { s.view.exposure = 2.0; }));
+  EXPECT_FALSE(after([](Settings& s) { s.view.toneMap = ToneMap::aces; }));
+  EXPECT_TRUE(after([](Settings& s) { s.view.samples = 1; }));
+  EXPECT_TRUE(after([](Settings& s) { s.view.wireframe = true; }));
+  EXPECT_TRUE(after([](Settings& s) { s.view.continuous = true; })) << "frames are wanted for what they cost";
+  EXPECT_TRUE(after([](Settings& s) { s.reflection.skipUnchanged = false; }));
+  EXPECT_TRUE(after([](Settings& s) { s.reflection.maxDepth = 1; }));
+  EXPECT_TRUE(after([](Settings& s) { s.effects.glyphs = false; }));
+  EXPECT_TRUE(after([](Settings& s) { s.debug.cullClusters = false; }));
+}
+
+TEST(UnchangedMain, ReprojectedImagesAreNotTheSameTwice) {
+  Frames frames(room());
+  frames.settings.reflection.updateInterval = 100;
+  for (int frame = 0; frame < 6; ++frame) {
+    frames.scene.camera.position.x += 1e-4;
+    frames.next();
+    EXPECT_FALSE(frames.plan.mainUnchanged);
+  }
 }
 
 }  // namespace

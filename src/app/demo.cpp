@@ -122,9 +122,12 @@ void Demo::drawFrame(double seconds) {
     settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame
     settings.reflection.skipUnchanged = false;
   }
+  EarlierImages earlier = sceneRenderer_->earlier();
+  if (watched_ && watched_->empty()) {
+    earlier.main = nullptr;
+  }
   const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
-                                          static_cast<int>(frame->extent.height), sceneRenderer_->heldImages(),
-                                          sceneRenderer_->environmentMaps());
+                                          static_cast<int>(frame->extent.height), earlier);
   const FramePlan& plan = fitted.plan;
   const bool bare = shot_ == Shot::picture || recorder_.bare();
   sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debugView(plan, fitted.settings));
@@ -149,11 +152,12 @@ void Demo::drawFrame(double seconds) {
 void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval) {
   const FrameTimings& timings = renderer_.timings();
   const auto isShown = [&](const UiPass& row) {
-    return std::any_of(plan.shown.begin(), plan.shown.end(),
+    return (plan.mainUnchanged && row.kind == PassKind::main) ||
+           std::any_of(plan.shown.begin(), plan.shown.end(),
                        [&](const PlannedPass& p) { return p.view.path == row.path; });
   };
   std::vector<UiPass> rows;
-  if (updateInterval > 1 || !plan.shown.empty()) {
+  if (updateInterval > 1 || !plan.shown.empty() || plan.mainUnchanged) {
     rows = std::move(model_.passes);
   }
   for (UiPass& row : rows) {
@@ -167,10 +171,6 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
     if (row == rows.end()) {
       row = rows.insert(rows.begin() + place, UiPass{pass.name, pass.path, pass.depth, pass.kind});
     }
-    // The times are of an earlier frame, whose plan may have differed.
-    const auto timing = std::find_if(timings.passes.begin(), timings.passes.end(),
-                                     [&](const PassTiming& t) { return t.name == pass.name; });
-    row->gpuMs = timing != timings.passes.end() ? timing->gpuMs : row->gpuMs;
     row->areaPx = pass.areaPx;
     row->draws = pass.draws;
     const auto planned = std::find_if(plan.passes.begin(), plan.passes.end(),
@@ -182,6 +182,12 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
     place = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const UiPass& row) { return row.framesAgo >= updateInterval && !isShown(row); });
+  for (UiPass& row : rows) {
+    // The times are of an earlier frame, whose plan may have differed.
+    const auto timing = std::find_if(timings.passes.begin(), timings.passes.end(),
+                                     [&](const PassTiming& t) { return t.name == row.name; });
+    row.gpuMs = timing != timings.passes.end() ? timing->gpuMs : row.gpuMs;
+  }
   model_.passes = std::move(rows);
   const auto shown = std::find_if(model_.passes.begin(), model_.passes.end(), [&](const UiPass& row) {
     return watched_ && panels::hasTarget(row) && row.path == *watched_;

@@ -55,13 +55,12 @@ std::string number(double value) {
 class Planner {
  public:
   Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-          std::span<const HeldImage> held, std::span<const EnvironmentMap> maps)
+          const EarlierImages& earlier)
       : scene_(scene),
         state_(state),
         allSettings_(settings),
         settings_(settings.reflection),
-        heldBefore_(held),
-        mapsBefore_(maps) {
+        earlier_(earlier) {
     // Everything in front of `near` is clamped to one depth and would lose its order; a larger one gains nothing,
     // because depth is near / distance in a float.
     const double near = std::min(state.camera.near, largestNear);
@@ -85,6 +84,9 @@ class Planner {
     keepUnchanged();
     record(0);
     forgetHeldSubtrees();
+    if (settings_.skipUnchanged && !allSettings_.view.continuous) {
+      keepMain(plan_, earlier_.main, surroundings());
+    }
     return std::move(plan_);
   }
 
@@ -97,6 +99,7 @@ class Planner {
   void expand(const Candidate& candidate);
   void hold(Node& node, const Candidate& candidate, int interval) const;
   void findEffects();
+  ImageSurroundings surroundings() const;
   void keepUnchanged();
   void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
@@ -109,8 +112,7 @@ class Planner {
   const SceneState& state_;
   const Settings& allSettings_;
   const ReflectionSettings& settings_;
-  std::span<const HeldImage> heldBefore_;
-  std::span<const EnvironmentMap> mapsBefore_;
+  const EarlierImages& earlier_;
   FramePlan plan_;
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> candidates_;
@@ -269,7 +271,7 @@ void Planner::expand(const Candidate& candidate) {
 
 void Planner::hold(Node& node, const Candidate& candidate, int interval) const {
   HeldChoice choice = chooseHeld(
-      heldBefore_, {node.pass.view, plan_.projection, candidate.visible, allSettings_, interval, candidate.order});
+      earlier_.held, {node.pass.view, plan_.projection, candidate.visible, allSettings_, interval, candidate.order});
   if (choice.image.earlier < 0) {
     node.pass.view = choice.image.view;
   }
@@ -292,23 +294,28 @@ void Planner::findEffects() {
   plan_.effects = tracedEffects(scene_, state_, allSettings_, passes);
 }
 
-// Of the images that would be rendered, those that would be what they were are not.
-void Planner::keepUnchanged() {
-  const View& main = nodes_[0].pass.view;
+ImageSurroundings Planner::surroundings() const {
   ImageSurroundings around{scene_, state_, allSettings_, plan_.projection, plan_.effects, {}};
-  keepMaps(plan_.maps, mapsBefore_, around, main);
-  if (!settings_.skipUnchanged) {
-    return;
-  }
   for (const EnvironmentMap& map : plan_.maps) {
     around.maps.emplace_back(map.instance, map.serial);
   }
+  return around;
+}
+
+// Of the images that would be rendered, those that would be what they were are not.
+void Planner::keepUnchanged() {
+  const View& main = nodes_[0].pass.view;
+  keepMaps(plan_.maps, earlier_.maps, {scene_, state_, allSettings_, plan_.projection, plan_.effects, {}}, main);
+  if (!settings_.skipUnchanged) {
+    return;
+  }
+  const ImageSurroundings around = surroundings();
   for (const int child : nodes_[0].children) {
     std::optional<HeldImage>& held = nodes_[child].held;
     if (held && held->earlier < 0) {
       std::vector<const PlannedPass*> passes;
       collect(child, passes);
-      keepIfUnchanged(*held, heldBefore_, around, main, passes);
+      keepIfUnchanged(*held, earlier_.held, around, main, passes);
     }
   }
 }
@@ -389,8 +396,8 @@ std::string_view skipReasonName(SkipReason reason) {
 }
 
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    std::span<const HeldImage> held, std::span<const EnvironmentMap> maps) {
-  return Planner(scene, state, settings, width, height, held, maps).plan();
+                    const EarlierImages& earlier) {
+  return Planner(scene, state, settings, width, height, earlier).plan();
 }
 
 }  // namespace speculum

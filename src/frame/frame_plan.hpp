@@ -83,12 +83,28 @@ struct SkippedMirror {
   std::string detail;
 };
 
+// The main view as an earlier frame drew it.
+struct MainImage {
+  Settings settings;
+  std::vector<uint64_t> content;  // FramePlan::mainContent
+};
+
+// What the frame before left that this one can be planned with.
+struct EarlierImages {
+  std::span<const HeldImage> held;
+  std::span<const EnvironmentMap> maps;
+  const MainImage* main = nullptr;  // null: the main view is drawn in any case
+};
+
 struct FramePlan {
   Projection projection;
   int width = 0;  // pixels of the picture
   int height = 0;
   std::vector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
   PlannedPass main;
+  bool mainUnchanged = false;  // the frame before drew it: it is shown again
+  // imageContent() of the main view, where it shows images of the frame before only; else empty.
+  std::vector<uint64_t> mainContent;
   std::vector<SkippedMirror> skipped;
   std::vector<HeldImage> held;  // after this frame; what the next one may be planned with
   // That would be rendered if images of earlier frames did not serve, in no particular order: what they show is on the
@@ -101,14 +117,14 @@ struct FramePlan {
 // Which passes a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. Recursion is
 // spent best first, by visible pixels times throughput.
 //
-// With reflection.skip_unchanged, a mirror seen directly shows its image in `held` again if everything that it depends
+// With reflection.skip_unchanged, a mirror seen directly shows its image in `earlier.held` again if everything that it depends
 // on is exactly as it was. With reflection.update_interval above 1, it also does if the image is younger than its due
 // age, was drawn under the same settings and covers what is seen. The budget of passes is spent as if every image were
 // rendered, so that an image does not depend on which others are; the passes of held ones are then left out.
 //
-// `maps` are those of the frame before: they serve like images, by reflection.skip_unchanged and
-// effects.environment_interval.
+// `earlier.maps` serve like images, by reflection.skip_unchanged and effects.environment_interval. With the former and
+// without view.continuous, so does the main view if it too is exactly as it was.
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    std::span<const HeldImage> held = {}, std::span<const EnvironmentMap> maps = {});
+                    const EarlierImages& earlier = {});
 
 }  // namespace speculum

@@ -124,4 +124,18 @@ void keepMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap>
   }
 }
 
+void keepMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around) {
+  const bool renders = !plan.passes.empty() || std::any_of(plan.maps.begin(), plan.maps.end(),
+                                                           [](const EnvironmentMap& map) { return map.earlier < 0; });
+  const bool reprojects = std::any_of(plan.main.mirrors.begin(), plan.main.mirrors.end(),
+                                      [](const MirrorDraw& draw) { return draw.held && draw.held->moved; });
+  if (renders || reprojects) {
+    return;
+  }
+  const PlannedPass* main = &plan.main;
+  plan.mainContent = imageContent(around, plan.main.view, {&main, 1});
+  plan.mainUnchanged =
+      before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
+}
+
 }  // namespace speculum

@@ -40,4 +40,8 @@ void keepIfUnchanged(HeldImage& image, std::span<const HeldImage> before, const 
 void keepMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
               const ImageSurroundings& around, const View& main);
 
+// The same for the main view of a plan whose passes are known: shown again if it draws what it drew, with images that
+// the frame before had already. `before` may be null.
+void keepMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around);
+
 }  // namespace speculum

@@ -108,7 +108,7 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height, std::span<const HeldImage> held, std::span<const EnvironmentMap> maps) {
+                      int width, int height, EarlierImages earlier) {
   FittedPlan fitted{{}, settings, {}};
   ReflectionSettings& reflection = fitted.settings.reflection;
   const double margins = reflection.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
@@ -119,7 +119,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " times the picture's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
-  fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
+  fitted.plan = planFrame(scene, state, fitted.settings, width, height, earlier);
   if (!limits.tracesRays && fitted.plan.effects.any()) {
     EffectSettings& effects = fitted.settings.effects;
     effects.shadows = effects.roughness = effects.ripple = effects.castsLight = false;
@@ -128,11 +128,11 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
         (fitted.message.empty() ? "" : "; ") + std::string(
                                                    "effects.* that trace rays are left out: the device lacks "
                                                    "geometryShader, storage buffers, or room in them for the scene");
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, earlier);
   }
   if (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && reflection.updateInterval == 1) {
-    held = {};
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
+    earlier.held = {};
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, earlier);
   }
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
@@ -140,7 +140,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes &&
          lower(fitted.settings, !fitted.plan.maps.empty(), what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, held, maps);
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, earlier);
   }
   if (!lowered.empty()) {
     fitted.message += (fitted.message.empty() ? "" : "; ") + ("targets of " + mebibytes(wanted)) +

@@ -30,8 +30,7 @@ struct FittedPlan {
 // show again are rendered with the others, if that needs less. Effects that trace rays are left out where the device
 // cannot.
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height, std::span<const HeldImage> held = {},
-                      std::span<const EnvironmentMap> maps = {});
+                      int width, int height, EarlierImages earlier = {});
 
 // Of the maps' targets, with the depth that they share.
 uint64_t environmentBytes(const FramePlan& plan);

@@ -374,6 +374,13 @@ bool sameMirrorImages(const Settings& a, const Settings& b) {
   return a.reflection == c.reflection && a.view == c.view && a.effects == c.effects;
 }
 
+bool sameMainView(const Settings& a, const Settings& b) {
+  ViewSettings view = b.view;
+  view.exposure = a.view.exposure;
+  view.toneMap = a.view.toneMap;
+  return a.reflection == b.reflection && a.view == view && a.effects == b.effects && a.debug == b.debug;
+}
+
 ordered_json settingsJson(const Settings& settings) {
   ordered_json json = ordered_json::object();
   for (const Setting& setting : table()) {

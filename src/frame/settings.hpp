@@ -119,6 +119,9 @@ Settings settingsOf(const Scene& scene);
 // reflection.update_interval and .skip_unchanged, in debug.*, and in what only the main view and the display pass heed.
 bool sameMirrorImages(const Settings& a, const Settings& b);
 
+// The same for the main view: they differ at most in what only the display pass heeds.
+bool sameMainView(const Settings& a, const Settings& b);
+
 // Every key with its value, as numbers, booleans and strings.
 nlohmann::ordered_json settingsJson(const Settings& settings);
 

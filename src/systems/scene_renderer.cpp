@@ -79,7 +79,9 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
-  ledger_ = {};
+  if (!plan.mainUnchanged) {
+    ledger_ = {};
+  }
   recorded_.clear();
   const FrameInfo info{frame,
                        scene_,
@@ -108,7 +110,9 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   for (const PassRange& range : independentPasses(plan)) {
     recordMirrorPasses(frame, info, range);
   }
-  recordMainPass(frame, info);
+  if (!plan.mainUnchanged) {
+    recordMainPass(frame, info);
+  }
   if (settings.debug.checkFinite) {
     watch_.end(frame);
   }
@@ -117,12 +121,16 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     recordDebugView(frame, settings, plan, *debug);
     recordProbe(frame, plan, *debug);
   }
-  const bool imagesShown = !plan.shown.empty();
+  const bool imagesShown = !plan.shown.empty() || plan.mainUnchanged;
   renderSystem_.endFrame(trace_.variant(), imagesShown, !plan.effects.curved.empty());
   mirrorSystem_.endFrame(trace_.variant(), imagesShown);
   pointLightSystem_.endFrame(
+      (plan.mainUnchanged && !plan.main.lights.empty()) ||
       std::any_of(plan.shown.begin(), plan.shown.end(), [](const auto& p) { return !p.lights.empty(); }));
-  finishLedger(settings, plan);
+  if (!plan.mainUnchanged) {
+    finishLedger(settings, plan);
+  }
+  mainImage_ = {settings, plan.mainContent};
   mirrorTargets_.end(plan, *frame.retired);
   heldRevision_ = renderer_.pipelines().revision();
   environmentTargets_.endFrame(plan, *frame.retired);
@@ -172,17 +180,17 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
   mirrorSystem_.countPipelines(ledger_);
 }
 
-std::span<const HeldImage> SceneRenderer::heldImages() const {
-  return heldRevision_ == renderer_.pipelines().revision() ? std::span(mirrorTargets_.heldPlans())
-                                                           : std::span<const HeldImage>();
-}
-
-std::span<const EnvironmentMap> SceneRenderer::environmentMaps() const {
-  return heldRevision_ == renderer_.pipelines().revision() ? environmentTargets_.held()
-                                                           : std::span<const EnvironmentMap>();
+EarlierImages SceneRenderer::earlier() const {
+  if (heldRevision_ != renderer_.pipelines().revision()) {
+    return {};
+  }
+  return {.held = mirrorTargets_.heldPlans(),
+          .maps = environmentTargets_.held(),
+          .main = mainImage_.content.empty() ? nullptr : &mainImage_};
 }
 
 void SceneRenderer::restart() {
+  mainImage_ = {};
   environmentTargets_.restart();
   mirrorTargets_.restart();
 }

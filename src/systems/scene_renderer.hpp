@@ -29,12 +29,11 @@ class SceneRenderer {
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
   // The images that this frame can be planned with: of the plan recorded last; none if a shader is new since then.
-  std::span<const HeldImage> heldImages() const;
-  std::span<const EnvironmentMap> environmentMaps() const;
+  EarlierImages earlier() const;
   // Forgets them and every target of mirror images, so that what is drawn from now on does not depend on what was.
   void restart();
 
-  // Records everything up to and with the display pass. `plan` was made with heldImages().
+  // Records everything up to and with the display pass. `plan` was made with earlier().
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt);
 
@@ -48,7 +47,7 @@ class SceneRenderer {
   // What DebugView::probe asked for, of the last frame that asked and has finished; nothing while none asks.
   const std::optional<TexelValue>& probed() { return probe_.value(); }
   size_t pipelineCount() const;
-  // What each effect took part in, of the last recorded frame.
+  // What each effect took part in, of the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
   // Linear radiance of the main view, of the last recorded frame; waits for the GPU.
   LinearImage radiance();
@@ -86,6 +85,7 @@ class SceneRenderer {
   std::unique_ptr<OffScreen> main_;
   MirrorTargets mirrorTargets_;
   uint64_t heldRevision_ = 0;  // of the pipelines that rendered the images held
+  MainImage mainImage_;        // its content is empty if it is not to be shown again
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
   std::vector<RecordedPass> recorded_;

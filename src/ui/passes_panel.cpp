@@ -109,7 +109,7 @@ void passRow(UiModel& model, const PassNode& node) {
   }
   ImGui::TableNextColumn();
   if (pass.framesAgo > 0) {
-    ImGui::TextDisabled("kept");
+    ImGui::TextDisabled("%.3f", pass.gpuMs);
     tip("nothing in it changed, or it was not its turn: the image of an earlier frame is shown, for nothing");
   } else {
     ImGui::Text("%.3f", pass.gpuMs);

@@ -87,7 +87,7 @@ void useScene(Scene scene, Settings settings) {
     const SceneState state = evaluate(scene, time);
     checkTransforms(state);
     checkMirrors(state);
-    const FramePlan plan = planFrame(scene, state, settings, kWidth, kHeight, held);
+    const FramePlan plan = planFrame(scene, state, settings, kWidth, kHeight, {.held = held});
     checkPlan(plan, settings, scene.mirrors.size());
     held = plan.held;
   }
