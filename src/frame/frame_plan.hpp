@@ -46,9 +46,10 @@ struct PlannedPass {
   double throughput = 1.0;     // upper bound over that part, largest channel, with this mirror's own reflectance
   glm::dvec3 channels{1.0};    // the same for each channel
   std::vector<int> instances;  // visible, indices into SceneState::instances, ascending
-  std::vector<PartialInstance> partial;  // those of them that are seen in part, ascending
-  std::vector<int> lights;               // whose glyphs are visible, indices into Scene::lights
-  std::vector<MirrorDraw> mirrors;       // in the order of Scene::mirrors
+  std::vector<PartialInstance> partial;        // those of them that are seen in part, ascending
+  std::vector<SimplifiedInstance> simplified;  // those of them that are drawn with fewer triangles, ascending
+  std::vector<int> lights;                     // whose glyphs are visible, indices into Scene::lights
+  std::vector<MirrorDraw> mirrors;             // in the order of Scene::mirrors
 };
 
 // What a curved mirror reflects with effects.curved_lookup = environment: six images about its centre, side by side in

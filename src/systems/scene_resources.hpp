@@ -23,12 +23,17 @@ class SceneResources {
     Buffer vertices;
     Buffer indices;  // uint32
     std::vector<Part> parts;
+    // Of MeshLevels, while levels are drawn.
+    Buffer levelVertices;
+    Buffer levelIndices;
   };
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
 
   // At the start of a frame. `asked`: effects.textures, `drawn`: drawsTextures. Uploads are finished on return.
   void prepare(Frame& frame, bool asked, bool drawn);
+  // Likewise for what is drawn in the place of the meshes: `drawn` is drawsLevels.
+  void prepareLevels(Frame& frame, bool drawn);
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
@@ -40,6 +45,7 @@ class SceneResources {
   Image upload(const Texture& texture, const std::string& name);
   void createTextures();
   void createMeshes();
+  void createLevels();
   void createMaterials(bool textured);
 
   Device& device_;
@@ -56,6 +62,8 @@ class SceneResources {
   Buffer materials_;
   bool textured_ = false;  // materials_ name textures
   std::vector<GpuMesh> meshes_;
+  bool levels_ = false;      // are there
+  int idleLevelFrames_ = 0;  // since they were drawn
 };
 
 }  // namespace speculum
