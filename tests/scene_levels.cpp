@@ -107,18 +107,20 @@ TEST_P(Levels, HaveFewerTrianglesOfTheSameParts) {
   EXPECT_EQ(next, levels.indices.size());
 }
 
-// Coarser levels use the first vertices, so that a draw of one runs over no others.
-TEST_P(Levels, UseTheFirstVertices) {
+// All between a level's least and greatest index, and no other level's.
+TEST_P(Levels, HaveVerticesOfTheirOwn) {
   const MeshLevels levels = simplified(model(GetParam()));
-  size_t needed = 0;
-  for (size_t i = levels.levels.size(); i-- > 0;) {
-    const IndexRange& all = levels.levels[i].all;
-    for (uint32_t k = all.first; k < all.first + all.count; ++k) {
-      ASSERT_LE(levels.indices[k], needed) << "a vertex is left out before it";
-      needed = std::max(needed, size_t{levels.indices[k]} + 1);
+  uint32_t first = 0;
+  for (const MeshLevel& level : levels.levels) {
+    uint32_t end = first;
+    for (uint32_t k = level.all.first; k < level.all.first + level.all.count; ++k) {
+      ASSERT_GE(levels.indices[k], first);
+      ASSERT_LE(levels.indices[k], end) << "a vertex is left out before it";
+      end = std::max(end, levels.indices[k] + 1);
     }
+    first = end;
   }
-  EXPECT_EQ(needed, levels.vertices.size());
+  EXPECT_EQ(first, levels.vertices.size());
 }
 
 // At random points between those that the error was measured at, in both directions.

@@ -9,8 +9,8 @@ namespace speculum {
 
 // The mesh's triangles in their order, cut into runs that lie close together. None for a mesh too small to be worth it.
 std::vector<MeshCluster> clustersOf(const Mesh& mesh);
-// The same of other triangles between the mesh's vertices; `parts` are ranges of `indices`.
-std::vector<MeshCluster> clustersOf(const Mesh& mesh, std::span<const uint32_t> indices,
+// The same of other triangles; `parts` are ranges of `indices`.
+std::vector<MeshCluster> clustersOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
                                     std::span<const IndexRange> parts);
 
 }  // namespace speculum
