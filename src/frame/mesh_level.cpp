@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 #include <utility>
 
 namespace speculum {
@@ -37,29 +37,35 @@ double largestScale(const glm::dmat3& linear) {
 
 }  // namespace
 
-double errorInTexels(const View& view, const Projection& projection, const InstanceState& instance, const Mesh& mesh,
-                     double error) {
-  const double shift = error * largestScale(instance.worldFromMesh.linear);
+double largestError(const View& view, const Projection& projection, const InstanceState& instance, const Mesh& mesh,
+                    double texels) {
   const double cosine = leastCosine(view, projection);
-  const double depth = nearestDepth(view, cosine, instance, mesh) - shift;
-  if (!(depth > 0.0)) {
-    return std::numeric_limits<double>::infinity();
-  }
+  const double depth = nearestDepth(view, cosine, instance, mesh);
   const glm::dvec2 focal = 0.5 * view.pictureSize * projection.focal / glm::dvec2(projection.aspect, 1.0);
-  return std::max(focal.x, focal.y) * shift / (depth * cosine);
+  // f d / ((z - d) cos a) = texels: the nearest point may come nearer by d itself.
+  const double reach = texels * cosine;
+  const double displacement = reach * std::max(depth, 0.0) / (std::max(focal.x, focal.y) + reach);
+  return displacement / largestScale(instance.worldFromMesh.linear);
 }
 
-LevelChoice chooseLevel(const View& view, const Projection& projection, double mostTexels,
-                        const InstanceState& instance, const Mesh& mesh, std::vector<IndexRange> seen) {
+LevelChoice chooseLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
+                        std::vector<IndexRange> seen) {
   LevelChoice best{.ranges = std::move(seen)};
   const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
-  for (size_t i = 0; i < levels.size(); ++i) {
-    if (errorInTexels(view, projection, instance, mesh, levels[i].error) > mostTexels) {
-      break;
+  const auto end = std::upper_bound(levels.begin(), levels.end(), largestError,
+                                    [](double error, const MeshLevel& level) { return error < level.error; });
+  // From the coarsest; a finer one can be less to draw only where it is the first with clusters.
+  for (auto level = end; level != levels.begin();) {
+    --level;
+    const bool clustered = !level->clusters.empty();
+    if (level + 1 == end || clustered) {
+      std::vector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, level->all, level->clusters);
+      if (!ranges.empty() && indexCount(ranges) < indexCount(best.ranges)) {
+        best = {static_cast<int>(level - levels.begin()), std::move(ranges)};
+      }
     }
-    std::vector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, levels[i].all, levels[i].clusters);
-    if (!ranges.empty() && indexCount(ranges) < indexCount(best.ranges)) {
-      best = {static_cast<int>(i), std::move(ranges)};
+    if (clustered) {
+      break;
     }
   }
   return best;
@@ -76,7 +82,8 @@ void simplifyPass(PlannedPass& pass, const View& readable, const Projection& pro
     LevelChoice choice{.ranges = was != pass.partial.end() ? was->ranges : std::vector{allOf(mesh)}};
     const bool curved = settings.effects.curved && scene.objects[instance.object].mirror;
     if (!curved) {
-      choice = chooseLevel(readable, projection, settings.reflection.meshError, instance, mesh, choice.ranges);
+      const double largest = largestError(readable, projection, instance, mesh, settings.reflection.meshError);
+      choice = chooseLevel(readable, largest, instance, mesh, std::move(choice.ranges));
     }
     const IndexRange all = choice.level < 0 ? allOf(mesh) : levelsOf(mesh).levels[choice.level].all;
     if (choice.ranges.front() != all) {
@@ -89,10 +96,16 @@ void simplifyPass(PlannedPass& pass, const View& readable, const Projection& pro
   pass.partial = std::move(partial);
 }
 
-bool drawsLevels(const FramePlan& plan) {
-  const auto draws = [](const PlannedPass& pass) { return !pass.simplified.empty(); };
-  return std::any_of(plan.passes.begin(), plan.passes.end(), draws) ||
-         std::any_of(plan.shown.begin(), plan.shown.end(), draws);
+std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {
+  std::set<int> meshes;
+  const auto add = [&](const PlannedPass& pass) {
+    for (const SimplifiedInstance& simplified : pass.simplified) {
+      meshes.insert(state.instances[static_cast<size_t>(simplified.instance)].mesh);
+    }
+  };
+  std::for_each(plan.passes.begin(), plan.passes.end(), add);
+  std::for_each(plan.shown.begin(), plan.shown.end(), add);
+  return {meshes.begin(), meshes.end()};
 }
 
 int levelOf(const PlannedPass& pass, int instance) {

@@ -108,33 +108,30 @@ void SceneResources::createMeshes() {
   }
 }
 
-void SceneResources::prepareLevels(Frame& frame, bool drawn) {
-  idleLevelFrames_ = drawn ? 0 : idleLevelFrames_ + 1;
-  if (drawn && !levels_) {
-    check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
-    createLevels();
-  } else if (levels_ && idleLevelFrames_ > idleFramesKept) {
-    for (GpuMesh& mesh : meshes_) {
+void SceneResources::prepareLevels(Frame& frame, std::span<const int> drawn) {
+  idleLevelFrames_ = drawn.empty() ? idleLevelFrames_ + 1 : 0;
+  for (const int mesh : drawn) {
+    if (!meshes_[static_cast<size_t>(mesh)].levelIndices) {
+      check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
+      createLevels(static_cast<size_t>(mesh));
+    }
+  }
+  for (GpuMesh& mesh : meshes_) {
+    if (idleLevelFrames_ > idleFramesKept && mesh.levelIndices) {
       frame.retired->retire(std::exchange(mesh.levelVertices, {}));
       frame.retired->retire(std::exchange(mesh.levelIndices, {}));
     }
-    levels_ = false;
   }
 }
 
-void SceneResources::createLevels() {
-  for (size_t i = 0; i < meshes_.size(); ++i) {
-    const MeshLevels& levels = levelsOf(scene_.meshes[i]);
-    if (levels.levels.empty()) {
-      continue;
-    }
-    const std::string name = scene_.meshes[i].source.filename().string();
-    meshes_[i].levelVertices = uploader_.buffer(std::span<const GpuVertex>(gpuVertices(levels.vertices)),
-                                                VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " level vertices");
-    meshes_[i].levelIndices = uploader_.buffer(std::span<const uint32_t>(levels.indices),
-                                               VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " level indices");
-  }
-  levels_ = true;
+void SceneResources::createLevels(size_t mesh) {
+  const MeshLevels& levels = levelsOf(scene_.meshes[mesh]);
+  const std::string name = scene_.meshes[mesh].source.filename().string();
+  GpuMesh& gpu = meshes_[mesh];
+  gpu.levelVertices = uploader_.buffer(std::span<const GpuVertex>(gpuVertices(levels.vertices)),
+                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " level vertices");
+  gpu.levelIndices = uploader_.buffer(std::span<const uint32_t>(levels.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                      name + " level indices");
 }
 
 // In the order of GpuMesh::parts.
