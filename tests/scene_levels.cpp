@@ -205,6 +205,46 @@ TEST(MeshLevels, PartsStayJoined) {
   }
 }
 
+// As of a file without normals: each triangle has vertices of its own.
+TEST(MeshLevels, FacetsOfASmoothBodyAreJoined) {
+  const Mesh smooth = model("sphere");
+  Mesh mesh{.halfExtent = smooth.halfExtent, .radius = smooth.radius};
+  for (size_t i = 0; i < smooth.indices.size(); i += 3) {
+    Corners corners;
+    for (size_t k = 0; k < 3; ++k) {
+      corners[k] = smooth.vertices[smooth.indices[i + k]].position;
+    }
+    const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    for (const glm::dvec3& corner : corners) {
+      mesh.indices.push_back(static_cast<uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back({corner, normal, {}});
+    }
+  }
+  mesh.parts = {{0, static_cast<uint32_t>(mesh.indices.size()), {}}};
+  const MeshLevels levels = simplified(mesh);
+  ASSERT_GT(levels.levels.size(), 4u);
+  EXPECT_LT(levels.levels[3].all.count, mesh.indices.size() / 3);
+  EXPECT_LT(levels.levels[3].error, 0.1 * mesh.radius);
+}
+
+TEST(MeshLevels, CornersOfHardEdgesStay) {
+  const Mesh mesh = model("frame");
+  const MeshLevels levels = simplified(mesh);
+  ASSERT_FALSE(levels.levels.empty());
+  for (const MeshLevel& level : levels.levels) {
+    glm::dvec3 low(1e9);
+    glm::dvec3 high(-1e9);
+    for (const glm::dvec3& p : cornersOf(levels.vertices, levels.indices, level.all.first, level.all.count)) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(high[i], mesh.halfExtent[i], 1e-12);
+      EXPECT_NEAR(low[i], -mesh.halfExtent[i], 1e-12);
+    }
+  }
+}
+
 TEST(MeshLevels, SmallMeshesHaveNone) {
   EXPECT_TRUE(simplified(model("box")).levels.empty());
   EXPECT_TRUE(simplified(Mesh{}).levels.empty());
