@@ -5,7 +5,7 @@ build_packages=(
   libvulkan-dev libglfw3-dev libglm-dev libimgui-dev libstb-dev libfreetype-dev
   glslang-tools spirv-tools
   libtinyobjloader-dev libtinyexr-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
-  libtbb-dev
+  libtbb-dev libmeshoptimizer-dev
 )
 run_packages=(mesa-vulkan-drivers)
 test_packages=(

@@ -19,7 +19,8 @@ _speculum_options() {
 
 _speculum_settings() {
   echo "reflection.scale reflection.samples reflection.max_depth reflection.min_pixels reflection.min_throughput
-    reflection.max_passes reflection.update_interval reflection.skip_unchanged reflection.clip view.samples view.exposure view.tone_map
+    reflection.max_passes reflection.update_interval reflection.skip_unchanged reflection.mesh_error
+    reflection.clip view.samples view.exposure view.tone_map
     view.clear_color view.texture_filter view.wireframe view.continuous effects.shadows effects.roughness
     effects.rough_samples effects.rough_lookup effects.per_sample effects.ripple effects.casts_light effects.curved
     effects.curved_lookup effects.environment_size effects.environment_interval effects.environment_box effects.fresnel

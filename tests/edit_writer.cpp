@@ -313,6 +313,7 @@ TEST(SaveScene, EverySettingReadsBack) {
                                                         {"reflection.update_interval", "3"},
                                                         {"reflection.clip", "oblique"},
                                                         {"reflection.skip_unchanged", "false"},
+                                                        {"reflection.mesh_error", "0.5"},
                                                         {"effects.curved_lookup", "environment"},
                                                         {"effects.environment_size", "64"},
                                                         {"effects.environment_interval", "3"},

@@ -73,7 +73,8 @@ TEST_P(Sequence, SkippingChangesNoByte) {
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Sequence,
     testing::Values(Case{"gallery", {}}, Case{"gallery", {{"reflection.scale", "0.5"}, {"view.samples", "1"}}},
-                    Case{"facing_mirrors", {{"reflection.samples", "1"}}}, Case{"many_mirrors", {}},
+                    Case{"facing_mirrors", {{"reflection.samples", "1"}}},
+                    Case{"facing_mirrors", {{"reflection.mesh_error", "1"}}}, Case{"many_mirrors", {}},
                     Case{"mirror_ball", {{"effects.per_sample", "false"}}}, Case{"pool", {}}, Case{"bounced_light", {}},
                     Case{"shadows", {}},
                     Case{"rough", {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}}},

@@ -153,6 +153,11 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   }
   planner.add({{"reflection.samples", "1"}, {"view.samples", most}});
   planner.add({{"reflection.samples", most}, {"view.samples", "1"}});
+  if (context.effects.empty()) {  // where rays are traced it changes nothing
+    for (const char* texels : full ? std::vector{"0.25", "0.5", "1", "2", "4"} : std::vector{"0.5", "2"}) {
+      planner.add({{"reflection.mesh_error", texels}});
+    }
+  }
   planner.add({{"reflection.clip", "oblique"}});
   planner.add({{"reflection.clip", "none"}});
   for (const char* throughput : {"0.2", "0.05", "0.01"}) {

@@ -171,8 +171,7 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   frame_.state.camera = camera_.value_or(frame_.state.camera);
   EarlierImages earlier = sceneRenderer_.earlier();
   earlier.main = nullptr;  // the pass of the main view is always among those that are reported
-  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height,
-                                    earlier);
+  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, earlier);
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
   frame.capture = capture;

@@ -8,6 +8,7 @@
 
 #include "frame/environment_map.hpp"
 #include "frame/image_reuse.hpp"
+#include "frame/mesh_level.hpp"
 #include "frame/mirror_sight.hpp"
 #include "frame/occlusion.hpp"
 #include "frame/pass_mask.hpp"
@@ -56,11 +57,7 @@ class Planner {
  public:
   Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
           const EarlierImages& earlier)
-      : scene_(scene),
-        state_(state),
-        allSettings_(settings),
-        settings_(settings.reflection),
-        earlier_(earlier) {
+      : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), earlier_(earlier) {
     // Everything in front of `near` is clamped to one depth and would lose its order; a larger one gains nothing,
     // because depth is near / distance in a float.
     const double near = std::min(state.camera.near, largestNear);
@@ -81,6 +78,7 @@ class Planner {
       expand(best);
     }
     findEffects();
+    simplify();
     keepUnchanged();
     record(0);
     forgetHeldSubtrees();
@@ -98,8 +96,10 @@ class Planner {
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
   void hold(Node& node, const Candidate& candidate, int interval) const;
+  View readable(const View& view) const;
   void findEffects();
   ImageSurroundings surroundings() const;
+  void simplify();
   void keepUnchanged();
   void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
@@ -134,17 +134,22 @@ void Planner::addInstance(PlannedPass& pass, const View& readable, int i) {
   }
 }
 
-// What is drawn in a node's view, and which of its mirrors are candidates for passes.
-void Planner::fill(int node) {
-  const View view = nodes_[node].pass.view;
-  // A mirror image is read a little beyond the edge of what is seen of it. As far as a held one in any case, so that
-  // what is drawn, and in which order, is the same with every update interval.
+// A mirror image is read a little beyond the edge of what is seen of it. As far as a held one in any case, so that what
+// is drawn, and in which order, is the same with every update interval.
+View Planner::readable(const View& view) const {
   View readable = view;
   if (!view.path.empty()) {
     Settings held = allSettings_;
     held.reflection.updateInterval = std::max(held.reflection.updateInterval, 2);
     widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(held, false))) + 1);
   }
+  return readable;
+}
+
+// What is drawn in a node's view, and which of its mirrors are candidates for passes.
+void Planner::fill(int node) {
+  const View view = nodes_[node].pass.view;
+  const View readable = this->readable(view);
   for (size_t i = 0; i < state_.instances.size(); ++i) {
     const InstanceState& instance = state_.instances[i];
     if (sphereVisible(readable, instance.center, instance.radius) &&
@@ -292,6 +297,17 @@ void Planner::findEffects() {
   }
   passes.push_back(&nodes_[0].pass);
   plan_.effects = tracedEffects(scene_, state_, allSettings_, passes);
+}
+
+// Rays start on the surfaces that are drawn and meet the meshes themselves, which would shadow their simplified selves.
+void Planner::simplify() {
+  if (settings_.meshError <= 0.0 || plan_.effects.traces()) {
+    return;
+  }
+  for (size_t i = 1; i < nodes_.size(); ++i) {
+    PlannedPass& pass = nodes_[i].pass;
+    simplifyPass(pass, readable(pass.view), plan_.projection, allSettings_, scene_, state_);
+  }
 }
 
 ImageSurroundings Planner::surroundings() const {

@@ -46,9 +46,10 @@ struct PlannedPass {
   double throughput = 1.0;     // upper bound over that part, largest channel, with this mirror's own reflectance
   glm::dvec3 channels{1.0};    // the same for each channel
   std::vector<int> instances;  // visible, indices into SceneState::instances, ascending
-  std::vector<PartialInstance> partial;  // those of them that are seen in part, ascending
-  std::vector<int> lights;               // whose glyphs are visible, indices into Scene::lights
-  std::vector<MirrorDraw> mirrors;       // in the order of Scene::mirrors
+  std::vector<PartialInstance> partial;        // those of them that are seen in part, ascending
+  std::vector<SimplifiedInstance> simplified;  // those of them that are drawn with fewer triangles, ascending
+  std::vector<int> lights;                     // whose glyphs are visible, indices into Scene::lights
+  std::vector<MirrorDraw> mirrors;             // in the order of Scene::mirrors
 };
 
 // What a curved mirror reflects with effects.curved_lookup = environment: six images about its centre, side by side in
@@ -117,10 +118,10 @@ struct FramePlan {
 // Which passes a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. Recursion is
 // spent best first, by visible pixels times throughput.
 //
-// With reflection.skip_unchanged, a mirror seen directly shows its image in `earlier.held` again if everything that it depends
-// on is exactly as it was. With reflection.update_interval above 1, it also does if the image is younger than its due
-// age, was drawn under the same settings and covers what is seen. The budget of passes is spent as if every image were
-// rendered, so that an image does not depend on which others are; the passes of held ones are then left out.
+// With reflection.skip_unchanged, a mirror seen directly shows its image in `earlier.held` again if everything that it
+// depends on is exactly as it was. With reflection.update_interval above 1, it also does if the image is younger than
+// its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as if every
+// image were rendered, so that an image does not depend on which others are; the passes of held ones are then left out.
 //
 // `earlier.maps` serve like images, by reflection.skip_unchanged and effects.environment_interval. With the former and
 // without view.continuous, so does the main view if it too is exactly as it was.

@@ -45,6 +45,7 @@ class Numbers {
   void add(const View& view) {
     addAll(view.eye, view.worldToView, view.clip, view.cone, view.rect, view.pictureSize, view.path);
   }
+  void add(const SimplifiedInstance& simplified) { addAll(simplified.instance, simplified.level); }
   void add(const MirrorDraw& draw) {
     addAll(draw.mirror, draw.back, draw.scatters, draw.blurs, draw.polygon, draw.plane);
   }
@@ -122,7 +123,7 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
   std::set<int> instances = indices(all, around.state.instances.size());
   std::set<int> mirrors = indices(all, around.state.mirrors.size());
   for (const PlannedPass* pass : passes) {
-    numbers.addAll(pass->view, pass->channels, pass->instances, pass->lights, pass->mirrors);
+    numbers.addAll(pass->view, pass->channels, pass->instances, pass->simplified, pass->lights, pass->mirrors);
     instances.insert(pass->instances.begin(), pass->instances.end());
     for (const MirrorDraw& draw : pass->mirrors) {
       mirrors.insert(draw.mirror);

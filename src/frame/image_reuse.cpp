@@ -134,8 +134,7 @@ void keepMain(FramePlan& plan, const MainImage* before, const ImageSurroundings&
   }
   const PlannedPass* main = &plan.main;
   plan.mainContent = imageContent(around, plan.main.view, {&main, 1});
-  plan.mainUnchanged =
-      before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
+  plan.mainUnchanged = before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
 }
 
 }  // namespace speculum

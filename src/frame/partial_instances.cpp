@@ -19,11 +19,11 @@ struct LocalPlane {
 };
 
 // The planes that cut through the mesh's bounding box; those that it lies before as a whole decide nothing.
-std::vector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance, const Mesh& mesh) {
+std::vector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent) {
   std::vector<LocalPlane> planes;
   const auto add = [&](const glm::dvec3& normal, double distance) {
     const glm::dvec3 local = normal * instance.worldFromMesh.linear;
-    const double reach = glm::dot(glm::abs(local), mesh.halfExtent);
+    const double reach = glm::dot(glm::abs(local), halfExtent);
     if (distance < reach * (1.0 + rounding)) {
       planes.push_back({local, distance + rounding * reach});
     }
@@ -52,13 +52,26 @@ IndexRange allOf(const Mesh& mesh) {
   return {0, static_cast<uint32_t>(mesh.indices.size())};
 }
 
+uint32_t indexCount(std::span<const IndexRange> ranges) {
+  uint32_t count = 0;
+  for (const IndexRange& range : ranges) {
+    count += range.count;
+  }
+  return count;
+}
+
 std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh) {
-  const std::vector<LocalPlane> planes = cuttingPlanes(view, instance, mesh);
-  if (mesh.clusters.empty() || planes.empty()) {
-    return {allOf(mesh)};
+  return visibleRanges(view, instance, mesh.halfExtent, allOf(mesh), mesh.clusters);
+}
+
+std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
+                                      const IndexRange& all, std::span<const MeshCluster> clusters) {
+  const std::vector<LocalPlane> planes = cuttingPlanes(view, instance, halfExtent);
+  if (clusters.empty() || planes.empty()) {
+    return {all};
   }
   std::vector<IndexRange> ranges;
-  for (const MeshCluster& cluster : mesh.clusters) {
+  for (const MeshCluster& cluster : clusters) {
     if (!visible(cluster, planes)) {
       continue;
     }
@@ -68,11 +81,7 @@ std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& ins
       ranges.push_back({cluster.firstIndex, cluster.indexCount});
     }
   }
-  uint32_t drawn = 0;
-  for (const IndexRange& range : ranges) {
-    drawn += range.count;
-  }
-  return drawn > (1.0 - leastSaved) * allOf(mesh).count ? std::vector<IndexRange>{allOf(mesh)} : ranges;
+  return indexCount(ranges) > (1.0 - leastSaved) * all.count ? std::vector<IndexRange>{all} : ranges;
 }
 
 }  // namespace speculum

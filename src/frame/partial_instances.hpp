@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "frame/view.hpp"
@@ -8,17 +9,16 @@
 
 namespace speculum {
 
-// Of Mesh::indices.
-struct IndexRange {
-  uint32_t first = 0;
-  uint32_t count = 0;
-  bool operator==(const IndexRange&) const = default;
-};
-
 // An instance of which a view sees only some of the mesh's clusters.
 struct PartialInstance {
   int instance = 0;                // index into SceneState::instances
-  std::vector<IndexRange> ranges;  // ascending, apart from each other
+  std::vector<IndexRange> ranges;  // of the indices of what is drawn of it; ascending, apart from each other
+};
+
+// An instance of which a pass draws fewer triangles: reflection.mesh_error.
+struct SimplifiedInstance {
+  int instance = 0;  // index into SceneState::instances
+  int level = 0;     // index into MeshLevels::levels
 };
 
 IndexRange allOf(const Mesh& mesh);
@@ -26,5 +26,9 @@ IndexRange allOf(const Mesh& mesh);
 // The triangles of an instance that the view may see, cluster by cluster: one range of all of them unless that leaves
 // out a part that is worth a draw call of its own; none if it sees none. Never leaves out a triangle that it sees.
 std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh);
+// The same of triangles within the mesh's box that are drawn in its place: `all` of them, in these clusters.
+std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
+                                      const IndexRange& all, std::span<const MeshCluster> clusters);
+uint32_t indexCount(std::span<const IndexRange> ranges);
 
 }  // namespace speculum

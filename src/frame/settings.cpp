@@ -175,6 +175,9 @@ std::vector<Setting> reflectionTable() {
       boolean<R>(
           {"reflection.skip_unchanged", "true | false", "a mirror image that would be the same again is shown again"},
           group, &R::skipUnchanged),
+      number<R>({"reflection.mesh_error", "0 .. 16",
+                 "texels by which simplified objects in mirror images may be off; 0: all triangles are drawn"},
+                group, &R::meshError, 0.0, 16.0),
       choice<R, ClipMethod>(
           {"reflection.clip", "clip_distance | oblique | none", "how geometry behind a mirror is cut"}, group, &R::clip,
           {{"clip_distance", ClipMethod::clipDistance}, {"oblique", ClipMethod::oblique}, {"none", ClipMethod::none}}),

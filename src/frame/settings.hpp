@@ -25,6 +25,7 @@ struct ReflectionSettings {
   int maxPasses = 64;
   int updateInterval = 1;     // frames
   bool skipUnchanged = true;  // an image that would be the same again is not rendered
+  double meshError = 0.0;     // texels that the outlines of objects in mirror images may be off by; 0: none
   ClipMethod clip = ClipMethod::clipDistance;
 
   bool operator==(const ReflectionSettings&) const = default;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,15 @@ struct Vertex {
   glm::dvec2 uv;        // v up
 };
 
+// Consecutive indices of triangles.
+struct IndexRange {
+  uint32_t first = 0;
+  uint32_t count = 0;  // a multiple of 3
+  bool operator==(const IndexRange&) const = default;
+};
+
+struct MeshLevels;
+
 struct MeshPart {
   uint32_t firstIndex = 0;
   uint32_t indexCount = 0;  // a multiple of 3
@@ -59,6 +69,7 @@ struct Mesh {
   std::vector<MeshCluster> clusters;  // of all triangles, in their order; none of a small mesh. See clustersOf
   std::vector<std::vector<glm::dvec3>>
       faces;  // flat and convex, the largest few; relative to `center`. See convexFaces
+  mutable std::shared_ptr<const MeshLevels> levels;  // what levelsOf has made of it, if it was asked
 };
 
 }  // namespace speculum

@@ -10,11 +10,12 @@ namespace {
 constexpr uint32_t clusterIndices = 3 * 64;
 constexpr size_t fewestClusters = 8;
 
-MeshCluster clusterOf(const Mesh& mesh, uint32_t first, uint32_t count) {
+MeshCluster clusterOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices, uint32_t first,
+                      uint32_t count) {
   glm::dvec3 low(std::numeric_limits<double>::infinity());
   glm::dvec3 high = -low;
   for (uint32_t i = first; i < first + count; ++i) {
-    const glm::dvec3& p = mesh.vertices[mesh.indices[i]].position;
+    const glm::dvec3& p = vertices[indices[i]].position;
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
@@ -24,13 +25,26 @@ MeshCluster clusterOf(const Mesh& mesh, uint32_t first, uint32_t count) {
 }  // namespace
 
 std::vector<MeshCluster> clustersOf(const Mesh& mesh) {
+  std::vector<IndexRange> parts;
+  for (const MeshPart& part : mesh.parts) {
+    parts.push_back({part.firstIndex, part.indexCount});
+  }
+  return clustersOf(mesh.vertices, mesh.indices, parts);
+}
+
+std::vector<MeshCluster> clustersOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
+                                    std::span<const IndexRange> parts) {
   std::vector<MeshCluster> clusters;
-  if (mesh.indices.size() < fewestClusters * clusterIndices) {
+  uint32_t count = 0;
+  for (const IndexRange& part : parts) {
+    count += part.count;
+  }
+  if (count < fewestClusters * clusterIndices) {
     return clusters;
   }
-  for (const MeshPart& part : mesh.parts) {
-    for (uint32_t done = 0; done < part.indexCount; done += clusterIndices) {
-      clusters.push_back(clusterOf(mesh, part.firstIndex + done, std::min(clusterIndices, part.indexCount - done)));
+  for (const IndexRange& part : parts) {
+    for (uint32_t done = 0; done < part.count; done += clusterIndices) {
+      clusters.push_back(clusterOf(vertices, indices, part.first + done, std::min(clusterIndices, part.count - done)));
     }
   }
   return clusters;

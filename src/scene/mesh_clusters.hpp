@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "scene/mesh.hpp"
@@ -8,5 +9,8 @@ namespace speculum {
 
 // The mesh's triangles in their order, cut into runs that lie close together. None for a mesh too small to be worth it.
 std::vector<MeshCluster> clustersOf(const Mesh& mesh);
+// The same of other triangles; `parts` are ranges of `indices`.
+std::vector<MeshCluster> clustersOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
+                                    std::span<const IndexRange> parts);
 
 }  // namespace speculum

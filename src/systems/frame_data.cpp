@@ -5,6 +5,7 @@
 #include <string>
 
 #include "frame/draw_order.hpp"
+#include "frame/mesh_level.hpp"
 #include "frame/pass_mask.hpp"
 #include "systems/gpu_data.hpp"
 
@@ -237,8 +238,8 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     return found != pass.partial.end() && found->instance == i ? &*found : nullptr;
   };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
-  // Plain instances of a mesh are one draw, curved mirrors of the same mesh another, and each that is seen in part is
-  // its own.
+  // Plain instances of a mesh at one level are one draw, curved mirrors of the same mesh another, and each that is seen
+  // in part is its own.
   for (auto first = order.begin(); first != order.end();) {
     const int mesh = state.instances[*first].mesh;
     const auto last = std::find_if(first, order.end(), [&](int i) { return state.instances[i].mesh != mesh; });
@@ -251,10 +252,13 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     const bool curved = isCurved(i);
     const bool environment = curved && effects.curvedLookup == CurvedLookup::environment;
     const PartialInstance* part = partOf(i);
+    const int level = levelOf(pass, i);
     if (data.batches.empty() || data.batches.back().mesh != instance.mesh || data.batches.back().curved != curved ||
-        environment || part || !data.batches.back().ranges.empty()) {
-      data.batches.push_back(
-          {.mesh = instance.mesh, .firstInstance = static_cast<uint32_t>(instances_.size()), .curved = curved});
+        data.batches.back().level != level || environment || part || !data.batches.back().ranges.empty()) {
+      data.batches.push_back({.mesh = instance.mesh,
+                              .firstInstance = static_cast<uint32_t>(instances_.size()),
+                              .curved = curved,
+                              .level = level});
       data.batches.back().ranges = part ? part->ranges : std::vector<IndexRange>();
     }
     ++data.batches.back().count;

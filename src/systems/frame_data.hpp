@@ -24,7 +24,8 @@ struct Batch {
   bool curved = false;             // they are mirrors
   bool environment = false;        // that look up an environment map; one instance then
   int map = -1;                    // index into FramePlan::maps; -1: it shows the background
-  std::vector<IndexRange> ranges;  // of the mesh's indices; none: all. Only a single instance has any
+  int level = -1;                  // index into MeshLevels::levels; -1: the mesh itself
+  std::vector<IndexRange> ranges;  // of its indices; none: all. Only a single instance has any
 };
 
 struct MirrorRange {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/mesh_levels.hpp"
+
 namespace speculum {
 
 RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout,
@@ -60,15 +62,21 @@ const Pipeline& RenderSystem::sky(VkSampleCountFlagBits samples) {
 
 namespace {
 
-// The indices of a mesh's part that a batch draws.
-std::vector<IndexRange> drawnRanges(const SceneResources::Part& part, const Batch& batch) {
+// All indices of a mesh's part, or of what is drawn in its place.
+IndexRange partRange(const Scene& scene, const SceneResources::GpuMesh& mesh, size_t part, const Batch& batch) {
+  return batch.level < 0 ? IndexRange{mesh.parts[part].firstIndex, mesh.parts[part].indexCount}
+                         : levelsOf(scene.meshes[batch.mesh]).levels[batch.level].parts[part];
+}
+
+// Those of them that a batch draws.
+std::vector<IndexRange> drawnRanges(const IndexRange& part, const Batch& batch) {
   if (batch.ranges.empty()) {
-    return {{part.firstIndex, part.indexCount}};
+    return {part};
   }
   std::vector<IndexRange> drawn;
   for (const IndexRange& range : batch.ranges) {
-    const uint32_t first = std::max(range.first, part.firstIndex);
-    const uint32_t end = std::min(range.first + range.count, part.firstIndex + part.indexCount);
+    const uint32_t first = std::max(range.first, part.first);
+    const uint32_t end = std::min(range.first + range.count, part.first + part.count);
     if (first < end) {
       drawn.push_back({first, end - first});
     }
@@ -102,14 +110,16 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
       pipeline.bindSet(commands, 2, info.trace.set());
     }
     const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
-    const VkBuffer vertices = mesh.vertices.get();
+    const bool whole = batch.level < 0;
+    const VkBuffer vertices = (whole ? mesh.vertices : mesh.levelVertices).get();
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &offset);
-    vkCmdBindIndexBuffer(commands, mesh.indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(commands, (whole ? mesh.indices : mesh.levelIndices).get(), 0, VK_INDEX_TYPE_UINT32);
     scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
-    for (const SceneResources::Part& part : mesh.parts) {
+    for (size_t p = 0; p < mesh.parts.size(); ++p) {
+      const SceneResources::Part& part = mesh.parts[p];
       pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
-      for (const IndexRange& range : drawnRanges(part, batch)) {
+      for (const IndexRange& range : drawnRanges(partRange(info.scene, mesh, p, batch), batch)) {
         pipeline.push(commands, DrawConstants{data.view, part.material, range.first / 3});
         vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
         ++draws;

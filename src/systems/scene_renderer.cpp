@@ -5,6 +5,7 @@
 
 #include "frame/environment_map.hpp"
 #include "frame/memory_fit.hpp"
+#include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
 
 namespace speculum {
@@ -76,6 +77,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   prepareMain(settings, plan, *frame.retired);
   prepareMaps(frame, plan);
   resources_.prepare(frame, settings.effects.textures, drawsTextures(scene_, state, settings, plan));
+  resources_.prepareLevels(frame, meshesWithLevels(plan, state));
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);

@@ -4,6 +4,7 @@
 #include <glm/gtc/packing.hpp>
 #include <utility>
 
+#include "scene/mesh_levels.hpp"
 #include "systems/effect_ledger.hpp"
 
 namespace speculum {
@@ -24,6 +25,15 @@ MaterialData materialData(const Material& material, bool textured) {
   return {.diffuse = glm::vec4(glm::vec3(material.diffuse), static_cast<float>(texture)),
           .specular = glm::vec4(glm::vec3(material.specular), static_cast<float>(material.shininess)),
           .emission = glm::vec4(glm::vec3(material.emission), 0.0f)};
+}
+
+std::vector<GpuVertex> gpuVertices(const std::vector<Vertex>& vertices) {
+  std::vector<GpuVertex> result;
+  result.reserve(vertices.size());
+  for (const Vertex& vertex : vertices) {
+    result.push_back({glm::vec3(vertex.position), glm::vec3(vertex.normal), glm::vec2(vertex.uv)});
+  }
+  return result;
 }
 
 }  // namespace
@@ -86,11 +96,7 @@ void SceneResources::createMeshes() {
   uint32_t materials = 0;
   for (const Mesh& mesh : scene_.meshes) {
     const std::string name = mesh.source.filename().string();
-    std::vector<GpuVertex> vertices;
-    vertices.reserve(mesh.vertices.size());
-    for (const Vertex& vertex : mesh.vertices) {
-      vertices.push_back({glm::vec3(vertex.position), glm::vec3(vertex.normal), glm::vec2(vertex.uv)});
-    }
+    const std::vector<GpuVertex> vertices = gpuVertices(mesh.vertices);
     GpuMesh& gpu = meshes_.emplace_back();
     gpu.vertices =
         uploader_.buffer(std::span<const GpuVertex>(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
@@ -100,6 +106,32 @@ void SceneResources::createMeshes() {
       gpu.parts.push_back({part.firstIndex, part.indexCount, materials++, part.material.diffuseTexture});
     }
   }
+}
+
+void SceneResources::prepareLevels(Frame& frame, std::span<const int> drawn) {
+  idleLevelFrames_ = drawn.empty() ? idleLevelFrames_ + 1 : 0;
+  for (const int mesh : drawn) {
+    if (!meshes_[static_cast<size_t>(mesh)].levelIndices) {
+      check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
+      createLevels(static_cast<size_t>(mesh));
+    }
+  }
+  for (GpuMesh& mesh : meshes_) {
+    if (idleLevelFrames_ > idleFramesKept && mesh.levelIndices) {
+      frame.retired->retire(std::exchange(mesh.levelVertices, {}));
+      frame.retired->retire(std::exchange(mesh.levelIndices, {}));
+    }
+  }
+}
+
+void SceneResources::createLevels(size_t mesh) {
+  const MeshLevels& levels = levelsOf(scene_.meshes[mesh]);
+  const std::string name = scene_.meshes[mesh].source.filename().string();
+  GpuMesh& gpu = meshes_[mesh];
+  gpu.levelVertices = uploader_.buffer(std::span<const GpuVertex>(gpuVertices(levels.vertices)),
+                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " level vertices");
+  gpu.levelIndices = uploader_.buffer(std::span<const uint32_t>(levels.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                      name + " level indices");
 }
 
 // In the order of GpuMesh::parts.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/descriptors.hpp"
@@ -23,12 +24,17 @@ class SceneResources {
     Buffer vertices;
     Buffer indices;  // uint32
     std::vector<Part> parts;
+    // Of MeshLevels; none until levels of the mesh are drawn, nor when no levels have been drawn for some frames.
+    Buffer levelVertices;
+    Buffer levelIndices;
   };
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
 
   // At the start of a frame. `asked`: effects.textures, `drawn`: drawsTextures. Uploads are finished on return.
   void prepare(Frame& frame, bool asked, bool drawn);
+  // Likewise for what is drawn in the place of the meshes: `drawn` is meshesWithLevels.
+  void prepareLevels(Frame& frame, std::span<const int> drawn);
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
@@ -40,6 +46,7 @@ class SceneResources {
   Image upload(const Texture& texture, const std::string& name);
   void createTextures();
   void createMeshes();
+  void createLevels(size_t mesh);
   void createMaterials(bool textured);
 
   Device& device_;
@@ -56,6 +63,7 @@ class SceneResources {
   Buffer materials_;
   bool textured_ = false;  // materials_ name textures
   std::vector<GpuMesh> meshes_;
+  int idleLevelFrames_ = 0;  // since levels of any were drawn
 };
 
 }  // namespace speculum

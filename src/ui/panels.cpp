@@ -72,6 +72,7 @@ void reflectionSettings(UiModel& model) {
   describe(model, "reflection.update_interval");
   ImGui::Checkbox("keep what is unchanged", &r.skipUnchanged);
   describe(model, "reflection.skip_unchanged");
+  slider(model, "mesh error", r.meshError, 0.0, 16.0, "%.2f", "reflection.mesh_error");
   choiceCombo(model, "clip", r.clip, clips, "reflection.clip");
 }
 

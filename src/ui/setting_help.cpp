@@ -10,7 +10,7 @@ namespace {
 
 using Cost = std::pair<std::string_view, std::string_view>;
 
-constexpr std::array<Cost, 37> costs{{
+constexpr std::array<Cost, 38> costs{{
     {"reflection.scale",
      "Pixels of mirror images grow with its square. Below 1 reflections blur, above 1 edges smooth."},
     {"reflection.samples",
@@ -29,6 +29,9 @@ constexpr std::array<Cost, 37> costs{{
      "Saves the passes of mirrors seen directly in the frames between; what moves in them moves in steps."},
     {"reflection.skip_unchanged",
      "Saves the passes of mirrors in which nothing changed; their images keep their memory."},
+    {"reflection.mesh_error",
+     "Saves vertices of what is small in mirrors; shading shifts a little with the triangles. Without effect while\n"
+     "anything in the picture calls for rays. Simplifying takes a moment when it is first set."},
     {"reflection.clip",
      "oblique loses precision of depth where the eye is near the mirror; none shows what is behind it."},
     {"view.samples",

@@ -1,0 +1,117 @@
+#include "frame/mesh_level.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace speculum {
+
+namespace {
+
+// Of the angle between the axis and the line of sight farthest from it.
+double leastCosine(const View& view, const Projection& projection) {
+  double square = 0.0;
+  for (const int x : {view.rect.x, view.rect.x + view.rect.width}) {
+    for (const int y : {view.rect.y, view.rect.y + view.rect.height}) {
+      const glm::dvec2 device = glm::dvec2(x, y) * 2.0 / view.pictureSize - 1.0;
+      const glm::dvec2 tangent = device * glm::dvec2(projection.aspect, 1.0) / projection.focal;
+      square = std::max(square, glm::dot(tangent, tangent));
+    }
+  }
+  return 1.0 / std::sqrt(1.0 + square);
+}
+
+// View depth of the nearest of the instance that is not cut away, metres.
+double nearestDepth(const View& view, double cosine, const InstanceState& instance, const Mesh& mesh) {
+  const glm::dmat3 viewFromMesh = view.worldToView * instance.worldFromMesh.linear;
+  const glm::dvec3 along(viewFromMesh[0].z, viewFromMesh[1].z, viewFromMesh[2].z);
+  const double center = -(view.worldToView * (instance.worldFromMesh.translation - view.eye)).z;
+  const double depth = center - glm::dot(glm::abs(along), mesh.halfExtent);
+  return view.clip ? std::max(depth, -view.clip->distance(view.eye) * cosine) : depth;
+}
+
+double largestScale(const glm::dmat3& linear) {
+  return std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
+}
+
+}  // namespace
+
+double largestError(const View& view, const Projection& projection, const InstanceState& instance, const Mesh& mesh,
+                    double texels) {
+  const double cosine = leastCosine(view, projection);
+  const double depth = nearestDepth(view, cosine, instance, mesh);
+  const glm::dvec2 focal = 0.5 * view.pictureSize * projection.focal / glm::dvec2(projection.aspect, 1.0);
+  // f d / ((z - d) cos a) = texels: the nearest point may come nearer by d itself.
+  const double reach = texels * cosine;
+  const double displacement = reach * std::max(depth, 0.0) / (std::max(focal.x, focal.y) + reach);
+  return displacement / largestScale(instance.worldFromMesh.linear);
+}
+
+LevelChoice chooseLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
+                        std::vector<IndexRange> seen) {
+  LevelChoice best{.ranges = std::move(seen)};
+  const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
+  const auto end = std::upper_bound(levels.begin(), levels.end(), largestError,
+                                    [](double error, const MeshLevel& level) { return error < level.error; });
+  // From the coarsest; a finer one can be less to draw only where it is the first with clusters.
+  for (auto level = end; level != levels.begin();) {
+    --level;
+    const bool clustered = !level->clusters.empty();
+    if (level + 1 == end || clustered) {
+      std::vector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, level->all, level->clusters);
+      if (!ranges.empty() && indexCount(ranges) < indexCount(best.ranges)) {
+        best = {static_cast<int>(level - levels.begin()), std::move(ranges)};
+      }
+    }
+    if (clustered) {
+      break;
+    }
+  }
+  return best;
+}
+
+void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, const Settings& settings,
+                  const Scene& scene, const SceneState& state) {
+  std::vector<PartialInstance> partial;
+  for (const int i : pass.instances) {
+    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const auto was = std::find_if(pass.partial.begin(), pass.partial.end(),
+                                  [&](const PartialInstance& p) { return p.instance == i; });
+    LevelChoice choice{.ranges = was != pass.partial.end() ? was->ranges : std::vector{allOf(mesh)}};
+    const bool curved = settings.effects.curved && scene.objects[instance.object].mirror;
+    if (!curved) {
+      const double largest = largestError(readable, projection, instance, mesh, settings.reflection.meshError);
+      choice = chooseLevel(readable, largest, instance, mesh, std::move(choice.ranges));
+    }
+    const IndexRange all = choice.level < 0 ? allOf(mesh) : levelsOf(mesh).levels[choice.level].all;
+    if (choice.ranges.front() != all) {
+      partial.push_back({i, std::move(choice.ranges)});
+    }
+    if (choice.level >= 0) {
+      pass.simplified.push_back({i, choice.level});
+    }
+  }
+  pass.partial = std::move(partial);
+}
+
+std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {
+  std::set<int> meshes;
+  const auto add = [&](const PlannedPass& pass) {
+    for (const SimplifiedInstance& simplified : pass.simplified) {
+      meshes.insert(state.instances[static_cast<size_t>(simplified.instance)].mesh);
+    }
+  };
+  std::for_each(plan.passes.begin(), plan.passes.end(), add);
+  std::for_each(plan.shown.begin(), plan.shown.end(), add);
+  return {meshes.begin(), meshes.end()};
+}
+
+int levelOf(const PlannedPass& pass, int instance) {
+  const auto found = std::lower_bound(pass.simplified.begin(), pass.simplified.end(), instance,
+                                      [](const SimplifiedInstance& s, int wanted) { return s.instance < wanted; });
+  return found != pass.simplified.end() && found->instance == instance ? found->level : -1;
+}
+
+}  // namespace speculum

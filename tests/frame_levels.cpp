@@ -1,0 +1,241 @@
+// reflection.mesh_error: which objects are drawn with how many triangles in mirrors, by the planner alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "frame/mesh_level.hpp"
+#include "frame_support.hpp"
+
+namespace speculum {
+namespace {
+
+using testing_support::wall;
+
+// A ball of radius 1 with 2 x 48 x 24 triangles, less at the poles.
+Mesh ball() {
+  constexpr uint32_t around = 48;
+  constexpr uint32_t up = 24;
+  Mesh mesh{.halfExtent = glm::dvec3(1.0), .radius = 1.0};
+  for (uint32_t j = 0; j <= up; ++j) {
+    for (uint32_t i = 0; i < around; ++i) {
+      const double a = 2.0 * std::numbers::pi * i / around;
+      const double b = std::numbers::pi * j / up;
+      const glm::dvec3 p(std::sin(b) * std::cos(a), std::cos(b), -std::sin(b) * std::sin(a));
+      mesh.vertices.push_back({p, p, {}});
+    }
+  }
+  for (uint32_t j = 0; j < up; ++j) {
+    for (uint32_t i = 0; i < around; ++i) {
+      const uint32_t a = around * j + i;
+      const uint32_t b = around * j + (i + 1) % around;
+      if (j > 0) {
+        mesh.indices.insert(mesh.indices.end(), {a, a + around, b});
+      }
+      if (j + 1 < up) {
+        mesh.indices.insert(mesh.indices.end(), {b, a + around, b + around});
+      }
+    }
+  }
+  mesh.parts = {{0, static_cast<uint32_t>(mesh.indices.size()), {}}};
+  return mesh;
+}
+
+// A mirror 10 m before the camera, and balls behind it at these distances from the mirror.
+Scene sceneOf(const std::vector<double>& distances, double scale = 0.5) {
+  Scene scene;
+  scene.meshes = {ball()};
+  scene.camera.position = {0, 0, 0};
+  scene.camera.target = {0, 0, -1};
+  scene.mirrors = {wall({0, 0, -10}, 0, {8, 8})};
+  for (const double distance : distances) {
+    Object object;
+    object.mesh = 0;
+    object.position = {0, 0, distance - 10.0};
+    object.scale = glm::dvec3(scale);
+    scene.objects.push_back(object);
+  }
+  PointLight light;
+  light.position = {0, 5, 0};
+  light.glow = 0.0;
+  scene.lights = {light};
+  return scene;
+}
+
+FramePlan planOf(const Scene& scene, double meshError, std::vector<std::pair<std::string, std::string>> more = {}) {
+  Settings settings = settingsOf(scene);
+  settings.reflection.meshError = meshError;
+  for (const auto& [key, value] : more) {
+    EXPECT_EQ(setSetting(settings, key, value), std::nullopt);
+  }
+  return planFrame(scene, evaluate(scene, 0.0), settings, 640, 360);
+}
+
+TEST(MeshError, ZeroDrawsAllTriangles) {
+  const FramePlan plan = planOf(sceneOf({12, 60}), 0.0);
+  ASSERT_EQ(plan.passes.size(), 1u);
+  EXPECT_EQ(plan.passes[0].instances.size(), 2u);
+  EXPECT_TRUE(plan.passes[0].simplified.empty());
+  EXPECT_TRUE(meshesWithLevels(plan, evaluate(sceneOf({12, 60}), 0.0)).empty());
+}
+
+TEST(MeshError, LevelsGrowWithDistanceAndWithTheError) {
+  const Scene scene = sceneOf({12, 25, 50, 100, 200});
+  std::vector<int> before(5, -1);
+  for (const double error : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+    const FramePlan plan = planOf(scene, error);
+    ASSERT_EQ(plan.passes.size(), 1u);
+    EXPECT_TRUE(plan.main.simplified.empty()) << "what is seen directly is exact";
+    for (int i = 0; i < 5; ++i) {
+      const int level = levelOf(plan.passes[0], i);
+      EXPECT_GE(level, before[i]);
+      EXPECT_GE(level, i == 0 ? -1 : levelOf(plan.passes[0], i - 1));
+      before[i] = level;
+    }
+    if (error == 0.5) {
+      EXPECT_GT(before[4], before[2]);
+      EXPECT_GT(before[2], before[0]);
+    }
+  }
+  EXPECT_EQ(meshesWithLevels(planOf(scene, 4.0), evaluate(scene, 0.0)), std::vector{0});
+}
+
+TEST(MeshError, EveryLevelKeepsTheBound) {
+  const Scene scene = sceneOf({12, 25, 50, 100, 200});
+  const SceneState state = evaluate(scene, 0.0);
+  int simplified = 0;
+  for (const double error : {0.25, 1.0, 4.0}) {
+    const FramePlan plan = planOf(scene, error);
+    const PlannedPass& pass = plan.passes[0];
+    for (const SimplifiedInstance& s : pass.simplified) {
+      const MeshLevel& level = levelsOf(scene.meshes[0]).levels[s.level];
+      EXPECT_LE(level.error,
+                largestError(pass.view, plan.projection, state.instances[s.instance], scene.meshes[0], error));
+      ++simplified;
+    }
+  }
+  EXPECT_GT(simplified, 5);
+}
+
+TEST(MeshError, FinerImagesShowMore) {
+  const Scene scene = sceneOf({40});
+  const auto level = [&](const char* scale) {
+    return levelOf(planOf(scene, 0.5, {{"reflection.scale", scale}}).passes[0], 0);
+  };
+  EXPECT_GT(level("0.25"), level("1"));
+  EXPECT_GT(level("1"), level("4"));
+}
+
+TEST(MeshError, WhereRaysAreTracedAllTrianglesAreDrawn) {
+  Scene scene = sceneOf({30, 60});
+  EXPECT_FALSE(planOf(scene, 2.0).passes[0].simplified.empty());
+  scene.lights[0].castsShadow = true;
+  EXPECT_TRUE(planOf(scene, 2.0).passes[0].simplified.empty());
+  EXPECT_FALSE(planOf(scene, 2.0, {{"effects.shadows", "false"}}).passes[0].simplified.empty());
+  scene.lights[0].castsShadow = false;
+  scene.objects[0].mirror.emplace();
+  EXPECT_TRUE(planOf(scene, 2.0).passes[0].simplified.empty()) << "rays of a curved mirror";
+  const FramePlan mapped = planOf(scene, 2.0, {{"effects.curved_lookup", "environment"}});
+  ASSERT_EQ(mapped.passes[0].simplified.size(), 1u) << "a curved mirror itself stays exact";
+  EXPECT_EQ(mapped.passes[0].simplified[0].instance, 1);
+  for (const EnvironmentMap& map : mapped.maps) {
+    for (const PlannedPass& face : map.faces) {
+      EXPECT_TRUE(face.simplified.empty());
+    }
+  }
+}
+
+TEST(MeshError, WhatReachesTheEyeIsExact) {
+  Scene scene = sceneOf({11}, 30.0);
+  EXPECT_TRUE(planOf(scene, 0.5).passes[0].simplified.empty());
+}
+
+TEST(MeshError, OfBallsSeenInPartOnlyThatPartIsDrawn) {
+  Scene scene = sceneOf({30}, 6.0);
+  scene.mirrors[0].size = {0.5, 0.5};
+  const FramePlan plan = planOf(scene, 1.0);
+  const PlannedPass& pass = plan.passes[0];
+  ASSERT_EQ(pass.simplified.size(), 1u);
+  const MeshLevels& levels = levelsOf(scene.meshes[0]);
+  const MeshLevel& level = levels.levels[pass.simplified[0].level];
+  if (!level.clusters.empty()) {
+    ASSERT_EQ(pass.partial.size(), 1u);
+    EXPECT_LT(indexCount(pass.partial[0].ranges), level.all.count);
+  }
+  for (const PartialInstance& partial : pass.partial) {
+    for (const IndexRange& range : partial.ranges) {
+      EXPECT_GE(range.first, level.all.first);
+      EXPECT_LE(range.first + range.count, level.all.first + level.all.count);
+    }
+  }
+}
+
+// Two points of an instance that are apart by the largest error, seen in a mirror: never farther apart than the texels.
+TEST(MeshError, TheBoundHoldsForAnyTwoPoints) {
+  std::mt19937 engine(11);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  const auto inBox = [&] { return glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)); };
+  double tightest = 0.0;
+  int compared = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Scene scene = sceneOf({uniform(0.2, 10)});
+    scene.objects[0].position += 4.0 * inBox();
+    scene.objects[0].rotation = 180.0 * inBox();
+    scene.objects[0].scale = {uniform(0.2, 2), uniform(0.2, 2), uniform(0.2, 2)};
+    scene.mirrors[0].position += 3.0 * inBox();
+    scene.mirrors[0].rotation = 30.0 * inBox();
+    const SceneState state = evaluate(scene, 0.0);
+    const FramePlan plan = planFrame(scene, state, {}, 640, 360);
+    if (plan.passes.empty() || plan.passes[0].instances.empty()) {
+      continue;
+    }
+    const View& view = plan.passes[0].view;
+    const double bound = uniform(0.1, 16.0);
+    const double error = largestError(view, plan.projection, state.instances[0], scene.meshes[0], bound);
+    if (error <= 0.0) {
+      continue;
+    }
+    for (int pair = 0; pair < 50; ++pair) {
+      const glm::dvec3 p = inBox();
+      const glm::dvec3 q = glm::clamp(p + error * glm::normalize(inBox()), glm::dvec3(-1), glm::dvec3(1));
+      const std::array<glm::dvec3, 2> points{state.instances[0].worldFromMesh.point(p),
+                                             state.instances[0].worldFromMesh.point(q)};
+      const bool seen = view.clip->distance(points[0]) >= 0.0 && sphereVisible(view, points[0], 0.0);
+      if (!seen) {
+        continue;
+      }
+      const std::vector<glm::dvec4> clip = toClip(view, plan.projection, points);
+      const glm::dvec2 apart = glm::dvec2(clip[0]) / clip[0].w - glm::dvec2(clip[1]) / clip[1].w;
+      ASSERT_LE(glm::length(apart * 0.5 * view.pictureSize), bound * (1.0 + 1e-9));
+      tightest = std::max(tightest, glm::length(apart * 0.5 * view.pictureSize) / bound);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 1000);
+  EXPECT_GT(tightest, 0.7) << "far too careful";
+}
+
+TEST(MeshError, IsPartOfWhatAnImageDependsOn) {
+  Settings exact;
+  Settings simplified;
+  simplified.reflection.meshError = 1.0;
+  EXPECT_FALSE(sameMirrorImages(exact, simplified));
+}
+
+TEST(MeshError, BadValuesAreNamed) {
+  Settings settings;
+  for (const char* value : {"-0.1", "16.5", "nan", "much", ""}) {
+    const std::optional<std::string> problem = setSetting(settings, "reflection.mesh_error", value);
+    ASSERT_TRUE(problem) << value;
+    EXPECT_NE(problem->find("0 .. 16"), std::string::npos) << *problem;
+  }
+  EXPECT_EQ(settings.reflection.meshError, 0.0);
+  EXPECT_EQ(setSetting(settings, "reflection.mesh_error", "0.5"), std::nullopt);
+  EXPECT_EQ(settingValue(settings, "reflection.mesh_error"), "0.5");
+}
+
+}  // namespace
+}  // namespace speculum

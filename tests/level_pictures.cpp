@@ -1,0 +1,179 @@
+// reflection.mesh_error: what simplified objects in mirrors save, and what the picture loses by it.
+#include <gtest/gtest.h>
+
+#include "accuracy/image_metrics.hpp"
+#include "app/stats.hpp"
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{320, 180};
+
+// Before a wall of a mirror and, at its side, a second one: knots and others with several parts, and hard edges.
+std::filesystem::path objectsScene(const std::string& more = "") {
+  return writeScene("levels", R"(
+[environment]
+background = [0.3, 0.4, 0.5]
+ambient = [0.1, 0.1, 0.1]
+[camera]
+position = [0.4, 1.4, 4]
+target = [0, 0.9, 0]
+orbit_speed = 20
+[[object]]
+model = "MODELS/torus_knot.obj"
+position = [-0.8, 0.8, 0.5]
+spin = [0, 40, 0]
+copies = { count = 4, step = [0.6, 0, 0.5] }
+[[object]]
+model = "MODELS/queen.obj"
+position = [1.2, 0, -0.6]
+[[object]]
+model = "MODELS/lamp.obj"
+position = [-1.3, 1.9, 0]
+[[object]]
+model = "MODELS/chequer.obj"
+position = [0, 0, 0]
+[[light]]
+position = [1, 3, 3]
+intensity = 20
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [3, 2]
+[[mirror]]
+name = "side"
+position = [-2, 1, 0]
+rotation = [0, 90, 0]
+size = [3, 2]
+)" + more);
+}
+
+Options optionsFor(const std::filesystem::path& file, const std::string& meshError,
+                   const std::vector<std::pair<std::string, std::string>>& more = {}) {
+  Options options = headless(file, size);
+  set(options, {{"reflection.mesh_error", meshError}});
+  set(options, more);
+  return options;
+}
+
+struct Drawn {
+  Image8 picture;
+  int64_t mirrorTriangles = 0;
+  int64_t mainTriangles = 0;
+};
+
+Drawn drawn(const Options& options) {
+  Session session(options);
+  session.draw(0.0, true);
+  session.finish();
+  Drawn result{.picture = session.picture()};
+  const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
+  for (const auto& pass : stats["passes"]) {
+    if (pass["triangles"].is_number()) {
+      (pass["depth"].is_null() ? result.mainTriangles : result.mirrorTriangles) += pass["triangles"].get<int64_t>();
+    }
+  }
+  expectQuiet(session);
+  return result;
+}
+
+TEST(LevelPictures, TrianglesFallAndTheErrorGrowsWithTheSetting) {
+  const std::filesystem::path file = objectsScene();
+  const Drawn exact = drawn(optionsFor(file, "0"));
+  EXPECT_EQ(drawn(headless(file, size)).picture.rgba, exact.picture.rgba) << "0 is the default";
+  ASSERT_GT(exact.mirrorTriangles, 10000);
+  double error = 0.0;
+  int64_t triangles = exact.mirrorTriangles;
+  struct Bound {
+    const char* meshError;
+    double share;  // of the triangles in mirrors
+    double rmse;   // of the whole picture
+  };
+  for (const Bound& bound : {Bound{"0.25", 0.6, 0.006}, {"0.5", 0.42, 0.011}, {"1", 0.3, 0.015}, {"4", 0.2, 0.03}}) {
+    const Drawn simplified = drawn(optionsFor(file, bound.meshError));
+    const double rmse = compareImages(comparedImage(exact.picture), comparedImage(simplified.picture)).whole.rmse;
+    EXPECT_EQ(simplified.mainTriangles, exact.mainTriangles);
+    EXPECT_LE(static_cast<double>(simplified.mirrorTriangles), bound.share * static_cast<double>(exact.mirrorTriangles))
+        << bound.meshError;
+    EXPECT_LE(simplified.mirrorTriangles, triangles) << bound.meshError;
+    EXPECT_GT(rmse, 0.9 * error) << bound.meshError;
+    EXPECT_LE(rmse, bound.rmse) << bound.meshError;
+    error = rmse;
+    triangles = simplified.mirrorTriangles;
+  }
+}
+
+TEST(LevelPictures, ShadowsKeepAllTriangles) {
+  const std::filesystem::path file =
+      objectsScene("[[light]]\nposition = [-1, 3, 3]\nintensity = 20\ncasts_shadow = true\n");
+  EXPECT_EQ(drawn(optionsFor(file, "4")).picture.rgba, drawn(optionsFor(file, "0")).picture.rgba);
+  const std::vector<std::pair<std::string, std::string>> without{{"effects.shadows", "false"}};
+  EXPECT_LT(drawn(optionsFor(file, "4", without)).mirrorTriangles,
+            drawn(optionsFor(file, "0", without)).mirrorTriangles / 2);
+}
+
+TEST(LevelPictures, BothRenderPathsDrawTheSameBytes) {
+  Options options = optionsFor(objectsScene(), "1");
+  const Drawn dynamic = drawn(options);
+  options.renderPath = RenderPath::renderPass;
+  const Drawn passes = drawn(options);
+  EXPECT_EQ(dynamic.picture.rgba, passes.picture.rgba);
+  EXPECT_EQ(dynamic.mirrorTriangles, passes.mirrorTriangles);
+}
+
+// Objects and camera move, stop and come back: images of other levels are not taken for the same.
+TEST(LevelPictures, SkippingWhatIsUnchangedChangesNoByte) {
+  const std::filesystem::path file = objectsScene();
+  Session skipping(optionsFor(file, "2", {{"reflection.skip_unchanged", "true"}}));
+  Session rendering(optionsFor(file, "2", {{"reflection.skip_unchanged", "false"}}));
+  double before = -1.0;
+  for (const double time : {1.0, 1.0, 1.1, 1.3, 1.3, 6.0, 6.0, 1.1}) {
+    for (Session* session : {&skipping, &rendering}) {
+      Settings settings = session->settings();
+      settings.reflection.meshError = time == 1.3 && before == 1.3 ? 0.5 : 2.0;
+      session->setSettings(settings);
+      session->draw(time, true);
+      session->finish();
+    }
+    ASSERT_EQ(skipping.picture().rgba, rendering.picture().rgba) << "at " << time;
+    before = time;
+  }
+  expectQuiet(skipping);
+  expectQuiet(rendering);
+}
+
+TEST(LevelPictures, HeldImagesOfSimplifiedObjectsAreQuiet) {
+  Session session(optionsFor(objectsScene(), "2", {{"reflection.update_interval", "3"}}));
+  for (int frame = 0; frame < 8; ++frame) {
+    session.draw(1.0 + 0.02 * frame, false);
+    session.finish();
+  }
+  expectQuiet(session);
+}
+
+TEST(LevelPictures, MemoryComesWithTheSettingAndGoesWithIt) {
+  Options options = optionsFor(objectsScene(), "0", {{"debug.check_finite", "false"}});
+  options.size = {32, 18};
+  Session session(options);
+  const auto bytesAfter = [&](double meshError, int frames) {
+    Settings settings = session.settings();
+    settings.reflection.meshError = meshError;
+    session.setSettings(settings);
+    for (int frame = 0; frame < frames; ++frame) {
+      session.draw(0.0, false);
+      session.finish();
+    }
+    return session.device().allocatedBytes();
+  };
+  bytesAfter(1.0, 3);  // buffers that grow stay, one for each frame in flight
+  const uint64_t none = bytesAfter(0.0, 150);
+  EXPECT_GT(bytesAfter(1.0, 3), none);
+  EXPECT_EQ(bytesAfter(0.0, 150), none);
+  expectQuiet(session);
+}
+
+}  // namespace
+}  // namespace speculum
