@@ -1,6 +1,8 @@
 // The command line that the window copies draws what the window shows.
 #include "app/screenshot.hpp"
 #include "demo_window_support.hpp"
+#include "frame/settings.hpp"
+#include "scene/scene_loader.hpp"
 
 namespace speculum {
 namespace {
@@ -63,6 +65,25 @@ TEST_F(CopiedCommand, DrawsUnsavedChangesFromACopyOfTheScene) {
   press("Escape");
   expectSame();
   EXPECT_EQ(demo_->model().command, demo_->window().clipboard());
+  expectQuiet();
+}
+
+// What is saved with the scene the command leaves to the file, which is a copy as long as something else is not saved.
+TEST_F(CopiedCommand, CarriesSettingsThatWereSavedWithTheScene) {
+  press("space");
+  drag("view.exposure", 0.5, -12);
+  press("ctrl+s");
+  ASSERT_NE(settingsOf(loadScene(options_.scene)).view.exposure, 1.0) << demo_->model().edit.note;
+  expectSame();
+  EXPECT_EQ(demo_->model().command.find("view.exposure"), std::string::npos) << demo_->model().command;
+  drag("view.clear_color", 0.1, 30);
+  expectSame();
+  EXPECT_NE(demo_->model().command.find("view.clear_color="), std::string::npos) << demo_->model().command;
+  press("shift+n");
+  press("Delete");
+  press("F2");
+  expectSame();
+  EXPECT_NE(demo_->model().command.find("unsaved changes"), std::string::npos) << demo_->model().command;
   expectQuiet();
 }
 
