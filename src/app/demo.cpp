@@ -82,8 +82,7 @@ void Demo::applyModel() {
 void Demo::saveShot() {
   if (recorder_.running()) {
     recorder_.add(pictureOf(renderer_.readback()));
-    model_.picture = recorder_.message();
-    show(model_.picture);
+    show(recorder_.message());
   }
   if (std::exchange(shot_, Shot::none) == Shot::none) {
     return;
@@ -91,11 +90,10 @@ void Demo::saveShot() {
   try {
     const std::filesystem::path file = newPictureFile(loaded_->scene.file.stem().string());
     writePng(file, pictureOf(renderer_.readback()));
-    model_.picture = "saved " + file.string();
+    tell("saved " + file.string());
   } catch (const std::exception& error) {
-    model_.picture = "not saved: " + std::string(error.what());
+    tell("not saved: " + std::string(error.what()));
   }
-  tell(model_.picture);
 }
 
 void Demo::drawFrame(double seconds) {
