@@ -45,7 +45,7 @@ constexpr std::array<KeyHelp, 34> keys{{
     {"F11", "full screen and back"},
     {"Tab", "hide or show the panel"},
     {"F1", "this list"},
-    {"Esc", "stop dragging; close what is on top; deselect"},
+    {"Esc", "stop dragging; close what is on top; deselect; dismiss the message"},
     {"Ctrl+Q", "quit"},
 }};
 
@@ -69,6 +69,10 @@ constexpr std::array<KeyHelp, 9> gamepad{{
     {"sticks pressed", "left: the scene's camera, right: save the window as a picture"},
     {"Start, Back", "pause the animation; hide or show the panel"},
 }};
+
+constexpr const char* layoutHelp =
+    "W A S D Q E are meant by their place on an American keyboard, all others by what is printed on them;\n"
+    "what is printed on one of the six, as , and . with Dvorak, is where an American keyboard has it.";
 
 void helpTable(const char* title, std::span<const KeyHelp> rows) {
   ImGui::TextDisabled("%s", title);
@@ -167,6 +171,7 @@ void help(UiModel& model) {
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, ImGui::GetIO().DisplaySize);
   if (ImGui::Begin(helpTitle, &model.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     keyTables();
+    ImGui::TextDisabled("%s", layoutHelp);
   }
   ImGui::End();
 }
