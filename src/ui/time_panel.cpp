@@ -12,7 +12,7 @@ namespace {
 
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
-constexpr std::array<KeyHelp, 34> keys{{
+constexpr std::array<KeyHelp, 35> keys{{
     {"drag", "look around: about the target (orbit) or from where you are (fly)"},
     {"drag middle or right", "move sideways and up or down"},
     {"wheel", "nearer or farther"},
@@ -33,10 +33,11 @@ constexpr std::array<KeyHelp, 34> keys{{
     {"F10", "record the window as numbered pictures, and end it"},
     {"Shift+F10", "the same without the panel"},
     {"click", "select what is there, in mirrors too; again: the mirror it is seen in"},
+    {"Shift+click", "add what stands there to what is selected, or take it out: all move, turn, copy and go together"},
     {"G", "handles that move, handles that turn (Ctrl while dragging: steps)"},
     {"N Shift+N", "select the next thing, the one before"},
     {"F2", "inspector: everything in the scene, with its numbers"},
-    {"Ctrl+D", "duplicate the selected thing"},
+    {"Ctrl+D", "duplicate what is selected"},
     {"Del", "delete it"},
     {"Ctrl+Z", "undo"},
     {"Ctrl+Shift+Z", "redo, as Ctrl+Y"},
@@ -56,7 +57,7 @@ struct KeyGroup {
   bool columnEnds;
 };
 constexpr std::array<KeyGroup, 5> groups{
-    {{"view", 10, false}, {"time", 5, false}, {"pictures", 4, true}, {"edit", 10, false}, {"window", 5, false}}};
+    {{"view", 10, false}, {"time", 5, false}, {"pictures", 4, true}, {"edit", 11, false}, {"window", 5, false}}};
 
 constexpr std::array<KeyHelp, 9> gamepad{{
     {"left stick", "forwards, back, left, right"},
