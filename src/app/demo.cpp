@@ -120,9 +120,7 @@ void Demo::drawFrame(double seconds) {
     settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame
     settings.reflection.skipUnchanged = false;
   }
-  const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
-                                          static_cast<int>(frame->extent.height), sceneRenderer_->heldImages(),
-                                          sceneRenderer_->environmentMaps());
+  const FittedPlan fitted = planAndUpload(*frame, state, settings);
   const FramePlan& plan = fitted.plan;
   const bool bare = shot_ == Shot::picture || recorder_.bare();
   sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debugView(plan, fitted.settings));
@@ -210,7 +208,7 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Setti
     model_.message = describe(watch.findings().front());
   }
   if (model_.message.empty()) {
-    model_.message = planner_.message();
+    model_.message = texturesProblem_.empty() ? planner_.message() : texturesProblem_;
   }
   model_.time = time_;
   fillPasses(plan, state, drawn.reflection.updateInterval);

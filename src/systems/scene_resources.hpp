@@ -29,6 +29,8 @@ class SceneResources {
 
   // At the start of a frame. `asked`: effects.textures, `drawn`: drawsTextures. Uploads are finished on return.
   void prepare(Frame& frame, bool asked, bool drawn);
+  // The part of prepare() that takes memory. After an OutOfMemoryError it can be called with other arguments.
+  void upload(Frame& frame, bool asked, bool drawn);
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
