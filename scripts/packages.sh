@@ -10,7 +10,7 @@ build_packages=(
 run_packages=(mesa-vulkan-drivers)
 test_packages=(
   vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
-  xvfb xdotool wmctrl x11-utils openbox util-linux clang-format-14 python3-minimal
+  xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux clang-format-14 python3-minimal
 )
 # For scripts/bench-mirrors only.
 bench_packages=(python3)

@@ -144,20 +144,65 @@ TEST(WindowOptions, FifoIsAlwaysThere) {
 
 // By what a German, a French, an American and a Russian keyboard say.
 TEST(WindowKeys, LettersGoByWhatIsPrintedAndFlyingByPlace) {
-  EXPECT_EQ(keyMeant(Key::y, "z", true), Key::z);
-  EXPECT_EQ(keyMeant(Key::z, "y", true), Key::y);
-  EXPECT_EQ(keyMeant(Key::z, "w", true), Key::w);
-  EXPECT_EQ(keyMeant(Key::w, "z", true), Key::z);
-  EXPECT_EQ(keyMeant(Key::w, "z", false), Key::w) << "forwards";
-  EXPECT_EQ(keyMeant(Key::a, "q", false), Key::a) << "left";
-  EXPECT_EQ(keyMeant(Key::unknown, "m", false), Key::m);
-  EXPECT_EQ(keyMeant(Key::m, ",", false), Key::comma);
-  EXPECT_EQ(keyMeant(Key::b, "x", true), Key::unknown);
-  EXPECT_EQ(keyMeant(Key::leftBracket, "\u00fc", false), Key::leftBracket);
-  EXPECT_EQ(keyMeant(Key::comma, ";", false), Key::comma);
-  EXPECT_EQ(keyMeant(Key::z, "Z", true), Key::z);
-  EXPECT_EQ(keyMeant(Key::z, "\u044f", true), Key::z);
-  EXPECT_EQ(keyMeant(Key::escape, "", true), Key::escape);
+  EXPECT_EQ(keyMeant(Key::y, "z", true, "wasdqe"), Key::z);
+  EXPECT_EQ(keyMeant(Key::z, "y", true, "wasdqe"), Key::y);
+  EXPECT_EQ(keyMeant(Key::z, "w", true, "wasdqe"), Key::w);
+  EXPECT_EQ(keyMeant(Key::w, "z", true, "wasdqe"), Key::z);
+  EXPECT_EQ(keyMeant(Key::w, "z", false, "wasdqe"), Key::w) << "forwards";
+  EXPECT_EQ(keyMeant(Key::a, "q", false, "wasdqe"), Key::a) << "left";
+  EXPECT_EQ(keyMeant(Key::unknown, "m", false, "wasdqe"), Key::m);
+  EXPECT_EQ(keyMeant(Key::m, ",", false, "wasdqe"), Key::comma);
+  EXPECT_EQ(keyMeant(Key::b, "x", true, "wasdqe"), Key::unknown);
+  EXPECT_EQ(keyMeant(Key::leftBracket, "\u00fc", false, "wasdqe"), Key::leftBracket);
+  EXPECT_EQ(keyMeant(Key::comma, ";", false, "wasdqe"), Key::comma);
+  EXPECT_EQ(keyMeant(Key::z, "Z", true, "wasdqe"), Key::z);
+  EXPECT_EQ(keyMeant(Key::z, "\u044f", true, "wasdqe"), Key::z);
+  EXPECT_EQ(keyMeant(Key::escape, "", true, "wasdqe"), Key::escape);
+}
+
+struct KeyboardLayout {
+  const char* name;
+  std::string printed;  // on the three rows of letters, "qwertyuiop[]asdfghjkl;'zxcvbnm,./" on an American keyboard
+};
+// ~ stands for what is not in the Latin alphabet's ASCII.
+const KeyboardLayout layouts[] = {
+    {"American", "qwertyuiop[]asdfghjkl;'zxcvbnm,./"}, {"German", "qwertzuiop~+asdfghjkl~~yxcvbnm,.-"},
+    {"French", "azertyuiop^$qsdfghjklm~wxcvbn,;:!"},   {"Dvorak", "',.pyfgcrl/=aoeuidhtns-;qjkxbmwvz"},
+    {"Colemak", "qwfpgjluy;[]arstdhneio'zxcvbkm,./"},  {"Bepo", "b~po~^vdljzwauie,ctsrnm~yx.k'qghf"}};
+const std::string flyingKeys = "wasdqe";
+const std::string shortcuts = "bmfgn,.";
+
+Key keyAt(char american) {
+  return keyMeant(Key::unknown, std::string(1, american), true, flyingKeys);
+}
+
+TEST(WindowKeys, OnNoLayoutAKeyFliesAndDoesAnotherThingAndNoShortcutIsMissing) {
+  for (const KeyboardLayout& layout : layouts) {
+    const std::string& places = layouts[0].printed;
+    std::string flying;
+    for (const char key : flyingKeys) {
+      flying += layout.printed[places.find(key)];
+    }
+    std::string reached;
+    for (size_t i = 0; i < places.size(); ++i) {
+      const std::string printed = layout.printed[i] == '~' ? "\u00e9" : layout.printed.substr(i, 1);
+      const Key place = keyAt(places[i]);
+      const Key meant = keyMeant(place, printed, false, flying);
+      const bool flies = flyingKeys.find(places[i]) != std::string::npos;
+      for (const char key : flyingKeys) {
+        EXPECT_EQ(meant == keyAt(key), places[i] == key) << layout.name << ": " << printed;
+      }
+      for (const char shortcut : shortcuts) {
+        reached += meant == keyAt(shortcut) ? std::string(1, shortcut) : "";
+        if (printed[0] == shortcut && !flies) {
+          EXPECT_EQ(meant, keyAt(shortcut)) << layout.name << ": " << printed;
+        }
+      }
+    }
+    for (const char shortcut : shortcuts) {
+      EXPECT_NE(reached.find(shortcut), std::string::npos) << layout.name << ": " << shortcut;
+    }
+  }
 }
 
 TEST(WindowMonitors, AWindowThatNoneShowsIsBroughtBack) {

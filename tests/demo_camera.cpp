@@ -158,7 +158,7 @@ TEST_F(DemoCamera, RecordsAnEvenSequence) {
   const Image8 first = readImage8(folder / "00000.png");
   EXPECT_EQ(first.width, width);
   EXPECT_TRUE(std::filesystem::exists(folder / "00006.png"));
-  EXPECT_NE(demo_->model().picture.find(folder.string()), std::string::npos) << demo_->model().picture;
+  EXPECT_NE(demo_->model().status.text.find(folder.string()), std::string::npos) << demo_->model().status.text;
   const auto count = [&] { return std::distance(std::filesystem::directory_iterator(folder), {}); };
   const auto recorded = count();
   run(5);
@@ -171,6 +171,7 @@ TEST_F(DemoCamera, RecordsWithoutThePanel) {
   press("shift+F10");
   ASSERT_EQ(saved().size(), 1u);
   press("Tab");
+  press("Escape");  // the message
   EXPECT_EQ(readImage8(saved().front() / "00001.png").rgba, pictureOf(picture()).rgba);
   expectQuiet();
 }
@@ -178,7 +179,7 @@ TEST_F(DemoCamera, RecordsWithoutThePanel) {
 TEST_F(DemoCamera, ARecordingThatCannotBeginSaysSo) {
   std::ofstream(config_.path() / "pictures") << "a file in the folder's place";
   press("F10");
-  EXPECT_EQ(demo_->model().picture.rfind("not recorded: ", 0), 0u) << demo_->model().picture;
+  EXPECT_EQ(demo_->model().status.text.rfind("not recorded: ", 0), 0u) << demo_->model().status.text;
   expectQuiet();
 }
 

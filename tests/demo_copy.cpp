@@ -1,6 +1,8 @@
 // The command line that the window copies draws what the window shows.
 #include "app/screenshot.hpp"
 #include "demo_window_support.hpp"
+#include "frame/settings.hpp"
+#include "scene/scene_loader.hpp"
 
 namespace speculum {
 namespace {
@@ -14,11 +16,12 @@ class CopiedCommand : public DemoWindow {
  protected:
   CopiedCommand() : DemoWindow(turning) {}
 
+  const std::string& said() { return demo_->model().status.text; }
   // What the copied command draws, run as a person would.
   Image8 drawn() {
     click("copy");
     const std::string command = demo_->window().clipboard();
-    EXPECT_EQ(demo_->model().command.find(command), 0u) << demo_->model().command;
+    EXPECT_EQ(said().find("copied: " + command), 0u) << said();
     const ProcessResult result = runProcess(
         {"bash", "-c", "cd '" + out_.path().string() + "' && PATH=" SPECULUM_BINARY_DIR ":$PATH && " + command});
     EXPECT_EQ(result.exitCode, 0) << command << "\n" << result.output;
@@ -29,6 +32,7 @@ class CopiedCommand : public DemoWindow {
   // What the window shows without its panel.
   Image8 shown() {
     press("Tab");
+    press("Escape");  // the message
     Image8 image = pictureOf(picture());
     press("Tab");
     return image;
@@ -36,8 +40,8 @@ class CopiedCommand : public DemoWindow {
   void expectSame() {
     const Image8 window = shown();
     const Image8 command = drawn();
-    ASSERT_EQ(command.width, window.width) << demo_->model().command;
-    EXPECT_EQ(command.rgba, window.rgba) << demo_->model().command;
+    ASSERT_EQ(command.width, window.width) << said();
+    EXPECT_EQ(command.rgba, window.rgba) << said();
   }
 
   TemporaryDirectory out_;
@@ -46,7 +50,7 @@ class CopiedCommand : public DemoWindow {
 TEST_F(CopiedCommand, DrawsTheSceneAtThatTime) {
   press("space");
   expectSame();
-  EXPECT_EQ(demo_->model().command.find("--camera"), std::string::npos) << "the camera is the scene's";
+  EXPECT_EQ(said().find("--camera"), std::string::npos) << "the camera is the scene's";
   expectQuiet();
 }
 
@@ -57,12 +61,31 @@ TEST_F(CopiedCommand, DrawsUnsavedChangesFromACopyOfTheScene) {
   press("Delete");
   press("F2");
   expectSame();
-  EXPECT_NE(demo_->model().command.find("unsaved changes"), std::string::npos) << demo_->model().command;
+  EXPECT_NE(said().find("unsaved changes"), std::string::npos) << said();
   EXPECT_EQ(loadScene(options_.scene).objects.size(), 1u) << "the scene's own file is as it was";
   press("ctrl+z");
   press("Escape");
   expectSame();
-  EXPECT_EQ(demo_->model().command, demo_->window().clipboard());
+  EXPECT_EQ(said(), "copied: " + demo_->window().clipboard());
+  expectQuiet();
+}
+
+// What is saved with the scene the command leaves to the file, which is a copy as long as something else is not saved.
+TEST_F(CopiedCommand, CarriesSettingsThatWereSavedWithTheScene) {
+  press("space");
+  drag("view.exposure", 0.5, -12);
+  press("ctrl+s");
+  ASSERT_NE(settingsOf(loadScene(options_.scene)).view.exposure, 1.0) << demo_->model().edit.note;
+  expectSame();
+  EXPECT_EQ(said().find("view.exposure"), std::string::npos) << said();
+  drag("view.clear_color", 0.1, 30);
+  expectSame();
+  EXPECT_NE(said().find("view.clear_color="), std::string::npos) << said();
+  press("shift+n");
+  press("Delete");
+  press("F2");
+  expectSame();
+  EXPECT_NE(said().find("unsaved changes"), std::string::npos) << said();
   expectQuiet();
 }
 
@@ -79,7 +102,7 @@ TEST_F(CopiedCommand, DrawsTheCameraTheSizeAndTheSettings) {
   run(5);
   const Image8 before = shown();
   expectSame();
-  const std::string& command = demo_->model().command;
+  const std::string command = said();
   for (const char* part : {"--size 777x555", "--camera ", "view.exposure=", "view.clear_color="}) {
     EXPECT_NE(command.find(part), std::string::npos) << part << " in " << command;
   }

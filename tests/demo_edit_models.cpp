@@ -111,6 +111,7 @@ polygon = [[-0.8, 0.5, -1], [0.8, 0.5, -1], [0.8, 1.6, -1], [-0.8, 1.6, -1]]
   std::vector<uint8_t> withoutPanel() {
     press("Tab");
     moveTo(width - 3, height - 3);
+    waitFor([&] { return demo_->model().status.text.empty(); });
     const std::vector<uint8_t> shown = picture().rgba;
     press("Tab");
     return shown;

@@ -133,6 +133,105 @@ TEST_F(EditWindow, ASecondSaveKeepsTheSettingsOfTheFirst) {
   expectQuiet();
 }
 
+// Light work: what is shown is not looked at here.
+Options plain() {
+  Options options;
+  options.settings = {{"effects.shadows", "false"}, {"view.samples", "1"}};
+  return options;
+}
+
+class SavingAShippedScene : public EditWindow {
+ protected:
+  SavingAShippedScene() : EditWindow(plain()), before_(environment("XDG_DOCUMENTS_DIR")) {
+    setEnvironment("XDG_DOCUMENTS_DIR", (config_.path() / "documents").string());
+    demo_->openFile(shipped_);
+    waitFor([&] { return shownScene() == "no_mirror"; });
+  }
+  ~SavingAShippedScene() override {
+    setEnvironment("XDG_DOCUMENTS_DIR", before_);
+    if (contents(shipped_) != shippedText_) {
+      std::ofstream(shipped_) << shippedText_;  // a failure must not last
+    }
+  }
+
+  static std::string contents(const std::filesystem::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
+  void deleteAThing() {
+    press("n");
+    press("Delete");
+    ASSERT_TRUE(edit().unsaved);
+  }
+  void saveAs(const std::filesystem::path& file) {
+    press("ctrl+shift+s");
+    run(5);
+    xdotool({"type", "--window", windowId(), file.string()});
+    run(5);
+    ASSERT_EQ(edit().saveAs, file.string());
+    press("Return");
+    run(3);
+  }
+
+  const std::filesystem::path shipped_ = dataDirectory("scenes") / "no_mirror.toml";
+  const std::string shippedText_ = contents(shipped_);
+  std::string before_;
+};
+
+TEST_F(SavingAShippedScene, GoesToAFileOfOnesOwnAndTheSecondTimeThereUnasked) {
+  const std::filesystem::path own = config_.path() / "documents" / "Speculum" / "no_mirror.toml";
+  deleteAThing();
+  const size_t things = edit().things.size();
+  press("ctrl+s");
+  ASSERT_TRUE(edit().asksWhere);
+  EXPECT_EQ(edit().saveAs, own.string());
+  run(5);
+  press("Return");
+  run(3);
+  ASSERT_FALSE(edit().asksWhere) << edit().note;
+  EXPECT_EQ(edit().file, own.string());
+  const auto thingsIn = [](const Scene& scene) {
+    return scene.objects.size() + scene.mirrors.size() + scene.lights.size();
+  };
+  EXPECT_EQ(thingsIn(loadScene(own)), things);
+  deleteAThing();
+  press("ctrl+s");
+  EXPECT_FALSE(edit().asksWhere) << edit().note;
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_EQ(thingsIn(loadScene(own)), things - 1);
+  EXPECT_EQ(contents(shipped_), shippedText_);
+  expectQuiet();
+}
+
+// Saved once more it would be overwritten, which is not for a test to do.
+TEST_F(SavingAShippedScene, ItsOwnFileIsRefusedAtFirst) {
+  deleteAThing();
+  saveAs(shipped_);
+  EXPECT_TRUE(edit().asksWhere);
+  EXPECT_NE(edit().note.find("it comes with the program\nSave once more to overwrite it."), std::string::npos)
+      << edit().note;
+  press("Escape");
+  EXPECT_FALSE(edit().asksWhere);
+  EXPECT_TRUE(edit().unsaved);
+  EXPECT_EQ(contents(shipped_), shippedText_);
+  expectQuiet();
+}
+
+TEST_F(SavingAShippedScene, WhatWasRefusedIsRefusedAgainOnceTheQuestionWasLeft) {
+  const std::filesystem::path other = config_.path() / "other.toml";
+  std::ofstream(other) << "somebody's";
+  deleteAThing();
+  for (int i = 0; i < 2; ++i) {
+    saveAs(other);
+    EXPECT_TRUE(edit().asksWhere);
+    EXPECT_NE(edit().note.find("Save once more to overwrite it."), std::string::npos) << edit().note;
+    press("Escape");
+  }
+  EXPECT_EQ(contents(other), "somebody's");
+  expectQuiet();
+}
+
 TEST_F(EditWindow, ThePathIsSelectedAtEveryOpening) {
   for (const std::string name : {"first", "second"}) {
     press("ctrl+shift+s");

@@ -78,9 +78,9 @@ class EditWindow : public DemoWindow {
   }
   const UiEdit& edit() const { return demo_->model().edit; }
   Object object() const { return std::get<Object>(edit().thing); }
-  // Without the panel and what shows the selection.
+  // Without the panel, what shows the selection, and messages.
   std::vector<uint8_t> bare() {
-    while (edit().selected) {
+    while (edit().selected || !demo_->model().status.text.empty()) {
       press("Escape");
     }
     return picture().rgba;

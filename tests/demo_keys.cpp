@@ -25,11 +25,11 @@ class DemoKeys : public DemoWindow {
     press(key);
     for (const std::filesystem::path& file : pictures()) {
       if (std::find(had.begin(), had.end(), file) == had.end()) {
-        EXPECT_EQ(demo_->model().picture, "saved " + file.string());
+        EXPECT_EQ(demo_->model().status.text, "saved " + file.string());
         return readImage8(file);
       }
     }
-    ADD_FAILURE() << key << " saved no picture: " << demo_->model().picture;
+    ADD_FAILURE() << key << " saved no picture: " << demo_->model().status.text;
     return {};
   }
   std::vector<std::filesystem::path> pictures() {
@@ -51,8 +51,63 @@ TEST_F(DemoKeys, PicturesAreSavedWithAndWithoutThePanel) {
   ASSERT_EQ(bare.height, height);
   EXPECT_NE(window.rgba, bare.rgba);
   press("Tab");
+  EXPECT_NE(bare.rgba, pictureOf(picture()).rgba) << "the message about the last one";
+  EXPECT_EQ(bare.rgba, newPicture("F12").rgba) << "which is in no picture";
+  press("Escape");
   EXPECT_EQ(bare.rgba, pictureOf(picture()).rgba) << "what the window shows with its panel hidden";
-  EXPECT_EQ(pictures().size(), 2u);
+  EXPECT_EQ(pictures().size(), 3u);
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, MessagesAreReadWithThePanelHidden) {
+  press("space");
+  press("Tab");
+  const Pixels before = picture();
+  press("ctrl+z");
+  ASSERT_EQ(demo_->model().status.text, "nothing to undo");
+  const Pixels with = picture();
+  int left = width, right = 0, top = height, bottom = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const size_t at = 4 * (static_cast<size_t>(y) * width + x);
+      if (!std::equal(&with.rgba[at], &with.rgba[at] + 3, &before.rgba[at])) {
+        left = std::min(left, x);
+        right = std::max(right, x);
+        top = std::min(top, y);
+        bottom = std::max(bottom, y);
+      }
+    }
+  }
+  EXPECT_LT(left, 30);
+  EXPECT_LT(right, 200) << "no wider than it needs to be";
+  EXPECT_GT(right, 100);
+  EXPECT_GT(top, height - 40);
+  EXPECT_LT(bottom, height);
+  const auto end = Clock::now() + std::chrono::seconds(15);
+  bool faded = false;
+  while (!demo_->model().status.text.empty() && Clock::now() < end) {
+    run(1);
+    const Pixels now = picture();
+    faded = faded || (now.rgba != with.rgba && now.rgba != before.rgba);
+  }
+  run(2);
+  EXPECT_TRUE(faded) << "little by little";
+  EXPECT_EQ(before.rgba, picture().rgba);
+  expectQuiet();
+}
+
+TEST_F(DemoKeys, ARecordingWithThePanelHiddenHasNoMessages) {
+  press("space");
+  press("Tab");
+  const Image8 plain = pictureOf(picture());
+  press("ctrl+z");
+  press("F10");
+  press("F10");
+  const std::filesystem::path folder = pictures().front();
+  for (const char* name : {"00000.png", "00002.png"}) {
+    EXPECT_EQ(readImage8(folder / name).rgba, plain.rgba) << name;
+  }
+  EXPECT_NE(demo_->model().status.text.find("recorded "), std::string::npos);
   expectQuiet();
 }
 
@@ -60,7 +115,7 @@ TEST_F(DemoKeys, MessagesPushNoWidgetAndFade) {
   const PixelRect before = widget("view.exposure");
   click("screenshot");
   EXPECT_EQ(pictures().size(), 1u);
-  EXPECT_EQ(demo_->model().status.text, demo_->model().picture);
+  EXPECT_EQ(demo_->model().status.text.rfind("saved ", 0), 0u) << demo_->model().status.text;
   EXPECT_EQ(widget("view.exposure").y, before.y);
   const auto end = Clock::now() + std::chrono::seconds(15);
   while (!demo_->model().status.text.empty() && Clock::now() < end) {
@@ -74,7 +129,7 @@ TEST_F(DemoKeys, MessagesPushNoWidgetAndFade) {
 TEST_F(DemoKeys, APictureThatCannotBeSavedSaysSo) {
   std::ofstream(config_.path() / "pictures") << "a file in the folder's place";
   press("F12");
-  EXPECT_EQ(demo_->model().picture.rfind("not saved: ", 0), 0u) << demo_->model().picture;
+  EXPECT_EQ(demo_->model().status.text.rfind("not saved: ", 0), 0u) << demo_->model().status.text;
   expectQuiet();
 }
 
@@ -150,6 +205,61 @@ TEST_F(DemoKeys, TheTimeRowScrubsAndSteps) {
   EXPECT_NEAR(model.time, there - 1.0 / 60.0, 1e-12);
   drag("time.speed", 0.5, 30);
   EXPECT_GT(model.timeSpeed, 1.0);
+  expectQuiet();
+}
+
+class OtherKeyboards : public DemoKeys {
+ protected:
+  void layout(const std::vector<std::string>& names) {
+    std::vector<std::string> command = {"setxkbmap"};
+    command.insert(command.end(), names.begin(), names.end());
+    ASSERT_EQ(runProcess(command).exitCode, 0);
+    run(5);
+  }
+  // By what is printed on it.
+  void hold(const std::string& key) {
+    xdotool({"keydown", "--window", windowId(), key});
+    run(4);
+    xdotool({"keyup", "--window", windowId(), key});
+    run(3);
+  }
+  glm::dvec3 eye() { return demo_->camera().eye; }
+};
+
+TEST_F(OtherKeyboards, OnDvorakWhatFliesDoesNotStepAndTimeIsSteppedBeside) {
+  layout({"us", "-variant", "dvorak"});
+  press("space");
+  ASSERT_TRUE(demo_->model().paused);
+  press("v");  // where an American keyboard has the full stop
+  const double time = demo_->model().time;
+  press("v");
+  EXPECT_NEAR(demo_->model().time, time + timeStep, 1e-12);
+  press("w");  // where it has the comma
+  press("w");
+  EXPECT_NEAR(demo_->model().time, time - timeStep, 1e-12);
+  const glm::dvec3 before = eye();
+  press("space");
+  press("space");
+  EXPECT_EQ(eye(), before) << "nothing of it flies";
+  const double still = demo_->model().time;
+  hold("comma");
+  const glm::dvec3 forwards = eye();
+  EXPECT_LT(forwards.z, before.z - 1e-3);
+  hold("period");
+  EXPECT_GT(eye().y, forwards.y + 1e-3);
+  EXPECT_EQ(demo_->model().time, still);
+  expectQuiet();
+}
+
+TEST_F(OtherKeyboards, OnColemakTheSceneIsFramedWhereAnAmericanKeyboardDoes) {
+  layout({"us", "-variant", "colemak"});
+  const glm::dvec3 before = eye();
+  hold("f");
+  const glm::dvec3 up = eye();
+  EXPECT_GT(up.y, before.y + 1e-3);
+  EXPECT_NEAR(up.z, before.z, 1e-9);
+  press("t");
+  EXPECT_GT(glm::distance(eye(), up), 0.1);
   expectQuiet();
 }
 

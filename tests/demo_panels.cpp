@@ -186,6 +186,56 @@ TEST_F(PanelsWithTwoMirrors, PointingAtASkippedMirrorOutlinesIt) {
   expectQuiet();
 }
 
+class PanelsWithASkippedRow : public PanelsWithTwoMirrors {
+ protected:
+  // The pointer on the row of the door, whose back is seen; its outline is drawn.
+  void pointAtTheDoor() {
+    press("space");
+    scrollTo("skipped in main view");
+    click("skipped in main view");
+    scrollTo("skipped.door");
+    const PixelRect row = widget("skipped.door");
+    moveTo(row.x + row.width / 2, row.y + row.height / 2);
+    run(2);
+    ASSERT_EQ(demo_->model().outlinedSkipped, std::vector<int>{1});
+  }
+  void expectNoOutline() {
+    EXPECT_TRUE(demo_->model().outlinedSkipped.empty());
+    EXPECT_TRUE(demo_->model().skippedOutline.empty());
+  }
+};
+
+TEST_F(PanelsWithASkippedRow, AMirrorThatIsPointedAtIsDeleted) {
+  press("n");
+  press("n");
+  ASSERT_EQ(demo_->model().edit.selected, (Selection{Selection::Kind::mirror, 1}));
+  pointAtTheDoor();
+  const size_t things = demo_->model().edit.things.size();
+  xdotool({"key", "--window", windowId(), "Delete"});
+  // Between the event and the next frame's list the row is one of a mirror that is gone.
+  for (int i = 0; i < 6; ++i) {
+    run(1);
+    expectNoOutline();
+  }
+  EXPECT_EQ(demo_->model().edit.things.size(), things - 1);
+  press("ctrl+z");
+  EXPECT_EQ(demo_->model().edit.things.size(), things);
+  expectQuiet();
+}
+
+TEST_F(PanelsWithASkippedRow, AnotherSceneComesWhileItIsPointedAt) {
+  pointAtTheDoor();
+  const int before = demo_->model().scene;
+  demo_->openFile(writeScene("other", twoMirrors));
+  const auto end = Clock::now() + std::chrono::seconds(20);
+  while (demo_->model().scene == before && Clock::now() < end) {
+    run(1);
+  }
+  ASSERT_NE(demo_->model().scene, before);
+  expectNoOutline();
+  expectQuiet();
+}
+
 TEST_F(Panels, WindowsStandBesideEachOtherAndComeBackFromATinyWindow) {
   press("F2");
   for (const char* name : {"panel.Performance", "panel.Log"}) {

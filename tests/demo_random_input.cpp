@@ -103,13 +103,20 @@ class RandomInput : public DemoWindow {
         send(pointerTo());
         stepped(2);
         const std::string button = std::to_string(1 + upTo(2));
+        const bool shift = upTo(2) == 0;
+        if (shift) {
+          send({"keydown", "Shift_L"});
+        }
         send({"mousedown", button});
         stepped(2);
         if (upTo(1) == 0) {
           send(pointerTo());
           stepped(2);
         }
-        return send({"mouseup", button});
+        send({"mouseup", button});
+        if (shift) {
+          send({"keyup", "Shift_L"});
+        }
     }
   }
 

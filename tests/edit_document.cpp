@@ -210,6 +210,35 @@ TEST(SceneDocument, RemovingSelectsNothingAndUndoSelectsAgain) {
   EXPECT_FALSE(document.modified());
 }
 
+TEST(SceneDocument, SeveralThingsAreDuplicatedAndRemovedInOneStepAndStayTogether) {
+  TextScene text(kText);
+  SceneDocument& document = text.document;
+  const Scene& scene = text.scene;
+  document.select(kFloor);
+  const std::vector<Selection> things{kFloor, kTeapot, kLamp};
+  const std::vector<Selection> copies = document.duplicate(things);
+  EXPECT_EQ(copies, (std::vector<Selection>{{Kind::mirror, 1}, {Kind::object, 1}, {Kind::light, 1}}));
+  EXPECT_EQ(document.selection(), copies.front());
+  EXPECT_EQ(document.undoLabel(), "duplicate 3 things");
+  const glm::dvec3 step = scene.mirrors[1].position - scene.mirrors[0].position;
+  EXPECT_GT(step.x, 4.0) << "the floor is 4 m wide";
+  EXPECT_EQ(glm::dvec2(step.y, step.z), glm::dvec2(0.0));
+  EXPECT_NEAR(scene.objects[1].position.x, scene.objects[0].position.x + step.x, 1e-9);
+  EXPECT_NEAR(scene.lights[1].position.x, scene.lights[0].position.x + step.x, 1e-3);
+  EXPECT_NEAR(scene.lights[1].orbit->center.x, scene.lights[0].orbit->center.x + step.x, 1e-3);
+  EXPECT_EQ(scene.objects[1].name, "teapot 2");
+  document.remove(std::vector<Selection>{kTeapot, copies[0], kFloor, copies[1]});
+  EXPECT_EQ(document.undoLabel(), "remove 4 things");
+  EXPECT_TRUE(scene.objects.empty() && scene.mirrors.empty());
+  EXPECT_EQ(scene.lights.size(), 2u);
+  EXPECT_FALSE(document.selection());
+  document.undo();
+  EXPECT_EQ(document.selection(), copies.front());
+  document.undo();
+  EXPECT_EQ(document.selection(), kFloor);
+  EXPECT_FALSE(document.canUndo() || document.modified());
+}
+
 TEST(SceneDocument, BookmarksKeepTheirNamesApart) {
   TextScene text(kText);
   SceneDocument& document = text.document;

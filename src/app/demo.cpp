@@ -82,8 +82,7 @@ void Demo::applyModel() {
 void Demo::saveShot() {
   if (recorder_.running()) {
     recorder_.add(pictureOf(renderer_.readback()));
-    model_.picture = recorder_.message();
-    show(model_.picture);
+    show(recorder_.message());
   }
   if (std::exchange(shot_, Shot::none) == Shot::none) {
     return;
@@ -91,11 +90,10 @@ void Demo::saveShot() {
   try {
     const std::filesystem::path file = newPictureFile(loaded_->scene.file.stem().string());
     writePng(file, pictureOf(renderer_.readback()));
-    model_.picture = "saved " + file.string();
+    tell("saved " + file.string());
   } catch (const std::exception& error) {
-    model_.picture = "not saved: " + std::string(error.what());
+    tell("not saved: " + std::string(error.what()));
   }
-  tell(model_.picture);
 }
 
 void Demo::drawFrame(double seconds) {
@@ -122,12 +120,7 @@ void Demo::drawFrame(double seconds) {
     settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame
     settings.reflection.skipUnchanged = false;
   }
-  EarlierImages earlier = sceneRenderer_->earlier();
-  if (watched_ && watched_->empty()) {
-    earlier.main = nullptr;
-  }
-  const FittedPlan fitted = planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame->extent.width),
-                                          static_cast<int>(frame->extent.height), earlier);
+  const FittedPlan fitted = planAndUpload(*frame, state, settings);
   const FramePlan& plan = fitted.plan;
   const bool bare = shot_ == Shot::picture || recorder_.bare();
   sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debugView(plan, fitted.settings));
@@ -218,7 +211,7 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Setti
     model_.message = describe(watch.findings().front());
   }
   if (model_.message.empty()) {
-    model_.message = planner_.message();
+    model_.message = texturesProblem_.empty() ? planner_.message() : texturesProblem_;
   }
   model_.time = time_;
   fillPasses(plan, state, drawn.reflection.updateInterval);

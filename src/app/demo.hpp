@@ -66,6 +66,7 @@ class Demo {
   bool changing();
   bool rest();
   void drawFrame(double seconds);
+  FittedPlan planAndUpload(Frame& frame, const SceneState& state, Settings settings);
   std::optional<DebugView> debugView(const FramePlan& plan, const Settings& drawn);
   void showTexel(const FramePlan& plan);
   void outlineSkipped(const FramePlan& plan, const SceneState& state);
@@ -134,6 +135,8 @@ class Demo {
   Renderer renderer_;
   std::unique_ptr<SceneRenderer> sceneRenderer_;
   BudgetPlanner planner_;
+  std::optional<std::string> texturesRefusedWith_;  // settings at which there was no memory for them
+  std::string texturesProblem_;                     // then
   std::unique_ptr<SimpleUI> ui_;
   CameraController camera_;
   AccuracyController accuracy_;

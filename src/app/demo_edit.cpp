@@ -99,7 +99,8 @@ void Demo::pressPointer(const MouseButtonEvent& event) {
     editor_->release();
   } else if (left && pressed_ && !dragging_ && lookAtScene(time_)) {
     editor_->cancelDrag();
-    editor_->click(look(), pointerPixel());
+    const bool also = window_.keyDown(Key::leftShift) || window_.keyDown(Key::rightShift);
+    also ? editor_->clickAlso(look(), pointerPixel()) : editor_->click(look(), pointerPixel());
     model_.edit.open = model_.edit.open || editor_->document().selection();
   }
   pressed_.reset();

@@ -103,13 +103,12 @@ void Demo::stepTime(int steps) {
 void Demo::toggleRecording(bool bare) {
   if (recorder_.running()) {
     recorder_.stop();
-    return tell(model_.picture);
+    return tell(recorder_.message());
   }
   try {
     recorder_.start(loaded_->scene.file.stem().string(), bare);
   } catch (const std::filesystem::filesystem_error& error) {
-    model_.picture = "not recorded: " + std::string(error.what());
-    tell(model_.picture);
+    tell("not recorded: " + std::string(error.what()));
   }
 }
 

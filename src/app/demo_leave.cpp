@@ -11,9 +11,13 @@ void Demo::closeTop() {
   if (editor_->dragging()) {
     return editor_->cancelDrag();
   }
-  if (!ui_->holdsEscape() && !(ui_->visible() && ui_->closeTop(model_))) {
-    editor_->select({});
+  if (ui_->holdsEscape() || (ui_->visible() && ui_->closeTop(model_))) {
+    return;
   }
+  if (editor_->document().selection()) {
+    return editor_->select({});
+  }
+  model_.status.text.clear();
 }
 
 // Settings are in the scene's file too.

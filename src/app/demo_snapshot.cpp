@@ -69,7 +69,6 @@ void Demo::copyCommand() {
   std::string problem;
   const fs::path file = fileOfView(problem);
   if (file.empty()) {
-    model_.command = "nothing: " + problem;
     return tell("not copied: " + problem);
   }
   Options options = options_;
@@ -79,12 +78,10 @@ void Demo::copyCommand() {
   if (const auto place = camera_.place()) {
     options.camera = CameraPlace{place->eye, place->target, std::nullopt};
   }
-  model_.command = viewCommand(options, file, loaded_->scene, model_.settings);
-  window_.setClipboard(model_.command);
-  if (file != loaded_->scene.file) {
-    model_.command += "   (of a copy of the scene: it has unsaved changes)";
-  }
-  tell("copied: " + model_.command);
+  const std::string command = viewCommand(options, file, loaded_->scene, model_.settings);
+  window_.setClipboard(command);
+  const bool copy = file != loaded_->scene.file;
+  tell("copied: " + command + (copy ? "   (of a copy of the scene: it has unsaved changes)" : ""));
 }
 
 SweepRequest Demo::sweepRequest(const fs::path& file) {

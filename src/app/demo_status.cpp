@@ -40,6 +40,7 @@ void Demo::show(const std::string& text) {
 }
 
 void Demo::followStatus() {
+  model_.status.withPanelOnly = shot_ != Shot::none || recorder_.running();
   model_.status.age = std::chrono::duration<double>(Clock::now() - statusSince_).count();
   if (statusAlpha(model_.status.age) <= 0.0f) {
     model_.status.text.clear();

@@ -31,10 +31,6 @@ std::vector<Selection> allThings(const Scene& scene) {
   return things;
 }
 
-bool sameThing(const Selection& a, const Selection& b) {
-  return a.kind == b.kind && a.index == b.index;
-}
-
 template <typename Item>
 void replace(std::vector<Item>& items, int index, const Thing& thing) {
   if (const Item* item = std::get_if<Item>(&thing)) {
@@ -66,12 +62,16 @@ Picker& SceneEditor::picker() {
   return *picker_;
 }
 
-void SceneEditor::put(const std::string& verb, const Selection& what, const Thing& thing) {
+void SceneEditor::put(const std::string& verb, std::span<const Placed> things) {
   beforeChange_();
-  document_.change(verb + " " + describe(document_.scene(), what), what, [&](Scene& scene) {
-    replace(scene.objects, what.index, thing);
-    replace(scene.lights, what.index, thing);
-    replace(scene.mirrors, what.index, thing);
+  const std::string what =
+      things.size() == 1 ? describe(document_.scene(), things[0].first) : std::to_string(things.size()) + " things";
+  document_.change(verb + " " + what, things[0].first, [&](Scene& scene) {
+    for (const auto& [selection, thing] : things) {
+      replace(scene.objects, selection.index, thing);
+      replace(scene.lights, selection.index, thing);
+      replace(scene.mirrors, selection.index, thing);
+    }
   });
 }
 
@@ -82,6 +82,7 @@ void SceneEditor::forgetPath() {
 
 void SceneEditor::select(const Selection& selection) {
   forgetPath();
+  others_.clear();
   document_.select(selection);
 }
 
@@ -125,7 +126,8 @@ PictureView SceneEditor::clickedImage(const Look& look) const {
 
 Gizmo SceneEditor::gizmo(const Look& look) const {
   const Selection& selected = document_.selection();
-  const GizmoMode mode = selected.kind == Selection::Kind::light ? GizmoMode::move : mode_;
+  const bool turns = selected.kind != Selection::Kind::light || !others_.empty();
+  const GizmoMode mode = turns ? mode_ : GizmoMode::move;
   return {mode, pivotOf(document_.scene(), look.state, selected), armPixels * look.scale};
 }
 
@@ -142,12 +144,11 @@ bool SceneEditor::press(const Look& look, const glm::dvec2& pixel) {
   }
   document_.endGesture();
   document_.beginGesture();
-  drag_ = Drag{.gizmo = GizmoDrag(picture, handles, handle, pixel),
-               .what = selected,
-               .start = thingOf(document_.scene(), selected),
-               .pivot = handles.pivot(),
-               .time = look.state.time,
-               .pixel = pixel};
+  drag_ = Drag{.gizmo = GizmoDrag(picture, handles, handle, pixel), .time = look.state.time, .pixel = pixel};
+  const Scene& scene = document_.scene();
+  for (const Selection& thing : this->selected()) {
+    drag_->held.push_back({thing, thingOf(scene, thing), pivotOf(scene, look.state, thing)});
+  }
   return true;
 }
 
@@ -157,14 +158,11 @@ void SceneEditor::drag(const glm::dvec2& pixel, bool snap) {
   }
   drag_->pixel = pixel;
   drag_->change = drag_->gizmo.to(pixel, snap);
-  const GizmoDrag::Change& change = drag_->change;
-  if (drag_->gizmo.handle() >= Grip::turnX) {
-    put("turn", drag_->what,
-        change.degrees == 0.0 ? drag_->start
-                              : turned(drag_->start, change.rotation, drag_->pivot, drag_->what.copy, drag_->time));
-  } else {
-    put("move", drag_->what, moved(drag_->start, change.translation, drag_->time));
+  std::vector<Placed> things;
+  for (const Held& held : drag_->held) {
+    things.emplace_back(held.what, dragged(held));
   }
+  put(drag_->gizmo.handle() >= Grip::turnX ? "turn" : "move", things);
 }
 
 void SceneEditor::release() {
@@ -222,6 +220,7 @@ void SceneEditor::modelsChanged() {
     }
   }
   picker_.reset();
+  outlines_.clear();
 }
 
 void SceneEditor::add(const Look& look, EditAction kind, int mesh) {
@@ -241,23 +240,6 @@ void SceneEditor::add(const Look& look, EditAction kind, int mesh) {
   }
 }
 
-void SceneEditor::duplicate() {
-  if (document_.selection()) {
-    release();
-    beforeChange_();
-    select(document_.duplicate(document_.selection()));
-  }
-}
-
-void SceneEditor::remove() {
-  if (document_.selection()) {
-    release();
-    beforeChange_();
-    document_.remove(document_.selection());
-    forgetPath();
-  }
-}
-
 void SceneEditor::bookmark(Bookmark view) {
   release();
   document_.addBookmark(std::move(view));
@@ -266,26 +248,6 @@ void SceneEditor::bookmark(Bookmark view) {
 void SceneEditor::removeBookmark(size_t index) {
   release();
   document_.removeBookmark(index);
-}
-
-void SceneEditor::undo() {
-  release();
-  if (document_.undoLabel().empty()) {
-    return;
-  }
-  beforeChange_();
-  document_.undo();
-  forgetPath();
-}
-
-void SceneEditor::redo() {
-  release();
-  if (document_.redoLabel().empty()) {
-    return;
-  }
-  beforeChange_();
-  document_.redo();
-  forgetPath();
 }
 
 void SceneEditor::showThings(UiEdit& edit) const {
@@ -310,6 +272,7 @@ void SceneEditor::show(UiEdit& edit) const {
   const Scene& scene = document_.scene();
   edit.overlay = {};
   edit.selected = document_.selection();
+  edit.others = others_;
   edit.thing = thingOf(scene, edit.selected);
   edit.mode = mode_;
   edit.undo = document_.undoLabel();
@@ -321,15 +284,17 @@ void SceneEditor::show(UiEdit& edit) const {
   }
 }
 
-const MeshOutline& SceneEditor::meshOutline() {
-  const Scene& scene = document_.scene();
-  if (document_.selection().kind == Selection::Kind::object) {
-    const int mesh = scene.objects.at(static_cast<size_t>(document_.selection().index)).mesh;
-    if (std::exchange(outlineMesh_, mesh) != mesh) {
-      outline_ = speculum::meshOutline(scene.meshes.at(static_cast<size_t>(mesh)));
-    }
+const MeshOutline& SceneEditor::meshOutline(const Selection& thing) {
+  static const MeshOutline none;
+  if (thing.kind != Selection::Kind::object) {
+    return none;
   }
-  return outline_;
+  const Scene& scene = document_.scene();
+  const int mesh = scene.objects.at(static_cast<size_t>(thing.index)).mesh;
+  const auto known = outlines_.find(mesh);
+  return known != outlines_.end()
+             ? known->second
+             : outlines_.emplace(mesh, speculum::meshOutline(scene.meshes.at(static_cast<size_t>(mesh)))).first->second;
 }
 
 UiOverlay SceneEditor::overlay(const Look& look, const std::optional<glm::dvec2>& pointer) {
@@ -340,11 +305,15 @@ UiOverlay SceneEditor::overlay(const Look& look, const std::optional<glm::dvec2>
     document_.select(selected);
   }
   UiOverlay overlay;
-  const MeshOutline& shape = meshOutline();
+  const MeshOutline& shape = meshOutline(selected);
   const PictureView image = clickedImage(look);
   overlay.outline = outlineOf(scene, look.state, selected, image, shape);
   if (!image.path().empty()) {
     overlay.itself = outlineOf(scene, look.state, selected, look.picture, shape);
+  }
+  for (const Selection& other : others_) {
+    const std::vector<PixelLine> lines = outlineOf(scene, look.state, other, look.picture, meshOutline(other));
+    overlay.outline.insert(overlay.outline.end(), lines.begin(), lines.end());
   }
   const Gizmo handles = gizmo(look);
   overlay.gizmo = handles.shapes(image);
@@ -373,6 +342,9 @@ std::string SceneEditor::dragLabel() const {
 
 void SceneEditor::apply(const UiEdit& edit) {
   mode_ = edit.mode;
+  if (edit.toggled) {
+    return toggle(*edit.toggled);
+  }
   if (!sameThing(edit.selected, document_.selection())) {
     release();
     document_.endGesture();
@@ -382,7 +354,7 @@ void SceneEditor::apply(const UiEdit& edit) {
     if (edit.held && !document_.inGesture()) {
       document_.beginGesture();
     }
-    put("edit", edit.selected, edit.thing);
+    put("edit", std::array{Placed(edit.selected, edit.thing)});
   }
   if (!edit.held && !drag_ && document_.inGesture()) {
     document_.endGesture();

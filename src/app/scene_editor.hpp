@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -36,8 +37,11 @@ class SceneEditor {
   // Selects what the pixel shows, a further click at the same place what it is seen in: from the innermost thing
   // outwards, and round. Nothing where the background is seen directly.
   void click(const Look& look, const glm::dvec2& pixel);
-  void select(const Selection& selection);
-  void selectNext(int step);  // in the order of the scene, round
+  // Adds what is seen directly at the pixel to what is selected, or takes it out of that.
+  void clickAlso(const Look& look, const glm::dvec2& pixel);
+  void toggle(const Selection& thing);
+  void select(const Selection& selection);  // alone
+  void selectNext(int step);                // in the order of the scene, round
   void toggleMode() { mode_ = mode_ == GizmoMode::move ? GizmoMode::turn : GizmoMode::move; }
 
   // The file of the model that the inspector has chosen. Throws InputError for one that is not there.
@@ -66,12 +70,15 @@ class SceneEditor {
   bool takeChanged() { return std::exchange(shownRevision_, document_.revision()) != document_.revision(); }
 
  private:
-  struct Drag {
-    GizmoDrag gizmo;
+  struct Held {
     Selection what;
     Thing start;
     glm::dvec3 pivot{0.0};  // world
-    double time = 0.0;      // seconds of animation
+  };
+  struct Drag {
+    GizmoDrag gizmo;
+    std::vector<Held> held;  // the document's selection first, about whose pivot all turn
+    double time = 0.0;       // seconds of animation
     glm::dvec2 pixel{0.0};
     GizmoDrag::Change change;
   };
@@ -81,12 +88,17 @@ class SceneEditor {
     size_t chosen = 0;  // of those
   };
 
-  void put(const std::string& verb, const Selection& what, const Thing& thing);
+  using Placed = std::pair<Selection, Thing>;
+
+  void put(const std::string& verb, std::span<const Placed> things);
+  std::vector<Selection> selected() const;  // the document's first
+  Thing dragged(const Held& held) const;
+  void step(void (SceneDocument::*way)());
   void forgetPath();
   void showThings(UiEdit& edit) const;
   PictureView clickedImage(const Look& look) const;
   Gizmo gizmo(const Look& look) const;
-  const MeshOutline& meshOutline();
+  const MeshOutline& meshOutline(const Selection& thing);
   glm::dvec3 placeAhead(const Look& look, double part, double least = 0.0);
   std::string dragLabel() const;
 
@@ -98,11 +110,11 @@ class SceneEditor {
   std::function<void()> beforeChange_;
   std::unique_ptr<Picker> picker_;  // made when it is needed first
   std::vector<int> path_;           // mirrors that the selected thing was picked through
+  std::vector<Selection> others_;   // selected together with the document's; of objects the first copy
   GizmoMode mode_ = GizmoMode::move;
   std::optional<Drag> drag_;
   std::optional<Clicked> clicked_;
-  MeshOutline outline_;
-  int outlineMesh_ = -1;  // that they are of
+  std::map<int, MeshOutline> outlines_;  // by mesh, of those that were selected
   uint64_t shownRevision_ = 0;
 };
 

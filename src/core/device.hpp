@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,7 +60,13 @@ struct MemoryBudget {
   uint64_t usedBytes = 0;    // by this process
 };
 
-// Throws std::runtime_error with what is missing, where, and how to mend it.
+// VK_ERROR_OUT_OF_DEVICE_MEMORY or VK_ERROR_OUT_OF_HOST_MEMORY.
+class OutOfMemoryError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Throws std::runtime_error with what is missing, where, and how to mend it; OutOfMemoryError where that is memory.
 [[noreturn]] void throwVulkanError(VkResult result, std::string_view what);
 void check(VkResult result, std::string_view what);
 std::string resultName(VkResult result);

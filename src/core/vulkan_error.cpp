@@ -59,7 +59,11 @@ std::string remedy(VkResult result) {
 }  // namespace
 
 void throwVulkanError(VkResult result, std::string_view what) {
-  throw std::runtime_error(std::string(what) + ": " + resultName(result) + remedy(result));
+  const std::string text = std::string(what) + ": " + resultName(result) + remedy(result);
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
+    throw OutOfMemoryError(text);
+  }
+  throw std::runtime_error(text);
 }
 
 void check(VkResult result, std::string_view what) {

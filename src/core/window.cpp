@@ -69,6 +69,15 @@ std::string_view printedOn(int code, int scancode) {
   return name ? name : "";
 }
 
+// Of the layout that is in use now.
+std::string printedWhereFlying() {
+  std::string printed;
+  for (const int code : {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S, GLFW_KEY_D, GLFW_KEY_Q, GLFW_KEY_E}) {
+    printed += printedOn(code, 0);
+  }
+  return printed;
+}
+
 std::vector<ScreenRect> workAreas() {
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
@@ -169,8 +178,10 @@ void Window::installCallbacks() {
     of(w)->active_ = true;
     if (const auto& key = of(w)->callbacks_.key) {
       const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
-      key({keyMeant(keyOf(code), printedOn(code, scancode), control), action != GLFW_RELEASE, action == GLFW_REPEAT,
-           (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0});
+      // Each call of glfwGetKeyName may write over what the last one gave.
+      const std::string printed(printedOn(code, scancode));
+      key({keyMeant(keyOf(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE, action == GLFW_REPEAT,
+           (modifiers & GLFW_MOD_SHIFT) != 0, control});
     }
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {

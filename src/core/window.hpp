@@ -56,8 +56,9 @@ enum class Key {
 };
 // What the key at `place` of an American keyboard means on which `printed` stands (empty: none, or not known). Those
 // that fly keep their places; others go by their letter, with Control all. Where that is not one of the Latin alphabet
-// the place counts.
-Key keyMeant(Key place, std::string_view printed, bool control);
+// the place counts. `printedWhereFlying`: what stands on the six that fly; a shortcut among it gives way to flying and
+// is where an American keyboard has it, unless another is printed there.
+Key keyMeant(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying);
 
 enum class MouseButton { left, right, middle };
 

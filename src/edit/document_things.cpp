@@ -1,8 +1,10 @@
 // The part of the document that adds and removes things.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "edit/scene_document.hpp"
+#include "edit/transform.hpp"
 #include "optics/affine.hpp"
 #include "scene/scene_state.hpp"
 
@@ -150,15 +152,70 @@ void SceneDocument::remove(const Selection& selection) {
   const std::string label = "remove " + describe(scene_, selection);
   select(selection);
   structural(label, [&] {
-    if (selection.kind == Kind::object) {
-      erase(scene_.objects, origins_.objects, selection.index);
-    } else if (selection.kind == Kind::mirror) {
-      erase(scene_.mirrors, origins_.mirrors, selection.index);
-    } else {
-      erase(scene_.lights, origins_.lights, selection.index);
+    take(selection);
+    return Selection();
+  });
+}
+
+void SceneDocument::take(const Selection& selection) {
+  if (selection.kind == Kind::object) {
+    erase(scene_.objects, origins_.objects, selection.index);
+  } else if (selection.kind == Kind::mirror) {
+    erase(scene_.mirrors, origins_.mirrors, selection.index);
+  } else {
+    erase(scene_.lights, origins_.lights, selection.index);
+  }
+}
+
+void SceneDocument::remove(std::span<const Selection> things) {
+  std::vector<Selection> fromTheEnd(things.begin(), things.end());
+  std::sort(fromTheEnd.begin(), fromTheEnd.end(),
+            [](const Selection& a, const Selection& b) { return a.index > b.index; });
+  structural("remove " + describe(scene_, things), [&] {
+    for (const Selection& thing : fromTheEnd) {
+      take(thing);
     }
     return Selection();
   });
+}
+
+Selection SceneDocument::appendCopy(const Selection& selection, const glm::dvec3& step) {
+  const auto append = [&](auto thing, auto& things, std::vector<int>& origins) {
+    thing.name = thing.name.empty() ? "" : freeName(thing.name, things);
+    return speculum::append(things, origins, std::move(thing), selection.kind);
+  };
+  const Thing copy = moved(thingOf(scene_, selection), step, 0.0);
+  if (const auto* object = std::get_if<Object>(&copy)) {
+    return append(*object, scene_.objects, origins_.objects);
+  }
+  if (const auto* mirror = std::get_if<Mirror>(&copy)) {
+    return append(*mirror, scene_.mirrors, origins_.mirrors);
+  }
+  PointLight light = std::get<PointLight>(copy);
+  if (light.orbit) {
+    light.orbit->center += step;
+  }
+  return append(light, scene_.lights, origins_.lights);
+}
+
+std::vector<Selection> SceneDocument::duplicate(std::span<const Selection> things) {
+  const SceneState state = evaluate(scene_, 0.0);
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Selection& thing : things) {
+    const double x = pivotOf(scene_, state, thing).x;
+    const double reach = reachOf(scene_, state, thing);
+    low = std::min(low, x - reach);
+    high = std::max(high, x + reach);
+  }
+  std::vector<Selection> copies;
+  structural("duplicate " + describe(scene_, things), [&] {
+    for (const Selection& thing : things) {
+      copies.push_back(appendCopy(thing, {1.1 * (high - low), 0.0, 0.0}));
+    }
+    return copies.front();
+  });
+  return copies;
 }
 
 std::string SceneDocument::addBookmark(Bookmark bookmark) {

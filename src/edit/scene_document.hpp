@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ class SceneDocument {
   // A little beside; an object with copies as a whole. Throws std::out_of_range for what does not exist.
   Selection duplicate(const Selection& selection);
   void remove(const Selection& selection);  // nothing is selected afterwards
+  // Several different things in one step, which stay together: all are put beside the whole by the same way. The first
+  // copy is selected; the places of all are returned, in the order of `things`.
+  std::vector<Selection> duplicate(std::span<const Selection> things);
+  void remove(std::span<const Selection> things);
 
   // `name` is made one that no other bookmark has; returned.
   std::string addBookmark(Bookmark bookmark);
@@ -97,6 +102,8 @@ class SceneDocument {
   void push(Step step);
   // Runs `edit`, which returns what is then selected.
   Selection structural(const std::string& label, const std::function<Selection()>& edit);
+  void take(const Selection& selection);
+  Selection appendCopy(const Selection& selection, const glm::dvec3& step);
 
   Scene& scene_;
   Scene loaded_;  // without meshes and textures

@@ -18,4 +18,12 @@ std::string describe(const Scene& scene, const Selection& selection) {
   }
 }
 
+std::string describe(const Scene& scene, std::span<const Selection> things) {
+  return things.size() == 1 ? describe(scene, things.front()) : std::to_string(things.size()) + " things";
+}
+
+bool sameThing(const Selection& a, const Selection& b) {
+  return a.kind == b.kind && a.index == b.index;
+}
+
 }  // namespace speculum

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "scene/scene.hpp"
@@ -20,5 +21,8 @@ struct Selection {
 
 // "mirror 'floor'"; "nothing" for none.
 std::string describe(const Scene& scene, const Selection& selection);
+std::string describe(const Scene& scene, std::span<const Selection> things);  // "3 things"; of one as above
+// Whatever copy of it.
+bool sameThing(const Selection& a, const Selection& b);
 
 }  // namespace speculum

@@ -68,6 +68,11 @@ const FiniteWatch& SceneRenderer::finiteWatch() {
   return watch_;
 }
 
+void SceneRenderer::uploadTextures(Frame& frame, const SceneState& state, const Settings& settings,
+                                   const FramePlan& plan) {
+  resources_.upload(frame, settings.effects.textures, drawsTextures(scene_, state, settings, plan));
+}
+
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
                            const std::optional<DebugView>& debug) {
   const bool ofMirror = debug && debug->pass < static_cast<int>(plan.passes.size());

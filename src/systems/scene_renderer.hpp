@@ -33,6 +33,9 @@ class SceneRenderer {
   // Forgets them and every target of mirror images, so that what is drawn from now on does not depend on what was.
   void restart();
 
+  // What of record() takes memory for the scene's textures and materials, before anything is recorded: after an
+  // OutOfMemoryError the frame can be planned again without effects.textures.
+  void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
   // Records everything up to and with the display pass. `plan` was made with earlier().
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt);

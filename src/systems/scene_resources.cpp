@@ -50,7 +50,7 @@ SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& 
   createMeshes();
 }
 
-void SceneResources::prepare(Frame& frame, bool asked, bool drawn) {
+void SceneResources::upload(Frame& frame, bool asked, bool drawn) {
   const bool textured = asked && !scene_.textures.empty();
   const bool uploads = !materials_ || textured != textured_ || (drawn && textures_.empty());
   if (uploads) {
@@ -61,10 +61,15 @@ void SceneResources::prepare(Frame& frame, bool asked, bool drawn) {
     frame.retired->retire(std::exchange(materials_, {}));
     createMaterials(textured);
   }
-  idleFrames_ = drawn ? 0 : idleFrames_ + 1;
   if (drawn && textures_.empty()) {
     createTextures();
-  } else if (idleFrames_ > idleFramesKept) {
+  }
+}
+
+void SceneResources::prepare(Frame& frame, bool asked, bool drawn) {
+  upload(frame, asked, drawn);
+  idleFrames_ = drawn ? 0 : idleFrames_ + 1;
+  if (idleFrames_ > idleFramesKept) {
     for (Image& texture : textures_) {
       frame.retired->retire(std::move(texture));
     }

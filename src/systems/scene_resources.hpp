@@ -33,6 +33,8 @@ class SceneResources {
 
   // At the start of a frame. `asked`: effects.textures, `drawn`: drawsTextures. Uploads are finished on return.
   void prepare(Frame& frame, bool asked, bool drawn);
+  // The part of prepare() that takes memory. After an OutOfMemoryError it can be called with other arguments.
+  void upload(Frame& frame, bool asked, bool drawn);
   // Likewise for what is drawn in the place of the meshes: `drawn` is meshesWithLevels.
   void prepareLevels(Frame& frame, std::span<const int> drawn);
 

@@ -52,6 +52,8 @@ struct UiEdit {
   bool focus = false;                                     // bring the list under the keyboard once
   std::vector<std::pair<Selection, std::string>> things;  // all of the scene, with their names
   Selection selected;                                     // changed by the person
+  std::vector<Selection> others;                          // selected together with it
+  std::optional<Selection> toggled;                       // set by the panel: to be added to those, or taken out
   std::vector<std::string> through;  // mirrors that the selected thing was picked through, from the eye
   std::vector<int> throughMirrors;   // the same, indices into Scene::mirrors
   Thing thing;                       // the selected one; edited in place

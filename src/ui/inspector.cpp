@@ -37,10 +37,13 @@ void thingList(UiModel& model) {
   int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // what was scrolled to
   for (size_t i = 0; i < edit.things.size(); ++i) {
     const auto& [thing, name] = edit.things[i];
-    const bool selected = thing.kind == edit.selected.kind && thing.index == edit.selected.index;
+    const bool selected = sameThing(thing, edit.selected);
+    const bool other = std::any_of(edit.others.begin(), edit.others.end(),
+                                   [&, &thing = thing](const Selection& o) { return sameThing(o, thing); });
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::Selectable(name.c_str(), selected)) {
-      edit.selected = thing;
+    if (ImGui::Selectable(name.c_str(), selected || other)) {
+      const ImGuiIO& io = ImGui::GetIO();
+      io.KeyShift || io.KeyCtrl ? edit.toggled = thing : edit.selected = thing;
     }
     if (selected && std::exchange(*shown, static_cast<int>(i)) != static_cast<int>(i)) {
       ImGui::SetScrollHereY();
@@ -137,6 +140,7 @@ void inspectorButton(UiModel& model) {
 void edit(UiModel& model, PanelDock* dock) {
   model.edit.edited = false;
   model.edit.action = EditAction::none;
+  model.edit.toggled.reset();
   drawOverlay(model.edit.overlay);
   if (model.edit.open && dock) {
     inspector(model, *dock);

@@ -297,6 +297,10 @@ void selectedThing(UiModel& model) {
     ImGui::TextWrapped("Click something in the picture, also in a mirror, or choose it from the list.");
     return;
   }
+  if (!edit.others.empty()) {
+    ImGui::TextWrapped("with %d more, which it takes along: the numbers are of the first",
+                       static_cast<int>(edit.others.size()));
+  }
   if (!edit.through.empty()) {
     throughButtons(model);
   }

@@ -37,7 +37,8 @@ void loading(UiModel& model);
 void edit(UiModel& model, PanelDock* dock);
 void inspectorButton(UiModel& model);
 
-// At the lower left edge of the display, over nothing else: PanelDock keeps its place free.
+// At the lower left edge of the display, over nothing else: PanelDock keeps its place free. `width`: pixels, of the
+// panel; 0 while that is hidden, and the line is as large as its text.
 float statusHeight();  // pixels
 void statusLine(const UiModel& model, float width);
 

@@ -186,6 +186,9 @@ void SimpleUI::build(UiModel& model) {
     }
   }
   panels::edit(model, visible_ ? &dock_ : nullptr);
+  if (visible_ || !model.status.withPanelOnly) {
+    panels::statusLine(model, visible_ ? std::max(statusWidth_, 20.0f * ImGui::GetFontSize()) : 0.0f);
+  }
   ImGui::Render();
 }
 
@@ -207,7 +210,6 @@ void SimpleUI::buildPanel(UiModel& model) {
     statusWidth_ = width;
   }
   ImGui::End();
-  panels::statusLine(model, std::max(statusWidth_, 20.0f * ImGui::GetFontSize()));
 }
 
 // The windows beside the panel, and what is said about the panel itself.

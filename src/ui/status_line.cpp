@@ -23,13 +23,15 @@ void statusLine(const UiModel& model, float width) {
   if (model.status.text.empty() || alpha <= 0.0f) {
     return;
   }
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
-  const float height = statusHeight();
-  ImGui::SetNextWindowPos({margin, std::max(ImGui::GetIO().DisplaySize.y - height - 0.5f * margin, 0.0f)});
   // Paths have no spaces to wrap at: beyond the panel if need be.
   const float text = ImGui::CalcTextSize(model.status.text.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetNextWindowSize(
-      {std::clamp(text, width, std::max(width, mostWidth * ImGui::GetIO().DisplaySize.x)), height});
+  const float most = std::max(width, mostWidth * display.x);
+  const bool oneLine = width == 0.0f && text <= most;
+  const float height = statusHeight() - (oneLine ? ImGui::GetTextLineHeightWithSpacing() : 0.0f);
+  ImGui::SetNextWindowPos({margin, std::max(display.y - height - 0.5f * margin, 0.0f)});
+  ImGui::SetNextWindowSize({std::clamp(text, width, most), height});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImGui::GetStyle().FramePadding);
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |

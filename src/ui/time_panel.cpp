@@ -12,7 +12,7 @@ namespace {
 
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
-constexpr std::array<KeyHelp, 34> keys{{
+constexpr std::array<KeyHelp, 35> keys{{
     {"drag", "look around: about the target (orbit) or from where you are (fly)"},
     {"drag middle or right", "move sideways and up or down"},
     {"wheel", "nearer or farther"},
@@ -33,10 +33,11 @@ constexpr std::array<KeyHelp, 34> keys{{
     {"F10", "record the window as numbered pictures, and end it"},
     {"Shift+F10", "the same without the panel"},
     {"click", "select what is there, in mirrors too; again: the mirror it is seen in"},
+    {"Shift+click", "add what stands there to what is selected, or take it out: all move, turn, copy and go together"},
     {"G", "handles that move, handles that turn (Ctrl while dragging: steps)"},
     {"N Shift+N", "select the next thing, the one before"},
     {"F2", "inspector: everything in the scene, with its numbers"},
-    {"Ctrl+D", "duplicate the selected thing"},
+    {"Ctrl+D", "duplicate what is selected"},
     {"Del", "delete it"},
     {"Ctrl+Z", "undo"},
     {"Ctrl+Shift+Z", "redo, as Ctrl+Y"},
@@ -45,7 +46,7 @@ constexpr std::array<KeyHelp, 34> keys{{
     {"F11", "full screen and back"},
     {"Tab", "hide or show the panel"},
     {"F1", "this list"},
-    {"Esc", "stop dragging; close what is on top; deselect"},
+    {"Esc", "stop dragging; close what is on top; deselect; dismiss the message"},
     {"Ctrl+Q", "quit"},
 }};
 
@@ -56,7 +57,7 @@ struct KeyGroup {
   bool columnEnds;
 };
 constexpr std::array<KeyGroup, 5> groups{
-    {{"view", 10, false}, {"time", 5, false}, {"pictures", 4, true}, {"edit", 10, false}, {"window", 5, false}}};
+    {{"view", 10, false}, {"time", 5, false}, {"pictures", 4, true}, {"edit", 11, false}, {"window", 5, false}}};
 
 constexpr std::array<KeyHelp, 9> gamepad{{
     {"left stick", "forwards, back, left, right"},
@@ -69,6 +70,10 @@ constexpr std::array<KeyHelp, 9> gamepad{{
     {"sticks pressed", "left: the scene's camera, right: save the window as a picture"},
     {"Start, Back", "pause the animation; hide or show the panel"},
 }};
+
+constexpr const char* layoutHelp =
+    "W A S D Q E are meant by their place on an American keyboard, all others by what is printed on them;\n"
+    "what is printed on one of the six, as , and . with Dvorak, is where an American keyboard has it.";
 
 void helpTable(const char* title, std::span<const KeyHelp> rows) {
   ImGui::TextDisabled("%s", title);
@@ -167,6 +172,7 @@ void help(UiModel& model) {
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, ImGui::GetIO().DisplaySize);
   if (ImGui::Begin(helpTitle, &model.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     keyTables();
+    ImGui::TextDisabled("%s", layoutHelp);
   }
   ImGui::End();
 }

@@ -124,7 +124,8 @@ struct UiAccuracy {
 // What was done last, to be read and forgotten.
 struct UiStatus {
   std::string text;
-  double age = 0.0;  // seconds
+  double age = 0.0;            // seconds
+  bool withPanelOnly = false;  // the window is saved as a picture: without the panel there is nothing to be read
 };
 inline constexpr double statusSeconds = 8.0;  // that it is shown, fading in the last one
 
@@ -187,11 +188,9 @@ struct UiModel {
   bool bookmarkView = false;           // set by the panel
   bool removeBookmark = false;         // set by the panel: the one that was gone to last
   bool copyCommand = false;            // set by the panel: put the command line of this view into the clipboard
-  std::string command;                 // that was copied last
   bool help = false;                   // the list of keys is open; changed by the person
   bool screenshot = false;             // set by the panel: save the window as a picture
   UiStatus status;
-  std::string picture;         // where the last screenshot is, or why it is not
   std::string loading;         // the file that is read in the background; empty: none
   double loadingDone = 0.0;    // share, 0 .. 1
   bool cancelLoading = false;  // set by the panel
