@@ -178,7 +178,8 @@ TEST(UnchangedPictures, EditsShowInTheFrameAfterThem) {
       last = rendering.draw().rgba;
       ASSERT_EQ(skipping.draw().rgba, last) << "edit " << i << ", frame " << frame;
       EXPECT_TRUE(rendering.drawsMain());
-      EXPECT_EQ(skipping.drawsMain(), frame < 2) << "edit " << i << ", frame " << frame;
+      // The first edit is none.
+      EXPECT_EQ(skipping.drawsMain(), frame < 2 && i != 1) << "edit " << i << ", frame " << frame;
       if (frame == 3) {
         edits[i](skipping.scene());
         edits[i](rendering.scene());
