@@ -139,6 +139,7 @@ TEST(MeshError, WhereRaysAreTracedAllTrianglesAreDrawn) {
   const FramePlan mapped = planOf(scene, 2.0, {{"effects.curved_lookup", "environment"}});
   ASSERT_EQ(mapped.passes[0].simplified.size(), 1u) << "a curved mirror itself stays exact";
   EXPECT_EQ(mapped.passes[0].simplified[0].instance, 1);
+  ASSERT_FALSE(mapped.maps.empty());
   for (const EnvironmentMap& map : mapped.maps) {
     for (const PlannedPass& face : map.faces) {
       EXPECT_TRUE(face.simplified.empty());
@@ -159,10 +160,9 @@ TEST(MeshError, OfBallsSeenInPartOnlyThatPartIsDrawn) {
   ASSERT_EQ(pass.simplified.size(), 1u);
   const MeshLevels& levels = levelsOf(scene.meshes[0]);
   const MeshLevel& level = levels.levels[pass.simplified[0].level];
-  if (!level.clusters.empty()) {
-    ASSERT_EQ(pass.partial.size(), 1u);
-    EXPECT_LT(indexCount(pass.partial[0].ranges), level.all.count);
-  }
+  ASSERT_FALSE(level.clusters.empty());
+  ASSERT_EQ(pass.partial.size(), 1u);
+  EXPECT_LT(indexCount(pass.partial[0].ranges), level.all.count);
   for (const PartialInstance& partial : pass.partial) {
     for (const IndexRange& range : partial.ranges) {
       EXPECT_GE(range.first, level.all.first);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "frame/effects.hpp"
+#include "frame/image_reuse.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame_support.hpp"
 
@@ -359,6 +360,22 @@ TEST(UnchangedMain, ReprojectedImagesAreNotTheSameTwice) {
     frames.next();
     EXPECT_FALSE(frames.plan.mainUnchanged);
   }
+}
+
+// As where a budget of passes is spent on others.
+TEST(UnchangedMain, AMirrorThatLosesItsImageDrawsIt) {
+  Frames frames(room());
+  frames.next();
+  frames.next();
+  ASSERT_TRUE(frames.plan.main.mirrors[0].held);
+  const SceneState state = evaluate(frames.scene, 0.0);
+  FramePlan plan = frames.plan;
+  const ImageSurroundings around{frames.scene, state, frames.settings, plan.projection, plan.effects, {}};
+  keepMain(plan, &frames.main, around);
+  EXPECT_TRUE(plan.mainUnchanged);
+  plan.main.mirrors[0].held.reset();
+  keepMain(plan, &frames.main, around);
+  EXPECT_FALSE(plan.mainUnchanged);
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   }
   planner.add({{"reflection.samples", "1"}, {"view.samples", most}});
   planner.add({{"reflection.samples", most}, {"view.samples", "1"}});
-  if (context.effects.empty()) {  // where rays are traced it changes nothing
+  if (context.effects.empty()) {  // of scenes that may trace rays, where it changes nothing
     for (const char* texels : full ? std::vector{"0.25", "0.5", "1", "2", "4"} : std::vector{"0.5", "2"}) {
       planner.add({{"reflection.mesh_error", texels}});
     }

@@ -107,8 +107,8 @@ void printEffects(const nlohmann::ordered_json& effects) {
 }
 
 // One frame at a time: the times of a frame are then all its own. Nothing if it was interrupted.
-std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Options& options, int measured) {
-  Progress progress("bench", options.warmup + measured);
+std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Options& options, int measured,
+                                                    Progress& progress) {
   std::vector<nlohmann::ordered_json> frames;
   for (int i = 0; i < options.warmup + measured; ++i) {
     session.draw(options.time, false);
@@ -125,17 +125,23 @@ std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Opti
 }
 
 // Milliseconds from one frame to the next when the CPU records one while the device draws the one before, as it does
-// for a window that nothing holds up.
-nlohmann::ordered_json measureIntervals(Session& session, double time, int measured) {
+// for a window that nothing holds up. Nothing if it was interrupted.
+std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double time, int measured,
+                                                       Progress& progress) {
+  constexpr int untilTheyOverlap = static_cast<int>(framesInFlight) + 1;
   std::vector<double> intervals;
   Clock::time_point last{};
-  for (int i = 0; i < measured + static_cast<int>(framesInFlight) + 1; ++i) {
+  for (int i = 0; i < untilTheyOverlap + measured; ++i) {
     session.draw(time, false);
     const Clock::time_point now = Clock::now();
-    if (i > static_cast<int>(framesInFlight)) {
+    if (i >= untilTheyOverlap) {
       intervals.push_back(std::chrono::duration<double, std::milli>(now - last).count());
+      progress.advance();
     }
     last = now;
+    if (interruptRequested()) {
+      return std::nullopt;
+    }
   }
   session.finish();
   return summary(std::move(intervals));
@@ -175,11 +181,13 @@ int runBench(const Options& options) {
     session.setSettings(settings);
   }
   installInterruptHandler();
-  std::optional<nlohmann::ordered_json> merged = measureFrames(session, options, measured);
-  if (!merged) {
+  Progress progress("bench", options.warmup + 2 * measured);
+  std::optional<nlohmann::ordered_json> merged = measureFrames(session, options, measured, progress);
+  const auto intervals = merged ? measureIntervals(session, options.time, measured, progress) : std::nullopt;
+  if (!intervals) {
     return 1;
   }
-  (*merged)["totals"]["interval_ms"] = measureIntervals(session, options.time, measured);
+  (*merged)["totals"]["interval_ms"] = *intervals;
   if (options.benchPrices) {
     addPrices(*merged, effectPrices(session, options.time, std::max(5, measured / 4)));
   }

@@ -300,8 +300,9 @@ void Planner::findEffects() {
 }
 
 // Rays start on the surfaces that are drawn and meet the meshes themselves, which would shadow their simplified selves.
+// Without clipping, what is drawn may be nearer than the mirror.
 void Planner::simplify() {
-  if (settings_.meshError <= 0.0 || plan_.effects.traces()) {
+  if (settings_.meshError <= 0.0 || settings_.clip == ClipMethod::none || plan_.effects.traces()) {
     return;
   }
   for (size_t i = 1; i < nodes_.size(); ++i) {

@@ -46,8 +46,9 @@ class Numbers {
     addAll(view.eye, view.worldToView, view.clip, view.cone, view.rect, view.pictureSize, view.path);
   }
   void add(const SimplifiedInstance& simplified) { addAll(simplified.instance, simplified.level); }
+  // An image that is held is its own content; without one the background is seen.
   void add(const MirrorDraw& draw) {
-    addAll(draw.mirror, draw.back, draw.scatters, draw.blurs, draw.polygon, draw.plane);
+    addAll(draw.held.has_value(), draw.mirror, draw.back, draw.scatters, draw.blurs, draw.polygon, draw.plane);
   }
 
   std::vector<uint64_t> take() { return std::move(numbers_); }

@@ -51,6 +51,9 @@ double largestError(const View& view, const Projection& projection, const Instan
 LevelChoice chooseLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
                         std::vector<IndexRange> seen) {
   LevelChoice best{.ranges = std::move(seen)};
+  if (largestError <= 0.0) {
+    return best;  // levels are not made for nothing
+  }
   const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
   const auto end = std::upper_bound(levels.begin(), levels.end(), largestError,
                                     [](double error, const MeshLevel& level) { return error < level.error; });
@@ -77,9 +80,8 @@ void simplifyPass(PlannedPass& pass, const View& readable, const Projection& pro
   for (const int i : pass.instances) {
     const InstanceState& instance = state.instances[static_cast<size_t>(i)];
     const Mesh& mesh = scene.meshes[instance.mesh];
-    const auto was = std::find_if(pass.partial.begin(), pass.partial.end(),
-                                  [&](const PartialInstance& p) { return p.instance == i; });
-    LevelChoice choice{.ranges = was != pass.partial.end() ? was->ranges : std::vector{allOf(mesh)}};
+    const PartialInstance* part = partOf(pass.partial, i);
+    LevelChoice choice{.ranges = part ? part->ranges : std::vector{allOf(mesh)}};
     const bool curved = settings.effects.curved && scene.objects[instance.object].mirror;
     if (!curved) {
       const double largest = largestError(readable, projection, instance, mesh, settings.reflection.meshError);

@@ -48,6 +48,12 @@ bool visible(const MeshCluster& cluster, const std::vector<LocalPlane>& planes) 
 
 }  // namespace
 
+const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int instance) {
+  const auto found = std::lower_bound(partial.begin(), partial.end(), instance,
+                                      [](const PartialInstance& part, int wanted) { return part.instance < wanted; });
+  return found != partial.end() && found->instance == instance ? &*found : nullptr;
+}
+
 IndexRange allOf(const Mesh& mesh) {
   return {0, static_cast<uint32_t>(mesh.indices.size())};
 }

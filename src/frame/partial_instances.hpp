@@ -21,6 +21,9 @@ struct SimplifiedInstance {
   int level = 0;     // index into MeshLevels::levels
 };
 
+// Of an ascending list, that of the instance; null if there is none.
+const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int instance);
+
 IndexRange allOf(const Mesh& mesh);
 
 // The triangles of an instance that the view may see, cluster by cluster: one range of all of them unless that leaves

@@ -40,7 +40,7 @@ struct IndexRange {
   bool operator==(const IndexRange&) const = default;
 };
 
-struct MeshLevels;
+struct LevelsOfMesh;
 
 struct MeshPart {
   uint32_t firstIndex = 0;
@@ -69,7 +69,7 @@ struct Mesh {
   std::vector<MeshCluster> clusters;  // of all triangles, in their order; none of a small mesh. See clustersOf
   std::vector<std::vector<glm::dvec3>>
       faces;  // flat and convex, the largest few; relative to `center`. See convexFaces
-  mutable std::shared_ptr<const MeshLevels> levels;  // what levelsOf has made of it, if it was asked
+  mutable std::shared_ptr<LevelsOfMesh> levels;  // what levelsOf has made of it, if it was asked
 };
 
 }  // namespace speculum

@@ -236,16 +236,23 @@ size_t indexCount(const std::vector<SimplifiedPart>& parts) {
   return count;
 }
 
+// At least that of the level before.
+double errorOf(const std::vector<SimplifiedPart>& parts, double before) {
+  for (const SimplifiedPart& part : parts) {
+    before = part.error(before);
+  }
+  return before;
+}
+
 // The next level, of what is left of the parts.
-MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, MeshLevels& levels) {
-  MeshLevel level{.error = levels.levels.empty() ? 0.0 : levels.levels.back().error};
+MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, double error, MeshLevels& levels) {
+  MeshLevel level{.error = error};
   level.all.first = static_cast<uint32_t>(levels.indices.size());
   LevelVertices vertices(levels.vertices);
   for (const SimplifiedPart& part : parts) {
     const auto first = static_cast<uint32_t>(levels.indices.size());
     part.append(vertices, levels.indices);
     level.parts.push_back({first, static_cast<uint32_t>(levels.indices.size()) - first});
-    level.error = part.error(level.error);
   }
   level.all.count = static_cast<uint32_t>(levels.indices.size()) - level.all.first;
   level.clusters = clustersOf(levels.vertices, levels.indices, level.parts);
@@ -253,6 +260,11 @@ MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, MeshLevels& levels)
 }
 
 }  // namespace
+
+struct LevelsOfMesh {
+  std::once_flag once;
+  MeshLevels levels;
+};
 
 MeshLevels simplified(const Mesh& mesh) {
   MeshLevels levels;
@@ -270,7 +282,11 @@ MeshLevels simplified(const Mesh& mesh) {
     if (left == 0 || static_cast<double>(left) > (1.0 - leastGain) * static_cast<double>(last)) {
       break;
     }
-    levels.levels.push_back(addLevel(parts, levels));
+    const double error = errorOf(parts, levels.levels.empty() ? 0.0 : levels.levels.back().error);
+    if (std::isinf(error)) {
+      break;
+    }
+    levels.levels.push_back(addLevel(parts, error, levels));
     last = left;
   }
   return levels;
@@ -278,11 +294,17 @@ MeshLevels simplified(const Mesh& mesh) {
 
 const MeshLevels& levelsOf(const Mesh& mesh) {
   static std::mutex mutex;
-  const std::scoped_lock lock(mutex);
-  if (!mesh.levels) {
-    mesh.levels = std::make_shared<const MeshLevels>(simplified(mesh));
+  std::shared_ptr<LevelsOfMesh> made;
+  {
+    const std::scoped_lock lock(mutex);
+    if (!mesh.levels) {
+      mesh.levels = std::make_shared<LevelsOfMesh>();
+    }
+    made = mesh.levels;
   }
-  return *mesh.levels;
+  // Simplifying takes seconds: other meshes do not wait for it.
+  std::call_once(made->once, [&] { made->levels = simplified(mesh); });
+  return made->levels;
 }
 
 }  // namespace speculum

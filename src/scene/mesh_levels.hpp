@@ -10,14 +10,15 @@ namespace speculum {
 struct MeshLevel {
   // In the unit of Vertex::position: the farthest that a point of the mesh lies from this level's triangles of the same
   // part, or one of these from the mesh's, measured at vertices and at points between them; in large parts at every so
-  // manieth. Infinite if a part has vanished. What normals and texture coordinates are off by is not in it.
+  // manieth. What normals and texture coordinates are off by is not in it.
   double error = 0.0;
   IndexRange all;                     // of MeshLevels::indices
   std::vector<IndexRange> parts;      // of MeshLevels::indices, in the order of Mesh::parts
   std::vector<MeshCluster> clusters;  // likewise, of all of it; none of a small one
 };
 
-// Each has about seven tenths of the triangles of the one before, the first of those of the mesh; errors ascend.
+// Each has about seven tenths of the triangles of the one before, the first of those of the mesh; errors ascend and no
+// part vanishes.
 struct MeshLevels {
   // Each level has a run of its own: lavapipe, which keeps few vertices, runs the vertex shader on all between the
   // least and the greatest index of a draw.

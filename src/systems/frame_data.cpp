@@ -232,11 +232,6 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
   const auto isCurved = [&](int i) {
     return effects.curved && scene.objects[static_cast<size_t>(state.instances[i].object)].mirror.has_value();
   };
-  const auto partOf = [&](int i) -> const PartialInstance* {
-    const auto found = std::lower_bound(pass.partial.begin(), pass.partial.end(), i,
-                                        [](const PartialInstance& part, int wanted) { return part.instance < wanted; });
-    return found != pass.partial.end() && found->instance == i ? &*found : nullptr;
-  };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
   // Plain instances of a mesh at one level are one draw, curved mirrors of the same mesh another, and each that is seen
   // in part is its own.
@@ -251,7 +246,7 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     const Object& object = scene.objects[instance.object];
     const bool curved = isCurved(i);
     const bool environment = curved && effects.curvedLookup == CurvedLookup::environment;
-    const PartialInstance* part = partOf(i);
+    const PartialInstance* part = partOf(pass.partial, i);
     const int level = levelOf(pass, i);
     if (data.batches.empty() || data.batches.back().mesh != instance.mesh || data.batches.back().curved != curved ||
         data.batches.back().level != level || environment || part || !data.batches.back().ranges.empty()) {

@@ -102,7 +102,19 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                        mirrorTargets_.images(),
                        mirrorTargets_.held(),
                        mapSets_};
-  if (settings.debug.checkFinite) {
+  recordPasses(frame, info);
+  recorded_.push_back(display_.record(frame, {.descriptor = main_->descriptor()}, settings));
+  if (debug) {
+    recordDebugView(frame, settings, plan, *debug);
+    recordProbe(frame, plan, *debug);
+  }
+  endRecord(settings, plan, *frame.retired);
+}
+
+// Those of maps, mirrors and the main view.
+void SceneRenderer::recordPasses(Frame& frame, const FrameInfo& info) {
+  const FramePlan& plan = info.plan;
+  if (info.settings.debug.checkFinite) {
     watch_.begin(frame, plan.maps.size() + plan.passes.size() + 2);  // the main view's samples and their mean
   } else {
     watch_.release();
@@ -120,14 +132,13 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (!plan.mainUnchanged) {
     recordMainPass(frame, info);
   }
-  if (settings.debug.checkFinite) {
+  if (info.settings.debug.checkFinite) {
     watch_.end(frame);
   }
-  recorded_.push_back(display_.record(frame, {.descriptor = main_->descriptor()}, settings));
-  if (debug) {
-    recordDebugView(frame, settings, plan, *debug);
-    recordProbe(frame, plan, *debug);
-  }
+}
+
+// Gives back what no frame needed for a while.
+void SceneRenderer::endRecord(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
   const bool imagesShown = !plan.shown.empty() || plan.mainUnchanged;
   renderSystem_.endFrame(trace_.variant(), imagesShown, !plan.effects.curved.empty());
   mirrorSystem_.endFrame(trace_.variant(), imagesShown);
@@ -138,9 +149,9 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     finishLedger(settings, plan);
   }
   mainImage_ = {settings, plan.mainContent};
-  mirrorTargets_.end(plan, *frame.retired);
+  mirrorTargets_.end(plan, retired);
   heldRevision_ = renderer_.pipelines().revision();
-  environmentTargets_.endFrame(plan, *frame.retired);
+  environmentTargets_.endFrame(plan, retired);
 }
 
 // What looking at targets took, as soon as nobody does.

@@ -58,6 +58,8 @@ class SceneRenderer {
  private:
   void prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void prepareMaps(Frame& frame, const FramePlan& plan);
+  void recordPasses(Frame& frame, const FrameInfo& info);
+  void endRecord(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void recordMap(Frame& frame, const FrameInfo& info, size_t map, size_t firstPass);
   PassDesc mirrorPass(const FrameInfo& info, size_t index, const PassTargets& targets) const;
   void recordMirrorPasses(Frame& frame, const FrameInfo& info, const PassRange& range);
