@@ -60,6 +60,22 @@ TEST_F(EditSeveral, ShiftAddsAndTakesOut) {
   expectQuiet();
 }
 
+TEST_F(EditSeveral, ShiftCountsWhereTheButtonGoesDown) {
+  clickBall();
+  moveTo(lampAt_.x, lampAt_.y);
+  withKey("Shift_L", [&] { xdotool({"mousedown", "1"}); });
+  xdotool({"mouseup", "1"});
+  run(3);
+  EXPECT_EQ(edit().selected, ball);
+  EXPECT_EQ(others(), std::vector<Selection>{lamp});
+  xdotool({"mousedown", "1"});
+  run(2);
+  withKey("Shift_L", [&] { xdotool({"mouseup", "1"}); });
+  EXPECT_EQ(edit().selected, lamp);
+  EXPECT_TRUE(others().empty());
+  expectQuiet();
+}
+
 TEST_F(EditSeveral, TheyMoveTogetherInOneStep) {
   const std::vector<uint8_t> before = bare();
   clickBall();

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <fstream>
 
+#include "app/screenshot.hpp"
 #include "demo_window_support.hpp"
+#include "frame/settings.hpp"
 
 namespace speculum {
 namespace {
@@ -113,6 +115,60 @@ TEST_F(UncheckedWindow, ThePictureIsDrawnOnlyWhenItChanges) {
   settle();
   EXPECT_LT(mainView().framesAgo, last);
   EXPECT_FALSE(rightOfThePanel() == before);
+  expectQuiet();
+}
+
+TEST_F(UncheckedWindow, ThePictureIsDrawnWhileItsDepthIsLookedAt) {
+  settle();
+  click("panel.Targets");
+  click("targets.depth");
+  const PixelRect canvas = widget("targets.canvas");
+  pointAt(canvas.x + canvas.width / 2, canvas.y + canvas.height / 2);
+  settle();
+  const std::optional<UiTexel>& value = demo_->model().targets.value;
+  ASSERT_TRUE(value && value->depth);
+  const double middle = value->metres;
+  EXPECT_NEAR(middle, 6.0, 0.01) << "the mirror, 6 m from the eye";
+  for (const int left : {10, 20, 30}) {
+    pointAt(canvas.x + canvas.width / 2 - left, canvas.y + canvas.height / 2);
+    ASSERT_TRUE(draws(4));
+    EXPECT_EQ(mainView().framesAgo, 0);
+    ASSERT_TRUE(value && value->depth);
+    EXPECT_NEAR(value->metres, middle, 1e-5) << "of a frame without the scene there is no depth";
+  }
+  click("panel.Targets");
+  settle();
+  pointAt(60, 60);
+  ASSERT_TRUE(draws(2));
+  EXPECT_GT(mainView().framesAgo, 0) << "nobody looks at it any more";
+  expectQuiet();
+}
+
+TEST_F(UncheckedWindow, AnotherSizeAndAnotherSceneAreDrawn) {
+  settle();
+  press("Tab");
+  settle();
+  const auto expectAsRendered = [&](const std::filesystem::path& file, PictureSize size) {
+    Options options = headless(file, size);
+    set(options, {{"view.exposure", settingValue(demo_->model().settings, "view.exposure")}});
+    EXPECT_TRUE(pictureOf(picture()).rgba == draw(options).rgba) << file << " at " << size.width;
+  };
+  expectAsRendered(options_.scene, {width, height});
+  demo_->window().resize(500, 400);
+  ASSERT_TRUE(draws(1));
+  settle();
+  expectAsRendered(options_.scene, {500, 400});
+  std::string toml = windowScene;
+  toml.replace(toml.find("[0.9, 1, 0]"), 11, "[-0.9, 1, 0]");
+  const std::filesystem::path other = writeScene("other", toml);
+  const int shown = demo_->model().scene;
+  demo_->openFile(other);
+  ASSERT_TRUE(draws(3));
+  settle();
+  ASSERT_NE(demo_->model().scene, shown);
+  press("Escape");
+  settle();
+  expectAsRendered(other, {500, 400});
   expectQuiet();
 }
 

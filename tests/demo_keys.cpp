@@ -230,6 +230,7 @@ TEST_F(OtherKeyboards, OnDvorakWhatFliesDoesNotStepAndTimeIsSteppedBeside) {
   layout({"us", "-variant", "dvorak"});
   press("space");
   ASSERT_TRUE(demo_->model().paused);
+  const glm::dvec3 before = eye();
   press("v");  // where an American keyboard has the full stop
   const double time = demo_->model().time;
   press("v");
@@ -237,7 +238,6 @@ TEST_F(OtherKeyboards, OnDvorakWhatFliesDoesNotStepAndTimeIsSteppedBeside) {
   press("w");  // where it has the comma
   press("w");
   EXPECT_NEAR(demo_->model().time, time - timeStep, 1e-12);
-  const glm::dvec3 before = eye();
   press("space");
   press("space");
   EXPECT_EQ(eye(), before) << "nothing of it flies";

@@ -73,6 +73,15 @@ TEST_F(ScarceMemory, TexturesThatDoNotFitAreLeftOutAndTheWindowLives) {
   const Image8 without = shown();
   EXPECT_EQ(refusedAllocations(), refused) << "not tried in every frame";
   EXPECT_EQ(without.rgba, expected(file, "false").rgba);
+  const auto told = [&] {
+    const std::vector<LogLine>& lines = demo_->model().log.history->lines();
+    return std::count_if(lines.begin(), lines.end(),
+                         [&](const LogLine& line) { return line.text.find(message) != std::string::npos; });
+  };
+  EXPECT_EQ(told(), 1);
+  drag("view.exposure", 0.5, 40);
+  EXPECT_EQ(refusedAllocations(), 2 * refused) << "tried once the slider was let go";
+  EXPECT_EQ(told(), 1) << "the same again";
   giveMemory();
   run(5);
   EXPECT_NE(message, "") << "nothing was changed";

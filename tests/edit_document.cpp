@@ -239,6 +239,25 @@ TEST(SceneDocument, SeveralThingsAreDuplicatedAndRemovedInOneStepAndStayTogether
   EXPECT_FALSE(document.canUndo() || document.modified());
 }
 
+TEST(SceneDocument, DuplicatesStandBesideTheWholeRowOfCopies) {
+  for (const double step : {3.0, -3.0}) {
+    TextScene text(kText);
+    text.document.change("spread", kTeapot, [&](Scene& scene) { scene.objects[0].copies.step = {step, 0, 0}; });
+    const Selection last{Kind::object, 0, 2};
+    const Scene& scene = text.scene;
+    // Three triangles of 2 m, the last 6 m from the first.
+    text.document.duplicate(last);
+    EXPECT_NEAR(scene.objects[1].position.x, 8.2, 1e-12) << step;
+    EXPECT_EQ(scene.objects[1].copies.step.x, step);
+    // The lamp is within the row.
+    const std::vector<Selection> copies = text.document.duplicate(std::vector<Selection>{last, kLamp});
+    ASSERT_EQ(copies[0], (Selection{Kind::object, 2}));
+    EXPECT_GT(scene.objects[2].position.x, 8.0) << step;
+    EXPECT_LT(scene.objects[2].position.x, 16.0) << step;
+    EXPECT_NEAR(scene.lights[1].position.x, scene.objects[2].position.x, 1e-3);
+  }
+}
+
 TEST(SceneDocument, BookmarksKeepTheirNamesApart) {
   TextScene text(kText);
   SceneDocument& document = text.document;

@@ -211,7 +211,9 @@ void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Setti
     model_.message = describe(watch.findings().front());
   }
   if (model_.message.empty()) {
-    model_.message = texturesProblem_.empty() ? planner_.message() : texturesProblem_;
+    model_.message = texturesRefused_ ? texturesRefused_->problem : "";
+    model_.message += !model_.message.empty() && !planner_.message().empty() ? "; " : "";
+    model_.message += planner_.message();
   }
   model_.time = time_;
   fillPasses(plan, state, drawn.reflection.updateInterval);

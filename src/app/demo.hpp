@@ -44,6 +44,11 @@ class Demo {
  private:
   using Clock = std::chrono::steady_clock;
 
+  struct RefusedTextures {
+    std::string settings;  // at which there was no memory for them
+    std::string problem;
+  };
+
   void installInput();
   void findScenes();
   void showGallery();
@@ -135,8 +140,7 @@ class Demo {
   Renderer renderer_;
   std::unique_ptr<SceneRenderer> sceneRenderer_;
   BudgetPlanner planner_;
-  std::optional<std::string> texturesRefusedWith_;  // settings at which there was no memory for them
-  std::string texturesProblem_;                     // then
+  std::optional<RefusedTextures> texturesRefused_;
   std::unique_ptr<SimpleUI> ui_;
   CameraController camera_;
   AccuracyController accuracy_;
@@ -152,6 +156,7 @@ class Demo {
   SceneState look_;                      // what the person points into
   std::vector<SkippedMirror> skipped_;   // in the last frame
   MouseButton pressedButton_ = MouseButton::left;
+  bool pressedShift_ = false;
   std::optional<glm::dvec2> pressed_;              // screen coordinates; the pointer went down over the picture
   std::optional<std::filesystem::path> nextFile_;  // to be opened, while unsaved changes are asked about
   std::optional<uint64_t> discarded_;              // revision of the scene whose changes were given up

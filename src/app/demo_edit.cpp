@@ -89,6 +89,7 @@ void Demo::pressPointer(const MouseButtonEvent& event) {
     if (ui_ && !ui_->takesPointer(cursorX_, cursorY_) && !editor_->dragging()) {
       pressed_ = {cursorX_, cursorY_};
       pressedButton_ = event.button;
+      pressedShift_ = event.shift;
       if (left && lookAtScene(time_)) {
         holdsHandle_ = editor_->press(look(), pointerPixel());
       }
@@ -99,8 +100,7 @@ void Demo::pressPointer(const MouseButtonEvent& event) {
     editor_->release();
   } else if (left && pressed_ && !dragging_ && lookAtScene(time_)) {
     editor_->cancelDrag();
-    const bool also = window_.keyDown(Key::leftShift) || window_.keyDown(Key::rightShift);
-    also ? editor_->clickAlso(look(), pointerPixel()) : editor_->click(look(), pointerPixel());
+    pressedShift_ ? editor_->clickAlso(look(), pointerPixel()) : editor_->click(look(), pointerPixel());
     model_.edit.open = model_.edit.open || editor_->document().selection();
   }
   pressed_.reset();

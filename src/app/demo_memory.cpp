@@ -5,14 +5,16 @@
 
 namespace speculum {
 
-// Textures for which there is no memory are left out until a setting changes, which may have freed some.
+// Textures for which there is no memory are left out until a setting changes, which may have freed some. While a widget
+// is held settings may change in every frame, and each trial waits for the device.
 FittedPlan Demo::planAndUpload(Frame& frame, const SceneState& state, Settings settings) {
-  if (texturesRefusedWith_ != settingsKey(model_.settings)) {
-    texturesRefusedWith_.reset();
-    texturesProblem_.clear();
+  std::string known;
+  if (texturesRefused_ && !ui_->holdsWidget() && texturesRefused_->settings != settingsKey(model_.settings)) {
+    known = texturesRefused_->problem;
+    texturesRefused_.reset();
   }
   const auto plan = [&] {
-    settings.effects.textures = settings.effects.textures && !texturesRefusedWith_;
+    settings.effects.textures = settings.effects.textures && !texturesRefused_;
     EarlierImages earlier = sceneRenderer_->earlier();
     if (watched_ && watched_->empty()) {
       earlier.main = nullptr;  // the main view is there to be shown, with its depth
@@ -24,12 +26,14 @@ FittedPlan Demo::planAndUpload(Frame& frame, const SceneState& state, Settings s
   try {
     sceneRenderer_->uploadTextures(frame, state, fitted.settings, fitted.plan);
   } catch (const OutOfMemoryError& error) {
-    if (texturesRefusedWith_) {
+    if (texturesRefused_) {
       throw;  // it is not for textures
     }
-    texturesRefusedWith_ = settingsKey(model_.settings);
-    texturesProblem_ = "drawn without textures until a setting is changed: " + std::string(error.what());
-    spdlog::warn("{}", texturesProblem_);
+    texturesRefused_ = {settingsKey(model_.settings),
+                        "drawn without textures until a setting is changed: " + std::string(error.what())};
+    if (texturesRefused_->problem != known) {
+      spdlog::warn("{}", texturesRefused_->problem);
+    }
     fitted = plan();
     sceneRenderer_->uploadTextures(frame, state, fitted.settings, fitted.plan);
   }

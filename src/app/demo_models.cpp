@@ -55,7 +55,7 @@ void Demo::useModels() {
     nonFinite_ = nonFinite();
     sceneRenderer_.reset();
   }
-  texturesRefusedWith_.reset();
+  texturesRefused_.reset();
   sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
   editor_->modelsChanged();
 }

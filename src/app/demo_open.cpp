@@ -93,7 +93,7 @@ void Demo::showScene(std::unique_ptr<LoadedScene> scene) {
     sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, loaded_->scene);
     return;
   }
-  texturesRefusedWith_.reset();
+  texturesRefused_.reset();
   startEditing();
   model_.settings = loaded_->settings;
   model_.sceneSettings = loaded_->settings;

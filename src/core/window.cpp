@@ -184,11 +184,11 @@ void Window::installCallbacks() {
            (modifiers & GLFW_MOD_SHIFT) != 0, control});
     }
   });
-  glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {
+  glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int modifiers) {
     of(w)->active_ = true;
     const auto& mouseButton = of(w)->callbacks_.mouseButton;
     if (mouseButton && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
-      mouseButton({static_cast<MouseButton>(button), action == GLFW_PRESS});
+      mouseButton({static_cast<MouseButton>(button), action == GLFW_PRESS, (modifiers & GLFW_MOD_SHIFT) != 0});
     }
   });
   glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* w, double x, double y) {

@@ -72,6 +72,7 @@ struct KeyEvent {
 struct MouseButtonEvent {
   MouseButton button = MouseButton::left;
   bool pressed = false;
+  bool shift = false;
 };
 
 // Set the members of interest; positions are in screen coordinates of the window, origin top left.

@@ -55,6 +55,11 @@ glm::dvec3 halfExtent(const Object& object, const Mesh& mesh) {
          glm::abs(linear[2]) * mesh.halfExtent.z;
 }
 
+// From the first copy to the last, metres of the world.
+glm::dvec3 rowOf(const Object& object) {
+  return static_cast<double>(object.copies.count - 1) * object.copies.step;
+}
+
 template <typename T>
 Selection append(std::vector<T>& things, std::vector<int>& origins, T thing, Kind kind) {
   things.push_back(std::move(thing));
@@ -125,7 +130,7 @@ Selection SceneDocument::duplicate(const Selection& selection) {
   };
   if (selection.kind == Kind::object) {
     Object object = named(scene_.objects.at(selection.index), scene_.objects);
-    object.position.x += 2.2 * halfExtent(object, scene_.meshes.at(object.mesh)).x;
+    object.position.x += 2.2 * halfExtent(object, scene_.meshes.at(object.mesh)).x + std::abs(rowOf(object).x);
     return structural(label, [&] { return append(scene_.objects, origins_.objects, object, Kind::object); });
   }
   if (selection.kind == Kind::mirror) {
@@ -202,11 +207,13 @@ std::vector<Selection> SceneDocument::duplicate(std::span<const Selection> thing
   const SceneState state = evaluate(scene_, 0.0);
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const Selection& thing : things) {
+  for (Selection thing : things) {
+    thing.copy = 0;
     const double x = pivotOf(scene_, state, thing).x;
     const double reach = reachOf(scene_, state, thing);
-    low = std::min(low, x - reach);
-    high = std::max(high, x + reach);
+    const double row = thing.kind == Kind::object ? rowOf(scene_.objects.at(thing.index)).x : 0.0;
+    low = std::min(low, x + std::min(row, 0.0) - reach);
+    high = std::max(high, x + std::max(row, 0.0) + reach);
   }
   std::vector<Selection> copies;
   structural("duplicate " + describe(scene_, things), [&] {

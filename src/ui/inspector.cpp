@@ -43,7 +43,11 @@ void thingList(UiModel& model) {
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::Selectable(name.c_str(), selected || other)) {
       const ImGuiIO& io = ImGui::GetIO();
-      io.KeyShift || io.KeyCtrl ? edit.toggled = thing : edit.selected = thing;
+      if (io.KeyShift || io.KeyCtrl) {
+        edit.toggled = thing;
+      } else {
+        edit.selected = thing;
+      }
     }
     if (selected && std::exchange(*shown, static_cast<int>(i)) != static_cast<int>(i)) {
       ImGui::SetScrollHereY();

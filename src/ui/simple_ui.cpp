@@ -345,6 +345,10 @@ bool SimpleUI::holdsEscape() const {
   return !ImGui::GetCurrentContext()->OpenPopupStack.empty() || ImGui::IsAnyItemActive();
 }
 
+bool SimpleUI::holdsWidget() const {
+  return ImGui::IsAnyItemActive();
+}
+
 bool SimpleUI::closeTop(UiModel& model) {
   const auto close = [&](const ImGuiWindow& window) {
     const std::string_view name = window.Name;

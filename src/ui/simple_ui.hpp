@@ -30,6 +30,7 @@ class SimpleUI {
   // Screen coordinates of the window.
   bool takesPointer(double x, double y) const;
   bool holdsEscape() const;       // ImGui closes something at Esc by itself, or lets go of it
+  bool holdsWidget() const;       // one is being dragged, pressed or typed into
   bool closeTop(UiModel& model);  // the window on top, but for the panel itself; false if there is none
   bool wantsKeyboard() const;     // a text field is being edited
   bool navigating() const;        // a widget is chosen by keyboard or gamepad
