@@ -28,7 +28,8 @@ constexpr std::array<Cost, 38> costs{{
     {"reflection.update_interval",
      "Saves the passes of mirrors seen directly in the frames between; what moves in them moves in steps."},
     {"reflection.skip_unchanged",
-     "Saves the passes of mirrors in which nothing changed, and the main view's where nothing at all did; their images\n"
+     "Saves the passes of mirrors in which nothing changed, and the main view's where nothing at all did; their "
+     "images\n"
      "keep their memory."},
     {"reflection.mesh_error",
      "Saves vertices of what is small in mirrors; shading shifts a little with the triangles. Without effect while\n"
