@@ -44,11 +44,20 @@ pid_t start(std::vector<std::string> program) {
   return child;
 }
 
+// openbox now and then forgets a signal that comes while it has nothing to do.
 void stop(pid_t child) {
-  if (child > 0) {
-    kill(child, SIGTERM);
-    waitpid(child, nullptr, 0);
+  if (child <= 0) {
+    return;
   }
+  kill(child, SIGTERM);
+  for (int i = 0; i < 200; ++i) {
+    if (waitpid(child, nullptr, WNOHANG) == child) {
+      return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
 }
 
 // One line from a pipe, or nothing within ten seconds.
