@@ -7,6 +7,12 @@ layout(constant_id = 0) const bool clipAtMirror = false;
 layout(location = 0) in vec3 position;  // mesh space
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
+// Of the instance, InstanceData of interface.glsl. As attributes and not from the storage buffer: lavapipe fetches them
+// once for all vertices that it shades at a time, but reads a buffer anew for each.
+layout(location = 3) in mat4 clipFromMesh;
+layout(location = 7) in vec4 relativeFromMesh[3];  // rows
+layout(location = 10) in vec3 normalFromMesh[3];   // rows
+layout(location = 13) in vec4 clipPlane;           // in mesh space
 
 layout(location = 0) centroid out vec3 relativePosition;
 layout(location = 1) centroid out vec3 relativeNormal;
@@ -21,16 +27,11 @@ out gl_PerVertex {
 void main() {
   vec4 p = vec4(position, 1.0);
   instanceIndex = gl_InstanceIndex;
-  vec4 m0 = instances[gl_InstanceIndex].relativeFromMesh[0];
-  vec4 m1 = instances[gl_InstanceIndex].relativeFromMesh[1];
-  vec4 m2 = instances[gl_InstanceIndex].relativeFromMesh[2];
-  vec3 n0 = instances[gl_InstanceIndex].normalFromMesh[0].xyz;
-  vec3 n1 = instances[gl_InstanceIndex].normalFromMesh[1].xyz;
-  vec3 n2 = instances[gl_InstanceIndex].normalFromMesh[2].xyz;
-  relativePosition = vec3(dot(m0, p), dot(m1, p), dot(m2, p));
+  relativePosition = vec3(dot(relativeFromMesh[0], p), dot(relativeFromMesh[1], p), dot(relativeFromMesh[2], p));
   // Not normalised here: interpolation has to be linear in the mesh's own normals.
-  relativeNormal = vec3(dot(n0, normal), dot(n1, normal), dot(n2, normal));
+  relativeNormal =
+      vec3(dot(normalFromMesh[0], normal), dot(normalFromMesh[1], normal), dot(normalFromMesh[2], normal));
   textureUv = uv;
-  gl_Position = instances[gl_InstanceIndex].clipFromMesh * p;
-  gl_ClipDistance[0] = clipAtMirror ? dot(instances[gl_InstanceIndex].clipPlane, p) : 1.0;
+  gl_Position = clipFromMesh * p;
+  gl_ClipDistance[0] = clipAtMirror ? dot(clipPlane, p) : 1.0;
 }

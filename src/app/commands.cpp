@@ -70,6 +70,7 @@ int runCommand(const Options& options) {
 }
 
 int speculumMain(int argc, const char* const* argv) {
+  keepFreedMemory();
   try {
     const std::optional<Options> options = parseOptions(argc, argv);
     if (!options) {

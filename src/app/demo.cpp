@@ -105,6 +105,7 @@ void Demo::drawFrame(double seconds) {
   applyModel();
   time_ += model_.paused ? 0.0 : seconds * model_.timeSpeed;
   const Clock::time_point start = Clock::now();
+  renderer_.setTimerDetail(ui_->visible() ? TimerDetail::passes : TimerDetail::frame);
   std::optional<Frame> frame = renderer_.beginFrame();
   if (!frame) {
     return;

@@ -15,6 +15,7 @@ double gpuMs(Session& session, const Settings& settings, double time) {
 
 std::vector<EffectPrice> effectPrices(Session& session, double time, int pairs) {
   const Settings all = session.settings();
+  session.renderer().setTimerDetail(TimerDetail::frame);
   const DrawnFrame& frame = session.lastFrame();
   const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
   std::vector<EffectPrice> prices(effects.size());
@@ -35,6 +36,7 @@ std::vector<EffectPrice> effectPrices(Session& session, double time, int pairs) 
       }
     }
   }
+  session.renderer().setTimerDetail(TimerDetail::passes);
   session.setSettings(all);
   return prices;
 }

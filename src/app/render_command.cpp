@@ -34,6 +34,7 @@ int runRender(const Options& options) {
   const int count = std::max(1, options.frames);
   const PictureFiles files(options.out, options.frames > 0 ? count : 0);
   Session session(options);
+  session.renderer().setTimerDetail(options.stats.empty() ? TimerDetail::frame : TimerDetail::passes);
   installInterruptHandler();
   Progress progress("render", count);
   for (int i = 0; i < count; ++i) {
@@ -124,13 +125,15 @@ std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Opti
   return mergeStats(frames);
 }
 
-// Milliseconds from one frame to the next when the CPU records one while the device draws the one before, as it does
-// for a window that nothing holds up. Nothing if it was interrupted.
+// Milliseconds from one frame to the next when the CPU records one while the device draws the one before and no pass is
+// measured by itself, as it is for a window that nothing holds up and whose panel is hidden. Nothing if it was
+// interrupted.
 std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double time, int measured,
                                                        Progress& progress) {
   constexpr int untilTheyOverlap = static_cast<int>(framesInFlight) + 1;
   std::vector<double> intervals;
   Clock::time_point last{};
+  session.renderer().setTimerDetail(TimerDetail::frame);
   for (int i = 0; i < untilTheyOverlap + measured; ++i) {
     session.draw(time, false);
     const Clock::time_point now = Clock::now();
@@ -144,6 +147,7 @@ std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double 
     }
   }
   session.finish();
+  session.renderer().setTimerDetail(TimerDetail::passes);
   return summary(std::move(intervals));
 }
 

@@ -29,6 +29,7 @@ std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
 }
 
 FrameCost SessionSubject::cost(const Settings& settings) {
+  session_.renderer().setTimerDetail(TimerDetail::frame);
   Settings measured = settings;
   measured.reflection.skipUnchanged = false;
   session_.setSettings(measured);

@@ -35,8 +35,10 @@ GpuTimer::GpuTimer(Device& device, const std::string& name) : device_(device) {
   }
 }
 
-void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame) {
+void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail) {
   frame_ = frame;
+  detail_ = detail;
+  stamped_ = 0;
   passes_.clear();
   if (stamps_) {
     vkCmdResetQueryPool(commands, stamps_.get(), 0, 2 * maxPasses);
@@ -49,15 +51,31 @@ void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame) {
   }
 }
 
+void GpuTimer::stamp(VkCommandBuffer commands) {
+  if (stamps_) {
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, stamps_.get(), stamped_++);
+  }
+}
+
+void GpuTimer::finish(VkCommandBuffer commands) {
+  if (detail_ == TimerDetail::frame && stamped_ > 0) {
+    stamp(commands);
+  }
+}
+
 int GpuTimer::begin(VkCommandBuffer commands, const std::string& pass, bool statistics) {
+  if (detail_ == TimerDetail::frame) {
+    if (stamped_ == 0) {
+      stamp(commands);
+    }
+    return -1;
+  }
   if (passes_.size() == maxPasses) {
     return -1;
   }
   const auto slot = static_cast<uint32_t>(passes_.size());
   passes_.push_back({.name = pass, .hasStatistics = statistics && statistics_});
-  if (stamps_) {
-    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, stamps_.get(), 2 * slot);
-  }
+  stamp(commands);
   if (passes_.back().hasStatistics) {
     vkCmdBeginQuery(commands, statistics_.get(), slot, 0);
   }
@@ -72,9 +90,7 @@ void GpuTimer::end(VkCommandBuffer commands, int slot) {
   if (passes_[query].hasStatistics) {
     vkCmdEndQuery(commands, statistics_.get(), query);
   }
-  if (stamps_) {
-    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, stamps_.get(), 2 * query + 1);
-  }
+  stamp(commands);
 }
 
 void GpuTimer::beginSamples(VkCommandBuffer commands, int slot) {
@@ -93,9 +109,9 @@ void GpuTimer::endSamples(VkCommandBuffer commands, int slot) {
 FrameTimings GpuTimer::read() const {
   FrameTimings timings{.frame = frame_, .passes = passes_};
   const auto count = static_cast<uint32_t>(passes_.size());
-  if (stamps_ && count > 0) {
-    std::vector<uint64_t> ticks(2 * count);
-    check(vkGetQueryPoolResults(device_.get(), stamps_.get(), 0, 2 * count, ticks.size() * sizeof(uint64_t),
+  if (stamped_ > 0) {
+    std::vector<uint64_t> ticks(stamped_);
+    check(vkGetQueryPoolResults(device_.get(), stamps_.get(), 0, stamped_, ticks.size() * sizeof(uint64_t),
                                 ticks.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT),
           "read timestamps");
     const uint32_t bits = device_.caps().timestampValidBits;

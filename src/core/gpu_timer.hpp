@@ -20,16 +20,20 @@ struct PassTiming {
 struct FrameTimings {
   uint64_t frame = 0;              // number of the frame; 0: none has finished yet
   double gpuMs = 0.0;              // from the first pass's start to the last one's end
-  std::vector<PassTiming> passes;  // in the order of recording
+  std::vector<PassTiming> passes;  // in the order of recording; none if only the frame was measured
 };
 
+enum class TimerDetail { frame, passes };
+
 // Timestamps and pipeline statistics of one frame in flight. Both stamps of a pass are taken at the bottom of the pipe,
-// so that passes do not overlap in the figures and their times add up to the frame's.
+// so that passes do not overlap in the figures and their times add up to the frame's. That has its price: lavapipe ends
+// all its work before it takes a stamp, so that passes do not overlap on it either. TimerDetail::frame has two stamps.
 class GpuTimer {
  public:
   explicit GpuTimer(Device& device, const std::string& name);
 
-  void reset(VkCommandBuffer commands, uint64_t frame);  // at the start of the frame's commands
+  void reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail);  // at the start of the frame's commands
+  void finish(VkCommandBuffer commands);                                     // after its last pass
   int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
   void end(VkCommandBuffer commands, int slot);
   // Both within one render pass.
@@ -40,11 +44,15 @@ class GpuTimer {
  private:
   static constexpr uint32_t maxPasses = 512;
 
+  void stamp(VkCommandBuffer commands);
+
   Device& device_;
   QueryPoolHandle stamps_;      // null where the queue has none
   QueryPoolHandle statistics_;  // null where the device has none
   QueryPoolHandle samples_;     // null where the device cannot count them
   uint64_t frame_ = 0;
+  TimerDetail detail_ = TimerDetail::passes;
+  uint32_t stamped_ = 0;  // stamps of this frame
   std::vector<PassTiming> passes_;
 };
 

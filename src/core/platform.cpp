@@ -1,6 +1,7 @@
 #include "core/platform.hpp"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -177,6 +178,17 @@ uint64_t peakResidentBytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  if (!environment("MALLOC_TRIM_THRESHOLD_").empty() || !environment("MALLOC_MMAP_THRESHOLD_").empty()) {
+    return;
+  }
+  ::mallopt(M_TRIM_THRESHOLD, 64 << 20);
+  // Setting one threshold freezes the other at 128 KiB, above which every block is mapped and unmapped.
+  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+#endif
 }
 
 bool replaceFile(const fs::path& file, std::span<const uint8_t> content) {

@@ -35,6 +35,11 @@ ProcessResult runProcess(const std::vector<std::string>& arguments);
 std::string machineDescription();  // processor, its threads, operating system
 uint64_t peakResidentBytes();
 
+// From now on up to 64 MiB a thread that was freed stay with the process. A Vulkan driver that draws on the CPU
+// (lavapipe) allocates and frees the vertices of every draw; the C library would hand them back to the system each time
+// and fault the same pages in again at the next draw. The user's own MALLOC_ variables win.
+void keepFreedMemory();
+
 // Writes beside `file` and renames over it, so that a reader sees the old or the new content. Creates the directory.
 // Returns false, leaving the old content, if that fails.
 bool replaceFile(const std::filesystem::path& file, std::span<const uint8_t> content);

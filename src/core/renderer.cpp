@@ -138,7 +138,7 @@ std::optional<Frame> Renderer::beginFrame() {
   const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
   check(vkBeginCommandBuffer(slot.commands, &begin), "begin a frame's commands");
-  slot.timer.reset(slot.commands, frameNumber_);
+  slot.timer.reset(slot.commands, frameNumber_, timerDetail_);
   return Frame{.commands = slot.commands,
                .index = index,
                .imageIndex = *image,
@@ -165,6 +165,7 @@ PassScope Renderer::beginOverlay(Frame& frame) {
 
 void Renderer::endFrame(Frame& frame) {
   Slot& slot = slots_[frame.index];
+  slot.timer.finish(frame.commands);
   if (frame.capture) {
     recordCapture(slot, frame);
   }

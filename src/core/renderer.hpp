@@ -81,6 +81,8 @@ class Renderer {
 
   // Of the last frame that has finished; of the very last one after waitIdle().
   const FrameTimings& timings() const { return timings_; }
+  // Of the frames that begin from now on; TimerDetail::passes until then.
+  void setTimerDetail(TimerDetail detail) { timerDetail_ = detail; }
   uint64_t frameNumber() const { return frameNumber_; }
   // Rebuilds what changed on disk; call it between frames. Cheap when no directory is watched.
   bool reloadShaders() { return pipelines_.reload(); }
@@ -125,6 +127,7 @@ class Renderer {
   RetireQueue retired_;
   PipelineFactory pipelines_;
   FrameTimings timings_;
+  TimerDetail timerDetail_ = TimerDetail::passes;
   uint64_t frameNumber_ = 0;
   bool swapChainStale_ = false;
   bool recording_ = false;

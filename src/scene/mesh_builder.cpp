@@ -216,6 +216,7 @@ Mesh buildMesh(const std::filesystem::path& file, const ObjGeometry& geometry, c
   Mesh mesh = builder.finish(materialOf);
   mesh.source = file;
   mesh.faces = largestFaces(mesh);
+  sortIntoClusters(mesh);
   mesh.clusters = clustersOf(mesh);
   return mesh;
 }

@@ -164,6 +164,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   upload(frame, mirrorVertices, std::as_bytes(std::span(mirrorVertices_)));
   set_ = frame.descriptors->allocate(layout_.get());
   const auto& buffers = buffers_[frame.index];
+  instanceBuffer_ = buffers[instances].get();
   constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
   DescriptorWriter()
       .buffer(0, storage, buffers[views].descriptor())

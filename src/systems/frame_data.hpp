@@ -69,6 +69,8 @@ class FrameData {
 
   const std::vector<PassData>& passes() const { return passes_; }
   VkDescriptorSet set() const { return set_; }
+  // InstanceData by instance, as vertex attributes: the same buffer that the set has.
+  VkBuffer instanceBuffer() const { return instanceBuffer_; }
 
  private:
   enum Kind { views, lights, instances, mirrors, mirrorVertices, kindCount };
@@ -102,6 +104,7 @@ class FrameData {
   std::vector<glm::vec4> mirrorVertices_;
   std::vector<PassData> passes_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
+  VkBuffer instanceBuffer_ = VK_NULL_HANDLE;
 };
 
 // What the shaders read of an instance seen in a view. `clipFromRelative` takes world space minus the view's eye to

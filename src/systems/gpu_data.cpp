@@ -29,7 +29,8 @@ void writeGrown(Device& device, Buffer& buffer, std::span<const std::byte> data,
                              ", the device takes " + std::to_string(limit >> 20) + " (" + advice + ")");
   }
   if (!buffer || buffer.bytes() < data.size()) {
-    buffer = Buffer(device, data.size() + data.size() / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host, name);
+    buffer = Buffer(device, data.size() + data.size() / 2,
+                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, BufferPlace::host, name);
   }
   buffer.write(data);
 }

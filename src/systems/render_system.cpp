@@ -1,6 +1,7 @@
 #include "systems/render_system.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "scene/mesh_levels.hpp"
 
@@ -13,6 +14,29 @@ RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frame
 bool RenderSystem::tracesRays(const Variant& variant) {
   return variant.trace.traced || (variant.curved && !variant.environment);
 }
+
+namespace {
+
+// Locations of scene.vert.
+void addVertexInput(GraphicsPipelineDesc& desc) {
+  desc.vertexBindings = {{0, sizeof(GpuVertex), VK_VERTEX_INPUT_RATE_VERTEX},
+                         {1, sizeof(InstanceData), VK_VERTEX_INPUT_RATE_INSTANCE}};
+  desc.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, position)},
+                           {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, normal)},
+                           {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(GpuVertex, uv)}};
+  const auto add = [&](uint32_t location, VkFormat format, size_t offset, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+      desc.vertexAttributes.push_back(
+          {location + i, 1, format, static_cast<uint32_t>(offset + i * sizeof(glm::vec4))});
+    }
+  };
+  add(3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, clipFromMesh), 4);
+  add(7, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, relativeFromMesh), 3);
+  add(10, VK_FORMAT_R32G32B32_SFLOAT, offsetof(InstanceData, normalFromMesh), 3);
+  add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, clipPlane), 1);
+}
+
+}  // namespace
 
 const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLayout traceLayout) {
   Entry& entry = objects_[variant];
@@ -37,10 +61,7 @@ const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLay
     desc.samples = variant.samples;
     desc.depthClamp = variant.clampDepth;
     desc.lines = variant.wireframe;
-    desc.vertexBindings = {{0, sizeof(GpuVertex), VK_VERTEX_INPUT_RATE_VERTEX}};
-    desc.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, position)},
-                             {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, normal)},
-                             {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(GpuVertex, uv)}};
+    addVertexInput(desc);
     entry.pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
   }
   return *entry.pipeline;
@@ -111,9 +132,9 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     }
     const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
     const bool whole = batch.level < 0;
-    const VkBuffer vertices = (whole ? mesh.vertices : mesh.levelVertices).get();
-    const VkDeviceSize offset = 0;
-    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &offset);
+    const std::array buffers{(whole ? mesh.vertices : mesh.levelVertices).get(), info.data.instanceBuffer()};
+    constexpr std::array<VkDeviceSize, 2> offsets{};
+    vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
     vkCmdBindIndexBuffer(commands, (whole ? mesh.indices : mesh.levelIndices).get(), 0, VK_INDEX_TYPE_UINT32);
     scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
     for (size_t p = 0; p < mesh.parts.size(); ++p) {
