@@ -18,8 +18,8 @@ glm::vec4 replacement(const std::optional<glm::dvec3>& value);
 // The normal matrix of a linear map, at unit size: shaders normalise, and a float would overflow at the extremes.
 glm::dmat3 unitNormalMatrix(const glm::dmat3& linear);
 
-// Writes `data` into a host buffer for shaders and vertex attributes, which is made anew with half as much again when it is too small. Throws
-// std::runtime_error with `advice` if the device takes no buffer of that size.
+// Writes `data` into a host buffer for shaders and vertex attributes, which is made anew with half as much again when
+// it is too small. Throws std::runtime_error with `advice` if the device takes no buffer of that size.
 void writeGrown(Device& device, Buffer& buffer, std::span<const std::byte> data, const std::string& name,
                 const std::string& advice);
 

@@ -26,8 +26,7 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
                            {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(GpuVertex, uv)}};
   const auto add = [&](uint32_t location, VkFormat format, size_t offset, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
-      desc.vertexAttributes.push_back(
-          {location + i, 1, format, static_cast<uint32_t>(offset + i * sizeof(glm::vec4))});
+      desc.vertexAttributes.push_back({location + i, 1, format, static_cast<uint32_t>(offset + i * sizeof(glm::vec4))});
     }
   };
   add(3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, clipFromMesh), 4);
