@@ -1,9 +1,12 @@
 #include "core/platform.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "core/retire_queue.hpp"
 
@@ -33,6 +36,49 @@ TEST(Platform, FailedReplacementKeepsTheOldContent) {
   fs::create_directory(directory.path() / "folder");
   EXPECT_FALSE(replaceFile(directory.path() / "folder", bytes("new")));
 }
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+// Page faults of a thread that allocates, fills and frees 8 MiB again and again, without the first times.
+long faultsOfAllocating() {
+  long faults = 0;
+  std::thread([&] {
+    const auto faultsSoFar = [] {
+      rusage usage{};
+      ::getrusage(RUSAGE_THREAD, &usage);
+      return usage.ru_minflt;
+    };
+    long before = 0;
+    for (int i = 0; i < 20; ++i) {
+      before = i == 4 ? faultsSoFar() : before;
+      std::vector<std::vector<char>> blocks;
+      for (int k = 0; k < 32; ++k) {
+        blocks.emplace_back(256 << 10, 'x');
+      }
+    }
+    faults = faultsSoFar() - before;
+  }).join();
+  return faults;
+}
+
+TEST(Platform, FreedMemoryIsKeptForWhatIsAllocatedNext) {
+  ::unsetenv("MALLOC_TRIM_THRESHOLD_");
+  ::unsetenv("MALLOC_MMAP_THRESHOLD_");
+  ::mallopt(M_TRIM_THRESHOLD, 128 << 10);
+  ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
+  EXPECT_GT(faultsOfAllocating(), 16 * 1000);
+  keepFreedMemory();
+  EXPECT_LT(faultsOfAllocating(), 1000);
+}
+
+TEST(Platform, TheUsersOwnThresholdsForFreedMemoryStay) {
+  ::mallopt(M_TRIM_THRESHOLD, 128 << 10);
+  ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
+  setEnvironment("MALLOC_TRIM_THRESHOLD_", "131072");
+  keepFreedMemory();
+  ::unsetenv("MALLOC_TRIM_THRESHOLD_");
+  EXPECT_GT(faultsOfAllocating(), 16 * 1000);
+}
+#endif
 
 TEST(Platform, ProcessGivesOutputAndExitCode) {
   const ProcessResult result = runProcess({"sh", "-c", "echo out; echo err >&2; exit 3"});

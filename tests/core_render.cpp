@@ -78,6 +78,24 @@ TEST(Renderer, TimesEveryPassOfTheLastFinishedFrame) {
   EXPECT_FALSE(timings.passes[2].hasStatistics);
 }
 
+TEST(Renderer, TimesOnlyTheFrameIfItsPassesAreNotAskedFor) {
+  Device device(validated());
+  Renderer renderer(device, headless(extent));
+  SmallScene scene(renderer, extent, 1);
+  renderer.setTimerDetail(TimerDetail::frame);
+  for (int i = 0; i < 3; ++i) {
+    scene.frame();
+  }
+  renderer.waitIdle();
+  EXPECT_EQ(renderer.timings().frame, 3u);
+  EXPECT_TRUE(renderer.timings().passes.empty());
+  EXPECT_GT(renderer.timings().gpuMs, 0.0);
+  renderer.setTimerDetail(TimerDetail::passes);
+  scene.frame();
+  renderer.waitIdle();
+  EXPECT_EQ(renderer.timings().passes.size(), 4u);
+}
+
 TEST(Renderer, ViewportOfALargerScreenShowsItsPart) {
   // An image of a part of the screen, drawn with the screen's viewport shifted, holds the screen's very texels.
   Device device(validated());

@@ -65,6 +65,18 @@ TEST_F(PerformancePanel, CopiesTheTimesOfFrames) {
   expectQuiet();
 }
 
+TEST_F(PerformancePanel, PassesAreTimedOnlyWhileThePanelIsThereToShowThem) {
+  EXPECT_FALSE(demo_->renderer().timings().passes.empty());
+  press(GLFW_KEY_TAB);
+  run(4);
+  EXPECT_TRUE(demo_->renderer().timings().passes.empty());
+  EXPECT_GT(demo_->renderer().timings().gpuMs, 0.0);
+  press(GLFW_KEY_TAB);
+  run(4);
+  EXPECT_FALSE(demo_->renderer().timings().passes.empty());
+  expectQuiet();
+}
+
 TEST_F(PerformancePanel, GraphsGoOnUntilTheyArePaused) {
   const auto newest = [&] { return std::stoi(copied().back()[0]); };
   const int before = newest();

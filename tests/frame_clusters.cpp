@@ -1,6 +1,8 @@
 // Of objects seen in part only that part is drawn, and never less than is seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 #include "frame/frame_plan.hpp"
@@ -65,6 +67,68 @@ TEST(Clusters, CoverEveryPartInItsOrder) {
     }
   }
   EXPECT_EQ(next, mesh.indices.size());
+}
+
+using Corners = std::array<std::array<double, 8>, 3>;
+
+// All that is known of the corners of the triangles of one part, the triangles in any order.
+std::vector<Corners> trianglesOf(const Mesh& mesh, const MeshPart& part) {
+  std::vector<Corners> triangles;
+  for (uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3) {
+    Corners corners;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const Vertex& v = mesh.vertices[mesh.indices[i + k]];
+      corners[k] = {v.position.x, v.position.y, v.position.z, v.normal.x, v.normal.y, v.normal.z, v.uv.x, v.uv.y};
+    }
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    triangles.push_back(corners);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+double meanDiagonal(const Mesh& mesh) {
+  double sum = 0.0;
+  for (const MeshCluster& cluster : mesh.clusters) {
+    sum += 2.0 * glm::length(cluster.halfExtent);
+  }
+  return sum / static_cast<double>(mesh.clusters.size());
+}
+
+TEST(Clusters, SortingKeepsEveryTriangleOfEveryPartAndItsWinding) {
+  const Mesh before = sheet();
+  Mesh sorted = before;
+  sortIntoClusters(sorted);
+  EXPECT_NE(sorted.indices, before.indices);
+  ASSERT_EQ(sorted.parts.size(), 2u);
+  EXPECT_EQ(sorted.vertices.size(), before.vertices.size());
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(trianglesOf(sorted, sorted.parts[i]), trianglesOf(before, before.parts[i])) << i;
+  }
+}
+
+TEST(Clusters, SortingMakesThemSmallAndVerticesRunInOrder) {
+  const Mesh before = sheet();  // rows of 64 triangles, 2 m long
+  Mesh sorted = before;
+  sortIntoClusters(sorted);
+  sorted.clusters = clustersOf(sorted);
+  EXPECT_EQ(sorted.clusters.size(), before.clusters.size());
+  EXPECT_GT(meanDiagonal(before), 1.5);
+  EXPECT_LT(meanDiagonal(sorted), 0.75);
+  uint32_t next = 0;
+  for (const uint32_t index : sorted.indices) {
+    EXPECT_LE(index, next);
+    next = std::max(next, index + 1);
+  }
+}
+
+TEST(Clusters, SmallMeshesAreNotSorted) {
+  Mesh mesh = sheet();
+  mesh.indices.resize(size_t{3} * 500);
+  mesh.parts = {{0, 3 * 500, {}}};
+  const std::vector<uint32_t> before = mesh.indices;
+  sortIntoClusters(mesh);
+  EXPECT_EQ(mesh.indices, before);
 }
 
 TEST(Clusters, SmallMeshesHaveNone) {

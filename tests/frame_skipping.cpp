@@ -1,4 +1,4 @@
-// What a frame does not draw: mirrors behind something flat, and the parts of mirror images that nobody looks up.
+// What a frame does not draw: mirrors behind something, and the parts of mirror images that nobody looks up.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -157,6 +157,123 @@ TEST(Hidden, LinesOfSightAgree) {
     }
   }
   EXPECT_GT(hidden, 200);
+}
+
+TEST(Hidden, BehindSeveralThatOverlap) {
+  const Mirror mirror = wall({0, 0, -5}, 0, {2, 2});
+  Object left = square({-0.5, 0, -3}, {0.6, 1, 1});
+  Object right = square({0.5, 0, -2}, {0.6, 1, 1});
+  left.name = "left";
+  right.name = "right";
+  const FramePlan p = plan(sceneWith({mirror}, {left, right}));
+  EXPECT_TRUE(p.passes.empty());
+  ASSERT_TRUE(isHidden(p, {0}));
+  EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'left' and object 'right'");
+  right.position.x = 0.75;  // a gap
+  EXPECT_FALSE(isHidden(plan(sceneWith({mirror}, {left, right})), {0}));
+}
+
+TEST(Hidden, TheOneThatCoversAllOfItIsNamedAlone) {
+  Object half = square({-0.5, 0, -3}, {0.6, 1, 1});
+  half.name = "half";
+  const FramePlan p = plan(sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {half, square({0, 0, -3})}));
+  ASSERT_TRUE(isHidden(p, {0}));
+  EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'door'");
+}
+
+// A box of 2 m that is known to be convex and has no faces to hide anything by itself.
+Scene sceneWithBoxes(std::vector<Mirror> mirrors, const std::vector<Object>& objects) {
+  Scene scene = sceneWith(std::move(mirrors), objects);
+  Mesh& mesh = scene.meshes[0];
+  mesh = Mesh{.halfExtent = {1, 1, 1}, .radius = std::sqrt(3.0)};
+  for (int i = 0; i < 8; ++i) {
+    mesh.convexVertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  }
+  return scene;
+}
+
+// Whether the segment from a to b meets the box of sceneWithBoxes.
+bool meetsBox(const glm::dvec3& a, const glm::dvec3& b) {
+  double enter = 0.0;
+  double leave = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double t0 = (-1.0 - a[axis]) / (b[axis] - a[axis]);
+    const double t1 = (1.0 - a[axis]) / (b[axis] - a[axis]);
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  return enter < leave;
+}
+
+TEST(Hidden, BehindABodyNoFaceOfWhichCoversIt) {
+  Object post = square({0, 0, -3}, {0.5, 1, 0.5});
+  post.rotation = {0, 45, 0};  // an edge towards the eye
+  const Mirror mirror = wall({0, 0, -5}, 0, {0.8, 0.8});
+  EXPECT_TRUE(isHidden(plan(sceneWithBoxes({mirror}, {post})), {0}));
+  post.position.z = -4.6;  // the mirror is in it
+  EXPECT_FALSE(isHidden(plan(sceneWithBoxes({mirror}, {post})), {0}));
+  post.position = {0.6, 0, -3};
+  EXPECT_FALSE(isHidden(plan(sceneWithBoxes({mirror}, {post})), {0})) << "part of it peeps out";
+  post.position = {0, 0, -0.5};
+  EXPECT_FALSE(isHidden(plan(sceneWithBoxes({mirror}, {post})), {0})) << "the eye is in it";
+}
+
+TEST(Hidden, ABodyThatALevelMayStandForHidesNothingInAMirror) {
+  Object post = square({0, 0, 2}, {3, 3, 0.5});
+  const std::vector<Mirror> facing = {wall({0, 0, -4}, 0, {3, 3}), wall({0, 0, 6}, 180, {2, 2})};
+  Settings settings;
+  EXPECT_TRUE(isHidden(plan(sceneWithBoxes(facing, {post}), settings), {0, 1}));
+  settings.reflection.meshError = 0.5;
+  EXPECT_FALSE(isHidden(plan(sceneWithBoxes(facing, {post}), settings), {0, 1}));
+}
+
+// Every line of sight to what several bodies are said to hide together meets one of them.
+TEST(Hidden, LinesOfSightAgreeBehindBodies) {
+  std::mt19937 engine(11);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  int hidden = 0;
+  int together = 0;
+  for (int round = 0; round < 3000; ++round) {
+    std::vector<Object> bodies;
+    for (int i = 0; i < 3; ++i) {
+      bodies.push_back(square({uniform(-1, 1), uniform(-1, 1), uniform(-4, -1)},
+                              {uniform(0.1, 1.2), uniform(0.1, 1.2), uniform(0.05, 0.5)}));
+      bodies.back().name = std::to_string(i);
+      bodies.back().rotation = {uniform(-80, 80), uniform(-80, 80), uniform(0, 360)};
+    }
+    const Mirror mirror = wall({uniform(-1, 1), uniform(-1, 1), uniform(-8, -2)}, uniform(-60, 60), {1.5, 1});
+    const Scene scene = sceneWithBoxes({mirror}, bodies);
+    const SceneState state = evaluate(scene, 0.0);
+    const FramePlan p = planFrame(scene, state, {}, width, height);
+    if (!isHidden(p, {0})) {
+      continue;
+    }
+    ++hidden;
+    together += skipOf(p, {0})->detail.find(" and ") != std::string::npos;
+    const std::vector<glm::dvec3> visible = visiblePart(p.main.view, state.mirrors[0].polygon);
+    for (int i = 0; i < 200; ++i) {
+      glm::dvec3 point(0.0);
+      double weights = 0.0;
+      for (const glm::dvec3& corner : visible) {
+        const double weight = -std::log(uniform(1e-9, 1));
+        point += weight * corner;
+        weights += weight;
+      }
+      point /= weights;
+      EXPECT_TRUE(std::any_of(state.instances.begin(), state.instances.end(),
+                              [&](const InstanceState& body) {
+                                const Affine& place = body.worldFromMesh;
+                                const glm::dmat3 inverse = glm::inverse(place.linear);
+                                return meetsBox(inverse * (p.main.view.eye - place.translation),
+                                                inverse * (point - place.translation));
+                              }))
+          << "round " << round;
+    }
+  }
+  EXPECT_GT(hidden, 200);
+  EXPECT_GT(together, 20);
 }
 
 // Whether a convex polygon holds a point, both in device coordinates.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "frame/scene_names.hpp"
+#include "optics/convex_mesh.hpp"
 
 namespace speculum {
 
@@ -11,9 +12,9 @@ namespace {
 
 // Parts of the size of what is drawn; floats give or take 1e-7 of it.
 constexpr double roundingPart = 1e-5;
-// How much farther from the eye what is hidden has to be, as a part of its distance: the depth test must be sure.
-constexpr double depthPart = 1e-4;
-constexpr double marginPixels = 1.0;
+// Polygons that several occluders may cut what is not hidden into, and occluders that are tried together.
+constexpr size_t mostPieces = 24;
+constexpr size_t mostOccluders = 64;
 
 bool sphereMeetsSegment(const glm::dvec3& center, double radius, const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 along = b - a;
@@ -23,29 +24,11 @@ bool sphereMeetsSegment(const glm::dvec3& center, double radius, const glm::dvec
   return glm::dot(off, off) <= radius * radius;
 }
 
-// Without vertices that clipping put on top of another.
-std::vector<glm::dvec3> distinctVertices(const std::vector<glm::dvec3>& polygon, double least) {
-  std::vector<glm::dvec3> kept;
-  for (const glm::dvec3& p : polygon) {
-    if (kept.empty() || glm::length(p - kept.back()) > least) {
-      kept.push_back(p);
-    }
-  }
-  while (kept.size() > 1 && glm::length(kept.front() - kept.back()) <= least) {
-    kept.pop_back();
-  }
-  return kept;
-}
-
 }  // namespace
 
 Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings& settings,
                      const Projection& projection)
-    : scene_(scene),
-      state_(state),
-      settings_(settings),
-      projection_(projection),
-      instanceFaces_(state.instances.size()) {
+    : scene_(scene), state_(state), settings_(settings), projection_(projection), bodies_(state.instances.size()) {
   for (const MirrorState& mirror : state.mirrors) {
     double size = 0.0;
     for (const glm::dvec3& p : mirror.polygon) {
@@ -55,8 +38,8 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
   }
 }
 
-Occlusion::Occluder Occlusion::occluder(std::vector<glm::dvec3> polygon, double size) {
-  Occluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
+FlatOccluder Occlusion::occluder(std::vector<glm::dvec3> polygon, double size) {
+  FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
   for (const glm::dvec3& p : polygon) {
     made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
   }
@@ -64,22 +47,79 @@ Occlusion::Occluder Occlusion::occluder(std::vector<glm::dvec3> polygon, double 
   return made;
 }
 
-const std::vector<Occlusion::Occluder>& Occlusion::facesOf(int instance) {
-  std::optional<std::vector<Occluder>>& faces = instanceFaces_[static_cast<size_t>(instance)];
-  if (!faces) {
-    faces.emplace();
+const Occlusion::Body& Occlusion::bodyOf(int instance) {
+  std::optional<Body>& body = bodies_[static_cast<size_t>(instance)];
+  if (!body) {
+    body.emplace();
     const InstanceState& state = state_.instances[static_cast<size_t>(instance)];
-    for (const std::vector<glm::dvec3>& face : scene_.meshes[state.mesh].faces) {
+    const Mesh& mesh = scene_.meshes[state.mesh];
+    body->slack = (roundingPart + 2.0 * convexTolerance) * state.radius;
+    for (const glm::dvec3& p : mesh.convexVertices) {
+      body->convexVertices.push_back(state.worldFromMesh.point(p));
+    }
+    for (const std::vector<glm::dvec3>& face : mesh.faces) {
       std::vector<glm::dvec3> polygon;
       for (const glm::dvec3& p : face) {
         polygon.push_back(state.worldFromMesh.point(p));
       }
       if (std::isnormal(polygonArea(polygon))) {
-        faces->push_back(occluder(std::move(polygon), state.radius));
+        body->faces.push_back(occluder(std::move(polygon), state.radius));
       }
     }
   }
-  return *faces;
+  return *body;
+}
+
+// What may hide a part of `polygon`, which is one of mirror `mirror`.
+std::vector<Occlusion::Hider> Occlusion::hiders(const View& view, std::span<const int> instances, int mirror,
+                                                std::span<const glm::dvec3> polygon) {
+  std::vector<Hider> found;
+  const auto add = [&](std::optional<OccludedRegion> region, bool isMirror, int index) {
+    const auto holds = [&](const HalfSpace& half) {
+      return std::any_of(polygon.begin(), polygon.end(),
+                         [&](const glm::dvec3& p) { return half.at(p - view.eye) > 0.0; });
+    };
+    if (region && std::all_of(region->begin(), region->end(), holds)) {
+      found.push_back({std::move(*region), isMirror, index});
+    }
+  };
+  for (size_t i = 0; i < mirrors_.size(); ++i) {
+    if (static_cast<int>(i) != mirror) {
+      add(hiddenByFace(mirrors_[i], view, projection_), true, static_cast<int>(i));
+    }
+  }
+  const glm::dvec3 center = vertexMean(polygon);
+  double radius = 0.0;
+  for (const glm::dvec3& p : polygon) {
+    radius = std::max(radius, glm::length(p - center));
+  }
+  // The levels of a mesh keep its corners, but not the outline of what is round.
+  const bool simplified = settings_.reflection.meshError > 0.0 && !view.path.empty();
+  for (const int i : instances) {
+    const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
+    const Mesh& mesh = scene_.meshes[instance.mesh];
+    if ((mesh.faces.empty() && mesh.convexVertices.empty()) ||
+        !sphereMeetsSegment(instance.center, instance.radius + radius, view.eye, center)) {
+      continue;
+    }
+    const Body& body = bodyOf(i);
+    if (!body.convexVertices.empty() && !simplified) {
+      add(hiddenByBody(body.convexVertices, body.slack, mirrors_[static_cast<size_t>(mirror)], view, projection_),
+          false, i);
+    }
+    for (const FlatOccluder& face : body.faces) {
+      add(hiddenByFace(face, view, projection_), false, i);
+    }
+  }
+  return found;
+}
+
+std::string Occlusion::nameOfHider(const Hider& hider) const {
+  if (hider.isMirror) {
+    return nameOf("mirror", scene_.mirrors[static_cast<size_t>(hider.index)].name, hider.index);
+  }
+  const int object = state_.instances[static_cast<size_t>(hider.index)].object;
+  return nameOf("object", scene_.objects[static_cast<size_t>(object)].name, object);
 }
 
 std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const int> instances, int mirror,
@@ -89,77 +129,39 @@ std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const
   if (!settings_.debug.skipHidden || settings_.view.wireframe || oblique || polygon.empty()) {
     return std::nullopt;
   }
-  for (size_t i = 0; i < mirrors_.size(); ++i) {
-    if (static_cast<int>(i) != mirror && covers(mirrors_[i], view, polygon)) {
-      return nameOf("mirror", scene_.mirrors[i].name, static_cast<int>(i));
+  const std::vector<Hider> found = hiders(view, instances, mirror, polygon);
+  for (const Hider& hider : found) {
+    if (outside(hider.region, view.eye, {{polygon.begin(), polygon.end()}}).empty()) {
+      return nameOfHider(hider);
     }
   }
-  for (const int i : instances) {
-    const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
-    if (scene_.meshes[instance.mesh].faces.empty() ||
-        !sphereMeetsSegment(instance.center, instance.radius, view.eye, polygon[0])) {
+  return hiddenTogether(found, view, polygon);
+}
+
+// Whether no piece is left of the polygon when the regions of all are taken away one after the other.
+std::optional<std::string> Occlusion::hiddenTogether(std::span<const Hider> hiders, const View& view,
+                                                     std::span<const glm::dvec3> polygon) const {
+  std::vector<std::vector<glm::dvec3>> pieces = {{polygon.begin(), polygon.end()}};
+  std::vector<std::string> names;
+  for (const Hider& hider : hiders.first(std::min(hiders.size(), mostOccluders))) {
+    std::vector<std::vector<glm::dvec3>> left = outside(hider.region, view.eye, pieces);
+    if (left == pieces || left.size() > mostPieces) {
       continue;
     }
-    const std::vector<Occluder>& faces = facesOf(i);
-    if (std::any_of(faces.begin(), faces.end(), [&](const Occluder& face) { return covers(face, view, polygon); })) {
-      return nameOf("object", scene_.objects[instance.object].name, instance.object);
+    pieces = std::move(left);
+    const std::string name = nameOfHider(hider);
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      names.push_back(name);
+    }
+    if (pieces.empty()) {
+      std::string all = names[0];
+      for (size_t i = 1; i < names.size(); ++i) {
+        all += (i + 1 < names.size() ? ", " : " and ") + names[i];
+      }
+      return all;
     }
   }
   return std::nullopt;
-}
-
-// Along each line of sight, and nothing of it nearer than depth can tell.
-bool Occlusion::isBehind(const Occluder& occluder, const View& view, std::span<const glm::dvec3> polygon) const {
-  const double eye = occluder.plane.distance(view.eye);
-  if (!(std::abs(eye) > occluder.slack)) {
-    return false;
-  }
-  return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) {
-    const double height = eye > 0.0 ? occluder.plane.distance(p) : -occluder.plane.distance(p);
-    if (height >= -occluder.slack) {
-      return false;
-    }
-    const double crossing = std::abs(eye) / (std::abs(eye) - height);  // of the plane, 1 at p
-    const double nearest = -(view.worldToView * (p - view.eye)).z * crossing;
-    return crossing < 1.0 - depthPart && nearest > (1.0 + depthPart) * projection_.near;
-  });
-}
-
-bool Occlusion::covers(const Occluder& occluder, const View& view, std::span<const glm::dvec3> polygon) const {
-  if (!isBehind(occluder, view, polygon)) {
-    return false;
-  }
-  std::vector<glm::dvec3> drawn = occluder.polygon;
-  if (view.clip) {
-    drawn = clipPolygon(drawn, Plane{view.clip->point + occluder.slack * view.clip->normal, view.clip->normal});
-  }
-  drawn = distinctVertices(drawn, 0.01 * occluder.slack);
-  if (drawn.size() < 3) {
-    return false;
-  }
-  const double eye = std::abs(occluder.plane.distance(view.eye));
-  const glm::dvec3 inside = vertexMean(drawn) - view.eye;
-  const double pixel = 2.0 / (projection_.focal * view.pictureSize.y);  // at unit depth
-  for (size_t i = 0; i < drawn.size(); ++i) {
-    const glm::dvec3 a = drawn[i] - view.eye;
-    const glm::dvec3 b = drawn[(i + 1) % drawn.size()] - view.eye;
-    glm::dvec3 normal = glm::cross(a, b);
-    const double length = glm::length(normal);
-    if (!(length > 1e-9 * glm::length(a) * glm::length(b))) {
-      return false;
-    }
-    normal *= (glm::dot(normal, inside) < 0.0 ? -1.0 : 1.0) / length;
-    const bool within = std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) {
-      const double crossing = eye / (eye + std::abs(occluder.plane.distance(p)));
-      const double depth = -(view.worldToView * (p - view.eye)).z;
-      const double distance = glm::dot(normal, p - view.eye);
-      return distance > marginPixels * pixel * depth && crossing * distance > occluder.slack;
-    });
-    if (!within) {
-      return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace speculum

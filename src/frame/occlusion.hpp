@@ -5,40 +5,50 @@
 #include <string>
 #include <vector>
 
+#include "frame/occluded_region.hpp"
 #include "frame/settings.hpp"
 #include "frame/view.hpp"
 
 namespace speculum {
 
-// Finds what hides a mirror: one flat convex occluder, another mirror or a face of an object, that covers all of it as
-// seen from a view's eye. Conservative: by more than what rounding on the GPU and the edges of pixels can undo, so that
-// a hidden mirror would not have left a trace in the picture. Objects and mirrors are opaque on both sides.
+// Finds what hides a mirror from a view's eye: other mirrors, flat faces of objects and whole convex objects, one that
+// covers all of it or several together. Conservative: by more than what rounding on the GPU and the edges of pixels can
+// undo, so that a hidden mirror would not have left a trace in the picture; where two occluders meet without one
+// reaching behind the other, that leaves a strip that hides nothing. Objects and mirrors are opaque on both sides.
 class Occlusion {
  public:
   Occlusion(const Scene& scene, const SceneState& state, const Settings& settings, const Projection& projection);
 
-  // What hides all of `polygon` (world), a part of `mirror`, in the view: "object NAME" or "mirror NAME". `instances`
-  // are those that the view shows.
+  // What hides all of `polygon` (world), a part of `mirror`, in the view: "object NAME", "mirror NAME", or several of
+  // them. `instances` are those that the view shows.
   std::optional<std::string> hiddenBy(const View& view, std::span<const int> instances, int mirror,
                                       std::span<const glm::dvec3> polygon);
 
  private:
-  struct Occluder {
-    std::vector<glm::dvec3> polygon;  // world
-    Plane plane;
-    double slack = 0.0;  // metres by which it may stand elsewhere on the GPU
+  struct Body {
+    std::vector<FlatOccluder> faces;
+    std::vector<glm::dvec3> convexVertices;  // world; none unless the whole instance is convex
+    double slack = 0.0;                      // metres by which they may stand elsewhere on the GPU
   };
-  static Occluder occluder(std::vector<glm::dvec3> polygon, double size);
-  const std::vector<Occluder>& facesOf(int instance);
-  bool covers(const Occluder& occluder, const View& view, std::span<const glm::dvec3> polygon) const;
-  bool isBehind(const Occluder& occluder, const View& view, std::span<const glm::dvec3> polygon) const;
+  struct Hider {
+    OccludedRegion region;
+    bool isMirror = false;
+    int index = 0;  // of the mirror or instance
+  };
+  static FlatOccluder occluder(std::vector<glm::dvec3> polygon, double size);
+  const Body& bodyOf(int instance);
+  std::vector<Hider> hiders(const View& view, std::span<const int> instances, int mirror,
+                            std::span<const glm::dvec3> polygon);
+  std::string nameOfHider(const Hider& hider) const;
+  std::optional<std::string> hiddenTogether(std::span<const Hider> hiders, const View& view,
+                                            std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
   const SceneState& state_;
   const Settings& settings_;
   const Projection& projection_;
-  std::vector<Occluder> mirrors_;                                    // parallel to SceneState::mirrors
-  std::vector<std::optional<std::vector<Occluder>>> instanceFaces_;  // made when first asked for
+  std::vector<FlatOccluder> mirrors_;        // parallel to SceneState::mirrors
+  std::vector<std::optional<Body>> bodies_;  // parallel to SceneState::instances; made when first asked for
 };
 
 }  // namespace speculum

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <tuple>
 
 #include "optics/polygon.hpp"
+#include "optics/weld.hpp"
 
 namespace speculum {
 
@@ -15,23 +15,10 @@ namespace {
 
 using Ring = std::vector<uint32_t>;  // of welded vertices, counter-clockwise; empty: joined to another
 
-struct LessByCoordinates {
-  bool operator()(const glm::dvec3& a, const glm::dvec3& b) const {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  }
-};
-
 class FaceJoiner {
  public:
   FaceJoiner(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices) {
-    std::map<glm::dvec3, uint32_t, LessByCoordinates> welded;
-    const auto weld = [&](uint32_t index) {
-      const auto [it, isNew] = welded.try_emplace(positions[index], static_cast<uint32_t>(points_.size()));
-      if (isNew) {
-        points_.push_back(positions[index]);
-      }
-      return it->second;
-    };
+    const auto weld = [&](uint32_t index) { return welder_.weld(positions[index]); };
     for (size_t i = 0; i + 2 < indices.size(); i += 3) {
       const Ring ring = {weld(indices[i]), weld(indices[i + 1]), weld(indices[i + 2])};
       if (std::isnormal(polygonArea(polygon(ring)))) {
@@ -62,7 +49,7 @@ class FaceJoiner {
     std::vector<glm::dvec3> points;
     points.reserve(ring.size());
     for (const uint32_t i : ring) {
-      points.push_back(points_[i]);
+      points.push_back(welder_.points()[i]);
     }
     return points;
   }
@@ -141,7 +128,7 @@ class FaceJoiner {
                        [&](const glm::dvec3& p) { return std::abs(plane.distance(p)) <= flat; });
   }
 
-  std::vector<glm::dvec3> points_;
+  PointWelder welder_;
   std::vector<Ring> rings_;
   std::map<Edge, size_t> owners_;  // ring on the left of a directed edge; the last one where several claim it
 };

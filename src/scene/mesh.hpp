@@ -69,6 +69,8 @@ struct Mesh {
   std::vector<MeshCluster> clusters;  // of all triangles, in their order; none of a small mesh. See clustersOf
   std::vector<std::vector<glm::dvec3>>
       faces;  // flat and convex, the largest few; relative to `center`. See convexFaces
+  std::vector<glm::dvec3>
+      convexVertices;  // relative to `center`; none unless the mesh is convex. See optics/convex_mesh
   mutable std::shared_ptr<LevelsOfMesh> levels;  // what levelsOf has made of it, if it was asked
 };
 

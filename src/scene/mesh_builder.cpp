@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "optics/convex_faces.hpp"
+#include "optics/convex_mesh.hpp"
 #include "scene/mesh_clusters.hpp"
 #include "scene/triangulate.hpp"
 
@@ -192,16 +193,17 @@ class MeshBuilder {
   size_t slivers_ = 0;     // triangles
 };
 
-// What hides a whole mirror is a wall, a door or a cupboard: few triangles, or few of them large.
-std::vector<std::vector<glm::dvec3>> largestFaces(const Mesh& mesh) {
-  constexpr size_t most = 32;
+// What hides a whole mirror is a wall, a door, a cupboard or a column: few triangles, or few of them large.
+void findOccluders(Mesh& mesh) {
+  constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;
   std::vector<glm::dvec3> positions;
   positions.reserve(mesh.vertices.size());
   for (const Vertex& vertex : mesh.vertices) {
     positions.push_back(vertex.position);
   }
-  return convexFaces(positions, mesh.indices, most, mostTriangles);
+  mesh.faces = convexFaces(positions, mesh.indices, mostFaces, mostTriangles);
+  mesh.convexVertices = convexVertices(positions, mesh.indices, mostTriangles);
 }
 
 }  // namespace
@@ -215,7 +217,7 @@ Mesh buildMesh(const std::filesystem::path& file, const ObjGeometry& geometry, c
   builder.warn(file);
   Mesh mesh = builder.finish(materialOf);
   mesh.source = file;
-  mesh.faces = largestFaces(mesh);
+  findOccluders(mesh);
   sortIntoClusters(mesh);
   mesh.clusters = clustersOf(mesh);
   return mesh;
