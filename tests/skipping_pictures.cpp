@@ -95,11 +95,27 @@ int hiddenIn(const FramePlan& plan) {
                                         [](const SkippedMirror& s) { return s.reason == SkipReason::hidden; }));
 }
 
-// SPECULUM_CAMERA_CUTS in the environment asks for another number of them.
+// SPECULUM_CAMERA_CUTS in the environment asks for another number of them: sanitizers take long.
 int cutCount() {
   const char* wanted = std::getenv("SPECULUM_CAMERA_CUTS");
-  return wanted ? std::atoi(wanted) : 60;
+  return wanted ? std::atoi(wanted) : 1000;
 }
+
+// Pixels of pictures that differ from others.
+struct Differences {
+  void add(const Image8& a, const Image8& b) {
+    for (size_t i = 0; i < a.rgba.size(); i += 4) {
+      int difference = 0;
+      for (size_t k = i; k < i + 4; ++k) {
+        difference = std::max(difference, std::abs(a.rgba[k] - b.rgba[k]));
+      }
+      pixels += difference > 0;
+      most = std::max(most, difference);
+    }
+  }
+  int pixels = 0;
+  int most = 0;  // of 255
+};
 
 TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   Session session(headless(roomsScene(), size));
@@ -111,6 +127,7 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   int hidden = 0;
   size_t passes = 0;
   size_t passesOfAll = 0;
+  Differences parts;
   for (int cut = 0; cut < cuts; ++cut) {
     const double side = cells * cellSide;
     const glm::dvec3 eye(uniform(0.05, side), uniform(0.2, cut % 4 == 0 ? 5.0 : 2.4), uniform(0.05, side));
@@ -123,17 +140,24 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
     const Image8 skipping = pictureWith(session, settings);
     hidden += hiddenIn(session.lastFrame().plan);
     passes += session.lastFrame().plan.passes.size();
-    settings.debug.skipHidden = settings.debug.maskPasses = settings.debug.cullClusters = false;
+    settings.debug.skipHidden = settings.debug.maskPasses = false;
     const Image8 all = pictureWith(session, settings);
     passesOfAll += session.lastFrame().plan.passes.size();
+    ASSERT_EQ(skipping.rgba, all.rgba) << "cut " << cut;
+    settings.debug.cullClusters = false;
+    parts.add(all, pictureWith(session, settings));
     settings.debug.maskPasses = true;
     session.setSettings(settings);
-    ASSERT_EQ(skipping.rgba, all.rgba) << "cut " << cut;
   }
+  // A triangle's colours may have another last bit with lavapipe when other triangles are in its draw, which is more
+  // than that where it is steep.
+  EXPECT_LT(parts.pixels, cuts) << "of 14 400 each";
+  EXPECT_LE(parts.most, 16);
   expectQuiet(session);
   EXPECT_GT(hidden, cuts);
   EXPECT_LT(passes, passesOfAll);
-  std::printf("%d cuts, %d hidden mirrors, %zu passes for %zu\n", cuts, hidden, passes, passesOfAll);
+  std::printf("%d cuts, %d hidden mirrors, %zu passes for %zu; parts of objects: %d pixels differ, by up to %d\n", cuts,
+              hidden, passes, passesOfAll, parts.pixels, parts.most);
 }
 
 // 12 mirrors that each show a part of a knot or two, of 2 496 triangles each.
@@ -249,8 +273,10 @@ TEST(Skipping, MirrorPassesDrawNoMoreThanIsSeen) {
 // The tree of passes, from their figures alone.
 TEST(Skipping, FiguresOfPassesNameTheParent) {
   Options options = headless(roomsScene(), size);
-  set(options,
-      {{"reflection.update_interval", "2"}, {"reflection.skip_unchanged", "false"}, {"reflection.max_depth", "3"}});
+  set(options, {{"reflection.update_interval", "2"},
+                {"reflection.skip_unchanged", "false"},
+                {"reflection.max_depth", "3"},
+                {"debug.skip_hidden", "false"}});
   Session session(options);
   session.setCamera(lookAt({1.4, 1.5, 1.6}, {1.2, 1.3, 0.0}, {0, 1, 0}, 100, 0.001));
   std::vector<nlohmann::ordered_json> frames;
