@@ -103,6 +103,7 @@ std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const V
   OccludedRegion region = {{toPlane, -eye - occluder.slack},
                            {(1.0 - depthPart) * toPlane, -eye},
                            {eye * axis.forward - (1.0 + depthPart) * projection.near * toPlane, 0.0}};
+  region.reserve(region.size() + 2 * drawn.size());
   const glm::dvec3 inside = vertexMean(drawn) - view.eye;
   for (size_t i = 0; i < drawn.size(); ++i) {
     const auto normal = edgeNormal(drawn[i] - view.eye, drawn[(i + 1) % drawn.size()] - view.eye, inside);

@@ -24,7 +24,9 @@ using OccludedRegion = std::vector<HalfSpace>;
 struct FlatOccluder {
   std::vector<glm::dvec3> polygon;
   Plane plane;
-  double slack = 0.0;  // metres by which it may stand elsewhere on the GPU
+  double slack = 0.0;      // metres by which it may stand elsewhere on the GPU
+  glm::dvec3 center{0.0};  // of a sphere around it
+  double radius = 0.0;
 };
 
 // Nothing if the polygon is seen edge-on or clipped away in the view. `near`: of the projection, metres.

@@ -24,6 +24,47 @@ bool sphereMeetsSegment(const glm::dvec3& center, double radius, const glm::dvec
   return glm::dot(off, off) <= radius * radius;
 }
 
+double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points) {
+  double radius = 0.0;
+  for (const glm::dvec3& p : points) {
+    radius = std::max(radius, glm::length(p - center));
+  }
+  return radius;
+}
+
+// Which occluders are worth a closer look: those that look large enough and stand before one of a polygon's corners or
+// its middle. Whatever covers all of it does.
+class Prospects {
+ public:
+  Prospects(const glm::dvec3& eye, std::span<const glm::dvec3> polygon)
+      : eye_(eye), center_(vertexMean(polygon)), polygon_(polygon) {
+    constexpr double least = 0.4;  // of the polygon's own angle
+    width_ = least * radiusAbout(center_, polygon) / glm::length(center_ - eye);
+  }
+
+  bool include(const glm::dvec3& center, double radius) const {
+    if (!looksLarge(radius, glm::length(center - eye_) - radius)) {
+      return false;
+    }
+    return sphereMeetsSegment(center, radius, eye_, center_) ||
+           std::any_of(polygon_.begin(), polygon_.end(),
+                       [&](const glm::dvec3& p) { return sphereMeetsSegment(center, radius, eye_, p); });
+  }
+  bool looksLarge(double radius, double nearest) const { return nearest <= 0.0 || radius >= width_ * nearest; }
+  // Whether a corner lies beyond a plane.
+  bool farther(const Plane& plane) const {
+    const double side = plane.distance(eye_);
+    return std::any_of(polygon_.begin(), polygon_.end(),
+                       [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
+  }
+
+ private:
+  glm::dvec3 eye_;
+  glm::dvec3 center_;
+  std::span<const glm::dvec3> polygon_;
+  double width_ = 0.0;
+};
+
 }  // namespace
 
 Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings& settings,
@@ -36,6 +77,13 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
     }
     mirrors_.push_back(occluder(mirror.polygon, size));
   }
+  for (const Mesh& mesh : scene.meshes) {
+    double largest = 0.0;
+    for (const std::vector<glm::dvec3>& face : mesh.faces) {
+      largest = std::max(largest, radiusAbout(vertexMean(face), face));
+    }
+    largestFaces_.push_back(mesh.radius > 0.0 ? largest / mesh.radius : 0.0);
+  }
 }
 
 FlatOccluder Occlusion::occluder(std::vector<glm::dvec3> polygon, double size) {
@@ -43,6 +91,8 @@ FlatOccluder Occlusion::occluder(std::vector<glm::dvec3> polygon, double size) {
   for (const glm::dvec3& p : polygon) {
     made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
   }
+  made.center = vertexMean(polygon);
+  made.radius = radiusAbout(made.center, polygon);
   made.polygon = std::move(polygon);
   return made;
 }
@@ -70,45 +120,61 @@ const Occlusion::Body& Occlusion::bodyOf(int instance) {
   return *body;
 }
 
-// What may hide a part of `polygon`, which is one of mirror `mirror`.
-std::vector<Occlusion::Hider> Occlusion::hiders(const View& view, std::span<const int> instances, int mirror,
-                                                std::span<const glm::dvec3> polygon) {
-  std::vector<Hider> found;
-  const auto add = [&](std::optional<OccludedRegion> region, bool isMirror, int index) {
-    const auto holds = [&](const HalfSpace& half) {
-      return std::any_of(polygon.begin(), polygon.end(),
-                         [&](const glm::dvec3& p) { return half.at(p - view.eye) > 0.0; });
-    };
-    if (region && std::all_of(region->begin(), region->end(), holds)) {
-      found.push_back({std::move(*region), isMirror, index});
+// Enters a region if it holds a part of the polygon; whether it holds all of it.
+bool Occlusion::Hiders::add(std::optional<OccludedRegion> region, const Hider& of, const glm::dvec3& eye,
+                            std::span<const glm::dvec3> polygon) {
+  if (!region) {
+    return false;
+  }
+  bool all = true;
+  for (const HalfSpace& half : *region) {
+    const auto within =
+        std::count_if(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; });
+    if (within == 0) {
+      return false;
     }
+    all = all && within == std::ssize(polygon);
+  }
+  (all ? whole : parts).push_back(of);
+  (all ? whole : parts).back().region = std::move(*region);
+  return all;
+}
+
+// What hides `polygon`, which is one of mirror `mirror`: the first that does so alone, or those that hide a part of it.
+Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> instances, int mirror,
+                                    std::span<const glm::dvec3> polygon) {
+  Hiders found;
+  const Prospects prospects(view.eye, polygon);
+  const auto addFace = [&](const FlatOccluder& face, const Hider& of) {
+    return prospects.include(face.center, face.radius) && prospects.farther(face.plane) &&
+           found.add(hiddenByFace(face, view, projection_), of, view.eye, polygon);
   };
   for (size_t i = 0; i < mirrors_.size(); ++i) {
-    if (static_cast<int>(i) != mirror) {
-      add(hiddenByFace(mirrors_[i], view, projection_), true, static_cast<int>(i));
+    if (static_cast<int>(i) != mirror && addFace(mirrors_[i], {.isMirror = true, .index = static_cast<int>(i)})) {
+      return found;
     }
-  }
-  const glm::dvec3 center = vertexMean(polygon);
-  double radius = 0.0;
-  for (const glm::dvec3& p : polygon) {
-    radius = std::max(radius, glm::length(p - center));
   }
   // The levels of a mesh keep its corners, but not the outline of what is round.
   const bool simplified = settings_.reflection.meshError > 0.0 && !view.path.empty();
   for (const int i : instances) {
     const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
     const Mesh& mesh = scene_.meshes[instance.mesh];
-    if ((mesh.faces.empty() && mesh.convexVertices.empty()) ||
-        !sphereMeetsSegment(instance.center, instance.radius + radius, view.eye, center)) {
+    const double nearest = glm::length(instance.center - view.eye) - instance.radius;
+    const double widest =
+        mesh.convexVertices.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
+    if (!prospects.looksLarge(widest, nearest) || !prospects.include(instance.center, instance.radius)) {
       continue;
     }
     const Body& body = bodyOf(i);
-    if (!body.convexVertices.empty() && !simplified) {
-      add(hiddenByBody(body.convexVertices, body.slack, mirrors_[static_cast<size_t>(mirror)], view, projection_),
-          false, i);
+    if (!body.convexVertices.empty() && !simplified &&
+        found.add(
+            hiddenByBody(body.convexVertices, body.slack, mirrors_[static_cast<size_t>(mirror)], view, projection_),
+            {.index = i}, view.eye, polygon)) {
+      return found;
     }
-    for (const FlatOccluder& face : body.faces) {
-      add(hiddenByFace(face, view, projection_), false, i);
+    if (std::any_of(body.faces.begin(), body.faces.end(),
+                    [&](const FlatOccluder& face) { return addFace(face, {.index = i}); })) {
+      return found;
     }
   }
   return found;
@@ -129,13 +195,8 @@ std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const
   if (!settings_.debug.skipHidden || settings_.view.wireframe || oblique || polygon.empty()) {
     return std::nullopt;
   }
-  const std::vector<Hider> found = hiders(view, instances, mirror, polygon);
-  for (const Hider& hider : found) {
-    if (outside(hider.region, view.eye, {{polygon.begin(), polygon.end()}}).empty()) {
-      return nameOfHider(hider);
-    }
-  }
-  return hiddenTogether(found, view, polygon);
+  const Hiders found = hiders(view, instances, mirror, polygon);
+  return found.whole.empty() ? hiddenTogether(found.parts, view, polygon) : nameOfHider(found.whole.front());
 }
 
 // Whether no piece is left of the polygon when the regions of all are taken away one after the other.

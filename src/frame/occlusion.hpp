@@ -35,10 +35,15 @@ class Occlusion {
     bool isMirror = false;
     int index = 0;  // of the mirror or instance
   };
+  struct Hiders {
+    bool add(std::optional<OccludedRegion> region, const Hider& of, const glm::dvec3& eye,
+             std::span<const glm::dvec3> polygon);
+    std::vector<Hider> whole;  // at most one
+    std::vector<Hider> parts;
+  };
   static FlatOccluder occluder(std::vector<glm::dvec3> polygon, double size);
   const Body& bodyOf(int instance);
-  std::vector<Hider> hiders(const View& view, std::span<const int> instances, int mirror,
-                            std::span<const glm::dvec3> polygon);
+  Hiders hiders(const View& view, std::span<const int> instances, int mirror, std::span<const glm::dvec3> polygon);
   std::string nameOfHider(const Hider& hider) const;
   std::optional<std::string> hiddenTogether(std::span<const Hider> hiders, const View& view,
                                             std::span<const glm::dvec3> polygon) const;
@@ -48,6 +53,7 @@ class Occlusion {
   const Settings& settings_;
   const Projection& projection_;
   std::vector<FlatOccluder> mirrors_;        // parallel to SceneState::mirrors
+  std::vector<double> largestFaces_;         // of each mesh, radius as a part of the mesh's
   std::vector<std::optional<Body>> bodies_;  // parallel to SceneState::instances; made when first asked for
 };
 
