@@ -46,9 +46,9 @@ struct MaterialData {
 struct MirrorData {
   vec4 plane;        // (n, h): facing the eye, h > 0 is the eye's distance
   vec4 reflectance;  // w: 1 for Schlick's Fresnel
-  vec4 baseColor;    // of the diffuse layer or of the back; w: one of the mirror* constants
+  vec4 baseColor;    // of the diffuse layer or of the back
   vec4 lookup;       // texel of the image = pixel of the pass * xy + zw
-  ivec4 image;       // width and height of the image's used part in texels; z: one of the lookup* constants; w: index into traceMirrors
+  ivec4 image;       // width and height of the image's used part in texels; w: index into traceMirrors
   vec4 reproject[3]; // columns 0, 1, 2 of a matrix and in their w a vector: homogeneous texel of an image of an earlier
                      // frame = matrix * (pixel of the pass, 1) + vector * disparity;
                      // or of a rough mirror: alpha of GGX and number of look-ups in the first one
@@ -58,9 +58,9 @@ struct MirrorData {
 // reflectance and baseColor as above; lookup is the low corner of the box around it, from the centre, w: 0 without a box;
 // reproject[0] the high corner; image.x the texels of a side of a face.
 
-const float mirrorImage = 0.0;
-const float mirrorBackground = 1.0;
-const float mirrorBack = 2.0;
+const int showsImage = 0;
+const int showsBackground = 1;
+const int showsBack = 2;
 const int lookupFetch = 0;
 const int lookupBilinear = 1;
 const int lookupBox = 2;

@@ -13,6 +13,10 @@
 layout(constant_id = 0) const bool baseOnly = false;   // the share of the layer under the reflection
 layout(constant_id = 1) const bool reprojects = false; // the image is one of an earlier frame, and something moved
 layout(constant_id = 6) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
+// What is known of a mirror on the CPU, so that no pixel of it runs or waits for what it has not.
+layout(constant_id = 7) const int shows = showsImage;
+layout(constant_id = 8) const int lookup = lookupFetch;
+layout(constant_id = 9) const bool painted = true;     // its back, or its layer under the reflection, is not black
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 
@@ -52,10 +56,10 @@ vec4 boxFiltered(vec2 low, vec2 high, ivec2 last) {
 vec4 reflected(MirrorData mirror) {
   ivec2 last = mirror.image.xy - 1;
   vec2 texel = gl_FragCoord.xy * mirror.lookup.xy + mirror.lookup.zw;
-  if (mirror.image.z == lookupFetch) {
+  if (lookup == lookupFetch) {
     return texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), last));
   }
-  if (mirror.image.z == lookupBilinear) {
+  if (lookup == lookupBilinear) {
     return bilinearMean(reflection, clamp(texel, vec2(0.5), vec2(mirror.image.xy) - 0.5));
   }
   vec2 low = floor(gl_FragCoord.xy) * mirror.lookup.xy + mirror.lookup.zw;
@@ -206,11 +210,10 @@ vec3 reflectance(MirrorData mirror, vec3 ray, float inward) {
 }
 
 vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
-  Surface base = mirrorLayer(position, mirror.plane.xyz, mirror.baseColor.rgb);
-  bool back = mirror.baseColor.w == mirrorBack;
-  if (!back && all(equal(base.diffuse, vec3(0.0)))) {
+  if (!painted) {
     return vec3(0.0);
   }
+  Surface base = mirrorLayer(position, mirror.plane.xyz, mirror.baseColor.rgb);
 #ifdef TRACED
   return tracedSurfaceRadiance(view, base, safeNormalize(-position), Skip(none, none, uint(mirror.image.w), none, 0.0));
 #else
@@ -235,7 +238,7 @@ void main() {
   color = storable(f * min(image.rgb, shareMax), image.a);
 #else
   vec3 base = baseRadiance(mirror, view, ray * (-mirror.plane.w / inward));
-  if (mirror.baseColor.w == mirrorBack) {
+  if (shows == showsBack) {
     color = storable(base, ownDisparity);
     return;
   }
@@ -244,7 +247,7 @@ void main() {
     return;
   }
   vec4 image = vec4(0.0);
-  if (mirror.baseColor.w == mirrorImage) {
+  if (shows == showsImage) {
     if (blurs) {
       image = blurred(mirror, view, ray, ray * (-mirror.plane.w / inward));
     } else {

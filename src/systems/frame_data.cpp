@@ -92,14 +92,13 @@ MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const Effect
   MirrorData data{};
   data.plane = glm::vec4(glm::dvec4(draw.plane.normal, draw.plane.distance(view.eye)));
   data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), isSchlick(mirror.fresnel, effects) ? 1.0f : 0.0f);
-  const MirrorShows shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
-  data.baseColor = glm::vec4(glm::vec3(draw.back ? mirror.backColor : mirror.baseColor), static_cast<float>(shows));
+  data.baseColor = glm::vec4(glm::vec3(draw.back ? mirror.backColor : mirror.baseColor), 0.0f);
   if (image) {
     const glm::dvec2 ratio = image->pictureSize / view.pictureSize;
     const PixelRect& rect = image->rect;
     const glm::dvec2 offset = glm::dvec2(view.rect.x, view.rect.y) * ratio - glm::dvec2(rect.x, rect.y);
     data.lookup = glm::vec4(glm::dvec4(ratio, offset));
-    data.image = glm::ivec4(rect.width, rect.height, static_cast<int>(lookupFor(ratio)), 0);
+    data.image = glm::ivec4(rect.width, rect.height, 0, 0);
   }
   data.image.w = draw.mirror;
   if (draw.held && draw.held->moved) {
@@ -336,8 +335,11 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
                       .rough = draw.blurs || (draw.scatters && effects.roughness && mirror.roughness > 0.0),
                       .fresnel = !draw.back && isSchlick(mirror.fresnel, effects),
                       .base = mirror.baseColor != glm::dvec3(0.0)};
-    mirrors_.push_back(mirrorData(draw, mirror, effects, pass.view, imageView(draw, plan)));
-    range.lookup = static_cast<Lookup>(mirrors_.back().image.z);
+    const View* image = imageView(draw, plan);
+    range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
+    range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
+    range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
+    mirrors_.push_back(mirrorData(draw, mirror, effects, pass.view, image));
     if (draw.blurs) {
       mirrors_.back().reproject[0] = glm::vec4(static_cast<float>(mirror.roughness * mirror.roughness),
                                                static_cast<float>(effects.roughSamples), 0.0f, 0.0f);

@@ -35,13 +35,15 @@ struct MirrorRange {
   int pass = -1;  // of its image; -1: none of this frame
   int held = -1;  // index into FramePlan::held of its image of an earlier frame; -1: none
   bool reprojected = false;
-  Lookup lookup = Lookup::fetch;
-  bool blurs = false;     // its image is blurred
-  bool scatters = false;  // its reflection is traced
+  MirrorShows shows = MirrorShows::background;
+  Lookup lookup = Lookup::fetch;  // of its image
+  bool blurs = false;             // its image is blurred
+  bool scatters = false;          // its reflection is traced
   bool rippled = false;
   bool rough = false;
   bool fresnel = false;
-  bool base = false;  // there is a diffuse layer under the reflection
+  bool base = false;     // there is a diffuse layer under the reflection
+  bool painted = false;  // that layer or the back, whichever is seen, is not black
 };
 
 // What the systems draw in one pass: indices into the buffers of FrameData.

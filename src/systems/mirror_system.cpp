@@ -70,7 +70,8 @@ const Pipeline& MirrorSystem::pipeline(const Variant& variant, VkDescriptorSetLa
       addConstants(variant.trace, desc.fragConstants);
     }
     desc.fragConstants.resize(6, 0);
-    desc.fragConstants.push_back(variant.blurs);
+    desc.fragConstants.insert(desc.fragConstants.end(), {variant.blurs, static_cast<uint32_t>(variant.shows),
+                                                         static_cast<uint32_t>(variant.lookup), variant.painted});
     entry.pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
   }
   return *entry.pipeline;
@@ -111,6 +112,32 @@ std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mir
   return {Shading::ownSample};
 }
 
+// Of what the shader of this shading asks for; the rest is the same for all mirrors, who then share a pipeline.
+MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading) {
+  Variant variant{.shading = shading};
+  switch (shading) {
+    case Shading::single:
+    case Shading::average:
+      variant.blurs = mirror.blurs;
+      variant.shows = mirror.shows;
+      variant.lookup = mirror.lookup;
+      variant.painted = mirror.painted;
+      variant.reprojected = mirror.reprojected;
+      break;
+    case Shading::base:
+      variant.painted = true;
+      break;
+    case Shading::ownSample:
+    case Shading::ownSampleAdded:
+      variant.reprojected = mirror.reprojected;
+      break;
+    case Shading::scattered:
+    case Shading::scatteredBySample:
+      break;
+  }
+  return variant;
+}
+
 uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
   const PassData& data = info.data.passes()[pass];
   const bool oblique = format.mirrorView && info.settings.reflection.clip == ClipMethod::oblique;
@@ -119,11 +146,9 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
   for (const MirrorRange& mirror : data.mirrors) {
     const MirrorImage* image = imageOf(mirror, info);
     for (const Shading shading : shadings(mirror, image, format)) {
-      Variant variant{.shading = shading,
-                      .samples = format.samples,
-                      .clampDepth = !oblique,
-                      .reprojected = mirror.reprojected,
-                      .blurs = mirror.blurs};
+      Variant variant = variantOf(mirror, shading);
+      variant.samples = format.samples;
+      variant.clampDepth = !oblique;
       const bool traces = tracesRays(shading, info.trace.variant());
       variant.trace = traces ? info.trace.variant() : TraceVariant{};
       const Pipeline& drawn = pipeline(variant, info.trace.layout());

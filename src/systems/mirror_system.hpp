@@ -25,14 +25,18 @@ class MirrorSystem {
  private:
   enum class Shading { single, average, base, ownSample, ownSampleAdded, scattered, scatteredBySample };
   struct Variant {
-    Shading shading;
-    VkSampleCountFlagBits samples;
-    bool clampDepth;
-    bool reprojected;
-    bool blurs;
+    Shading shading = Shading::single;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    bool clampDepth = true;
+    bool reprojected = false;
+    bool blurs = false;
+    MirrorShows shows = MirrorShows::image;
+    Lookup lookup = Lookup::fetch;
+    bool painted = false;
     TraceVariant trace;
     auto operator<=>(const Variant&) const = default;
   };
+  static Variant variantOf(const MirrorRange& mirror, Shading shading);
   static bool tracesRays(Shading shading, const TraceVariant& trace);
   const Pipeline& pipeline(const Variant& variant, VkDescriptorSetLayout traceLayout);
   // The draws of a mirror, in order.
