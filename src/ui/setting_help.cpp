@@ -17,8 +17,8 @@ constexpr std::array<Cost, 38> costs{{
      "Shading of mirror images grows with it. NVIDIA H200, gallery, with those of the main view:\n"
      "3.46 ms with 1, 5.68 ms with 4, 9.46 ms with 8."},
     {"reflection.max_depth",
-     "Each depth adds passes. facing_mirrors at depth 16 over depth 1, 4 samples: 1.39 times the frame on an H200,\n"
-     "3.69 times on a CPU, 2.17 with mesh_error 0.5."},
+     "Each depth adds passes. facing_mirrors at depth 16 over depth 1, 4 samples: 1.40 times the frame on an H200,\n"
+     "3.86 times on a CPU, 1.78 with mesh_error 0.5."},
     {"reflection.min_pixels",
      "Saves the passes of small mirrors: each costs some 0.02 ms of the CPU on the H200's host, whatever it covers."},
     {"reflection.min_throughput", "Saves the passes of bounces that can hardly be seen. 0 draws them all."},
