@@ -218,6 +218,23 @@ TEST(Hidden, BehindABodyNoFaceOfWhichCoversIt) {
   EXPECT_FALSE(isHidden(plan(sceneWithBoxes({mirror}, {post})), {0})) << "the eye is in it";
 }
 
+// With the eye in the plane of something flat, which side of its edges it lies on is rounding.
+TEST(Hidden, NothingBehindWhatIsSeenEdgeOn) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int round = 0; round < 2000; ++round) {
+    const double yaw = 90.0 * uniform(engine);
+    Object sheet = square({0, 0, 0}, {1.0, 1.0, round % 2 == 0 ? 1e-17 : 1e-9});
+    sheet.rotation = {0, yaw, 0};
+    const glm::dvec3 along(std::cos(glm::radians(yaw)), 0, -std::sin(glm::radians(yaw)));
+    const double distance = 2.0 + uniform(engine);
+    sheet.position = (along.z < 0.0 ? distance : -distance) * along;
+    Scene scene = sceneWithBoxes({wall(3.0 * sheet.position, 0, {4, 4})}, {sheet});
+    scene.camera.target = sheet.position;
+    EXPECT_FALSE(isHidden(plan(scene), {0})) << "round " << round;
+  }
+}
+
 TEST(Hidden, ABodyThatALevelMayStandForHidesNothingInAMirror) {
   Object post = square({0, 0, 2}, {3, 3, 0.5});
   const std::vector<Mirror> facing = {wall({0, 0, -4}, 0, {3, 3}), wall({0, 0, 6}, 180, {2, 2})};

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "optics/convex_mesh.hpp"
@@ -93,13 +94,44 @@ TEST(ConvexMesh, HollowsOpeningsAndSecondBodiesMakeItNone) {
   EXPECT_TRUE(two.vertices().empty()) << "two boxes";
 }
 
+// Cut along one diagonal in front and along the other behind, so that each edge has two triangles.
+void addSheet(Body& body, double z) {
+  body.quad({-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z});
+  body.quad({-1, 1, z}, {1, 1, z}, {1, -1, z}, {-1, -1, z});
+  std::rotate(body.positions.end() - 4, body.positions.end() - 3, body.positions.end());
+}
+
+TEST(ConvexMesh, SheetsWithTwoSidesEncloseNothing) {
+  Body sheet;
+  addSheet(sheet, 0.0);
+  EXPECT_TRUE(sheet.vertices().empty());
+  Body shelf;
+  addSheet(shelf, -1.0);
+  addSheet(shelf, 1.0);
+  EXPECT_TRUE(shelf.vertices().empty()) << "one sees through between the boards";
+}
+
+TEST(ConvexMesh, NeitherTinyNorHugeBodiesAreTakenForOthers) {
+  for (const double size : {1e-100, 1e-85, 1.0, 1e100, 1e200}) {
+    Body waist = turned(8, 12, [](double y) { return 0.3 + y * y; });
+    Body block = box({-1, -1, -1}, {1, 1, 1});
+    for (Body* body : {&waist, &block}) {
+      for (glm::dvec3& p : body->positions) {
+        p *= size;
+      }
+    }
+    EXPECT_TRUE(waist.vertices().empty()) << size;
+    EXPECT_EQ(block.vertices().size(), 8u) << size;
+  }
+}
+
 TEST(ConvexMesh, ADentThatTheToleranceAllowsPassesAndALargerOneDoesNot) {
   for (const double part : {0.5, 2.0}) {
     // The middle of one side of a box, pushed in.
     Body body = box({-1, -1, -1}, {1, 1, 1});
     body.indices.erase(body.indices.begin(), body.indices.begin() + 6);
     const auto middle = static_cast<uint32_t>(body.positions.size());
-    body.positions.emplace_back(0, 0, 1.0 - part * convexTolerance * std::sqrt(12.0));
+    body.positions.emplace_back(0, 0, 1.0 - part * convexTolerance * 2.0);
     for (uint32_t i = 0; i < 4; ++i) {
       body.indices.insert(body.indices.end(), {i, (i + 1) % 4, middle});
     }

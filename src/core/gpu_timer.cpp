@@ -51,22 +51,23 @@ void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detai
   }
 }
 
-void GpuTimer::stamp(VkCommandBuffer commands) {
+void GpuTimer::stamp(VkCommandBuffer commands, uint32_t query) {
   if (stamps_) {
-    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, stamps_.get(), stamped_++);
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, stamps_.get(), query);
+    ++stamped_;
   }
 }
 
 void GpuTimer::finish(VkCommandBuffer commands) {
   if (detail_ == TimerDetail::frame && stamped_ > 0) {
-    stamp(commands);
+    stamp(commands, 1);
   }
 }
 
 int GpuTimer::begin(VkCommandBuffer commands, const std::string& pass, bool statistics) {
   if (detail_ == TimerDetail::frame) {
     if (stamped_ == 0) {
-      stamp(commands);
+      stamp(commands, 0);
     }
     return -1;
   }
@@ -75,7 +76,7 @@ int GpuTimer::begin(VkCommandBuffer commands, const std::string& pass, bool stat
   }
   const auto slot = static_cast<uint32_t>(passes_.size());
   passes_.push_back({.name = pass, .hasStatistics = statistics && statistics_});
-  stamp(commands);
+  stamp(commands, 2 * slot);
   if (passes_.back().hasStatistics) {
     vkCmdBeginQuery(commands, statistics_.get(), slot, 0);
   }
@@ -90,7 +91,7 @@ void GpuTimer::end(VkCommandBuffer commands, int slot) {
   if (passes_[query].hasStatistics) {
     vkCmdEndQuery(commands, statistics_.get(), query);
   }
-  stamp(commands);
+  stamp(commands, 2 * query + 1);
 }
 
 void GpuTimer::beginSamples(VkCommandBuffer commands, int slot) {

@@ -44,7 +44,7 @@ class GpuTimer {
  private:
   static constexpr uint32_t maxPasses = 512;
 
-  void stamp(VkCommandBuffer commands);
+  void stamp(VkCommandBuffer commands, uint32_t query);
 
   Device& device_;
   QueryPoolHandle stamps_;      // null where the queue has none

@@ -111,6 +111,10 @@ std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const V
       return std::nullopt;
     }
     region.push_back({*normal - marginPixels * axis.pixel * axis.forward, 0.0});
+    // Otherwise it is too thin to say on which side of the edge it lies.
+    if (!(region.back().at(inside) > 0.0)) {
+      return std::nullopt;
+    }
     region.push_back({eye * *normal - occluder.slack * toPlane, 0.0});
   }
   return region;
@@ -157,6 +161,9 @@ std::optional<OccludedRegion> hiddenByBody(std::span<const glm::dvec3> vertices,
     // What is at least `nearest` deep is at least `slack` within the outline there.
     const double margin = marginPixels * axis.pixel + slack / nearest;
     region.push_back({*normal - margin * axis.forward, 0.0});
+    if (!(region.back().at(inside) > 0.0)) {
+      return std::nullopt;  // likewise
+    }
   }
   return region;
 }

@@ -29,7 +29,7 @@ struct FlatOccluder {
   double radius = 0.0;
 };
 
-// Nothing if the polygon is seen edge-on or clipped away in the view. `near`: of the projection, metres.
+// Nothing if the polygon is seen edge-on or clipped away in the view.
 std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const View& view,
                                            const Projection& projection);
 

@@ -103,7 +103,7 @@ const Occlusion::Body& Occlusion::bodyOf(int instance) {
     body.emplace();
     const InstanceState& state = state_.instances[static_cast<size_t>(instance)];
     const Mesh& mesh = scene_.meshes[state.mesh];
-    body->slack = (roundingPart + 2.0 * convexTolerance) * state.radius;
+    body->slack = (roundingPart + 4.0 * convexTolerance) * state.radius;  // the box's side is at most two radii
     for (const glm::dvec3& p : mesh.convexVertices) {
       body->convexVertices.push_back(state.worldFromMesh.point(p));
     }
@@ -135,8 +135,12 @@ bool Occlusion::Hiders::add(std::optional<OccludedRegion> region, const Hider& o
     }
     all = all && within == std::ssize(polygon);
   }
-  (all ? whole : parts).push_back(of);
-  (all ? whole : parts).back().region = std::move(*region);
+  if (all) {
+    whole = of;
+  } else {
+    parts.push_back(of);
+    parts.back().region = std::move(*region);
+  }
   return all;
 }
 
@@ -150,7 +154,10 @@ Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> insta
            found.add(hiddenByFace(face, view, projection_), of, view.eye, polygon);
   };
   for (size_t i = 0; i < mirrors_.size(); ++i) {
-    if (static_cast<int>(i) != mirror && addFace(mirrors_[i], {.isMirror = true, .index = static_cast<int>(i)})) {
+    // A mirror beside what the view shows is not drawn, though it may stand in the margin that is read around it.
+    if (static_cast<int>(i) != mirror && prospects.include(mirrors_[i].center, mirrors_[i].radius) &&
+        !visiblePart(view, mirrors_[i].polygon).empty() &&
+        addFace(mirrors_[i], {.isMirror = true, .index = static_cast<int>(i)})) {
       return found;
     }
   }
@@ -196,7 +203,7 @@ std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const
     return std::nullopt;
   }
   const Hiders found = hiders(view, instances, mirror, polygon);
-  return found.whole.empty() ? hiddenTogether(found.parts, view, polygon) : nameOfHider(found.whole.front());
+  return found.whole ? nameOfHider(*found.whole) : hiddenTogether(found.parts, view, polygon);
 }
 
 // Whether no piece is left of the polygon when the regions of all are taken away one after the other.

@@ -38,7 +38,7 @@ class Occlusion {
   struct Hiders {
     bool add(std::optional<OccludedRegion> region, const Hider& of, const glm::dvec3& eye,
              std::span<const glm::dvec3> polygon);
-    std::vector<Hider> whole;  // at most one
+    std::optional<Hider> whole;  // hides all of it; without its region
     std::vector<Hider> parts;
   };
   static FlatOccluder occluder(std::vector<glm::dvec3> polygon, double size);

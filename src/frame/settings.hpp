@@ -83,7 +83,7 @@ struct QualitySettings {
 struct DebugSettings {
   std::string omitBarrier;   // name of a barrier that is not recorded, to show that validation notices; empty: none
   bool checkFinite = false;  // every render target of radiance is searched for values that are not finite or negative
-  bool skipHidden = true;    // a mirror that one flat thing hides has no pass
+  bool skipHidden = true;    // a mirror that others or objects hide has no pass
   bool cullClusters = true;  // of objects seen in part only what a view may see is drawn
   bool maskPasses = true;    // what no one looks up of a mirror's image is not shaded
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "optics/polygon.hpp"
@@ -22,19 +23,28 @@ bool isClosed(std::span<const uint32_t> points) {
   return std::all_of(triangles.begin(), triangles.end(), [](const auto& edge) { return edge.second == 2; });
 }
 
-double sizeOf(std::span<const glm::dvec3> points) {
+// The points in a box whose longest side is 1; none if it has no such side.
+std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
   glm::dvec3 low = points[0];
   glm::dvec3 high = points[0];
   for (const glm::dvec3& p : points) {
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  return glm::length(high - low);
+  const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  std::vector<glm::dvec3> scaled;
+  if (std::isnormal(side)) {
+    for (const glm::dvec3& p : points) {
+      scaled.push_back((p - low) / side);
+    }
+  }
+  return scaled;
 }
 
-// Whether no point lies on the other side of the triangle than `inside`.
-bool bounds(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& inside, std::span<const glm::dvec3> points,
-            double tolerance) {
+using Triangle = std::array<glm::dvec3, 3>;
+
+// Whether `inside` lies on one side of the triangle, and no point on the other. One without area bounds nothing.
+bool bounds(const Triangle& triangle, const glm::dvec3& inside, std::span<const glm::dvec3> points, double tolerance) {
   const glm::dvec3 area = newellVector(triangle);
   if (!(glm::length(area) > tolerance * tolerance)) {
     return true;
@@ -43,8 +53,34 @@ bool bounds(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& inside,
   if (plane.distance(inside) < 0.0) {
     plane.normal = -plane.normal;
   }
-  return std::all_of(points.begin(), points.end(),
-                     [&](const glm::dvec3& p) { return plane.distance(p) >= -tolerance; });
+  return plane.distance(inside) > tolerance && std::all_of(points.begin(), points.end(), [&](const glm::dvec3& p) {
+           return plane.distance(p) >= -tolerance;
+         });
+}
+
+double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return glm::dot(a, glm::cross(b, c));
+}
+
+// Whether a ray from `inside` meets one triangle only. Where each edge has two triangles, as many rays meet an odd
+// number of them as all do: none finds a gap. Two sheets with two sides each, which enclose nothing, are met by an even
+// number.
+bool isMetOnce(std::span<const Triangle> triangles, const glm::dvec3& inside) {
+  const Triangle& largest =
+      *std::max_element(triangles.begin(), triangles.end(),
+                        [](const Triangle& a, const Triangle& b) { return polygonArea(a) < polygonArea(b); });
+  // Off the lines through corners and middles, along which other triangles are likely to be cut.
+  const glm::dvec3 ray = 0.51 * largest[0] + 0.31 * largest[1] + 0.18 * largest[2] - inside;
+  int met = 0;
+  for (const Triangle& triangle : triangles) {
+    const glm::dvec3 a = triangle[0] - inside;
+    const glm::dvec3 b = triangle[1] - inside;
+    const glm::dvec3 c = triangle[2] - inside;
+    const double whole = volume(a, b, c);
+    const std::array parts{volume(ray, b, c), volume(a, ray, c), volume(a, b, ray)};
+    met += whole != 0.0 && std::all_of(parts.begin(), parts.end(), [&](double part) { return part * whole >= 0.0; });
+  }
+  return met == 1;
 }
 
 }  // namespace
@@ -60,15 +96,19 @@ std::vector<glm::dvec3> convexVertices(std::span<const glm::dvec3> positions, st
   for (const uint32_t index : indices) {
     points.push_back(welder.weld(positions[index]));
   }
-  const std::vector<glm::dvec3>& places = welder.points();
-  const double tolerance = convexTolerance * sizeOf(places);
+  const std::vector<glm::dvec3> places = unitSized(welder.points());
+  if (places.empty() || !isClosed(points)) {
+    return {};
+  }
   const glm::dvec3 inside = vertexMean(places);
+  std::vector<Triangle> triangles;
   for (size_t i = 0; i + 2 < points.size(); i += 3) {
-    if (!bounds({places[points[i]], places[points[i + 1]], places[points[i + 2]]}, inside, places, tolerance)) {
+    triangles.push_back({places[points[i]], places[points[i + 1]], places[points[i + 2]]});
+    if (!bounds(triangles.back(), inside, places, convexTolerance)) {
       return {};
     }
   }
-  return isClosed(points) ? places : std::vector<glm::dvec3>{};
+  return isMetOnce(triangles, inside) ? welder.points() : std::vector<glm::dvec3>{};
 }
 
 }  // namespace speculum

@@ -8,7 +8,7 @@
 namespace speculum {
 
 // How far a vertex of a mesh that counts as convex may lie outside the plane of one of its triangles, as a part of the
-// mesh's size.
+// longest side of the mesh's bounding box.
 constexpr double convexTolerance = 1e-5;
 
 // The places of the vertices of a triangle mesh that is closed (each edge, by position, has two triangles) and convex:

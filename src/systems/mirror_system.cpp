@@ -118,11 +118,13 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
   switch (shading) {
     case Shading::single:
     case Shading::average:
-      variant.blurs = mirror.blurs;
       variant.shows = mirror.shows;
-      variant.lookup = mirror.lookup;
       variant.painted = mirror.painted;
-      variant.reprojected = mirror.reprojected;
+      if (mirror.shows == MirrorShows::image) {
+        variant.blurs = mirror.blurs;
+        variant.lookup = mirror.lookup;
+        variant.reprojected = mirror.reprojected;
+      }
       break;
     case Shading::base:
       variant.painted = true;
