@@ -229,9 +229,12 @@ TEST(Hidden, NothingBehindWhatIsSeenEdgeOn) {
     const glm::dvec3 along(std::cos(glm::radians(yaw)), 0, -std::sin(glm::radians(yaw)));
     const double distance = 2.0 + uniform(engine);
     sheet.position = (along.z < 0.0 ? distance : -distance) * along;
-    Scene scene = sceneWithBoxes({wall(3.0 * sheet.position, 0, {4, 4})}, {sheet});
-    scene.camera.target = sheet.position;
-    EXPECT_FALSE(isHidden(plan(scene), {0})) << "round " << round;
+    const glm::dvec3 aside(-along.z, 0, along.x);
+    for (const double side : {-1.5, 1.5}) {
+      Scene scene = sceneWithBoxes({wall(3.0 * sheet.position + side * aside, 0, {0.5, 0.5})}, {sheet});
+      scene.camera.target = scene.mirrors[0].position;
+      EXPECT_FALSE(isHidden(plan(scene), {0})) << "round " << round;
+    }
   }
 }
 
