@@ -265,5 +265,14 @@ TEST(MeshLevels, AreMadeOnceForAllThreads) {
   }
 }
 
+TEST(Models, OnlyThoseThatAreConvexHideAsAWhole) {
+  for (const char* name : {"sphere", "gem", "box", "block", "tile"}) {
+    EXPECT_GE(model(name).convexVertices.size(), 8u) << name;
+  }
+  for (const char* name : {"torus_knot", "queen", "post", "frame", "room", "arch", "moebius"}) {
+    EXPECT_TRUE(model(name).convexVertices.empty()) << name;
+  }
+}
+
 }  // namespace
 }  // namespace speculum

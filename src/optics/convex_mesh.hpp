@@ -8,8 +8,8 @@
 namespace speculum {
 
 // How far a vertex of a mesh that counts as convex may lie outside the plane of one of its triangles, as a part of the
-// longest side of the mesh's bounding box.
-constexpr double convexTolerance = 1e-5;
+// longest side of the mesh's bounding box. Models are written with four decimals: a ball of 1 m is off by 6e-5.
+constexpr double convexTolerance = 1e-4;
 
 // The places of the vertices of a triangle mesh that is closed (each edge, by position, has two triangles) and convex:
 // whatever lies within their outline is covered by it, from everywhere outside. Empty for any other mesh, and for one
