@@ -144,14 +144,16 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
     const Image8 all = pictureWith(session, settings);
     passesOfAll += session.lastFrame().plan.passes.size();
     ASSERT_EQ(skipping.rgba, all.rgba) << "cut " << cut;
-    settings.debug.cullClusters = false;
-    parts.add(all, pictureWith(session, settings));
+    if (cut % 4 == 0) {
+      settings.debug.cullClusters = false;
+      parts.add(all, pictureWith(session, settings));
+    }
     settings.debug.maskPasses = true;
     session.setSettings(settings);
   }
   // A triangle's colours may have another last bit with lavapipe when other triangles are in its draw, which is more
   // than that where it is steep.
-  EXPECT_LT(parts.pixels, cuts) << "of 14 400 each";
+  EXPECT_LT(parts.pixels, cuts) << "of 14 400 each, in a quarter of them";
   EXPECT_LE(parts.most, 16);
   expectQuiet(session);
   EXPECT_GT(hidden, cuts);
