@@ -23,15 +23,19 @@ struct Axis {
   double pixel;
 };
 
-// The unit normal of the plane through the eye and two points, towards the side of `inside`; nothing if the points lie
-// in one direction.
-std::optional<glm::dvec3> edgeNormal(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& inside) {
-  const glm::dvec3 normal = glm::cross(a, b);
+// Adds what lies within the edge from a to b of an occluder around `inside` (all from the eye) by `margin`, measured
+// across the view at unit depth. The unit normal of the plane through the eye and the edge, inwards; nothing if the
+// occluder is too thin to say on which side of the edge it lies.
+std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, const glm::dvec3& b,
+                                  const glm::dvec3& inside, double margin, const Axis& axis) {
+  glm::dvec3 normal = glm::cross(a, b);
   const double length = glm::length(normal);
   if (!(length > 1e-9 * glm::length(a) * glm::length(b))) {
     return std::nullopt;
   }
-  return normal * ((glm::dot(normal, inside) < 0.0 ? -1.0 : 1.0) / length);
+  normal *= (glm::dot(normal, inside) < 0.0 ? -1.0 : 1.0) / length;
+  region.push_back({normal - margin * axis.forward, 0.0});
+  return region.back().at(inside) > 0.0 ? std::optional(normal) : std::nullopt;
 }
 
 // Without vertices that clipping put on top of another.
@@ -106,13 +110,9 @@ std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const V
   region.reserve(region.size() + 2 * drawn.size());
   const glm::dvec3 inside = vertexMean(drawn) - view.eye;
   for (size_t i = 0; i < drawn.size(); ++i) {
-    const auto normal = edgeNormal(drawn[i] - view.eye, drawn[(i + 1) % drawn.size()] - view.eye, inside);
+    const auto normal = addEdge(region, drawn[i] - view.eye, drawn[(i + 1) % drawn.size()] - view.eye, inside,
+                                marginPixels * axis.pixel, axis);
     if (!normal) {
-      return std::nullopt;
-    }
-    region.push_back({*normal - marginPixels * axis.pixel * axis.forward, 0.0});
-    // Otherwise it is too thin to say on which side of the edge it lies.
-    if (!(region.back().at(inside) > 0.0)) {
       return std::nullopt;
     }
     region.push_back({eye * *normal - occluder.slack * toPlane, 0.0});
@@ -153,16 +153,11 @@ std::optional<OccludedRegion> hiddenByBody(std::span<const glm::dvec3> vertices,
   if (around.size() < 3) {
     return std::nullopt;
   }
+  // What is at least `nearest` deep is at least `slack` within the outline there.
+  const double margin = marginPixels * axis.pixel + slack / nearest;
   for (size_t i = 0; i < around.size(); ++i) {
-    const auto normal = edgeNormal(fromEye[around[i]], fromEye[around[(i + 1) % around.size()]], inside);
-    if (!normal) {
+    if (!addEdge(region, fromEye[around[i]], fromEye[around[(i + 1) % around.size()]], inside, margin, axis)) {
       return std::nullopt;
-    }
-    // What is at least `nearest` deep is at least `slack` within the outline there.
-    const double margin = marginPixels * axis.pixel + slack / nearest;
-    region.push_back({*normal - margin * axis.forward, 0.0});
-    if (!(region.back().at(inside) > 0.0)) {
-      return std::nullopt;  // likewise
     }
   }
   return region;

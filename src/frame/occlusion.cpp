@@ -150,8 +150,7 @@ Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> insta
   Hiders found;
   const Prospects prospects(view.eye, polygon);
   const auto addFace = [&](const FlatOccluder& face, const Hider& of) {
-    return prospects.include(face.center, face.radius) && prospects.farther(face.plane) &&
-           found.add(hiddenByFace(face, view, projection_), of, view.eye, polygon);
+    return prospects.farther(face.plane) && found.add(hiddenByFace(face, view, projection_), of, view.eye, polygon);
   };
   for (size_t i = 0; i < mirrors_.size(); ++i) {
     // A mirror beside what the view shows is not drawn, though it may stand in the margin that is read around it.
@@ -179,8 +178,9 @@ Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> insta
             {.index = i}, view.eye, polygon)) {
       return found;
     }
-    if (std::any_of(body.faces.begin(), body.faces.end(),
-                    [&](const FlatOccluder& face) { return addFace(face, {.index = i}); })) {
+    if (std::any_of(body.faces.begin(), body.faces.end(), [&](const FlatOccluder& face) {
+          return prospects.include(face.center, face.radius) && addFace(face, {.index = i});
+        })) {
       return found;
     }
   }

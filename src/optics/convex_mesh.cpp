@@ -62,9 +62,9 @@ double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   return glm::dot(a, glm::cross(b, c));
 }
 
-// Whether a ray from `inside` meets one triangle only. Where each edge has two triangles, as many rays meet an odd
-// number of them as all do: none finds a gap. Two sheets with two sides each, which enclose nothing, are met by an even
-// number.
+// Whether a ray from `inside` meets one triangle only. Where each edge has two triangles, all rays meet an odd number
+// of them or all an even one: after one that meets one triangle, none finds a gap. Sheets with two sides, which enclose
+// nothing, are met an even number of times.
 bool isMetOnce(std::span<const Triangle> triangles, const glm::dvec3& inside) {
   const Triangle& largest =
       *std::max_element(triangles.begin(), triangles.end(),
