@@ -7,6 +7,7 @@
 #include "command_support.hpp"
 #include "image/image.hpp"
 #include "picture_support.hpp"
+#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -333,8 +334,8 @@ TEST_F(CommandLine, ReferenceIsThePictureThatTheRendererDraws) {
 
 TEST_F(CommandLine, ShippedScenesAreFoundFromAnyDirectory) {
   for (const char* name : {"no_mirror", "no_mirror.toml", "scenes/no_mirror.toml"}) {
-    const std::string command = "cd / && exec '" + std::string(SPECULUM_BINARY_DIR) + "/speculum' render --scene " +
-                                name + " --size 32x18 --out '" + out("n.png") + "'";
+    const std::string command = "cd / && exec '" + binaryDir().string() + "/speculum' render --scene " + name +
+                                " --size 32x18 --out '" + out("n.png") + "'";
     const ProcessResult result = runProcess({"bash", "-c", command});
     EXPECT_EQ(result.exitCode, 0) << result.output;
   }

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
+#include "test_paths.hpp"
 
 // The program called as scripts call it.
 namespace speculum::testing_support {
@@ -16,7 +17,7 @@ inline ProcessResult speculum(std::vector<std::string> arguments) {
   if (arguments.front() == "render" || arguments.front() == "bench") {
     arguments.insert(arguments.begin() + 1, {"--set", "debug.check_finite=true"});
   }
-  arguments.insert(arguments.begin(), std::string(SPECULUM_BINARY_DIR) + "/speculum");
+  arguments.insert(arguments.begin(), binaryDir().string() + "/speculum");
   return runProcess(arguments);
 }
 

@@ -7,6 +7,7 @@
 #include "command_support.hpp"
 #include "frame/settings.hpp"
 #include "picture_support.hpp"
+#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -15,7 +16,7 @@ using namespace testing_support;
 
 using Words = std::set<std::string>;
 
-const std::string program = std::string(SPECULUM_BINARY_DIR) + "/speculum";
+const std::string program = binaryDir().string() + "/speculum";
 
 Words words(const std::string& text) {
   std::istringstream stream(text);

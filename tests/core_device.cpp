@@ -2,8 +2,8 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "core/platform.hpp"
 #include "core_fixture.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum::test {
 namespace {

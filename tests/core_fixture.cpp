@@ -1,4 +1,5 @@
 #include "core_fixture.hpp"
+#include "test_paths.hpp"
 
 #include <array>
 
@@ -38,7 +39,7 @@ DeviceOptions validated(RenderPath path) {
 
 RendererOptions headless(VkExtent2D extent) {
   return {.extent = extent,
-          .spirvDir = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "core_shaders",
+          .spirvDir = binaryDir() / "tests" / "core_shaders",
           .pipelineCacheDir = std::filesystem::path()};
 }
 

@@ -4,8 +4,9 @@
 #include <fstream>
 #include <functional>
 
-#include "core/platform.hpp"
 #include "core_fixture.hpp"
+#include "platform/platform.hpp"
+#include "test_paths.hpp"
 
 namespace speculum::test {
 namespace {
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr VkExtent2D extent{32, 32};
 
-const fs::path glslDir = fs::path(SPECULUM_SOURCE_DIR) / "tests" / "shaders";
+const fs::path glslDir = sourceDir() / "tests" / "shaders";
 
 // One frame with a pipeline cache in `directory`.
 bool runWithCache(Device& device, const fs::path& directory) {
@@ -187,7 +188,7 @@ TEST_F(HotReload, CompileErrorIsReportedAndTheOldPipelineStays) {
 
 TEST(ShaderLibrary, ErrorsNameTheFileOrDirectory) {
   Device device({});
-  ShaderLibrary library(device, fs::path(SPECULUM_BINARY_DIR) / "tests" / "shaders");
+  ShaderLibrary library(device, binaryDir() / "tests" / "shaders");
   try {
     library.module("missing.frag");
     FAIL();

@@ -3,6 +3,7 @@
 #include "demo_window_support.hpp"
 #include "frame/settings.hpp"
 #include "scene/scene_loader.hpp"
+#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -23,7 +24,7 @@ class CopiedCommand : public DemoWindow {
     const std::string command = demo_->window().clipboard();
     EXPECT_EQ(said().find("copied: " + command), 0u) << said();
     const ProcessResult result = runProcess(
-        {"bash", "-c", "cd '" + out_.path().string() + "' && PATH=" SPECULUM_BINARY_DIR ":$PATH && " + command});
+        {"bash", "-c", "cd '" + out_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
     EXPECT_EQ(result.exitCode, 0) << command << "\n" << result.output;
     const std::filesystem::path file = out_.path() / "demo_window.png";
     EXPECT_TRUE(std::filesystem::exists(file)) << command;

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "demo_window_support.hpp"
+#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -42,7 +43,7 @@ class DemoOpen : public DemoWindow {
     return frames;
   }
 
-  std::string model(const std::string& name) { return std::string(SPECULUM_SOURCE_DIR) + "/models/" + name; }
+  std::string model(const std::string& name) { return sourceDir().string() + "/models/" + name; }
 
   std::string shown() { return demo_->model().scenes.at(demo_->model().scene); }
 };

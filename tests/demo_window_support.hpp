@@ -5,8 +5,8 @@
 #include <chrono>
 
 #include "app/demo.hpp"
-#include "core/platform.hpp"
 #include "picture_support.hpp"
+#include "platform/platform.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum::testing_support {

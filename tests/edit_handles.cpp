@@ -5,8 +5,8 @@
 #include "edit/gizmo.hpp"
 #include "edit/outline.hpp"
 #include "edit/transform.hpp"
-#include "optics/affine.hpp"
-#include "optics/reflection.hpp"
+#include "geometry/affine.hpp"
+#include "geometry/reflection.hpp"
 
 namespace speculum {
 namespace {

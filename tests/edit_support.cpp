@@ -1,4 +1,5 @@
 #include "edit_support.hpp"
+#include "test_paths.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -16,7 +17,7 @@ std::string contentOfFile(const fs::path& file) {
 
 std::vector<fs::path> shippedScenes() {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(SPECULUM_SOURCE_DIR) / "scenes")) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(sourceDir() / "scenes")) {
     if (entry.path().extension() == ".toml") {
       files.push_back(entry.path());
     }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
-#include "core/platform.hpp"
 #include "picture_support.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 namespace {

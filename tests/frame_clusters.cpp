@@ -6,7 +6,7 @@
 #include <random>
 
 #include "frame/frame_plan.hpp"
-#include "scene/mesh_clusters.hpp"
+#include "geometry/mesh_clusters.hpp"
 
 namespace speculum {
 namespace {

@@ -9,7 +9,7 @@
 #include "frame/image_reuse.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame_support.hpp"
-#include "optics/affine.hpp"
+#include "geometry/affine.hpp"
 
 namespace speculum {
 namespace {

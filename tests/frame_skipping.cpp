@@ -7,7 +7,7 @@
 #include "frame/frame_plan.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame_support.hpp"
-#include "optics/affine.hpp"
+#include "geometry/affine.hpp"
 
 namespace speculum {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "image/file_io.hpp"
 #include "image/image.hpp"
+#include "platform/file_io.hpp"
 #include "temporary_folder.hpp"
 
 namespace speculum {

@@ -5,8 +5,8 @@
 #include <random>
 #include <sstream>
 
-#include "optics/affine.hpp"
-#include "optics/reflection.hpp"
+#include "geometry/affine.hpp"
+#include "geometry/reflection.hpp"
 #include "picture_support.hpp"
 
 namespace speculum {

@@ -9,14 +9,15 @@
 
 #include "core/device.hpp"
 #include "core/instance.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
+#include "test_paths.hpp"
 
 namespace speculum::testing_support {
 
 namespace {
 
 void writeEvidence(const Image8& actual, const Image8& expected, const std::string& name) {
-  const std::filesystem::path directory = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "failed";
+  const std::filesystem::path directory = binaryDir() / "tests" / "failed";
   std::filesystem::create_directories(directory);
   Image8 shown(actual.width, actual.height);
   for (size_t i = 0; i < shown.rgba.size(); ++i) {
@@ -55,7 +56,7 @@ void expectAlike(const Image8& actual, const Image8& expected, int tolerance, co
 }
 
 std::filesystem::path sourceFile(const std::string& relative) {
-  return std::filesystem::path(SPECULUM_SOURCE_DIR) / relative;
+  return sourceDir() / relative;
 }
 
 Options headless(const std::filesystem::path& scene, PictureSize size) {
@@ -91,7 +92,7 @@ Image8 draw(const Options& options, double time) {
 // take it for the folder that they come with.
 std::filesystem::path sceneDirectory() {
   static std::filesystem::path made;
-  std::filesystem::path directory = std::filesystem::path(SPECULUM_BINARY_DIR) / "tests" / "written";
+  std::filesystem::path directory = binaryDir() / "tests" / "written";
   if (const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info()) {
     std::string name = std::string(test->test_suite_name()) + "." + test->name();
     std::replace(name.begin(), name.end(), '/', '_');

@@ -1,3 +1,3 @@
 speculum_test(test_reference
-  SOURCES reference_bvh.cpp reference_mirrors.cpp reference_tracer.cpp reference_scenes.cpp
+  SOURCES geometry_bvh.cpp reference_mirrors.cpp reference_tracer.cpp reference_scenes.cpp
   LIBRARIES reference ext::tbb ext::embree)

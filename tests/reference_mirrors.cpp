@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "optics/reflection.hpp"
+#include "geometry/reflection.hpp"
 #include "reference/ray_tracer.hpp"
 #include "reference_scenes.hpp"
 

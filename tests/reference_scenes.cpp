@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "optics/polygon.hpp"
+#include "geometry/polygon.hpp"
 
 namespace speculum::testing {
 

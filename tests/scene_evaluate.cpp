@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "optics/polygon.hpp"
+#include "geometry/polygon.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {

@@ -8,9 +8,10 @@
 #include <set>
 #include <thread>
 
-#include "scene/mesh_levels.hpp"
+#include "geometry/mesh_levels.hpp"
+#include "geometry/surface_distance.hpp"
 #include "scene/scene_loader.hpp"
-#include "scene/surface_distance.hpp"
+#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -19,7 +20,7 @@ using Corners = std::array<glm::dvec3, 3>;
 
 Mesh model(const std::string& name) {
   std::vector<Texture> textures;
-  return loadObj(std::filesystem::path(SPECULUM_SOURCE_DIR) / "models" / (name + ".obj"), textures);
+  return loadObj(sourceDir() / "models" / (name + ".obj"), textures);
 }
 
 glm::dvec3 randomPoint(std::mt19937& random, double reach) {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <random>
 
-#include "optics/polygon.hpp"
-#include "scene/triangulate.hpp"
+#include "geometry/polygon.hpp"
+#include "geometry/triangulate.hpp"
 #include "scene_support.hpp"
 
 namespace speculum {

@@ -5,6 +5,7 @@
 #include <regex>
 #include <sstream>
 
+#include "test_paths.hpp"
 #include "ui/setting_help.hpp"
 
 namespace speculum {
@@ -21,7 +22,7 @@ TEST(SettingHelp, SaysOfEverySettingWhatItCosts) {
 }
 
 TEST(SettingHelp, FiguresAreThoseThatWereMeasured) {
-  std::ifstream file(SPECULUM_SOURCE_DIR "/docs/measurements.md");
+  std::ifstream file(sourceDir() / "docs/measurements.md");
   std::stringstream measurements;
   measurements << file.rdbuf();
   const std::regex figure("[0-9]+\\.[0-9]+");

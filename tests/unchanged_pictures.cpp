@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "app/stats.hpp"
-#include "core/platform.hpp"
 #include "picture_support.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 namespace {

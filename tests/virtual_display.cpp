@@ -13,7 +13,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
+#include "test_paths.hpp"
 
 extern char** environ;
 
@@ -90,8 +91,8 @@ VirtualDisplay::VirtualDisplay(int width, int height) {
   // A window that is mapped while the manager starts may wait for ever to be shown.
   const TemporaryDirectory directory;
   const std::filesystem::path ready = directory.path() / "ready";
-  manager_ = start(
-      {"openbox", "--config-file", SPECULUM_SOURCE_DIR "/tests/openbox.xml", "--startup", "touch " + ready.string()});
+  manager_ = start({"openbox", "--config-file", (sourceDir() / "tests/openbox.xml").string(), "--startup",
+                    "touch " + ready.string()});
   for (int i = 0; i < 1000 && !std::filesystem::exists(ready); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

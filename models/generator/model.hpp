@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "optics/affine.hpp"
+#include "geometry/affine.hpp"
 
 namespace speculum::generator {
 

@@ -1,6 +1,6 @@
 #include "accuracy/fingerprint.hpp"
 
-#include "image/file_io.hpp"
+#include "platform/file_io.hpp"
 
 namespace speculum {
 

@@ -2,7 +2,7 @@
 
 #include "accuracy/sweep_json.hpp"
 #include "accuracy/sweep_results.hpp"
-#include "image/file_io.hpp"
+#include "platform/file_io.hpp"
 
 namespace speculum {
 

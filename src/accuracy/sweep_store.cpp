@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "image/file_io.hpp"
+#include "platform/file_io.hpp"
 
 namespace speculum {
 

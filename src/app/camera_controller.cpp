@@ -5,8 +5,8 @@
 #include <iterator>
 #include <limits>
 
-#include "optics/affine.hpp"
-#include "optics/polygon.hpp"
+#include "geometry/affine.hpp"
+#include "geometry/polygon.hpp"
 
 namespace speculum {
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "app/demo.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "app/demo.hpp"
-#include "core/platform.hpp"
 #include "edit/save_place.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "app/demo.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

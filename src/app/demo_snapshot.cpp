@@ -6,7 +6,7 @@
 #include "accuracy/fingerprint.hpp"
 #include "app/demo.hpp"
 #include "app/view_command.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "app/options.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

@@ -11,7 +11,7 @@
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "app/stats.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 #include "reference/throughput.hpp"
 
 namespace speculum {

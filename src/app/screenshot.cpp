@@ -3,7 +3,7 @@
 #include <array>
 #include <ctime>
 
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

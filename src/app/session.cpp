@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "app/screenshot.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/platform.hpp"
 #include "frame/depth_readout.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

@@ -6,7 +6,7 @@
 #include "accuracy/fingerprint.hpp"
 #include "app/session_subject.hpp"
 #include "app/version.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

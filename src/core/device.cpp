@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/physical_device.hpp"
-#include "core/window.hpp"
+#include "platform/window.hpp"
 
 namespace speculum {
 

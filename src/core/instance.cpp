@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "core/device.hpp"
-#include "core/platform.hpp"
-#include "core/window.hpp"
+#include "platform/platform.hpp"
+#include "platform/window.hpp"
 
 namespace speculum {
 

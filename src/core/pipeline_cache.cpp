@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "core/pipeline.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

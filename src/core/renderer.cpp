@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/device.hpp"
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

@@ -6,7 +6,7 @@
 
 #include "core/image.hpp"
 #include "core/retire_queue.hpp"
-#include "core/window.hpp"
+#include "platform/window.hpp"
 
 namespace speculum {
 

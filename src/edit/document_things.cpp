@@ -5,7 +5,7 @@
 
 #include "edit/scene_document.hpp"
 #include "edit/transform.hpp"
-#include "optics/affine.hpp"
+#include "geometry/affine.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "optics/affine.hpp"
+#include "geometry/affine.hpp"
 
 namespace speculum {
 

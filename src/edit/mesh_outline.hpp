@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "scene/mesh.hpp"
+#include "geometry/mesh.hpp"
 
 namespace speculum {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "optics/reflection.hpp"
-#include "reference/shading.hpp"
-#include "reference/trace_world.hpp"
+#include "geometry/reflection.hpp"
+#include "scene/fresnel.hpp"
+#include "scene/trace_world.hpp"
 
 namespace speculum {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "frame/view.hpp"
-#include "reference/bvh.hpp"
+#include "geometry/bvh.hpp"
 
 namespace speculum {
 

@@ -10,7 +10,7 @@
 #include "edit/toml_editor.hpp"
 #include "edit/toml_text.hpp"
 #include "frame/settings.hpp"
-#include "image/file_io.hpp"
+#include "platform/file_io.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optics/affine.hpp"
-#include "optics/polygon.hpp"
+#include "geometry/affine.hpp"
+#include "geometry/polygon.hpp"
 
 namespace speculum {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optics/depth_resolution.hpp"
+#include "geometry/depth_resolution.hpp"
 
 namespace speculum {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frame/frame_plan.hpp"
-#include "scene/mesh_levels.hpp"
+#include "geometry/mesh_levels.hpp"
 
 namespace speculum {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "frame/scene_names.hpp"
-#include "optics/convex_mesh.hpp"
+#include "geometry/convex_mesh.hpp"
 
 namespace speculum {
 

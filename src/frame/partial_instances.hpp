@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "frame/view.hpp"
-#include "scene/mesh.hpp"
+#include "geometry/mesh.hpp"
 
 namespace speculum {
 

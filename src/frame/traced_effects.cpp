@@ -4,7 +4,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "frame/scene_names.hpp"
-#include "optics/reflection.hpp"
+#include "geometry/reflection.hpp"
 
 namespace speculum {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optics/reflection.hpp"
+#include "geometry/reflection.hpp"
 
 namespace speculum {
 

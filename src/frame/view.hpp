@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "optics/polygon.hpp"
-#include "optics/projection.hpp"
+#include "geometry/polygon.hpp"
+#include "geometry/projection.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {

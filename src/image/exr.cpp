@@ -6,8 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "image/file_io.hpp"
 #include "image/image.hpp"
+#include "platform/file_io.hpp"
 
 namespace speculum {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "image/file_io.hpp"
 #include "image/image.hpp"
+#include "platform/file_io.hpp"
 
 namespace speculum {
 

@@ -6,7 +6,7 @@
 
 #include "reference/ray_tracer.hpp"
 #include "reference/shading.hpp"
-#include "reference/trace_world.hpp"
+#include "scene/trace_world.hpp"
 
 namespace speculum {
 

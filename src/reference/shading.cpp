@@ -107,14 +107,6 @@ glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv) {
   return glm::mix(glm::mix(texel(0, 0), texel(1, 0), wx), glm::mix(texel(0, 1), texel(1, 1), wx), wy);
 }
 
-glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine) {
-  if (fresnel == Fresnel::none) {
-    return reflectance;
-  }
-  const double grazing = 1.0 - std::clamp(cosine, 0.0, 1.0);
-  return reflectance + (1.0 - reflectance) * std::pow(grazing, 5.0);
-}
-
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time) {
   if (!mirror.ripple || mirror.ripple->amplitude == 0.0) {
     return state.normal;

@@ -2,7 +2,8 @@
 
 #include <glm/glm.hpp>
 
-#include "reference/trace_world.hpp"
+#include "scene/fresnel.hpp"
+#include "scene/trace_world.hpp"
 
 namespace speculum {
 
@@ -28,10 +29,6 @@ glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
 
 // Bilinear on linear texels, repeated, v up; texel centres at (i + 0.5) / size.
 glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv);
-
-// A mirror's F for the cosine between its normal and the viewer: constant, or Schlick, "An Inexpensive BRDF Model for
-// Physically-based Rendering" (1994).
-glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine);
 
 // The mirror's front normal at a world position relative to the eye: its plane's, or with ripples that of the height
 // field, which is the same from both sides.

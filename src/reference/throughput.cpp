@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "reference/triangle_mesh.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace speculum {
 

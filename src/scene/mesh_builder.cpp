@@ -8,10 +8,10 @@
 #include <map>
 #include <unordered_map>
 
-#include "optics/convex_faces.hpp"
-#include "optics/convex_mesh.hpp"
-#include "scene/mesh_clusters.hpp"
-#include "scene/triangulate.hpp"
+#include "geometry/convex_faces.hpp"
+#include "geometry/convex_mesh.hpp"
+#include "geometry/mesh_clusters.hpp"
+#include "geometry/triangulate.hpp"
 
 namespace speculum {
 

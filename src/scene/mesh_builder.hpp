@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "scene/mesh.hpp"
+#include "geometry/mesh.hpp"
 #include "scene/obj_scan.hpp"
 
 namespace speculum {

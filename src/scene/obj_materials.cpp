@@ -7,8 +7,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "image/file_io.hpp"
 #include "image/image.hpp"
+#include "platform/file_io.hpp"
 #include "scene/input_error.hpp"
 
 namespace speculum {

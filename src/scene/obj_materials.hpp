@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh.hpp"
+#include "geometry/mesh.hpp"
 #include "scene/obj_scan.hpp"
 
 namespace speculum {

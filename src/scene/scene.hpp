@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "scene/mesh.hpp"
+#include "geometry/mesh.hpp"
 
 namespace speculum {
 

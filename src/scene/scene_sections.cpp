@@ -6,7 +6,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "optics/polygon.hpp"
+#include "geometry/polygon.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "optics/polygon.hpp"
+#include "geometry/polygon.hpp"
 
 namespace speculum {
 

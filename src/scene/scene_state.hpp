@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "optics/affine.hpp"
+#include "geometry/affine.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {

@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "image/file_io.hpp"
+#include "platform/file_io.hpp"
 #include "scene/input_error.hpp"
 #include "scene/toml_depth.hpp"
 

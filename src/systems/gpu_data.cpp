@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "optics/affine.hpp"
+#include "geometry/affine.hpp"
 
 namespace speculum {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/mesh_levels.hpp"
+#include "geometry/mesh_levels.hpp"
 
 namespace speculum {
 

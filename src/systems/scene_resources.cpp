@@ -4,7 +4,7 @@
 #include <glm/gtc/packing.hpp>
 #include <utility>
 
-#include "scene/mesh_levels.hpp"
+#include "geometry/mesh_levels.hpp"
 #include "systems/effect_ledger.hpp"
 
 namespace speculum {

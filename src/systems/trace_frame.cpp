@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "optics/reflection.hpp"
+#include "geometry/reflection.hpp"
 #include "systems/gpu_data.hpp"
 #include "systems/trace_nodes.hpp"
 

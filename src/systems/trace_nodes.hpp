@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reference/bvh.hpp"
+#include "geometry/bvh.hpp"
 #include "systems/trace_types.hpp"
 
 namespace speculum {

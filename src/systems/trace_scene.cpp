@@ -4,7 +4,7 @@
 #include <glm/gtc/packing.hpp>
 #include <stdexcept>
 
-#include "reference/bvh.hpp"
+#include "geometry/bvh.hpp"
 #include "systems/trace_nodes.hpp"
 
 namespace speculum {

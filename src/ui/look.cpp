@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

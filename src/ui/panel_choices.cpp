@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 
 namespace speculum {
 

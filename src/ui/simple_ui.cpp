@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/platform.hpp"
+#include "platform/platform.hpp"
 #include "ui/glfw_input.hpp"
 #include "ui/panels.hpp"
 

@@ -10,7 +10,7 @@
 #include "frame/depth_readout.hpp"
 #include "frame/frame_plan.hpp"
 #include "frame/settings.hpp"
-#include "optics/projection.hpp"
+#include "geometry/projection.hpp"
 #include "ui/edit_model.hpp"
 #include "ui/frame_history.hpp"
 #include "ui/log_history.hpp"

@@ -4,7 +4,7 @@
 #include "edit/scene_document.hpp"
 #include "frame/frame_plan.hpp"
 #include "fuzz_support.hpp"
-#include "optics/polygon.hpp"
+#include "geometry/polygon.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum::fuzz {

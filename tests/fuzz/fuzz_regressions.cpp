@@ -11,6 +11,7 @@
 
 #include "fuzz_checks.hpp"
 #include "heap_watch.hpp"
+#include "test_paths.hpp"
 
 namespace speculum::fuzz {
 namespace {
@@ -22,7 +23,7 @@ constexpr size_t kMostBytes = 512u << 20;
 
 std::vector<fs::path> inputs(const std::string& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(SPECULUM_SOURCE_DIR) / "tests/fuzz" / folder)) {
+  for (const auto& entry : fs::directory_iterator(sourceDir() / "tests/fuzz" / folder)) {
     files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());

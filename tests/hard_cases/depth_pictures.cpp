@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "optics/affine.hpp"
-#include "optics/reflection.hpp"
+#include "geometry/affine.hpp"
+#include "geometry/reflection.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 

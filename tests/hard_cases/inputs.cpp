@@ -3,12 +3,13 @@
 
 #include <cmath>
 
-#include "core/platform.hpp"
+#include "geometry/affine.hpp"
+#include "geometry/polygon.hpp"
 #include "naive_arithmetic.hpp"
-#include "optics/affine.hpp"
-#include "optics/polygon.hpp"
+#include "platform/platform.hpp"
 #include "scene_support.hpp"
 #include "scene_text.hpp"
+#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -87,8 +88,8 @@ TEST_F(RejectedShapes, ProgramExitsWithTwoAndOneLine) {
   const std::filesystem::path file = folder_.write(
       "flat.toml",
       "[camera]\nposition = [0, 0, 3]\ntarget = [0, 0, 0]\n[[mirror]]\nname = \"flat one\"\nsize = [1, 1e-9]\n");
-  const ProcessResult result = runProcess({std::string(SPECULUM_BINARY_DIR) + "/speculum", "render", "--scene",
-                                           file.string(), "--out", (folder_ / "x.png").string()});
+  const ProcessResult result = runProcess(
+      {binaryDir().string() + "/speculum", "render", "--scene", file.string(), "--out", (folder_ / "x.png").string()});
   EXPECT_EQ(result.exitCode, 2) << result.output;
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
   EXPECT_NE(result.output.find("flat.toml:6: mirror[flat one].size: has no area"), std::string::npos) << result.output;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "image/file_io.hpp"
 #include "image/image.hpp"
+#include "platform/file_io.hpp"
 
 namespace speculum {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "optics/reflection.hpp"
+#include "geometry/reflection.hpp"
 #include "transform_support.hpp"
 
 namespace speculum {

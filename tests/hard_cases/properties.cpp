@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "optics/reflection.hpp"
+#include "geometry/reflection.hpp"
 #include "transform_support.hpp"
 
 namespace speculum {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "optics/affine.hpp"
+#include "geometry/affine.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 

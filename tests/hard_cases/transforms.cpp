@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/reflection.hpp"
 #include "naive_arithmetic.hpp"
-#include "optics/reflection.hpp"
 #include "transform_support.hpp"
 
 namespace speculum {

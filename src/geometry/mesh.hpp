@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace speculum {
+
+// Texels decoded to linear RGB, row 0 at the top of the picture (v = 1).
+struct Texture {
+  std::filesystem::path source;
+  int width = 0;
+  int height = 0;
+  std::vector<glm::vec3> texels;
+};
+
+// Phong-Blinn material, linear RGB; see docs/picture.md for the radiance it gives.
+struct Material {
+  std::string name;
+  glm::dvec3 diffuse{0.6};   // Kd
+  glm::dvec3 specular{0.0};  // Ks
+  glm::dvec3 emission{0.0};  // Ke
+  double shininess = 1.0;    // Ns, >= 1
+  int diffuseTexture = -1;   // index into Scene::textures, -1: none
+};
+
+struct Vertex {
+  glm::dvec3 position;  // model space, relative to Mesh::center
+  glm::dvec3 normal;    // model space, unit length
+  glm::dvec2 uv;        // v up
+};
+
+// Consecutive indices of triangles.
+struct IndexRange {
+  uint32_t first = 0;
+  uint32_t count = 0;  // a multiple of 3
+  bool operator==(const IndexRange&) const = default;
+};
+
+struct LevelsOfMesh;
+
+struct MeshPart {
+  uint32_t firstIndex = 0;
+  uint32_t indexCount = 0;  // a multiple of 3
+  Material material;
+};
+
+// Consecutive triangles of one part and the box around them, relative to Mesh::center.
+struct MeshCluster {
+  uint32_t firstIndex = 0;
+  uint32_t indexCount = 0;
+  glm::dvec3 center{0.0};
+  glm::dvec3 halfExtent{0.0};
+};
+
+// Triangles in model space, counter-clockwise seen from outside. Positions are kept in double relative to the
+// centre of the bounding box, so that their conversion to float for the GPU loses nothing to a far-off origin.
+struct Mesh {
+  std::filesystem::path source;
+  glm::dvec3 center{0.0};      // model space
+  glm::dvec3 halfExtent{0.0};  // of the bounding box about `center`
+  double radius = 0.0;         // of the bounding sphere about `center`
+  std::vector<Vertex> vertices;
+  std::vector<uint32_t> indices;
+  std::vector<MeshPart> parts;
+  std::vector<MeshCluster> clusters;  // of all triangles, in their order; none of a small mesh. See clustersOf
+  std::vector<std::vector<glm::dvec3>>
+      faces;  // flat and convex, the largest few; relative to `center`. See convexFaces
+  std::vector<glm::dvec3>
+      convexVertices;  // relative to `center`; none unless the mesh is convex. See geometry/convex_mesh
+  mutable std::shared_ptr<LevelsOfMesh> levels;  // what levelsOf has made of it, if it was asked
+};
+
+}  // namespace speculum

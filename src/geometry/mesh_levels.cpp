@@ -1,0 +1,310 @@
+#include "geometry/mesh_levels.hpp"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+
+#include "geometry/mesh_clusters.hpp"
+#include "geometry/surface_distance.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr size_t fewestTriangles = 48;  // of a mesh that is worth a further level
+constexpr size_t fewestOfPart = 8;
+constexpr double step = 0.7;       // of the triangles, from level to level
+constexpr double largeStep = 0.5;  // while there are more than `large` of them
+constexpr size_t large = 50'000;
+constexpr size_t mostMeasured = 10'000;  // vertices, and triangles, of a part
+constexpr double leastGain = 0.15;       // of the triangles, by a level that is worth its memory
+
+double longestSide(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+}
+
+// How far some things lie from a surface, at most: no less than what is given at first.
+class Deviation {
+ public:
+  // `spacing`: of the points at which triangles are measured.
+  Deviation(const SurfaceDistance& surface, double spacing, double atLeast)
+      : surface_(surface), spacing_(spacing), largest_(atLeast) {}
+
+  void add(const glm::dvec3& point) {
+    if (!surface_.within(point, largest_)) {
+      largest_ = std::max(largest_, surface_.to(point));
+    }
+  }
+
+  // Its corners were added.
+  void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    constexpr double mostSteps = 8.0;
+    const double side = longestSide(a, b, c);
+    const double apart = std::max(spacing_, 0.5 * largest_);
+    const int steps = static_cast<int>(std::ceil(std::clamp(side / apart, 1.0, mostSteps)));
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; i + j <= steps; ++j) {
+        const glm::dvec3 weight = glm::dvec3(i, j, steps - i - j) / static_cast<double>(steps);
+        if (std::max({weight.x, weight.y, weight.z}) < 1.0) {
+          add(weight.x * a + weight.y * b + weight.z * c);
+        }
+      }
+    }
+  }
+
+  double largest() const { return largest_; }
+
+ private:
+  const SurfaceDistance& surface_;
+  double spacing_;
+  double largest_;
+};
+
+// The vertices of a level: of each point of the mesh those whose normals a triangle needs there.
+class LevelVertices {
+ public:
+  explicit LevelVertices(std::vector<Vertex>& all) : all_(all) {}
+
+  // `point` is one of the mesh's, whatever their numbers; equal numbers are the same point.
+  uint32_t find(uint32_t point, const Vertex& vertex) {
+    constexpr double steps = 128.0;  // of a normal's coordinates; what is nearer is one
+    uint64_t key = point;
+    for (int i = 0; i < 3; ++i) {
+      key = key << 9 | static_cast<uint64_t>(std::lround(steps * (1.0 + vertex.normal[i])));
+    }
+    const auto [place, isNew] = places_.try_emplace(key, static_cast<uint32_t>(all_.size()));
+    if (isNew) {
+      all_.push_back(vertex);
+    }
+    return place->second;
+  }
+
+ private:
+  std::vector<Vertex>& all_;
+  std::unordered_map<uint64_t, uint32_t> places_;
+};
+
+// One part of a mesh, and what is left of it. What stands in one place is one point where the surface is smooth there,
+// whether its normals are interpolated or those of its faces. Across hard edges and seams of texture coordinates points
+// stay apart, and meshoptimizer keeps those that three or more sides meet in: without its corners a slab would be
+// thinner than it is, and what lies under it come out.
+class SimplifiedPart {
+ public:
+  // `firstPoint`: more than the numbers of all points of the parts before.
+  SimplifiedPart(const Mesh& mesh, const MeshPart& part, uint32_t firstPoint)
+      : lockBorder_(mesh.parts.size() > 1), firstPoint_(firstPoint) {
+    const bool textured = part.material.diffuseTexture >= 0;
+    std::map<std::array<double, 5>, std::vector<uint32_t>> places;
+    std::unordered_map<uint32_t, uint32_t> points;  // by vertex
+    for (uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; ++i) {
+      const auto [point, isNew] = points.try_emplace(mesh.indices[i]);
+      if (isNew) {
+        const Vertex& vertex = mesh.vertices[mesh.indices[i]];
+        const glm::dvec3& p = vertex.position;
+        const glm::dvec2 uv = textured ? vertex.uv : glm::dvec2(0.0);
+        point->second = pointFor(vertex, places[{p.x, p.y, p.z, uv.x, uv.y}]);
+      }
+      indices_.push_back(point->second);
+    }
+    allIndices_ = indices_;
+    for (size_t i = 0; i < indices_.size(); i += 3) {
+      const double side =
+          longestSide(positions_[indices_[i]], positions_[indices_[i + 1]], positions_[indices_[i + 2]]);
+      meanSide_ += side / static_cast<double>(indices_.size() / 3);
+    }
+    original_ = std::make_unique<SurfaceDistance>(corners(indices_));
+  }
+
+  void simplify() {
+    if (indices_.size() < 3 * fewestOfPart) {
+      return;
+    }
+    std::vector<uint32_t> fewer(indices_.size());
+    const size_t triangles = indices_.size() / 3;
+    const double part = triangles > large ? largeStep : step;
+    const size_t wanted = static_cast<size_t>(part * static_cast<double>(triangles)) * 3;
+    constexpr float anyError = 1.0f;  // of the part's extent
+    const size_t count =
+        meshopt_simplify(fewer.data(), indices_.data(), indices_.size(), &floats_[0].x, floats_.size(),
+                         sizeof(glm::vec3), wanted, anyError, lockBorder_ ? meshopt_SimplifyLockBorder : 0, nullptr);
+    fewer.resize(count);
+    indices_ = std::move(fewer);
+  }
+
+  // Of what is left; `atLeast` is that of the level before.
+  double error(double atLeast) const {
+    const SurfaceDistance left(corners(indices_));
+    Deviation ofMesh(left, meanSide_, atLeast);
+    for (size_t i = 0; i < positions_.size(); i += stride(positions_.size())) {
+      ofMesh.add(positions_[i]);
+    }
+    add(ofMesh, allIndices_);
+    Deviation ofLevel(*original_, 0.5 * meanSide_, ofMesh.largest());
+    add(ofLevel, indices_);
+    return ofLevel.largest();
+  }
+
+  size_t indexCount() const { return indices_.size(); }
+  uint32_t endPoint() const { return firstPoint_ + static_cast<uint32_t>(positions_.size()); }
+
+  void append(LevelVertices& vertices, std::vector<uint32_t>& indices) const {
+    for (size_t i = 0; i < indices_.size(); i += 3) {
+      const std::array<glm::dvec3, 3> p{positions_[indices_[i]], positions_[indices_[i + 1]],
+                                        positions_[indices_[i + 2]]};
+      const glm::dvec3 area = glm::cross(p[1] - p[0], p[2] - p[0]);
+      if (!std::isnormal(glm::dot(area, area))) {
+        continue;
+      }
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t point = indices_[i + k];
+        indices.push_back(vertices.find(firstPoint_ + point, vertexFor(point, glm::normalize(area))));
+      }
+    }
+  }
+
+ private:
+  std::vector<glm::dvec3> corners(const std::vector<uint32_t>& indices) const {
+    std::vector<glm::dvec3> corners;
+    corners.reserve(indices.size());
+    for (const uint32_t index : indices) {
+      corners.push_back(positions_[index]);
+    }
+    return corners;
+  }
+
+  // Of a large mesh every so manieth serves.
+  static size_t stride(size_t count) { return 1 + count / mostMeasured; }
+
+  void add(Deviation& deviation, const std::vector<uint32_t>& indices) const {
+    for (size_t t = 0; t < indices.size() / 3; t += stride(indices.size() / 3)) {
+      const uint32_t* corner = &indices[3 * t];
+      deviation.add(positions_[corner[0]], positions_[corner[1]], positions_[corner[2]]);
+    }
+  }
+
+  // Of those in one place, the point of the same smooth surface, or a new one.
+  uint32_t pointFor(const Vertex& vertex, std::vector<uint32_t>& place) {
+    constexpr double smooth = 0.77;  // cosine; bevels are steeper
+    for (const uint32_t point : place) {
+      if (glm::dot(vertices_[point].front().normal, vertex.normal) >= smooth) {
+        vertices_[point].push_back(vertex);
+        return point;
+      }
+    }
+    place.push_back(static_cast<uint32_t>(positions_.size()));
+    positions_.push_back(vertex.position);
+    floats_.emplace_back(vertex.position);
+    vertices_.push_back({vertex});
+    return place.back();
+  }
+
+  // Of those at a point the one that suits a triangle of this normal best.
+  Vertex vertexFor(uint32_t point, const glm::dvec3& normal) const {
+    const std::vector<Vertex>& all = vertices_[point];
+    Vertex best = *std::max_element(all.begin(), all.end(), [&](const Vertex& a, const Vertex& b) {
+      return glm::dot(a.normal, normal) < glm::dot(b.normal, normal);
+    });
+    if (glm::dot(best.normal, normal) < 0.0) {
+      best.normal = normal;
+    }
+    return best;
+  }
+
+  bool lockBorder_;
+  uint32_t firstPoint_;
+  std::vector<glm::dvec3> positions_;  // of the points
+  std::vector<glm::vec3> floats_;
+  std::vector<std::vector<Vertex>> vertices_;  // of the mesh, at each point
+  std::vector<uint32_t> allIndices_;           // into `positions_`, of the mesh
+  std::vector<uint32_t> indices_;              // likewise, of what is left
+  double meanSide_ = 0.0;                      // the longest of each triangle of the mesh
+  std::unique_ptr<SurfaceDistance> original_;
+};
+
+size_t indexCount(const std::vector<SimplifiedPart>& parts) {
+  size_t count = 0;
+  for (const SimplifiedPart& part : parts) {
+    count += part.indexCount();
+  }
+  return count;
+}
+
+// At least that of the level before.
+double errorOf(const std::vector<SimplifiedPart>& parts, double before) {
+  for (const SimplifiedPart& part : parts) {
+    before = part.error(before);
+  }
+  return before;
+}
+
+// The next level, of what is left of the parts.
+MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, double error, MeshLevels& levels) {
+  MeshLevel level{.error = error};
+  level.all.first = static_cast<uint32_t>(levels.indices.size());
+  LevelVertices vertices(levels.vertices);
+  for (const SimplifiedPart& part : parts) {
+    const auto first = static_cast<uint32_t>(levels.indices.size());
+    part.append(vertices, levels.indices);
+    level.parts.push_back({first, static_cast<uint32_t>(levels.indices.size()) - first});
+  }
+  level.all.count = static_cast<uint32_t>(levels.indices.size()) - level.all.first;
+  level.clusters = clustersOf(levels.vertices, levels.indices, level.parts);
+  return level;
+}
+
+}  // namespace
+
+struct LevelsOfMesh {
+  std::once_flag once;
+  MeshLevels levels;
+};
+
+MeshLevels simplified(const Mesh& mesh) {
+  MeshLevels levels;
+  if (mesh.indices.size() < 3 * fewestTriangles) {
+    return levels;
+  }
+  std::vector<SimplifiedPart> parts;
+  for (const MeshPart& part : mesh.parts) {
+    parts.emplace_back(mesh, part, parts.empty() ? 0 : parts.back().endPoint());
+  }
+  size_t last = mesh.indices.size();
+  while (last >= 3 * fewestTriangles) {
+    std::for_each(parts.begin(), parts.end(), [](SimplifiedPart& part) { part.simplify(); });
+    const size_t left = indexCount(parts);
+    if (left == 0 || static_cast<double>(left) > (1.0 - leastGain) * static_cast<double>(last)) {
+      break;
+    }
+    const double error = errorOf(parts, levels.levels.empty() ? 0.0 : levels.levels.back().error);
+    if (std::isinf(error)) {
+      break;
+    }
+    levels.levels.push_back(addLevel(parts, error, levels));
+    last = left;
+  }
+  return levels;
+}
+
+const MeshLevels& levelsOf(const Mesh& mesh) {
+  static std::mutex mutex;
+  std::shared_ptr<LevelsOfMesh> made;
+  {
+    const std::scoped_lock lock(mutex);
+    if (!mesh.levels) {
+      mesh.levels = std::make_shared<LevelsOfMesh>();
+    }
+    made = mesh.levels;
+  }
+  // Simplifying takes seconds: other meshes do not wait for it.
+  std::call_once(made->once, [&] { made->levels = simplified(mesh); });
+  return made->levels;
+}
+
+}  // namespace speculum

@@ -1,0 +1,101 @@
+#include "geometry/polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+double diameter(std::span<const glm::dvec3> polygon) {
+  double largest = 0.0;
+  for (const glm::dvec3& a : polygon) {
+    for (const glm::dvec3& b : polygon) {
+      largest = std::max(largest, glm::length(a - b));
+    }
+  }
+  return largest;
+}
+
+bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, double scale) {
+  const size_t n = polygon.size();
+  double turning = 0.0;
+  for (size_t i = 0; i < n; ++i) {
+    const glm::dvec3 a = polygon[(i + 1) % n] - polygon[i];
+    const glm::dvec3 b = polygon[(i + 2) % n] - polygon[(i + 1) % n];
+    const double turn = glm::dot(normal, glm::cross(a, b));
+    if (turn < -1e-9 * scale * scale) {
+      return false;
+    }
+    turning += std::atan2(turn, glm::dot(a, b));
+  }
+  // A convex outline turns once; a pentagram turns left at every vertex as well, but twice around.
+  return turning < 3.0 * 3.14159265358979323846;
+}
+
+}  // namespace
+
+glm::dvec3 newellVector(std::span<const glm::dvec3> polygon) {
+  glm::dvec3 sum(0.0);
+  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+    sum += glm::cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
+  }
+  return sum;
+}
+
+glm::dvec3 vertexMean(std::span<const glm::dvec3> polygon) {
+  glm::dvec3 sum(0.0);
+  for (const glm::dvec3& p : polygon) {
+    sum += p - polygon[0];
+  }
+  return polygon[0] + sum / static_cast<double>(polygon.size());
+}
+
+double polygonArea(std::span<const glm::dvec3> polygon) {
+  return 0.5 * glm::length(newellVector(polygon));
+}
+
+std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {
+  if (polygon.size() < 3) {
+    return "has fewer than 3 vertices";
+  }
+  for (const glm::dvec3& p : polygon) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      return "has a vertex that is not finite";
+    }
+  }
+  const double scale = diameter(polygon);
+  if (!(polygonArea(polygon) >= 1e-8 * scale * scale) || scale == 0.0) {
+    return "has no area";
+  }
+  const Plane plane{polygon[0], glm::normalize(newellVector(polygon))};
+  for (const glm::dvec3& p : polygon) {
+    if (std::abs(plane.distance(p)) > 1e-4 * scale) {
+      return "is not planar";
+    }
+  }
+  if (!isConvex(polygon, plane.normal, scale)) {
+    return "is not convex";
+  }
+  return std::nullopt;
+}
+
+std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {
+  std::vector<glm::dvec3> kept;
+  kept.reserve(polygon.size() + 1);
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& a = polygon[i];
+    const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+    const double da = keep.distance(a);
+    const double db = keep.distance(b);
+    if (da >= 0.0) {
+      kept.push_back(a);
+    }
+    if ((da >= 0.0) != (db >= 0.0)) {
+      kept.push_back(a + (b - a) * (da / (da - db)));
+    }
+  }
+  return kept;
+}
+
+}  // namespace speculum

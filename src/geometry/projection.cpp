@@ -1,0 +1,150 @@
+#include "geometry/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+constexpr double eyePlane = 1e-12;
+constexpr double shortestEdge = 1e-6;    // pixels; below it an edge has no direction to speak of
+constexpr double sharpestCorner = 0.25;  // 1 + the cosine of the angle between its edges' normals
+
+glm::dvec2 toPixels(const glm::dvec4& clip, double width, double height) {
+  return {(clip.x / clip.w * 0.5 + 0.5) * width, (clip.y / clip.w * 0.5 + 0.5) * height};
+}
+
+std::vector<glm::dvec2> cornersOf(std::span<const glm::dvec4> clip, double width, double height) {
+  std::vector<glm::dvec2> corners;
+  corners.reserve(clip.size());
+  for (const glm::dvec4& v : clip) {
+    corners.push_back(toPixels(v, width, height));
+  }
+  return corners;
+}
+
+bool touchesEyePlane(std::span<const glm::dvec4> clip) {
+  return std::any_of(clip.begin(), clip.end(), [](const glm::dvec4& v) { return !(v.w > eyePlane); });
+}
+
+// Rounded outwards and padded; clamped first, because a vertex may project to anywhere a double reaches.
+std::pair<int, int> paddedRange(double low, double high, int start, int size) {
+  const double end = static_cast<double>(start) + size;
+  const double from = std::clamp(std::floor(low) - 1.0, static_cast<double>(start), end);
+  const double to = std::clamp(std::ceil(high) + 1.0, static_cast<double>(start), end);
+  return {static_cast<int>(from), static_cast<int>(to)};
+}
+
+double sign(double x) {
+  return x < 0.0 ? -1.0 : 1.0;
+}
+
+// Positive where y, downwards, turns to the right of x.
+double twiceArea(std::span<const glm::dvec2> corners) {
+  double twice = 0.0;
+  for (size_t i = 1; i + 1 < corners.size(); ++i) {
+    const glm::dvec2 a = corners[i] - corners[0];
+    const glm::dvec2 b = corners[i + 1] - corners[0];
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return twice;
+}
+
+}  // namespace
+
+Projection::Projection(double verticalFovRadians, double aspectRatio, double nearMetres)
+    : focal(1.0 / std::tan(0.5 * verticalFovRadians)), aspect(aspectRatio), near(nearMetres) {}
+
+glm::dmat4 Projection::matrix() const {
+  glm::dmat4 m(0.0);
+  m[0][0] = focal / aspect;
+  m[1][1] = -focal;
+  m[3][2] = near;
+  m[2][3] = -1.0;
+  return m;
+}
+
+glm::dvec4 Projection::clip(const glm::dvec3& view) const {
+  return {focal / aspect * view.x, -focal * view.y, near, -view.z};
+}
+
+std::optional<glm::dmat4> obliqueProjection(const Projection& projection, const glm::dvec4& plane) {
+  glm::dmat4 m = projection.matrix();
+  // The corner of the frustum opposite the plane, at infinity (depth 0), brought to view space: P^-1 (sx, sy, 0, 1).
+  const double cx = sign(plane.x / m[0][0]);
+  const double cy = sign(plane.y / m[1][1]);
+  const glm::dvec4 corner(cx / m[0][0], cy / m[1][1], -1.0, 0.0);
+  const double reach = glm::dot(plane, corner);
+  if (!(plane.w < 0.0) || !(reach > 0.0)) {
+    return std::nullopt;
+  }
+  const double a = 1.0 / reach;
+  for (int column = 0; column < 4; ++column) {
+    m[column][2] = m[column][3] - a * plane[column];
+  }
+  return m;
+}
+
+PixelRect intersect(const PixelRect& a, const PixelRect& b) {
+  const int x0 = std::max(a.x, b.x);
+  const int y0 = std::max(a.y, b.y);
+  const int x1 = std::min(a.x + a.width, b.x + b.width);
+  const int y1 = std::min(a.y + a.height, b.y + b.height);
+  return {x0, y0, std::max(0, x1 - x0), std::max(0, y1 - y0)};
+}
+
+PixelRect screenRect(std::span<const glm::dvec4> clip, double width, double height, const PixelRect& bounds) {
+  if (clip.empty()) {
+    return {bounds.x, bounds.y, 0, 0};
+  }
+  if (touchesEyePlane(clip)) {
+    return bounds;
+  }
+  glm::dvec2 low(1e300);
+  glm::dvec2 high(-1e300);
+  for (const glm::dvec4& v : clip) {
+    const glm::dvec2 p = toPixels(v, width, height);
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const auto [x0, x1] = paddedRange(low.x, high.x, bounds.x, bounds.width);
+  const auto [y0, y1] = paddedRange(low.y, high.y, bounds.y, bounds.height);
+  return {x0, y0, x1 - x0, y1 - y0};
+}
+
+double screenArea(std::span<const glm::dvec4> clip, double width, double height) {
+  if (clip.size() < 3) {
+    return 0.0;
+  }
+  if (touchesEyePlane(clip)) {
+    return width * height;
+  }
+  return std::min(0.5 * std::abs(twiceArea(cornersOf(clip, width, height))), width * height);
+}
+
+std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, double height, double pixels) {
+  std::vector<glm::dvec4> moved(clip.begin(), clip.end());
+  if (touchesEyePlane(clip)) {
+    return moved;
+  }
+  const size_t n = clip.size();
+  const std::vector<glm::dvec2> corners = cornersOf(clip, width, height);
+  const double side = sign(twiceArea(corners));
+  const auto outward = [&](size_t edge) {
+    const glm::dvec2 along = corners[(edge + 1) % n] - corners[edge];
+    const double length = glm::length(along);
+    return length > shortestEdge ? side / length * glm::dvec2(along.y, -along.x) : glm::dvec2(0.0);
+  };
+  for (size_t i = 0; i < n; ++i) {
+    const glm::dvec2 before = outward((i + n - 1) % n);
+    const glm::dvec2 after = outward(i);
+    const glm::dvec2 sum = before + after;
+    const double share = std::max({glm::dot(sum, before), glm::dot(sum, after), sharpestCorner});
+    const glm::dvec2 step = pixels / share * sum * 2.0 / glm::dvec2(width, height) * clip[i].w;
+    moved[i] += glm::dvec4(step, 0.0, 0.0);
+  }
+  return moved;
+}
+
+}  // namespace speculum

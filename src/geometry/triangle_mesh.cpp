@@ -1,0 +1,95 @@
+#include "geometry/triangle_mesh.hpp"
+
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+int largestAxis(const glm::dvec3& d) {
+  const glm::dvec3 a = glm::abs(d);
+  return a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
+}
+
+}  // namespace
+
+ShearedRay::ShearedRay(const Ray& ray) {
+  kz_ = largestAxis(ray.direction);
+  kx_ = (kz_ + 1) % 3;
+  ky_ = (kz_ + 2) % 3;
+  const glm::dvec3& d = ray.direction;
+  origin_ = {ray.origin[kx_], ray.origin[ky_], ray.origin[kz_]};
+  shear_ = {d[kx_] / d[kz_], d[ky_] / d[kz_], 1.0 / d[kz_]};
+}
+
+TriangleMesh::TriangleMesh(const Mesh& mesh) {
+  const size_t count = mesh.indices.size() / 3;
+  std::vector<Bounds> boxes(count);
+  for (size_t i = 0; i < count * 3; ++i) {
+    boxes[i / 3].add(mesh.vertices[mesh.indices[i]].position);
+  }
+  bvh_ = Bvh(boxes);
+  triangles_.reserve(count);
+  for (const uint32_t i : bvh_.order()) {
+    const uint32_t* v = &mesh.indices[size_t{i} * 3];
+    triangles_.push_back({mesh.vertices[v[0]].position, mesh.vertices[v[1]].position, mesh.vertices[v[2]].position, i});
+  }
+  parts_.assign(count, 0);
+  for (size_t p = 0; p < mesh.parts.size(); ++p) {
+    const MeshPart& part = mesh.parts[p];
+    std::fill_n(parts_.begin() + part.firstIndex / 3, part.indexCount / 3, static_cast<uint32_t>(p));
+  }
+}
+
+std::optional<TriangleHit> TriangleMesh::intersect(const ShearedRay& ray, const Triangle& triangle, double tMin,
+                                                   double tMax) {
+  const glm::dvec3 a = ray.project(triangle.a);
+  const glm::dvec3 b = ray.project(triangle.b);
+  const glm::dvec3 c = ray.project(triangle.c);
+  const double u = c.x * b.y - c.y * b.x;
+  const double v = a.x * c.y - a.y * c.x;
+  const double w = b.x * a.y - b.y * a.x;
+  if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) {
+    return std::nullopt;
+  }
+  const double area = u + v + w;
+  if (area == 0.0) {
+    return std::nullopt;
+  }
+  const double inverse = 1.0 / area;
+  const double t = (u * a.z + v * b.z + w * c.z) * inverse;
+  if (!(t > tMin && t < tMax)) {
+    return std::nullopt;
+  }
+  return TriangleHit{triangle.index, t, glm::dvec3(u, v, w) * inverse};
+}
+
+std::optional<TriangleHit> TriangleMesh::closest(const Ray& ray, int64_t skip) const {
+  const ShearedRay sheared(ray);
+  std::optional<TriangleHit> best;
+  bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
+    for (uint32_t i = first; i < first + count; ++i) {
+      const auto hit = intersect(sheared, triangles_[i], ray.tMin, tMax);
+      if (hit && hit->triangle != skip) {
+        best = hit;
+        tMax = hit->t;
+      }
+    }
+    return false;
+  });
+  return best;
+}
+
+bool TriangleMesh::occluded(const Ray& ray, int64_t skip) const {
+  const ShearedRay sheared(ray);
+  bool found = false;
+  bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
+    for (uint32_t i = first; i < first + count && !found; ++i) {
+      found = triangles_[i].index != skip && intersect(sheared, triangles_[i], ray.tMin, tMax).has_value();
+    }
+    return found;
+  });
+  return found;
+}
+
+}  // namespace speculum

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <optional>
+#include <vector>
+
+#include "geometry/bvh.hpp"
+#include "geometry/mesh.hpp"
+
+namespace speculum {
+
+// A ray prepared for watertight intersection: space is sheared so that the ray runs along an axis, and edges are tested
+// in two dimensions. Neighbouring triangles evaluate a shared edge with the same numbers, so no ray passes between
+// them. Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection" (2013), in double.
+class ShearedRay {
+ public:
+  explicit ShearedRay(const Ray& ray);
+
+  // x, y: across the ray; z: the parameter t of the ray.
+  glm::dvec3 project(const glm::dvec3& p) const { return project(glm::value_ptr(p)); }
+  glm::dvec3 project(const double* p) const {
+    const double along = p[kz_] - origin_.z;
+    return {p[kx_] - origin_.x - shear_.x * along, p[ky_] - origin_.y - shear_.y * along, shear_.z * along};
+  }
+
+ private:
+  glm::dvec3 origin_;  // components in the order kx, ky, kz
+  glm::dvec3 shear_;
+  int kx_, ky_, kz_;
+};
+
+struct TriangleHit {
+  uint32_t triangle = 0;  // three indices from Mesh::indices[3 * triangle] on
+  double t = 0.0;
+  glm::dvec3 weights{0.0};  // barycentric, of the three vertices
+};
+
+// The triangles of a mesh under a BVH, in model space relative to Mesh::center. Both sides of a triangle are hit.
+class TriangleMesh {
+ public:
+  static constexpr int64_t noTriangle = -1;
+
+  explicit TriangleMesh(const Mesh& mesh);
+
+  Bounds bounds() const { return bvh_.bounds(); }
+  // Nearest hit with ray.tMin < t < ray.tMax on any triangle but `skip`.
+  std::optional<TriangleHit> closest(const Ray& ray, int64_t skip = noTriangle) const;
+  bool occluded(const Ray& ray, int64_t skip = noTriangle) const;
+  uint32_t partOf(uint32_t triangle) const { return parts_[triangle]; }
+
+ private:
+  struct Triangle {
+    glm::dvec3 a, b, c;
+    uint32_t index;
+  };
+  static std::optional<TriangleHit> intersect(const ShearedRay& ray, const Triangle& triangle, double tMin,
+                                              double tMax);
+
+  Bvh bvh_;
+  std::vector<Triangle> triangles_;  // in the BVH's order
+  std::vector<uint32_t> parts_;      // by triangle, index into Mesh::parts
+};
+
+}  // namespace speculum

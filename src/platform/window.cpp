@@ -1,0 +1,401 @@
+#include "platform/window.hpp"
+
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace speculum {
+
+namespace {
+
+// In the order of GamepadButton.
+constexpr std::array<int, static_cast<size_t>(GamepadButton::count)> buttonCodes{
+    GLFW_GAMEPAD_BUTTON_A,          GLFW_GAMEPAD_BUTTON_B,           GLFW_GAMEPAD_BUTTON_X,
+    GLFW_GAMEPAD_BUTTON_Y,          GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER,
+    GLFW_GAMEPAD_BUTTON_BACK,       GLFW_GAMEPAD_BUTTON_START,       GLFW_GAMEPAD_BUTTON_LEFT_THUMB,
+    GLFW_GAMEPAD_BUTTON_RIGHT_THUMB};
+
+constexpr std::array<std::pair<Key, int>, 32> keyCodes{{
+    {Key::escape, GLFW_KEY_ESCAPE},
+    {Key::enter, GLFW_KEY_ENTER},
+    {Key::tab, GLFW_KEY_TAB},
+    {Key::space, GLFW_KEY_SPACE},
+    {Key::del, GLFW_KEY_DELETE},
+    {Key::leftShift, GLFW_KEY_LEFT_SHIFT},
+    {Key::rightShift, GLFW_KEY_RIGHT_SHIFT},
+    {Key::leftControl, GLFW_KEY_LEFT_CONTROL},
+    {Key::rightControl, GLFW_KEY_RIGHT_CONTROL},
+    {Key::w, GLFW_KEY_W},
+    {Key::a, GLFW_KEY_A},
+    {Key::s, GLFW_KEY_S},
+    {Key::d, GLFW_KEY_D},
+    {Key::q, GLFW_KEY_Q},
+    {Key::e, GLFW_KEY_E},
+    {Key::b, GLFW_KEY_B},
+    {Key::m, GLFW_KEY_M},
+    {Key::r, GLFW_KEY_R},
+    {Key::f, GLFW_KEY_F},
+    {Key::g, GLFW_KEY_G},
+    {Key::n, GLFW_KEY_N},
+    {Key::y, GLFW_KEY_Y},
+    {Key::z, GLFW_KEY_Z},
+    {Key::comma, GLFW_KEY_COMMA},
+    {Key::period, GLFW_KEY_PERIOD},
+    {Key::leftBracket, GLFW_KEY_LEFT_BRACKET},
+    {Key::rightBracket, GLFW_KEY_RIGHT_BRACKET},
+    {Key::f1, GLFW_KEY_F1},
+    {Key::f2, GLFW_KEY_F2},
+    {Key::f10, GLFW_KEY_F10},
+    {Key::f11, GLFW_KEY_F11},
+    {Key::f12, GLFW_KEY_F12},
+}};
+
+Key keyOf(int code) {
+  for (const auto& [key, known] : keyCodes) {
+    if (known == code) {
+      return key;
+    }
+  }
+  return Key::unknown;
+}
+
+// Of a key that stands for a character; empty for others.
+std::string_view printedOn(int code, int scancode) {
+  const bool character = code >= GLFW_KEY_SPACE && code <= GLFW_KEY_WORLD_2;
+  const char* name = character ? glfwGetKeyName(code, scancode) : nullptr;
+  return name ? name : "";
+}
+
+// Of the layout that is in use now.
+std::string printedWhereFlying() {
+  std::string printed;
+  for (const int code : {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S, GLFW_KEY_D, GLFW_KEY_Q, GLFW_KEY_E}) {
+    printed += printedOn(code, 0);
+  }
+  return printed;
+}
+
+std::vector<ScreenRect> workAreas() {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  std::vector<ScreenRect> areas(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    ScreenRect& area = areas[static_cast<size_t>(i)];
+    glfwGetMonitorWorkarea(monitors[i], &area.x, &area.y, &area.width, &area.height);
+  }
+  return areas;
+}
+
+// GLFW tells of monitors without a window.
+std::vector<Window*>& openWindows() {
+  static std::vector<Window*> windows;
+  return windows;
+}
+
+// The first one if none shows that point; null without monitors.
+GLFWmonitor* monitorAt(int x, int y) {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    int left = 0;
+    int top = 0;
+    glfwGetMonitorPos(monitors[i], &left, &top);
+    const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+    if (mode && x >= left && y >= top && x < left + mode->width && y < top + mode->height) {
+      return monitors[i];
+    }
+  }
+  return count > 0 ? monitors[0] : nullptr;
+}
+
+[[noreturn]] void fail(const std::string& what, const std::string& remedy) {
+  const char* description = nullptr;
+  glfwGetError(&description);
+  throw std::runtime_error(what + (description ? std::string(": ") + description : "") + " (" + remedy + ")");
+}
+
+}  // namespace
+
+Window::Library::Library() {
+  if (!glfwInit()) {
+    fail("no window system", "is DISPLAY set? without a display use the render command");
+  }
+}
+
+Window::Library::~Library() {
+  glfwTerminate();
+}
+
+void Window::Destroy::operator()(GLFWwindow* window) const {
+  glfwDestroyWindow(window);
+}
+
+Window::Window(const WindowOptions& options) {
+  if (!glfwVulkanSupported()) {
+    fail("the window system offers no Vulkan surface", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+  }
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+  window_.reset(glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr));
+  if (!window_) {
+    fail("the window could not be opened", "without a display use the render command");
+  }
+  float unused = 1.0f;
+  glfwGetWindowContentScale(window_.get(), &contentScale_, &unused);
+  installCallbacks();
+  openWindows().push_back(this);
+}
+
+Window::~Window() {
+  std::erase(openWindows(), this);
+}
+
+Window* Window::of(GLFWwindow* window) {
+  return static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+void Window::installCallbacks() {
+  glfwSetWindowUserPointer(window_.get(), this);
+  glfwSetFramebufferSizeCallback(window_.get(),
+                                 [](GLFWwindow* w, int, int) { of(w)->resized_ = of(w)->active_ = true; });
+  glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
+  glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetWindowIconifyCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
+  glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetCharCallback(window_.get(), [](GLFWwindow* w, unsigned) { of(w)->active_ = true; });
+  glfwSetWindowContentScaleCallback(window_.get(), [](GLFWwindow* w, float x, float) { of(w)->followContentScale(x); });
+  glfwSetMonitorCallback([](GLFWmonitor*, int) {
+    for (Window* window : openWindows()) {
+      window->followMonitors(workAreas());
+    }
+  });
+  glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int scancode, int action, int modifiers) {
+    of(w)->active_ = true;
+    if (const auto& key = of(w)->callbacks_.key) {
+      const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
+      // Each call of glfwGetKeyName may write over what the last one gave.
+      const std::string printed(printedOn(code, scancode));
+      key({keyMeant(keyOf(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE, action == GLFW_REPEAT,
+           (modifiers & GLFW_MOD_SHIFT) != 0, control});
+    }
+  });
+  glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int modifiers) {
+    of(w)->active_ = true;
+    const auto& mouseButton = of(w)->callbacks_.mouseButton;
+    if (mouseButton && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
+      mouseButton({static_cast<MouseButton>(button), action == GLFW_PRESS, (modifiers & GLFW_MOD_SHIFT) != 0});
+    }
+  });
+  glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* w, double x, double y) {
+    of(w)->active_ = true;
+    if (const auto& cursor = of(w)->callbacks_.cursor) {
+      cursor(x, y);
+    }
+  });
+  glfwSetDropCallback(window_.get(), [](GLFWwindow* w, int count, const char** names) {
+    of(w)->dropFiles({names, names + count});
+  });
+  glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
+    of(w)->active_ = true;
+    if (const auto& scroll = of(w)->callbacks_.scroll) {
+      scroll(dx, dy);
+    }
+  });
+}
+
+void Window::pollEvents() {
+  glfwPollEvents();
+}
+
+void Window::waitEvents(double timeoutSeconds) {
+  glfwWaitEventsTimeout(timeoutSeconds);
+}
+
+bool Window::shouldClose() const {
+  return glfwWindowShouldClose(window_.get());
+}
+
+void Window::requestClose() {
+  glfwSetWindowShouldClose(window_.get(), GLFW_TRUE);
+}
+
+void Window::refuseClose() {
+  glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+}
+
+VkExtent2D Window::framebufferExtent() const {
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(window_.get(), &width, &height);
+  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
+VkExtent2D Window::size() const {
+  int width = 0;
+  int height = 0;
+  glfwGetWindowSize(window_.get(), &width, &height);
+  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
+void Window::resize(int width, int height) {
+  glfwSetWindowSize(window_.get(), width, height);
+}
+
+bool Window::fullScreen() const {
+  return glfwGetWindowMonitor(window_.get()) != nullptr;
+}
+
+ScreenRect Window::place() const {
+  ScreenRect rect;
+  glfwGetWindowPos(window_.get(), &rect.x, &rect.y);
+  glfwGetWindowSize(window_.get(), &rect.width, &rect.height);
+  return rect;
+}
+
+void Window::setPlace(const ScreenRect& place) {
+  glfwSetWindowMonitor(window_.get(), nullptr, place.x, place.y, place.width, place.height, GLFW_DONT_CARE);
+}
+
+void Window::setFullScreen(bool on) {
+  // GLFW 3.3 would wait without end for one that is not on the screen, as long as there are other events.
+  if (on == fullScreen() || !glfwGetWindowAttrib(window_.get(), GLFW_VISIBLE)) {
+    return;
+  }
+  covers_ = false;
+  if (!on) {
+    // The monitor that it was on may have gone meanwhile.
+    return setPlace(broughtBack(windowed_, workAreas()).value_or(windowed_));
+  }
+  windowed_ = place();
+  GLFWmonitor* monitor = monitorAt(windowed_.x + windowed_.width / 2, windowed_.y + windowed_.height / 2);
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  if (mode) {
+    glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    covers_ = true;
+  }
+}
+
+// GLFW has made a window of one whose monitor is gone by then, as large as that was.
+void Window::followMonitors(std::span<const ScreenRect> workAreas) {
+  active_ = true;
+  if (fullScreen()) {
+    return;
+  }
+  const bool left = std::exchange(covers_, false);
+  const ScreenRect wanted = left ? windowed_ : place();
+  if (const auto back = broughtBack(wanted, workAreas)) {
+    setPlace(*back);
+  } else if (left) {
+    setPlace(wanted);
+  }
+}
+
+void Window::followContentScale(float scale) {
+  active_ = true;
+  contentScale_ = scale;
+}
+
+void Window::iconify() {
+  glfwIconifyWindow(window_.get());
+}
+
+void Window::restore() {
+  glfwRestoreWindow(window_.get());
+}
+
+bool Window::iconified() const {
+  return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED);
+}
+
+bool Window::paused() const {
+  const VkExtent2D extent = framebufferExtent();
+  return iconified() || extent.width == 0 || extent.height == 0;
+}
+
+bool Window::takeResized() {
+  return std::exchange(resized_, false);
+}
+
+bool Window::takeActivity() {
+  return std::exchange(active_, false);
+}
+
+std::optional<GamepadState> Window::gamepad() const {
+  GLFWgamepadstate state{};
+  if (!glfwGetGamepadState(GLFW_JOYSTICK_1, &state)) {
+    return std::nullopt;
+  }
+  const auto stick = [&](int axis) { return outOfRest(state.axes[axis]); };
+  // Rests at -1.
+  const auto trigger = [&](int axis) { return outOfRest(0.5f * (state.axes[axis] + 1.0f)); };
+  GamepadState pad{.leftX = stick(GLFW_GAMEPAD_AXIS_LEFT_X),
+                   .leftY = stick(GLFW_GAMEPAD_AXIS_LEFT_Y),
+                   .rightX = stick(GLFW_GAMEPAD_AXIS_RIGHT_X),
+                   .rightY = stick(GLFW_GAMEPAD_AXIS_RIGHT_Y),
+                   .leftTrigger = trigger(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER),
+                   .rightTrigger = trigger(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER)};
+  for (size_t i = 0; i < pad.buttons.size(); ++i) {
+    pad.buttons[i] = state.buttons[buttonCodes[i]] == GLFW_PRESS;
+  }
+  pad.directionPad =
+      std::any_of(state.buttons + GLFW_GAMEPAD_BUTTON_DPAD_UP, state.buttons + GLFW_GAMEPAD_BUTTON_DPAD_LEFT + 1,
+                  [](unsigned char button) { return button == GLFW_PRESS; });
+  return pad;
+}
+
+void Window::setTitle(const std::string& title) {
+  glfwSetWindowTitle(window_.get(), title.c_str());
+}
+
+bool Window::keyDown(Key key) const {
+  for (const auto& [known, code] : keyCodes) {
+    if (known == key) {
+      return glfwGetKey(window_.get(), code) == GLFW_PRESS;
+    }
+  }
+  return false;
+}
+
+void Window::setClipboard(const std::string& text) {
+  glfwSetClipboardString(window_.get(), text.c_str());
+}
+
+std::string Window::clipboard() const {
+  const char* text = glfwGetClipboardString(window_.get());
+  return text ? text : "";
+}
+
+void Window::dropFiles(const std::vector<std::filesystem::path>& files) {
+  active_ = true;
+  if (callbacks_.drop) {
+    callbacks_.drop(files);
+  }
+}
+
+void Window::setCallbacks(WindowCallbacks callbacks) {
+  callbacks_ = std::move(callbacks);
+}
+
+std::vector<const char*> Window::requiredInstanceExtensions() const {
+  uint32_t count = 0;
+  const char** names = glfwGetRequiredInstanceExtensions(&count);
+  if (!names) {
+    fail("the window system offers no Vulkan surface", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+  }
+  return {names, names + count};
+}
+
+VkSurfaceKHR Window::createSurface(VkInstance instance) const {
+  VkSurfaceKHR surface = VK_NULL_HANDLE;
+  if (glfwCreateWindowSurface(instance, window_.get(), nullptr, &surface) != VK_SUCCESS) {
+    fail("the window's Vulkan surface could not be made", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+  }
+  return surface;
+}
+
+}  // namespace speculum

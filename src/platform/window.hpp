@@ -1,0 +1,165 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "platform/gamepad.hpp"
+#include "platform/screen_place.hpp"
+
+struct GLFWwindow;
+
+namespace speculum {
+
+enum class Key {
+  unknown,
+  escape,
+  enter,
+  tab,
+  space,
+  del,
+  leftShift,
+  rightShift,
+  leftControl,
+  rightControl,
+  w,
+  a,
+  s,
+  d,
+  q,
+  e,
+  b,
+  m,
+  r,
+  f,
+  g,
+  n,
+  y,
+  z,
+  comma,
+  period,
+  leftBracket,
+  rightBracket,
+  f1,
+  f2,
+  f10,
+  f11,
+  f12
+};
+// What the key at `place` of an American keyboard means on which `printed` stands (empty: none, or not known). Those
+// that fly keep their places; others go by their letter, with Control all. Where that is not one of the Latin alphabet
+// the place counts. `printedWhereFlying`: what stands on the six that fly; a shortcut among it gives way to flying and
+// is where an American keyboard has it, unless another is printed there.
+Key keyMeant(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying);
+
+enum class MouseButton { left, right, middle };
+
+struct KeyEvent {
+  Key key = Key::unknown;
+  bool pressed = false;
+  bool repeat = false;
+  bool shift = false;
+  bool control = false;
+};
+struct MouseButtonEvent {
+  MouseButton button = MouseButton::left;
+  bool pressed = false;
+  bool shift = false;
+};
+
+// Set the members of interest; positions are in screen coordinates of the window, origin top left.
+struct WindowCallbacks {
+  std::function<void(const KeyEvent&)> key;
+  std::function<void(const MouseButtonEvent&)> mouseButton;
+  std::function<void(double x, double y)> cursor;
+  std::function<void(double dx, double dy)> scroll;
+  std::function<void(const std::vector<std::filesystem::path>& files)> drop;
+};
+
+struct WindowOptions {
+  std::string title = "Speculum";
+  int width = 1280;  // screen coordinates
+  int height = 720;
+  bool visible = true;
+};
+
+// A window of the desktop. The only class that talks to GLFW; use it from the main thread.
+class Window {
+ public:
+  // Throws std::runtime_error when there is no display or no Vulkan surface support.
+  explicit Window(const WindowOptions& options);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  void pollEvents();
+  void waitEvents(double timeoutSeconds);  // sleeps until something happens
+  bool shouldClose() const;
+  void requestClose();
+  void refuseClose();  // takes back what asked for it
+
+  VkExtent2D framebufferExtent() const;  // pixels; 0x0 is possible
+  VkExtent2D size() const;               // screen coordinates
+  void resize(int width, int height);    // screen coordinates
+  // Covers the monitor that holds the window's centre, or goes back to place and size as they were. Nothing while the
+  // window is iconified.
+  void setFullScreen(bool on);
+  bool fullScreen() const;
+  void iconify();
+  void restore();
+  // X11 keeps the size of an iconified window, so the size alone does not tell.
+  bool iconified() const;
+  bool paused() const;  // iconified, or without a pixel
+  bool takeResized();   // whether the framebuffer changed its size since the last call
+  // Whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
+  bool takeActivity();
+  std::optional<GamepadState> gamepad() const;  // the first one; nothing if there is none
+  float contentScale() const { return contentScale_; }
+  // Monitors came, went or changed: takes a window that none shows to one that does, and one that covered a monitor
+  // that is gone back to its place. `workAreas` of those that are there.
+  void followMonitors(std::span<const ScreenRect> workAreas);
+  void followContentScale(float scale);  // the monitor asks for another
+  void setTitle(const std::string& title);
+  bool keyDown(Key key) const;
+  void setClipboard(const std::string& text);
+  std::string clipboard() const;  // empty if it holds no text
+  void setCallbacks(WindowCallbacks callbacks);
+  // As if they had been dropped on the window.
+  void dropFiles(const std::vector<std::filesystem::path>& files);
+
+  GLFWwindow* native() const { return window_.get(); }
+  std::vector<const char*> requiredInstanceExtensions() const;
+  VkSurfaceKHR createSurface(VkInstance instance) const;  // owned by the caller
+
+ private:
+  struct Library {
+    Library();
+    ~Library();
+  };
+  struct Destroy {
+    void operator()(GLFWwindow* window) const;
+  };
+  static Window* of(GLFWwindow* window);
+  void installCallbacks();
+  ScreenRect place() const;
+  void setPlace(const ScreenRect& place);
+
+  Library library_;
+  std::unique_ptr<GLFWwindow, Destroy> window_;
+  WindowCallbacks callbacks_;
+  ScreenRect windowed_;  // before full screen
+  bool covers_ = false;  // a monitor, as was asked for
+  float contentScale_ = 1.0f;
+  bool resized_ = false;
+  bool active_ = true;
+};
+
+}  // namespace speculum

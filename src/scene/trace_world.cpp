@@ -1,0 +1,220 @@
+#include "scene/trace_world.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+// Scaled before anything is multiplied: scales from 1e-20 to 1e13 must not leave the range of double.
+glm::dmat3 inverseOf(const glm::dmat3& m) {
+  double largest = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    const glm::dvec3 a = glm::abs(m[c]);
+    largest = std::max({largest, a.x, a.y, a.z});
+  }
+  return glm::inverse(m * (1.0 / largest)) * (1.0 / largest);
+}
+
+bool isInvertible(const glm::dmat3& m) {
+  const glm::dmat3 inverse = inverseOf(m);
+  return std::isfinite(glm::dot(inverse[0] + inverse[1] + inverse[2], glm::dvec3(1.0)));
+}
+
+// Rays are rounded on their way into mesh space, so the box in world space needs a margin.
+Bounds padded(Bounds box) {
+  const glm::dvec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
+  const double margin = 1e-13 * std::max({reach.x, reach.y, reach.z});
+  box.low -= margin;
+  box.high += margin;
+  return box;
+}
+
+}  // namespace
+
+TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene) {
+  std::vector<std::optional<TriangleMesh>> built(scene.meshes.size());
+  tbb::parallel_for(size_t{0}, built.size(), [&](size_t i) { built[i].emplace(scene.meshes[i]); });
+  meshes_.reserve(built.size());
+  for (auto& mesh : built) {
+    meshes_.push_back(std::move(*mesh));
+  }
+}
+
+void TraceWorld::place(const SceneState& state) {
+  const glm::dvec3& eye = state.camera.eye;
+  instances_ = state.instances;
+  mirrors_ = state.mirrors;
+  lights_ = state.lights;
+  placements_.clear();
+  std::vector<Item> items;
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    Affine& placed = instances_[i].worldFromMesh;
+    placed.translation -= eye;
+    instances_[i].center -= eye;
+    placements_.push_back({inverseOf(placed.linear), normalMatrix(placed.linear)});
+    if (isInvertible(placed.linear) && !scene_->meshes[instances_[i].mesh].indices.empty()) {
+      items.push_back({HitKind::object, static_cast<int>(i)});
+    }
+  }
+  for (size_t i = 0; i < mirrors_.size(); ++i) {
+    mirrors_[i].origin -= eye;
+    for (glm::dvec3& p : mirrors_[i].polygon) {
+      p -= eye;
+    }
+    items.push_back({HitKind::mirror, static_cast<int>(i)});
+  }
+  for (size_t i = 0; i < lights_.size(); ++i) {
+    lights_[i].position -= eye;
+    if (scene_->lights[i].glow > 0.0) {
+      items.push_back({HitKind::glyph, static_cast<int>(i)});
+    }
+  }
+  std::vector<Bounds> boxes;
+  for (const Item& item : items) {
+    boxes.push_back(padded(boundsOf(item)));
+  }
+  bvh_ = Bvh(boxes, 1);
+  items_.clear();
+  for (const uint32_t i : bvh_.order()) {
+    items_.push_back(items[i]);
+  }
+}
+
+Bounds TraceWorld::boundsOf(const Item& item) const {
+  Bounds box;
+  if (item.kind == HitKind::mirror) {
+    for (const glm::dvec3& p : mirrors_[item.index].polygon) {
+      box.add(p);
+    }
+  } else if (item.kind == HitKind::glyph) {
+    const double radius = scene_->lights[item.index].radius;
+    box.add(lights_[item.index].position - radius);
+    box.add(lights_[item.index].position + radius);
+  } else {
+    const InstanceState& instance = instances_[item.index];
+    const Bounds mesh = meshes_[instance.mesh].bounds();
+    for (int corner = 0; corner < 8; ++corner) {
+      box.add(
+          instance.worldFromMesh.point({corner & 1 ? mesh.high.x : mesh.low.x, corner & 2 ? mesh.high.y : mesh.low.y,
+                                        corner & 4 ? mesh.high.z : mesh.low.z}));
+    }
+  }
+  return box;
+}
+
+Ray TraceWorld::toMesh(const Ray& ray, int instance, double tMax) const {
+  const glm::dmat3& linear = placements_[instance].meshFromWorld;
+  return {linear * (ray.origin - instances_[instance].worldFromMesh.translation), linear * ray.direction, ray.tMin,
+          tMax};
+}
+
+std::optional<double> TraceWorld::meetPolygon(const Ray& ray, const ShearedRay& sheared, const MirrorState& mirror,
+                                              double tMax) const {
+  const double t = glm::dot(mirror.polygon[0] - ray.origin, mirror.normal) / glm::dot(ray.direction, mirror.normal);
+  if (!(t > ray.tMin && t < tMax)) {
+    return std::nullopt;
+  }
+  bool left = false;
+  bool right = false;
+  glm::dvec3 a = sheared.project(mirror.polygon.back());
+  for (const glm::dvec3& p : mirror.polygon) {
+    const glm::dvec3 b = sheared.project(p);
+    const double side = a.x * b.y - a.y * b.x;
+    left = left || side > 0.0;
+    right = right || side < 0.0;
+    a = b;
+  }
+  return left && right ? std::nullopt : std::optional(t);
+}
+
+std::optional<double> TraceWorld::meetMirror(const Ray& ray, int mirror) const {
+  return meetPolygon(ray, ShearedRay(ray), mirrors_[mirror], ray.tMax);
+}
+
+// The distance of centre and ray is taken directly: the textbook discriminant cancels for small, distant glyphs.
+std::optional<double> TraceWorld::meetGlyph(const Ray& ray, int light, double tMax) const {
+  const double radius = scene_->lights[light].radius;
+  const glm::dvec3 toCenter = lights_[light].position - ray.origin;
+  const double length2 = glm::dot(ray.direction, ray.direction);
+  const double middle = glm::dot(toCenter, ray.direction) / length2;
+  const glm::dvec3 offset = toCenter - middle * ray.direction;
+  const double halfChord2 = (radius * radius - glm::dot(offset, offset)) / length2;
+  if (halfChord2 < 0.0) {
+    return std::nullopt;
+  }
+  const double halfChord = std::sqrt(halfChord2);
+  const double t = middle - halfChord > ray.tMin ? middle - halfChord : middle + halfChord;
+  return t > ray.tMin && t < tMax ? std::optional(t) : std::nullopt;
+}
+
+std::optional<SceneHit> TraceWorld::meet(const Item& item, const Ray& ray, const ShearedRay& sheared, double tMax,
+                                         const Skip& skip) const {
+  SceneHit hit{.kind = item.kind, .index = item.index};
+  if (item.kind == HitKind::object) {
+    const int64_t own = skip.instance == item.index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
+    const auto found = meshes_[instances_[item.index].mesh].closest(toMesh(ray, item.index, tMax), own);
+    if (!found) {
+      return std::nullopt;
+    }
+    hit.triangle = found->triangle;
+    hit.t = found->t;
+    hit.weights = found->weights;
+    return hit;
+  }
+  if (item.kind == HitKind::mirror && skip.skips(item.index)) {
+    return std::nullopt;
+  }
+  const auto t = item.kind == HitKind::mirror ? meetPolygon(ray, sheared, mirrors_[item.index], tMax)
+                                              : meetGlyph(ray, item.index, tMax);
+  if (!t) {
+    return std::nullopt;
+  }
+  hit.t = *t;
+  hit.mirrorFront = item.kind == HitKind::mirror && glm::dot(ray.direction, mirrors_[item.index].normal) < 0.0;
+  return hit;
+}
+
+bool TraceWorld::blocks(const Item& item, const Ray& ray, const ShearedRay& sheared, const Skip& skip) const {
+  if (item.kind == HitKind::object) {
+    const int64_t own = skip.instance == item.index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
+    return meshes_[instances_[item.index].mesh].occluded(toMesh(ray, item.index, ray.tMax), own);
+  }
+  return item.kind == HitKind::mirror && !skip.skips(item.index) &&
+         meetPolygon(ray, sheared, mirrors_[item.index], ray.tMax).has_value();
+}
+
+std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip) const {
+  const ShearedRay sheared(ray);
+  std::optional<SceneHit> best;
+  bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
+    for (uint32_t i = first; i < first + count; ++i) {
+      if (const auto hit = meet(items_[i], ray, sheared, tMax, skip)) {
+        best = hit;
+        tMax = hit->t;
+      }
+    }
+    return false;
+  });
+  return best;
+}
+
+bool TraceWorld::occluded(const Ray& ray, const Skip& skip) const {
+  const ShearedRay sheared(ray);
+  bool found = false;
+  bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double&) {
+    for (uint32_t i = first; i < first + count && !found; ++i) {
+      found = blocks(items_[i], ray, sheared, skip);
+    }
+    return found;
+  });
+  return found;
+}
+
+uint32_t TraceWorld::partOf(const SceneHit& objectHit) const {
+  return meshes_[instances_[objectHit.index].mesh].partOf(objectHit.triangle);
+}
+
+}  // namespace speculum

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "geometry/bvh.hpp"
+#include "geometry/triangle_mesh.hpp"
+#include "scene/scene_state.hpp"
+
+namespace speculum {
+
+enum class HitKind { object, mirror, glyph };
+
+struct SceneHit {
+  HitKind kind = HitKind::object;
+  int index = 0;             // into SceneState::instances, mirrors or lights
+  uint32_t triangle = 0;     // objects: three indices from Mesh::indices[3 * triangle] on
+  double t = 0.0;            // in lengths of the ray's direction
+  glm::dvec3 weights{0.0};   // objects: barycentric
+  bool mirrorFront = false;  // mirrors: the ray comes from the front side
+};
+
+// Surfaces that a ray does not see: the one it starts on, and the mirror that it was bounced by.
+struct Skip {
+  int instance = -1;
+  uint32_t triangle = 0;
+  int mirror = -1;
+  int secondMirror = -1;
+
+  bool skips(int mirrorIndex) const { return mirrorIndex == mirror || mirrorIndex == secondMirror; }
+};
+
+// Everything that a ray can meet at one time: a BVH over instances, mirrors and glyphs; objects are met in their own
+// mesh's space. Positions are relative to the eye of the state, because differences of world coordinates are exact
+// where coordinates far from the world's origin are not.
+class TraceWorld {
+ public:
+  // Keeps a reference to the scene. Builds the BVHs of its meshes.
+  explicit TraceWorld(const Scene& scene);
+  void place(const SceneState& state);
+
+  std::optional<SceneHit> closest(const Ray& ray, const Skip& skip) const;
+  // Whether an object or a mirror, from either side, lies on the ray. Glyphs cast no shadow.
+  bool occluded(const Ray& ray, const Skip& skip) const;
+  // Where the ray meets a mirror's polygon, within (tMin, tMax).
+  std::optional<double> meetMirror(const Ray& ray, int mirror) const;
+
+  const Scene& scene() const { return *scene_; }
+  // Relative to the eye.
+  const std::vector<InstanceState>& instances() const { return instances_; }
+  const std::vector<MirrorState>& mirrors() const { return mirrors_; }
+  const std::vector<LightState>& lights() const { return lights_; }
+  const glm::dmat3& normalFromMesh(int instance) const { return placements_[instance].normalFromMesh; }
+  uint32_t partOf(const SceneHit& objectHit) const;
+
+ private:
+  struct Item {
+    HitKind kind;
+    int index;
+  };
+  struct Placement {
+    glm::dmat3 meshFromWorld;  // linear part
+    glm::dmat3 normalFromMesh;
+  };
+  Bounds boundsOf(const Item& item) const;
+  Ray toMesh(const Ray& ray, int instance, double tMax) const;
+  std::optional<SceneHit> meet(const Item& item, const Ray& ray, const ShearedRay& sheared, double tMax,
+                               const Skip& skip) const;
+  bool blocks(const Item& item, const Ray& ray, const ShearedRay& sheared, const Skip& skip) const;
+  std::optional<double> meetPolygon(const Ray& ray, const ShearedRay& sheared, const MirrorState& mirror,
+                                    double tMax) const;
+  std::optional<double> meetGlyph(const Ray& ray, int light, double tMax) const;
+
+  const Scene* scene_;
+  std::vector<TriangleMesh> meshes_;  // parallel to Scene::meshes
+  std::vector<InstanceState> instances_;
+  std::vector<Placement> placements_;
+  std::vector<MirrorState> mirrors_;
+  std::vector<LightState> lights_;
+  Bvh bvh_;
+  std::vector<Item> items_;  // in the BVH's order
+};
+
+}  // namespace speculum

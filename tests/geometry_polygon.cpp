@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/affine.hpp"
+#include "geometry/polygon.hpp"
+
+namespace speculum {
+namespace {
+
+using Polygon = std::vector<glm::dvec3>;
+
+const Polygon unitSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+TEST(Polygon, NewellVectorIsTwiceTheAreaTowardsCounterClockwise) {
+  EXPECT_EQ(newellVector(unitSquare), glm::dvec3(0, 0, 2));
+  EXPECT_DOUBLE_EQ(polygonArea(unitSquare), 1.0);
+}
+
+TEST(Polygon, NewellVectorIsExactFarFromTheOrigin) {
+  Polygon moved = unitSquare;
+  for (glm::dvec3& p : moved) {
+    p += glm::dvec3(1e7, -1e7, 1e7);
+  }
+  EXPECT_EQ(newellVector(moved), glm::dvec3(0, 0, 2));
+}
+
+TEST(Polygon, DefectsAreNamed) {
+  EXPECT_FALSE(polygonDefect(unitSquare));
+  EXPECT_EQ(polygonDefect(Polygon{{0, 0, 0}, {1, 0, 0}}), "has fewer than 3 vertices");
+  EXPECT_EQ(polygonDefect(Polygon{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}), "has no area");
+  EXPECT_EQ(polygonDefect(Polygon{{0, 0, 0}, {1, 0, 0}, {2, 1e-9, 0}}), "has no area");
+  EXPECT_EQ(polygonDefect(Polygon{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), "has no area");
+  EXPECT_EQ(polygonDefect(Polygon{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.01}, {0, 1, 0}}), "is not planar");
+  EXPECT_EQ(polygonDefect(Polygon{{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}}), "is not convex");
+  EXPECT_EQ(polygonDefect(Polygon{{0, 0, 0}, {NAN, 0, 0}, {1, 1, 0}}), "has a vertex that is not finite");
+}
+
+TEST(Polygon, PentagramIsNotConvex) {
+  Polygon star;
+  for (int i = 0; i < 5; ++i) {
+    const double angle = 4.0 * 3.14159265358979 * i / 5.0;
+    star.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  EXPECT_EQ(polygonDefect(star), "is not convex");
+}
+
+TEST(Polygon, ClippingKeepsThePositiveSide) {
+  const Polygon half = clipPolygon(unitSquare, Plane{{0.25, 0, 0}, {1, 0, 0}});
+  EXPECT_NEAR(polygonArea(half), 0.75, 1e-15);
+  EXPECT_TRUE(clipPolygon(unitSquare, Plane{{2, 0, 0}, {1, 0, 0}}).empty());
+  EXPECT_EQ(clipPolygon(unitSquare, Plane{{-1, 0, 0}, {1, 0, 0}}), unitSquare);
+}
+
+TEST(Affine, NormalMatrixSurvivesExtremeScales) {
+  for (const double size : {1e-20, 1.0, 1e13}) {
+    const glm::dmat3 m = normalMatrix(glm::dmat3(size, 0, 0, 0, 2 * size, 0, 0, 0, 5 * size));
+    const glm::dvec3 normal = glm::normalize(m * glm::normalize(glm::dvec3(1, 1, 1)));
+    const glm::dvec3 expected = glm::normalize(glm::dvec3(1.0, 0.5, 0.2));
+    EXPECT_NEAR(std::acos(std::min(1.0, glm::dot(normal, expected))), 0.0, 1e-7) << size;
+  }
+}
+
+TEST(Affine, NormalMatrixKeepsTheOutsideUnderMirroring) {
+  const glm::dmat3 mirrored(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+  EXPECT_GT((normalMatrix(mirrored) * glm::dvec3(0, 1, 0)).y, 0.0);
+  EXPECT_LT((normalMatrix(mirrored) * glm::dvec3(1, 0, 0)).x, 0.0);
+}
+
+TEST(Affine, RotationsAreYawTimesPitchTimesRoll) {
+  const glm::dmat3 r = rotationFromDegrees({30, 40, 50});
+  const glm::dmat3 expected =
+      rotationAboutAxis({0, 1, 0}, 40) * rotationAboutAxis({1, 0, 0}, 30) * rotationAboutAxis({0, 0, 1}, 50);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(glm::length(r[c] - expected[c]), 0.0, 1e-15);
+  }
+  const glm::dvec3 turned = rotationFromDegrees({0, 90, 0}) * glm::dvec3(0, 0, 1);
+  EXPECT_NEAR(turned.x, 1.0, 1e-15);
+}
+
+TEST(Affine, WholeTurnsAreExact) {
+  EXPECT_EQ(rotationFromDegrees({0, 360.0 * 1e9, 0}), rotationFromDegrees({0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace speculum

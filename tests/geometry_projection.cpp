@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/projection.hpp"
+
+namespace speculum {
+namespace {
+
+const Projection projection(glm::radians(60.0), 16.0 / 9.0, 0.001);
+
+glm::dvec3 toNdc(const glm::dvec4& clip) {
+  return glm::dvec3(clip) / clip.w;
+}
+
+TEST(Projection, MatrixAndFunctionAgree) {
+  const glm::dvec3 p(0.3, -0.7, -2.5);
+  EXPECT_EQ(projection.matrix() * glm::dvec4(p, 1.0), projection.clip(p));
+}
+
+TEST(Projection, TopOfTheViewIsTheFirstRow) {
+  const double y = 2.0 * std::tan(glm::radians(30.0));
+  EXPECT_NEAR(toNdc(projection.clip({0.0, y, -2.0})).y, -1.0, 1e-15);
+}
+
+TEST(Projection, DepthFallsStrictlyWithDistance) {
+  EXPECT_TRUE(rc::check("depth is monotone", [] {
+    const double near = std::pow(10.0, *rc::gen::inRange(-3000, 7000) / 1000.0);
+    const double far = near * (1.0 + std::pow(10.0, *rc::gen::inRange(-6000, 3000) / 1000.0));
+    const float a = static_cast<float>(toNdc(projection.clip({0, 0, -near})).z);
+    const float b = static_cast<float>(toNdc(projection.clip({0, 0, -far})).z);
+    RC_ASSERT(a > b);
+  }));
+}
+
+TEST(Projection, ObliqueDepthIsZeroDistanceAtThePlane) {
+  // A floor 1 m below a reflected eye that looks down at it: kept is what lies below the floor's image.
+  const glm::dvec4 plane(0.0, glm::normalize(glm::dvec2(1.0, -1.0)).x, glm::normalize(glm::dvec2(1.0, -1.0)).y, -1.0);
+  const auto oblique = obliqueProjection(projection, plane);
+  ASSERT_TRUE(oblique);
+  const glm::dvec3 normal(plane);
+  const glm::dvec3 onPlane = normal * 1.0 + glm::dvec3(0.2, 0, 0);
+  const glm::dvec4 at = *oblique * glm::dvec4(onPlane, 1.0);
+  EXPECT_NEAR(at.z, at.w, 1e-12);
+  const glm::dvec4 behind = *oblique * glm::dvec4(onPlane - 0.01 * normal, 1.0);
+  EXPECT_GT(behind.z, behind.w);
+  const glm::dvec4 front = *oblique * glm::dvec4(onPlane + 0.01 * normal, 1.0);
+  EXPECT_LT(front.z, front.w);
+}
+
+TEST(Projection, ObliqueDoesNotExistForAnEyeOnTheKeptSide) {
+  EXPECT_FALSE(obliqueProjection(projection, {0, 0, -1, 0.5}));
+  EXPECT_FALSE(obliqueProjection(projection, {0, 0, 1, -0.5}));
+}
+
+TEST(ScreenRect, RoundsOutwardsAndPads) {
+  const std::vector<glm::dvec4> clip = {{-0.5, -0.5, 0, 1}, {0.5, -0.5, 0, 1}, {0.5, 0.5, 0, 1}, {-0.5, 0.5, 0, 1}};
+  EXPECT_EQ(screenRect(clip, 100, 100, {0, 0, 100, 100}), (PixelRect{24, 24, 52, 52}));
+  EXPECT_EQ(screenRect(clip, 100, 100, {50, 0, 50, 100}), (PixelRect{50, 24, 26, 52}));
+  EXPECT_DOUBLE_EQ(screenArea(clip, 100, 100), 2500.0);
+}
+
+TEST(ScreenRect, IsEverythingWhenAVertexIsInTheEyesPlane) {
+  const std::vector<glm::dvec4> clip = {{0, 0, 0, 1}, {1e-14, 0, 0, 1e-13}, {0, 0.5, 0, 1}};
+  EXPECT_EQ(screenRect(clip, 64, 32, {0, 0, 64, 32}), (PixelRect{0, 0, 64, 32}));
+}
+
+TEST(ScreenRect, IsEmptyWithoutVertices) {
+  EXPECT_TRUE(screenRect({}, 64, 32, {0, 0, 64, 32}).empty());
+  EXPECT_EQ(screenArea({}, 64, 32), 0.0);
+}
+
+// In pixels, from the line through two of a polygon's corners; positive on the side of `inside`.
+double distanceFromEdge(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& inside) {
+  const glm::dvec2 across = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
+  return glm::dot(across, p - a) * (glm::dot(across, inside - a) < 0.0 ? -1.0 : 1.0);
+}
+
+TEST(Grown, MovesEdgesOutwardsByPixelsAndKeepsDepth) {
+  constexpr glm::dvec2 half(320.0, 180.0);
+  EXPECT_TRUE(rc::check("edges of a quadrangle", [&] {
+    const auto number = [](double low, double high) {
+      return low + (high - low) * *rc::gen::inRange(0, 10001) / 10000.0;
+    };
+    const bool turned = *rc::gen::arbitrary<bool>();
+    std::vector<glm::dvec4> clip;
+    for (const glm::dvec2& corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)}) {
+      const double w = std::pow(10.0, number(-6, 6));
+      const glm::dvec2 p = corner * glm::dvec2(number(0.5, 1.0), number(0.5, 1.0));
+      clip.emplace_back(p * w, 0.001, w);
+    }
+    if (turned) {
+      std::reverse(clip.begin(), clip.end());
+    }
+    const std::vector<glm::dvec4> moved = grown(clip, 640, 360, 0.01);
+    RC_ASSERT(moved.size() == clip.size());
+    const auto pixel = [&](const glm::dvec4& v) { return glm::dvec2(v) / v.w * half; };
+    for (size_t i = 0; i < clip.size(); ++i) {
+      const size_t next = (i + 1) % clip.size();
+      RC_ASSERT(moved[i].w == clip[i].w);
+      RC_ASSERT(moved[i].z == clip[i].z);
+      for (const size_t end : {i, next}) {
+        const double off = distanceFromEdge(pixel(moved[end]), pixel(clip[i]), pixel(clip[next]), glm::dvec2(0.0));
+        RC_ASSERT(std::abs(off + 0.01) < 1e-9);
+      }
+    }
+  }));
+}
+
+TEST(Grown, AcuteCornersAndRepeatedOnesStayNear) {
+  const std::vector<glm::dvec4> needle = {{-1, 0, 1, 1}, {1, 1e-4, 1, 1}, {1, 1e-4, 1, 1}, {1, -1e-4, 1, 1}};
+  const std::vector<glm::dvec4> moved = grown(needle, 200, 200, 0.01);
+  for (size_t i = 0; i < needle.size(); ++i) {
+    EXPECT_LT(100.0 * glm::length(moved[i] - needle[i]), 0.03) << i;
+  }
+  EXPECT_LT(moved[3].y, needle[3].y);
+  EXPECT_GT(moved[1].y, needle[1].y);
+}
+
+TEST(Grown, IsAsItWasInTheEyesPlane) {
+  const std::vector<glm::dvec4> clip = {{0, 0, 0, 1}, {1e-14, 0, 0, 1e-13}, {0, 0.5, 0, 1}};
+  EXPECT_EQ(grown(clip, 64, 32, 1.0), clip);
+}
+
+}  // namespace
+}  // namespace speculum
