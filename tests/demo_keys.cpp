@@ -334,15 +334,15 @@ TEST_F(DemoKeys, AClickBelongsToWhatIsUnderItsOwnPosition) {
   expectQuiet();
 }
 
-TEST(KeyHelpList, IsInTheReadme) {
-  std::ifstream file(sourceFile("README.md"));
-  std::stringstream readme;
-  readme << file.rdbuf();
+TEST(KeyHelpList, IsInTheDocs) {
+  std::ifstream file(sourceFile("docs/window.md"));
+  std::stringstream docs;
+  docs << file.rdbuf();
   ASSERT_GT(panels::keyHelp().size(), 10u);
   std::vector<panels::KeyHelp> all(panels::keyHelp().begin(), panels::keyHelp().end());
   all.insert(all.end(), panels::gamepadHelp().begin(), panels::gamepadHelp().end());
   for (const panels::KeyHelp& key : all) {
-    EXPECT_NE(readme.str().find("| `" + std::string(key.keys) + "` | " + key.what + " |"), std::string::npos)
+    EXPECT_NE(docs.str().find("| `" + std::string(key.keys) + "` | " + key.what + " |"), std::string::npos)
         << "| `" << key.keys << "` | " << key.what << " |";
   }
 }
