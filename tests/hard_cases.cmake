@@ -29,5 +29,5 @@ set_tests_properties(hard_case_mutations_apply PROPERTIES LABELS hard_cases)
 
 # Joins the pictures that scripts/hard-case-pictures draws.
 add_executable(picture_strip ${hard}/picture_strip.cpp)
-target_link_libraries(picture_strip PRIVATE image speculum_flags)
+target_link_libraries(picture_strip PRIVATE image platform speculum_flags)
 set_target_properties(picture_strip PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)

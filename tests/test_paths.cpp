@@ -1,6 +1,6 @@
 #include "test_paths.hpp"
 
-namespace speculum::test {
+namespace speculum {
 
 std::filesystem::path sourceDir() {
   return SPECULUM_SOURCE_DIR;
@@ -10,4 +10,4 @@ std::filesystem::path binaryDir() {
   return SPECULUM_BINARY_DIR;
 }
 
-}  // namespace speculum::test
+}  // namespace speculum
