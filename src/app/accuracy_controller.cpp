@@ -78,9 +78,10 @@ void AccuracyController::apply(UiModel& model, const std::function<SweepRequest(
     sweep_.cancel();
   }
   if (accuracy.measure) {
-    sweep_.start(view());
+    sweep_.start({"starting", 0.0},
+                 [request = view()](const SweepProgress& progress) { return measureView(request, progress); });
   }
-  if (std::optional<SweepResults> results = sweep_.take()) {
+  if (std::optional<SweepResults> results = sweep_.takeResult()) {
     results_ = std::move(*results);
     showResults(model);
     accuracy.about = aboutText(results_) + "; times taken while the window was drawing";
@@ -107,9 +108,9 @@ void AccuracyController::findCurrentPoint(UiModel& model) {
   }
 }
 
-void AccuracyController::update(UiModel& model, const DifferenceView::Look& look, SceneRenderer& sceneRenderer) {
+void AccuracyController::update(UiModel& model, const ShownPicture& shown, SceneRenderer& sceneRenderer) {
   UiAccuracy& accuracy = model.accuracy;
-  const std::optional<SweepStatus> status = sweep_.status();
+  const std::optional<SweepStatus> status = sweep_.progress();
   accuracy.stage = status ? status->stage : "";
   accuracy.progress = status ? status->fraction : 0.0;
   if (const std::optional<std::string> error = sweep_.takeError()) {
@@ -117,10 +118,10 @@ void AccuracyController::update(UiModel& model, const DifferenceView::Look& look
   }
   findCurrentPoint(model);
   const auto picture = [&] {
-    return toDisplay(sceneRenderer.radiance(), look.settings.view.exposure, look.settings.view.toneMap);
+    return toDisplay(sceneRenderer.radiance(), shown.settings.view.exposure, shown.settings.view.toneMap);
   };
   const bool changed =
-      accuracy.open && accuracy.showDifference ? difference_.update(look, picture) : difference_.reset();
+      accuracy.open && accuracy.showDifference ? difference_.update(shown, picture) : difference_.reset();
   if (changed) {
     sceneRenderer.setCover(difference_.heatMap());
   }
@@ -134,7 +135,7 @@ bool AccuracyController::working(const UiModel& model) const {
 
 void AccuracyController::forgetScene(UiModel& model) {
   sweep_.cancel();
-  difference_.end();
+  difference_.stop();
   results_ = {};
   showResults(model);
   model.accuracy.choice.clear();

@@ -3,9 +3,8 @@
 #include <string>
 
 #include "accuracy/pareto.hpp"
-#include "app/background_sweep.hpp"
 #include "app/difference_view.hpp"
-#include "app/options.hpp"
+#include "app/view_sweep.hpp"
 #include "systems/scene_renderer.hpp"
 #include "ui/ui_model.hpp"
 
@@ -23,7 +22,7 @@ class AccuracyController {
   // measurement would measure.
   void apply(UiModel& model, const std::function<SweepRequest()>& view);
   // After the frame is drawn: fills the panel's figures and keeps the renderer's cover up to date.
-  void update(UiModel& model, const DifferenceView::Look& look, SceneRenderer& sceneRenderer);
+  void update(UiModel& model, const ShownPicture& shown, SceneRenderer& sceneRenderer);
   // Whether update() has more to show although nothing changes.
   bool working(const UiModel& model) const;
   // Before the scene goes away.
@@ -34,7 +33,7 @@ class AccuracyController {
   void applyBudget(UiModel& model);
   void findCurrentPoint(UiModel& model);
 
-  BackgroundSweep sweep_;
+  BackgroundJob<SweepResults, SweepStatus> sweep_;
   DifferenceView difference_;
   SweepResults results_;
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on

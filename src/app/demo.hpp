@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "app/accuracy_controller.hpp"
-#include "app/background_load.hpp"
 #include "app/camera_controller.hpp"
 #include "app/log_capture.hpp"
 #include "app/options.hpp"
@@ -14,6 +13,12 @@
 #include "ui/simple_ui.hpp"
 
 namespace speculum {
+
+// How far a scene is read.
+struct LoadedShare {
+  std::filesystem::path file;  // that is read
+  double done = 0.0;           // 0 .. 1
+};
 
 // The window: a scene, a camera that is moved by hand, the panel.
 class Demo {
@@ -149,7 +154,7 @@ class Demo {
   int shownPresentMode_ = 0;
   std::optional<std::vector<int>> watched_;  // path of the mirror image that the panel shows; empty: the main view
   std::vector<std::filesystem::path> shippedModels_;
-  BackgroundLoad load_;
+  BackgroundJob<std::unique_ptr<LoadedScene>, LoadedShare> load_;
   std::string sceneError_;
   uint64_t nonFinite_ = 0;               // of scenes shown before
   std::unique_ptr<SceneEditor> editor_;  // of loaded_

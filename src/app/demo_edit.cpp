@@ -272,7 +272,7 @@ void Demo::answer(EditAction action) {
       closing_ = false;
       nextFile_.reset();
       refused_.clear();
-      if (load_.arrived()) {
+      if (load_.hasResult()) {
         load_.cancel();
       }
       return;

@@ -54,7 +54,14 @@ void Demo::openFile(const fs::path& file) {
   Options options = options_;
   options.sweepResults.clear();  // of the scene that the window began with
   sceneError_.clear();
-  load_.start(file, options);
+  load_.start({file, 0.0}, [file, options](const auto& report) {
+    const auto progress = [&](const fs::path& now, double done) {
+      if (!report({now, done})) {
+        throw std::runtime_error("cancelled");
+      }
+    };
+    return std::make_unique<LoadedScene>(loadSceneWithSettings(file, options, progress));
+  });
 }
 
 // Tells the panel how far it is, and takes what has come.
@@ -64,16 +71,16 @@ void Demo::followLoading() {
     discarded_.reset();
   }
   // What was changed while it was read is not lost either.
-  if (load_.arrived() && !mayLeave()) {
+  if (load_.hasResult() && !mayLeave()) {
     return;
   }
-  if (std::unique_ptr<LoadedScene> scene = load_.take()) {
-    showScene(std::move(scene));
+  if (std::optional<std::unique_ptr<LoadedScene>> scene = load_.takeResult()) {
+    showScene(std::move(*scene));
   } else if (std::optional<std::string> error = load_.takeError()) {
     sceneError_ = std::move(*error);
     discarded_.reset();
   }
-  const std::optional<LoadStatus> status = load_.status();
+  const std::optional<LoadedShare> status = load_.progress();
   model_.loading = status ? status->file.filename().string() : "";
   model_.loadingDone = status ? status->done : 0.0;
 }

@@ -21,111 +21,83 @@ void addVector(Fingerprint& fingerprint, const glm::dvec3& v) {
   }
 }
 
-std::string viewKey(const DifferenceView::Look& look) {
+std::string viewKey(const ShownPicture& shown) {
   Fingerprint fingerprint;
-  fingerprint.add(look.scene.file.string());
-  fingerprint.add(look.width);
-  fingerprint.add(look.height);
-  if (moves(look.scene)) {
-    fingerprint.add(look.state.time);
+  fingerprint.add(shown.scene.file.string());
+  fingerprint.add(shown.width);
+  fingerprint.add(shown.height);
+  if (moves(shown.scene)) {
+    fingerprint.add(shown.state.time);
   }
-  addVector(fingerprint, look.state.camera.eye);
+  addVector(fingerprint, shown.state.camera.eye);
   for (int column = 0; column < 3; ++column) {
-    addVector(fingerprint, look.state.camera.worldToView[column]);
+    addVector(fingerprint, shown.state.camera.worldToView[column]);
   }
-  if (look.settings.view.clearColor) {
-    addVector(fingerprint, *look.settings.view.clearColor);
+  if (shown.settings.view.clearColor) {
+    addVector(fingerprint, *shown.settings.view.clearColor);
   }
   return fingerprint.hex();
-}
-
-template <typename T>
-bool ready(const std::future<T>& future) {
-  return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
-
-// A future of std::async waits when it is destroyed.
-template <typename T>
-void abandon(std::future<T>& future, std::vector<std::future<T>>& abandoned) {
-  std::erase_if(abandoned, ready<T>);
-  if (future.valid()) {
-    abandoned.push_back(std::move(future));
-  }
 }
 
 }  // namespace
 
 bool DifferenceView::reset() {
-  if (control_) {
-    control_->cancelled = true;
-  }
-  abandon(tracing_, abandonedTraces_);
-  abandon(comparing_, abandonedComparisons_);
-  control_.reset();
+  tracing_.cancel();
+  comparing_.cancel();
   truth_.reset();
   traced_ = 0;
   view_.clear();
-  shown_.clear();
+  compared_.clear();
   problem_.clear();
   return std::exchange(heatMap_, Image8()).width > 0;
 }
 
-void DifferenceView::end() {
+void DifferenceView::stop() {
   reset();
-  abandonedTraces_.clear();
-  abandonedComparisons_.clear();
+  tracing_.stop();
+  comparing_.stop();
 }
 
-void DifferenceView::startTracing(const Look& look) {
-  TruthRequest request{.width = look.width, .height = look.height, .samples = references[traced_], .noiseFloor = false};
-  request.settings = look.settings;
-  control_ = std::make_shared<Control>();
-  const auto trace = [control = control_, &scene = look.scene, state = look.state, request] {
-    const auto progress = [&](double fraction) {
-      control->progress = fraction;
-      return !control->cancelled;
-    };
-    std::optional<GroundTruth> truth = inBackground([&] { return traceGroundTruth(scene, state, request, progress); });
-    return truth ? std::make_shared<const GroundTruth>(std::move(*truth)) : nullptr;
-  };
-  tracing_ = std::async(std::launch::async, trace);
+void DifferenceView::startTracing(const ShownPicture& shown) {
+  TruthRequest request{
+      .width = shown.width, .height = shown.height, .samples = references[traced_], .noiseFloor = false};
+  request.settings = shown.settings;
+  tracing_.start(0.0, [&scene = shown.scene, state = shown.state, request](const auto& report) {
+    std::optional<GroundTruth> truth = inBackground([&] { return traceGroundTruth(scene, state, request, report); });
+    return truth ? std::make_shared<const GroundTruth>(std::move(*truth)) : Truth();
+  });
 }
 
-void DifferenceView::startComparing(const Look& look, Image8 picture) {
-  const auto compare = [truth = truth_, drawn = std::move(picture), settings = look.settings] {
+void DifferenceView::startComparing(const ShownPicture& shown, Image8 image) {
+  comparing_.start(0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings](const auto&) {
     Plane2d map;
     const ErrorFigures errors = inBackground([&] { return errorsAgainst(*truth, drawn, settings, &map); });
     return Compared{settingsKey(settings), heatColors(map), errors.whole};
-  };
-  comparing_ = std::async(std::launch::async, compare);
+  });
 }
 
 // True for a new heat map. One of settings that have changed meanwhile is dropped.
 bool DifferenceView::collect() {
   bool fresh = false;
-  try {
-    if (ready(comparing_)) {
-      Compared result = comparing_.get();
-      if (result.settings == shown_) {
-        heatMap_ = std::move(result.heatMap);
-        metrics_ = result.metrics;
-        fresh = true;
-      }
-    }
-    // Not while the one before is being compared with.
-    if (ready(tracing_) && !comparing_.valid()) {
-      truth_ = tracing_.get();
-      ++traced_;
-      shown_.clear();
-    }
-  } catch (const std::exception& problem) {
-    problem_ = problem.what();
+  if (std::optional<Compared> result = comparing_.takeResult(); result && result->settings == compared_) {
+    heatMap_ = std::move(result->heatMap);
+    metrics_ = result->metrics;
+    fresh = true;
+  }
+  // A finer reference waits while the one before is being compared with.
+  if (tracing_.hasResult() && !comparing_.busy()) {
+    truth_ = *tracing_.takeResult();
+    ++traced_;
+    compared_.clear();
+  }
+  for (const std::optional<std::string>& error : {comparing_.takeError(), tracing_.takeError()}) {
+    problem_ = error.value_or(problem_);
   }
   return fresh;
 }
 
-bool DifferenceView::update(const Look& look, const std::function<Image8()>& picture) {
-  const std::string view = viewKey(look);
+bool DifferenceView::update(const ShownPicture& shown, const std::function<Image8()>& image) {
+  const std::string view = viewKey(shown);
   if (view != view_) {
     const bool cleared = reset();
     view_ = view;
@@ -136,19 +108,19 @@ bool DifferenceView::update(const Look& look, const std::function<Image8()>& pic
   if (!problem_.empty()) {
     return fresh;
   }
-  if (traced_ < references.size() && !tracing_.valid() && Clock::now() - still_ > stillFor) {
-    startTracing(look);
+  if (traced_ < references.size() && !tracing_.busy() && Clock::now() - still_ > stillFor) {
+    startTracing(shown);
   }
-  const std::string settings = settingsKey(look.settings);
-  if (truth_ && settings != shown_ && !comparing_.valid()) {
-    shown_ = settings;
-    startComparing(look, picture());
+  const std::string settings = settingsKey(shown.settings);
+  if (truth_ && settings != compared_ && !comparing_.busy()) {
+    compared_ = settings;
+    startComparing(shown, image());
   }
   return fresh;
 }
 
 bool DifferenceView::working() const {
-  return problem_.empty() && (tracing_.valid() || comparing_.valid() || traced_ < references.size());
+  return problem_.empty() && (tracing_.busy() || comparing_.busy() || traced_ < references.size());
 }
 
 std::string DifferenceView::status() const {
@@ -159,11 +131,11 @@ std::string DifferenceView::status() const {
   if (heatMap_.width > 0) {
     std::snprintf(text, sizeof(text), "mean FLIP %.4f, RMSE %.4f, largest difference %.0f/255%s", metrics_.flip,
                   metrics_.rmse, metrics_.maxDiff,
-                  tracing_.valid() || comparing_.valid() ? " (a finer reference is on its way)" : "");
+                  tracing_.busy() || comparing_.busy() ? " (a finer reference is on its way)" : "");
     return text;
   }
-  if (tracing_.valid() && !truth_) {
-    std::snprintf(text, sizeof(text), "tracing the reference: %.0f %%", 100.0 * control_->progress);
+  if (tracing_.busy() && !truth_) {
+    std::snprintf(text, sizeof(text), "tracing the reference: %.0f %%", 100.0 * tracing_.progress().value_or(1.0));
     return text;
   }
   return truth_ ? "comparing" : "waiting for the view to stand still (pause the animation)";

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace speculum {
+
+// Work on a thread of its own while the window goes on. Call everything from one thread; only the work itself runs on
+// the other.
+template <typename Result, typename Progress = double>
+class BackgroundJob {
+ public:
+  // Records how far the work is. False once the job is cancelled: the work ends early then, by an exception or with any
+  // result, and either is dropped.
+  using Report = std::function<bool(const Progress&)>;
+  using Work = std::function<Result(const Report&)>;
+
+  // Cancels a job that runs. `first` is the progress until the work reports any.
+  void start(Progress first, Work work) {
+    cancel();
+    task_ = std::make_unique<Task>();
+    task_->progress = std::move(first);
+    task_->thread = std::thread([task = task_.get(), work = std::move(work)] { task->run(work); });
+  }
+  // Does not wait: the thread ends by itself.
+  void cancel() {
+    std::erase_if(cancelled_, [](const std::unique_ptr<Task>& task) { return task->ended.load(); });
+    if (task_) {
+      task_->cancelled = true;
+      cancelled_.push_back(std::move(task_));
+    }
+  }
+  // Cancels and waits for every thread, as destruction does.
+  void stop() {
+    cancel();
+    cancelled_.clear();
+  }
+
+  bool running() const { return task_ && !task_->ended; }
+  bool finished() const { return task_ && task_->ended; }  // with a result or an error that nobody has taken
+  bool busy() const { return task_ != nullptr; }           // running or finished
+  std::optional<Progress> progress() const {
+    if (!running()) {
+      return std::nullopt;
+    }
+    const std::lock_guard lock(task_->mutex);
+    return task_->progress;
+  }
+  bool hasResult() const { return finished() && task_->result; }
+  std::optional<Result> takeResult() {
+    return hasResult() ? std::move(std::exchange(task_, nullptr)->result) : std::nullopt;
+  }
+  // Why the work failed.
+  std::optional<std::string> takeError() {
+    return finished() && !task_->result ? std::optional(std::exchange(task_, nullptr)->error) : std::nullopt;
+  }
+
+ private:
+  struct Task {
+    ~Task() {
+      cancelled = true;
+      if (thread.joinable()) {
+        thread.join();
+      }
+    }
+    void run(const Work& work) {
+      try {
+        result = work([this](const Progress& now) {
+          const std::lock_guard lock(mutex);
+          progress = now;
+          return !cancelled;
+        });
+      } catch (const std::exception& failure) {
+        error = failure.what();
+      }
+      ended = true;
+    }
+
+    std::mutex mutex;  // guards `progress`
+    Progress progress;
+    std::optional<Result> result;  // of the thread until `ended`
+    std::string error;
+    std::atomic<bool> cancelled = false;
+    std::atomic<bool> ended = false;
+    std::thread thread;
+  };
+
+  std::unique_ptr<Task> task_;
+  std::vector<std::unique_ptr<Task>> cancelled_;  // whose threads may not have ended yet
+};
+
+}  // namespace speculum

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "accuracy/sweep.hpp"
+#include "app/options.hpp"
+
+namespace speculum {
+
+// A view of the window to be measured.
+struct SweepRequest {
+  Options options;  // scene, size, device
+  Settings base;
+  CameraPose camera;
+  double time = 0.0;  // seconds of animation
+};
+
+// Measures a view with a scene and a device of its own; may run on any thread. The times are those of a device that the
+// window uses as well. Without points if `progress` returned false. Throws what loading and measuring throw.
+SweepResults measureView(const SweepRequest& request, const SweepProgress& progress);
+
+}  // namespace speculum
