@@ -1,13 +1,13 @@
 // Searches an image of radiance and disparity for values that are not finite or not within 0 .. 65504. CHECKED_IMAGE is
 // the image's type. A first dispatch over all pixels finds the first one and counts. A second of one group, with
 // LOOK_UP, reads it: before all are through, none can say which the first is.
+#include "gpu_data.h"
+
 layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform CHECKED_IMAGE checkedImage;
 
-layout(push_constant) uniform CheckConstants {
-  uvec2 size;  // pixels of the part that is in use
-};
+layout(push_constant) uniform Constants { CheckConstants part; };
 
 int sampleCount(sampler2D image) { return 1; }
 int sampleCount(sampler2DMS image) { return textureSamples(image); }
@@ -24,24 +24,15 @@ bool storable(vec4 value) {
 }
 
 #ifdef LOOK_UP
-layout(set = 0, binding = 1, std430) readonly buffer Search {
-  uint pixel;
-  uint count;
-  uint any;
-}
-search;
+layout(set = 0, binding = 1, std430) readonly buffer Search { CheckSearch search; };
 
-layout(set = 0, binding = 2, std430) writeonly buffer Found {
-  vec4 value;
-  uint sampleIndex;
-}
-found;
+layout(set = 0, binding = 2, std430) writeonly buffer Found { CheckFound found; };
 
 void main() {
   if (gl_LocalInvocationIndex != 0 || search.any == 0) {
     return;
   }
-  ivec2 texel = ivec2(search.pixel % size.x, search.pixel / size.x);
+  ivec2 texel = ivec2(search.pixel % part.size.x, search.pixel / part.size.x);
   int i = 0;
   while (i + 1 < sampleCount(checkedImage) && storable(valueOf(checkedImage, texel, i))) {
     ++i;
@@ -50,16 +41,11 @@ void main() {
   found.sampleIndex = i;
 }
 #else
-layout(set = 0, binding = 1, std430) buffer Search {
-  uint pixel;  // y * width + x of the first; at the start all bits
-  uint count;  // samples
-  uint any;    // 1 if there are some. Stored plainly: the validation layer of 2023 does not take atomics for writes.
-}
-search;
+layout(set = 0, binding = 1, std430) buffer Search { CheckSearch search; };
 
 void main() {
   uvec2 at = gl_GlobalInvocationID.xy;
-  if (any(greaterThanEqual(at, size))) {
+  if (any(greaterThanEqual(at, part.size))) {
     return;
   }
   uint count = 0;
@@ -67,7 +53,7 @@ void main() {
     count += storable(valueOf(checkedImage, ivec2(at), i)) ? 0 : 1;
   }
   if (count > 0) {
-    atomicMin(search.pixel, at.y * size.x + at.x);
+    atomicMin(search.pixel, at.y * part.size.x + at.x);
     atomicAdd(search.count, count);
     search.any = 1;
   }

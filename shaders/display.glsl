@@ -1,14 +1,12 @@
 // Linear radiance to display-referred sRGB, once, after the samples are averaged. DISPLAY_IMAGE is the image's type.
+#include "gpu_data.h"
 #include "texels.glsl"
 
 layout(constant_id = 0) const bool aces = false;
 
 layout(set = 0, binding = 0) uniform DISPLAY_IMAGE radiance;
 
-layout(push_constant) uniform DisplayConstants {
-  vec4 lookup;  // texel = pixel * xy + zw
-  float exposure;
-};
+layout(push_constant) uniform Constants { DisplayConstants display; };
 
 layout(location = 0) out vec4 color;
 
@@ -23,6 +21,7 @@ vec3 srgbEncode(vec3 x) {
 }
 
 void main() {
-  vec3 x = exposure * texelMean(radiance, ivec2(gl_FragCoord.xy * lookup.xy + lookup.zw)).rgb;
+  ivec2 texel = ivec2(gl_FragCoord.xy * display.lookup.xy + display.lookup.zw);
+  vec3 x = display.exposure * texelMean(radiance, texel).rgb;
   color = vec4(srgbEncode(toneCurve(x)), 1.0);
 }

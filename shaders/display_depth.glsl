@@ -1,15 +1,14 @@
-// A depth image made readable: 0 is infinitely far and black, `halfDepth` is shown half bright, the eye white. Of a texel with
-// several samples the first one: depth has no mean where surfaces meet.
+// Shows a depth image by distance: what is infinitely far is black, halfDepth half bright, the eye white. A texel with
+// several samples shows the first one, because depth has no mean where surfaces meet.
+#include "gpu_data.h"
+
 layout(set = 0, binding = 0) uniform DISPLAY_IMAGE depth;
 
-layout(push_constant) uniform DisplayConstants {
-  vec4 lookup;      // texel = pixel * xy + zw
-  float halfDepth;  // depth shown half bright
-};
+layout(push_constant) uniform Constants { DepthViewConstants display; };
 
 layout(location = 0) out vec4 color;
 
 void main() {
-  float d = texelFetch(depth, ivec2(gl_FragCoord.xy * lookup.xy + lookup.zw), 0).r;
-  color = vec4(vec3(d / (d + halfDepth)), 1.0);
+  float d = texelFetch(depth, ivec2(gl_FragCoord.xy * display.lookup.xy + display.lookup.zw), 0).r;
+  color = vec4(vec3(d / (d + display.halfDepth)), 1.0);
 }

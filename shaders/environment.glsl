@@ -39,24 +39,24 @@ vec3 mapRadiance(ViewData view, MapPlace place, int size, vec3 d) {
 
 // The direction from the map's centre to where a ray leaves the box: Lagarde, Zanuttini, "Local Image-based Lighting
 // With Parallax-corrected Cubemap" (2012).
-vec3 throughBox(MirrorData mirror, vec3 position, vec3 d) {
-  vec3 from = position - mirror.plane.xyz;
+vec3 throughBox(EnvironmentData map, vec3 position, vec3 d) {
+  vec3 from = position - map.center;
   vec3 along = vec3(abs(d.x) < 1e-20 ? 1e-20 : d.x, abs(d.y) < 1e-20 ? 1e-20 : d.y, abs(d.z) < 1e-20 ? 1e-20 : d.z);
-  vec3 leave = max((mirror.lookup.xyz - from) / along, (mirror.reproject[0].xyz - from) / along);
+  vec3 leave = max((map.low - from) / along, (map.high - from) / along);
   float t = min(leave.x, min(leave.y, leave.z));
   return t > 0.0 ? from + t * d : d;
 }
 
 // Of a mirror's reflection at `surface`, seen along `direction`.
-vec3 environmentRadiance(ViewData view, MirrorData mirror, Surface surface, vec3 direction, vec3 reflectance) {
+vec3 environmentRadiance(ViewData view, EnvironmentData map, Surface surface, vec3 direction, vec3 reflectance) {
   // Not below the triangle's own plane but the shading normal's: triangles may be smaller than what derivatives see.
   vec3 d = mirrored(direction, surface.normal, surface.normal);
-  vec3 channels = view.throughput.rgb * reflectance;
+  vec3 channels = view.throughput * reflectance;
   float through = max(channels.r, max(channels.g, channels.b));
-  bool last = view.depth >= view.maxDepth || through < view.throughput.w || through == 0.0;
-  if (last || mirror.plane.w == 0.0) {
+  bool last = view.depth >= view.maxDepth || through < view.minThroughput || through == 0.0;
+  if (last || map.hasMap == 0) {
     return backgroundRadiance(view, d);
   }
-  vec3 toward = mirror.lookup.w > 0.0 ? throughBox(mirror, surface.position, d) : d;
-  return mapRadiance(view, mapPlace(toward, mirror.image.x), mirror.image.x, d);
+  vec3 toward = map.hasBox != 0 ? throughBox(map, surface.position, d) : d;
+  return mapRadiance(view, mapPlace(toward, map.faceSize), map.faceSize, d);
 }

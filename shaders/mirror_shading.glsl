@@ -14,8 +14,8 @@ layout(constant_id = 0) const bool baseOnly = false;   // the share of the layer
 layout(constant_id = 1) const bool reprojects = false; // the image is one of an earlier frame, and something moved
 layout(constant_id = 6) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
 // What is known of a mirror on the CPU, so that no pixel of it runs or waits for what it has not.
-layout(constant_id = 7) const int shows = showsImage;
-layout(constant_id = 8) const int lookup = lookupFetch;
+layout(constant_id = 7) const uint shows = showsImage;
+layout(constant_id = 8) const uint lookup = lookupFetch;
 layout(constant_id = 9) const bool painted = true;     // its back, or its layer under the reflection, is not black
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
@@ -31,8 +31,8 @@ vec4 valueAt(ivec2 texel) { return texelFetch(reflection, texel, gl_SampleID); }
 vec2 valuePosition() { return gl_SamplePosition; }
 
 vec4 reflected(MirrorData mirror) {
-  ivec2 texel = ivec2(floor(gl_FragCoord.xy + mirror.lookup.zw));
-  return valueAt(clamp(texel, ivec2(0), mirror.image.xy - 1));
+  ivec2 texel = ivec2(floor(gl_FragCoord.xy + mirror.lookupOffset));
+  return valueAt(clamp(texel, ivec2(0), mirror.imageSize - 1));
 }
 #else
 vec4 valueAt(ivec2 texel) { return texelMean(reflection, texel); }
@@ -54,16 +54,16 @@ vec4 boxFiltered(vec2 low, vec2 high, ivec2 last) {
 }
 
 vec4 reflected(MirrorData mirror) {
-  ivec2 last = mirror.image.xy - 1;
-  vec2 texel = gl_FragCoord.xy * mirror.lookup.xy + mirror.lookup.zw;
+  ivec2 last = mirror.imageSize - 1;
+  vec2 texel = gl_FragCoord.xy * mirror.lookupScale + mirror.lookupOffset;
   if (lookup == lookupFetch) {
     return texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), last));
   }
   if (lookup == lookupBilinear) {
-    return bilinearMean(reflection, clamp(texel, vec2(0.5), vec2(mirror.image.xy) - 0.5));
+    return bilinearMean(reflection, clamp(texel, vec2(0.5), vec2(mirror.imageSize) - 0.5));
   }
-  vec2 low = floor(gl_FragCoord.xy) * mirror.lookup.xy + mirror.lookup.zw;
-  return boxFiltered(low, low + mirror.lookup.xy, last);
+  vec2 low = floor(gl_FragCoord.xy) * mirror.lookupScale + mirror.lookupOffset;
+  return boxFiltered(low, low + mirror.lookupScale, last);
 }
 #endif
 
@@ -75,9 +75,9 @@ struct Reprojection {
 };
 
 Reprojection reprojection(MirrorData mirror, float nearest) {
-  mat3 fromPixel = mat3(mirror.reproject[0].xyz, mirror.reproject[1].xyz, mirror.reproject[2].xyz);
-  vec3 parallax = vec3(mirror.reproject[0].w, mirror.reproject[1].w, mirror.reproject[2].w);
-  return Reprojection(fromPixel * vec3(gl_FragCoord.xy, 1.0), parallax, nearest);
+  vec4 rows[3] = mirror.texelFromPixel;
+  mat3 fromPixel = transpose(mat3(rows[0].xyz, rows[1].xyz, rows[2].xyz));
+  return Reprojection(fromPixel * vec3(gl_FragCoord.xy, 1.0), vec3(rows[0].w, rows[1].w, rows[2].w), nearest);
 }
 
 vec2 texelAt(Reprojection r, float disparity) {
@@ -129,10 +129,10 @@ float foundDisparity(Reprojection r, ivec2 last) {
 // counts by how far off the ray its own point is: the far ones beside a silhouette have moved by another length than the
 // near ones and would leave an outline behind. Where none counts, the farthest fills the gap.
 vec4 reprojected(MirrorData mirror, float nearest) {
-  ivec2 last = mirror.image.xy - 1;
+  ivec2 last = mirror.imageSize - 1;
   Reprojection r = reprojection(mirror, nearest);
   vec2 position = texelAt(r, foundDisparity(r, last)) - valuePosition();
-  vec2 reach = 0.5 * max(mirror.lookup.xy, vec2(1.0)) + 0.5;
+  vec2 reach = 0.5 * max(mirror.lookupScale, vec2(1.0)) + 0.5;
   ivec2 low = clamp(ivec2(ceil(position - reach)), ivec2(0), last);
   ivec2 high = clamp(ivec2(floor(position + reach)), ivec2(0), last);
   vec4 sum = vec4(0.0);
@@ -165,9 +165,7 @@ vec2 pixelOf(ViewData view, vec3 point) {
 // directions: at the distance of what is found there, from a first guess of what the smooth mirror shows here. Beside the
 // image the background stands for what it does not show.
 vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
-  float alpha = mirror.reproject[0].x;
-  int wanted = int(mirror.reproject[0].y);
-  vec3 normal = mirror.plane.xyz;
+  vec3 normal = mirror.normal;
   vec3 incoming = safeNormalize(ray);
   vec4 sharp = reflected(mirror);
   float farthest = 1e4 * (length(position) + 1.0);
@@ -176,8 +174,8 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
   vec2 shift = pixelShift(seed);
   vec3 sum = vec3(0.0);
   int taken = 0;
-  for (int drawn = 1; drawn <= wanted; ++drawn) {
-    vec3 m = microfacet(normal, alpha, latticePoint(shift, drawn));
+  for (int drawn = 1; drawn <= mirror.blurSamples; ++drawn) {
+    vec3 m = microfacet(normal, mirror.alpha, latticePoint(shift, drawn));
     if (!staysAbove(incoming, m, normal)) {
       continue;
     }
@@ -187,8 +185,8 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
     vec3 found = vec3(0.0);
     for (int i = 0; i < 3; ++i) {
       vec2 pixel = pixelOf(view, position + far * behind);
-      vec2 texel = pixel * mirror.lookup.xy + mirror.lookup.zw;
-      if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.image.xy)))) {
+      vec2 texel = pixel * mirror.lookupScale + mirror.lookupOffset;
+      if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize)))) {
         found = backgroundRadiance(view, direction);
         break;
       }
@@ -205,17 +203,17 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
 
 // F of docs/picture.md; `inward` is the ray's component along the normal, below zero.
 vec3 reflectance(MirrorData mirror, vec3 ray, float inward) {
-  vec3 f = mirror.reflectance.rgb;
-  return mirror.reflectance.w > 0.0 ? schlick(f, -inward * inversesqrt(max(dot(ray, ray), 1e-30))) : f;
+  vec3 f = mirror.reflectance;
+  return mirror.schlick != 0 ? schlick(f, -inward * inversesqrt(max(dot(ray, ray), 1e-30))) : f;
 }
 
 vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
   if (!painted) {
     return vec3(0.0);
   }
-  Surface base = mirrorLayer(position, mirror.plane.xyz, mirror.baseColor.rgb);
+  Surface base = mirrorLayer(position, mirror.normal, mirror.baseColor);
 #ifdef TRACED
-  return tracedSurfaceRadiance(view, base, safeNormalize(-position), Skip(none, none, uint(mirror.image.w), none, 0.0));
+  return tracedSurfaceRadiance(view, base, safeNormalize(-position), Skip(none, none, mirror.traceMirror, none, 0.0));
 #else
   return surfaceRadiance(view, base);
 #endif
@@ -224,20 +222,20 @@ vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
 // The disparity stored is that of what is reflected, so that an image of this mirror can be reprojected in its turn:
 // views share one projection and reflection keeps lengths, so it is the same in the mirror's image and in its parent's.
 void main() {
-  MirrorData mirror = mirrors[draw.drawIndex];
+  MirrorData mirror = mirrors[draw.mirrorIndex];
   ViewData view = views[draw.viewIndex];
   // The pixel's ray meets the plane: exact at every distance and angle, where interpolation over a polygon that may
   // reach behind the eye is not. A pixel whose centre lies beyond the horizon is seen at grazing angle.
   vec3 ray = rayThrough(view, gl_FragCoord.xy);
-  float inward = min(dot(mirror.plane.xyz, ray), -1e-7 * length(ray));
+  float inward = min(dot(mirror.normal, ray), -1e-7 * length(ray));
   vec3 f = reflectance(mirror, ray, inward);
   // The ray is one metre long along the view's axis.
-  float ownDisparity = inward / min(-mirror.plane.w, -1e-30);
+  float ownDisparity = inward / min(-mirror.eyeDistance, -1e-30);
 #ifdef MIRROR_OWN_SAMPLE
   vec4 image = reprojects ? reprojected(mirror, ownDisparity) : reflected(mirror);
   color = storable(f * min(image.rgb, shareMax), image.a);
 #else
-  vec3 base = baseRadiance(mirror, view, ray * (-mirror.plane.w / inward));
+  vec3 base = baseRadiance(mirror, view, ray * (-mirror.eyeDistance / inward));
   if (shows == showsBack) {
     color = storable(base, ownDisparity);
     return;
@@ -249,12 +247,12 @@ void main() {
   vec4 image = vec4(0.0);
   if (shows == showsImage) {
     if (blurs) {
-      image = blurred(mirror, view, ray, ray * (-mirror.plane.w / inward));
+      image = blurred(mirror, view, ray, ray * (-mirror.eyeDistance / inward));
     } else {
       image = reprojects ? reprojected(mirror, ownDisparity) : reflected(mirror);
     }
   } else {
-    image.rgb = backgroundRadiance(view, reflect(ray, mirror.plane.xyz));
+    image.rgb = backgroundRadiance(view, reflect(ray, mirror.normal));
   }
   color = storable(f * image.rgb + (1.0 - f) * base, image.a);
 #endif

@@ -14,11 +14,11 @@ bool visible(ViewData view, vec3 ray, float t) {
 // small, distant glyphs.
 void main() {
   ViewData view = views[draw.viewIndex];
-  vec4 sphere = lights[lightIndex].position;
+  LightData light = lights[lightIndex];
   vec3 ray = safeNormalize(rayThrough(view, gl_FragCoord.xy));
-  float middle = dot(ray, sphere.xyz);
-  vec3 offset = sphere.xyz - middle * ray;
-  float halfChord2 = sphere.w * sphere.w - dot(offset, offset);
+  float middle = dot(ray, light.position);
+  vec3 offset = light.position - middle * ray;
+  float halfChord2 = light.radius * light.radius - dot(offset, offset);
   if (halfChord2 < 0.0) {
     discard;
   }
@@ -29,5 +29,5 @@ void main() {
   }
   vec4 clip = view.clipFromRelative * vec4(ray * t, 1.0);
   gl_FragDepth = clamp(clip.z / clip.w, 0.0, 1.0);
-  color = storable(lights[lightIndex].glow.rgb, 1.0 / max(clip.w, 1e-30));
+  color = storable(light.glow, 1.0 / max(clip.w, 1e-30));
 }

@@ -11,6 +11,6 @@ void main() {
   int corner = corners[gl_VertexIndex];
   vec3 side = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;
   lightIndex = views[draw.viewIndex].firstLight + uint(gl_InstanceIndex);
-  vec4 sphere = lights[lightIndex].position;
-  gl_Position = views[draw.viewIndex].clipFromRelative * vec4(sphere.xyz + 1.01 * sphere.w * side, 1.0);
+  LightData light = lights[lightIndex];
+  gl_Position = views[draw.viewIndex].clipFromRelative * vec4(light.position + 1.01 * light.radius * side, 1.0);
 }

@@ -1,21 +1,16 @@
 // Reads one texel of an image that is looked at. PROBED_IMAGE is its type.
+#include "gpu_data.h"
 #include "texels.glsl"
 
 layout(local_size_x = 1) in;
 
 layout(set = 0, binding = 0) uniform PROBED_IMAGE probedImage;
 
-layout(set = 0, binding = 1, std430) writeonly buffer Probed {
-  vec4 mean;   // of the samples
-  vec4 first;  // sample: depth has no mean
-}
-probed;
+layout(set = 0, binding = 1, std430) writeonly buffer Probed { ProbedTexel probed; };
 
-layout(push_constant) uniform ProbeConstants {
-  ivec2 texel;
-};
+layout(push_constant) uniform Constants { ProbeConstants probe; };
 
 void main() {
-  probed.mean = texelMean(probedImage, texel);
-  probed.first = texelFetch(probedImage, texel, 0);
+  probed.mean = texelMean(probedImage, probe.texel);
+  probed.first = texelFetch(probedImage, probe.texel, 0);
 }

@@ -97,20 +97,19 @@ void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surf
 #endif
 
 void main() {
-  MaterialData material = materials[draw.drawIndex];
+  MaterialData material = materials[draw.materialIndex];
   // The side that faces the viewer is lit, by the winding in the model file: front faces already turn with the view's
   // handedness, the sign of the instance's determinant turns them back.
-  bool front = gl_FrontFacing == (instances[instanceIndex].normalFromMesh[0].w > 0.0);
+  bool front = gl_FrontFacing == (instances[instanceIndex].handedness > 0.0);
   Surface surface = objectSurface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), material,
-                                  instances[instanceIndex].diffuse, instances[instanceIndex].specular,
-                                  instances[instanceIndex].shininess.x);
+                                  instances[instanceIndex].change, instances[instanceIndex].shininess);
 #ifndef ENVIRONMENT
-  if (material.diffuse.w > 0.0) {
+  if (material.hasTexture != 0) {
     surface.diffuse *= diffuseFactor();
   }
 #endif
 #ifdef TRACED
-  uint traceInstance = uint(instances[instanceIndex].shininess.y);
+  uint traceInstance = instances[instanceIndex].traceInstance;
   Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none,
                    nearOf(relativePosition));
 #ifndef CURVED
@@ -126,11 +125,11 @@ void main() {
   applyCurvedMirror(traceInstance, direction, bounce);
   vec3 radiance = tracedRadiance(views[draw.viewIndex], bounce, direction);
 #elif defined(ENVIRONMENT)
-  MirrorData mirror = mirrors[uint(instances[instanceIndex].shininess.z)];
+  EnvironmentData map = environments[instances[instanceIndex].environment];
   vec3 direction = safeNormalize(surface.position);
-  surface = mirrorLayer(surface.position, surface.normal, mirror.baseColor.rgb);
+  surface = mirrorLayer(surface.position, surface.normal, map.baseColor);
   float cosine = -dot(surface.normal, direction);
-  vec3 reflectance = mirror.reflectance.w > 0.0 ? schlick(mirror.reflectance.rgb, cosine) : mirror.reflectance.rgb;
+  vec3 reflectance = map.schlick != 0 ? schlick(map.reflectance, cosine) : map.reflectance;
   vec3 layer = vec3(0.0);
   if (any(greaterThan(surface.diffuse, vec3(0.0)))) {
 #ifdef TRACED
@@ -140,7 +139,7 @@ void main() {
 #endif
   }
   vec3 radiance = (1.0 - reflectance) * layer +
-                  reflectance * environmentRadiance(views[draw.viewIndex], mirror, surface, direction, reflectance);
+                  reflectance * environmentRadiance(views[draw.viewIndex], map, surface, direction, reflectance);
 #elif defined(TRACED)
   vec3 radiance = tracedSurfaceRadiance(views[draw.viewIndex], surface, safeNormalize(-surface.position), self);
 #else

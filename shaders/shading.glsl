@@ -38,8 +38,7 @@ vec3 surfaceRadiance(ViewData view, Surface surface) {
   vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
   for (uint i = 0; i < view.lightCount; ++i) {
     LightData light = lights[view.firstLight + i];
-    radiance += lightRadiance(light.position.xyz - surface.position, light.position.w, light.irradiance.rgb, surface,
-                              toViewer);
+    radiance += lightRadiance(light.position - surface.position, light.radius, light.irradiance, surface, toViewer);
   }
   return radiance;
 }
@@ -64,15 +63,15 @@ Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
 }
 
 // An object's, with what the scene replaces of its material; its texture is still to be multiplied in.
-Surface objectSurface(vec3 position, vec3 normal, MaterialData material, vec4 diffuse, vec4 specular, float shininess) {
-  return Surface(position, normal, diffuse.w > 0.0 ? diffuse.rgb : material.diffuse.rgb,
-                 specular.w > 0.0 ? specular.rgb : material.specular.rgb, material.emission.rgb,
-                 shininess > 0.0 ? shininess : material.specular.w);
+Surface objectSurface(vec3 position, vec3 normal, MaterialData material, MaterialChange change, float shininess) {
+  return Surface(position, normal, change.replacesDiffuse != 0 ? change.diffuse : material.diffuse,
+                 change.replacesSpecular != 0 ? change.specular : material.specular, material.emission,
+                 shininess > 0.0 ? shininess : material.shininess);
 }
 
 vec3 backgroundRadiance(ViewData view, vec3 direction) {
-  if (view.background.w == 0.0) {
-    return view.background.rgb;
+  if (view.hasSky == 0) {
+    return view.background;
   }
   float y = safeNormalize(direction).y;
   return y >= 0.0 ? mix(view.horizon.rgb, view.zenith.rgb, sqrt(y))

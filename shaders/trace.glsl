@@ -1,77 +1,11 @@
 // Rays through the scene: a hierarchy of boxes over instances and mirrors, and one over the triangles of each mesh.
-// src/systems/trace_types.hpp declares the same structures and asserts the same offsets.
-// "Trace space" is world space minus the eye of the main view, the same for all views of a frame.
-
-struct TraceNode {
-  vec3 low;
-  uint first;  // leaf: first triangle or item; else: left child, the right one follows it
-  vec3 high;
-  uint count;  // triangles of a leaf, 1 item; 0: inner node
-};
-
-struct TraceTriangle {
-  vec3 a;         // mesh space
-  uint triangle;  // its number in the mesh
-  vec3 b;
-  uint material;
-  vec3 c;
-  uint pad;
-};
-
-struct TraceVertex {
-  vec3 position;  // mesh space
-  float u;
-  vec3 normal;
-  float v;
-};
-
-struct TraceInstance {
-  vec4 meshFromTrace[3];   // rows
-  vec4 normalFromMesh[3];  // rows
-  vec4 diffuse;            // w: 1 replaces the material's
-  vec4 specular;           // w: 1 replaces the material's
-  vec4 reflectance;        // w: one of the curved* constants
-  vec4 baseColor;          // of a curved mirror
-  float shininess;         // 0 keeps the material's
-  uint root;               // node
-  uint firstTriangle;      // of its mesh, in traceIndices / 3
-  uint firstVertex;        // of its mesh
-};
-
-struct TraceMirror {
-  vec3 origin;
-  uint firstVertex;
-  vec3 normal;  // unit, to the front
-  uint vertexCount;
-  vec3 axisX;
-  uint twoSided;
-  vec3 axisY;
-  float alpha;       // of GGX; 0: smooth
-  vec4 reflectance;  // w: 1 for Schlick's Fresnel
-  vec4 baseColor;
-  vec4 backColor;
-  vec4 ripple;  // wave number 1/m, slope, shift in m; w: 1 with ripples
-};
-
-// A light's image in a mirror that casts light.
-struct LightPath {
-  vec3 image;
-  float radius;
-  vec3 irradiance;  // at 1 m, facing the light
-  uint castsShadow;
-  vec3 light;
-  uint mirror;
-};
-
-const float curvedNone = 0.0;
-const float curvedConstant = 1.0;
-const float curvedSchlick = 2.0;
+// Needs interface.glsl.
 
 layout(set = 2, binding = 0, std430) readonly buffer TraceNodes { TraceNode traceNodes[]; };
 layout(set = 2, binding = 1, std430) readonly buffer TraceTriangles { TraceTriangle traceTriangles[]; };
 layout(set = 2, binding = 2, std430) readonly buffer TraceIndices { uint traceIndices[]; };
 layout(set = 2, binding = 3, std430) readonly buffer TraceVertices { TraceVertex traceVertices[]; };
-layout(set = 2, binding = 4, std430) readonly buffer TraceTextures { uvec4 traceTextures[]; };  // first texel, size
+layout(set = 2, binding = 4, std430) readonly buffer TraceTextures { TraceTexture traceTextures[]; };
 layout(set = 2, binding = 5, std430) readonly buffer TraceTexels { uvec2 traceTexels[]; };      // rgba, half floats
 layout(set = 2, binding = 6, std430) readonly buffer TraceTopNodes { TraceNode traceTopNodes[]; };
 layout(set = 2, binding = 7, std430) readonly buffer TraceItems { uint traceItems[]; };  // instance, or mirror + itemMirror
@@ -79,10 +13,7 @@ layout(set = 2, binding = 8, std430) readonly buffer TraceInstances { TraceInsta
 layout(set = 2, binding = 9, std430) readonly buffer TraceMirrors { TraceMirror traceMirrors[]; };
 layout(set = 2, binding = 10, std430) readonly buffer TraceMirrorVertices { vec2 traceMirrorVertices[]; };  // local x, y
 layout(set = 2, binding = 11, std430) readonly buffer LightPaths {
-  uint lightPathCount;
-  uint itemCount;
-  uint roughSamples;
-  uint pad;
+  TraceCounts traceCounts;
   LightPath lightPaths[];
 };
 
@@ -94,7 +25,6 @@ TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
   return traceVertices[traceInstances[instance].firstVertex + traceIndices[index]];
 }
 
-const uint itemMirror = 0x80000000u;
 const uint none = 0xffffffffu;
 const float infinity = 1e38;
 
@@ -209,7 +139,7 @@ LocalRay meshRay(uint instance, vec3 origin, vec3 direction) {
 // The first surface that the ray meets before tMax; with `any` one of them. Both in trace space.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
-  if (itemCount == 0) {
+  if (traceCounts.items == 0) {
     return hit;
   }
   LocalRay ray = localRay(origin, direction);

@@ -18,16 +18,16 @@ struct Incoming {
 };
 
 vec3 mirrorReflectance(uint mirror, float cosine) {
-  vec4 f = traceMirrors[mirror].reflectance;
-  return f.w > 0.0 ? schlick(f.rgb, cosine) : f.rgb;
+  vec3 f = traceMirrors[mirror].reflectance;
+  return traceMirrors[mirror].schlick != 0 ? schlick(f, cosine) : f;
 }
 
 Incoming directLight(LightData light, vec3 position, vec3 tracePosition, Skip self) {
   Incoming incoming;
-  incoming.toLight = light.position.xyz - position;
-  incoming.radius = light.position.w;
-  incoming.irradiance = light.irradiance.rgb;
-  incoming.castsShadow = light.irradiance.w > 0.0;
+  incoming.toLight = light.position - position;
+  incoming.radius = light.radius;
+  incoming.irradiance = light.irradiance;
+  incoming.castsShadow = light.castsShadow != 0;
   incoming.legs = 1;
   incoming.origin[0] = tracePosition;
   incoming.direction[0] = incoming.toLight;
@@ -83,7 +83,7 @@ bool unobstructed(Incoming incoming) {
 // part of.
 vec3 tracedSurfaceRadiance(ViewData view, Surface surface, vec3 toViewer, Skip self) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
-  uint paths = view.lightCount + (castsLight ? lightPathCount : 0);
+  uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);
   vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
   for (uint i = 0; i < paths; ++i) {
     Incoming incoming;

@@ -13,8 +13,7 @@ struct Bounce {
 
 vec3 rippled(uint mirror, vec3 tracePosition) {
   vec3 normal = traceMirrors[mirror].normal;
-  vec4 ripple = traceMirrors[mirror].ripple;
-  if (ripple.w == 0.0) {
+  if (traceMirrors[mirror].hasRipple == 0) {
     return normal;
   }
   vec3 axisX = traceMirrors[mirror].axisX;
@@ -22,8 +21,11 @@ vec3 rippled(uint mirror, vec3 tracePosition) {
   vec3 local = tracePosition - traceMirrors[mirror].origin;
   float x = dot(local, axisX);
   float y = dot(local, axisY);
-  vec3 first = ripple.y * cos(ripple.x * x + ripple.z) * axisX;
-  vec3 second = ripple.y * cos(ripple.x * (0.6 * x + 0.8 * y) - ripple.z) * (0.6 * axisX + 0.8 * axisY);
+  float k = traceMirrors[mirror].waveNumber;
+  float slope = traceMirrors[mirror].rippleSlope;
+  float phase = traceMirrors[mirror].ripplePhase;
+  vec3 first = slope * cos(k * x + phase) * axisX;
+  vec3 second = slope * cos(k * (0.6 * x + 0.8 * y) - phase) * (0.6 * axisX + 0.8 * axisY);
   return safeNormalize(normal - first - second);
 }
 
@@ -37,32 +39,32 @@ Bounce mirrorBounce(ViewData view, uint mirror, vec3 tracePosition, vec3 directi
   bounce.reflects = front || traceMirrors[mirror].twoSided != 0;
   bounce.alpha = traceMirrors[mirror].alpha;
   if (!bounce.reflects) {
-    bounce.surface = mirrorLayer(position, bounce.planeNormal, traceMirrors[mirror].backColor.rgb);
+    bounce.surface = mirrorLayer(position, bounce.planeNormal, traceMirrors[mirror].backColor);
     bounce.reflectance = vec3(0.0);
     return bounce;
   }
   vec3 normal = side * rippled(mirror, tracePosition);
-  bounce.surface = mirrorLayer(position, normal, traceMirrors[mirror].baseColor.rgb);
+  bounce.surface = mirrorLayer(position, normal, traceMirrors[mirror].baseColor);
   bounce.reflectance = mirrorReflectance(mirror, -dot(normal, direction));
   return bounce;
 }
 
 // Makes an object's surface that of a mirror, if it is one.
 void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
-  vec4 reflectance = traceInstances[instance].reflectance;
-  bounce.reflects = reflectance.w != curvedNone;
+  uint curved = traceInstances[instance].curved;
+  bounce.reflects = curved != curvedNone;
   if (bounce.reflects) {
-    bounce.surface =
-        mirrorLayer(bounce.surface.position, bounce.surface.normal, traceInstances[instance].baseColor.rgb);
+    bounce.surface = mirrorLayer(bounce.surface.position, bounce.surface.normal, traceInstances[instance].baseColor);
     float cosine = -dot(bounce.surface.normal, direction);
-    bounce.reflectance = reflectance.w == curvedSchlick ? schlick(reflectance.rgb, cosine) : reflectance.rgb;
+    vec3 f = traceInstances[instance].reflectance;
+    bounce.reflectance = curved == curvedSchlick ? schlick(f, cosine) : f;
   }
 }
 
 // Bilinear on linear texels, repeated, v up.
 vec3 textureColor(uint index, vec2 uv) {
-  uvec4 source = traceTextures[index];
-  ivec2 size = ivec2(source.yz);
+  TraceTexture source = traceTextures[index];
+  ivec2 size = ivec2(source.width, source.height);
   vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
   vec2 corner = floor(texel);
   vec2 weight = texel - corner;
@@ -71,8 +73,8 @@ vec3 textureColor(uint index, vec2 uv) {
   vec3 rows[2];
   for (int i = 0; i < 2; ++i) {
     int y = i == 0 ? low.y : high.y;
-    uvec2 left = traceTexels[source.x + uint(y * size.x + low.x)];
-    uvec2 right = traceTexels[source.x + uint(y * size.x + high.x)];
+    uvec2 left = traceTexels[source.firstTexel + uint(y * size.x + low.x)];
+    uvec2 right = traceTexels[source.firstTexel + uint(y * size.x + high.x)];
     rows[i] = mix(vec3(unpackHalf2x16(left.x), unpackHalf2x16(left.y).x),
                   vec3(unpackHalf2x16(right.x), unpackHalf2x16(right.y).x), weight.x);
   }
@@ -104,11 +106,10 @@ Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
   bool away = dot(geometric, direction) > 0.0;
   MaterialData material = materials[triangle.material];
   Surface surface = objectSurface(traceOrigin + hit.t * direction - view.traceOffset.xyz, away ? -normal : normal,
-                                  material, traceInstances[hit.instance].diffuse, traceInstances[hit.instance].specular,
-                                  traceInstances[hit.instance].shininess);
-  if (material.diffuse.w > 0.0) {
+                                  material, traceInstances[hit.instance].change, traceInstances[hit.instance].shininess);
+  if (material.hasTexture != 0) {
     vec2 uv = w.x * vec2(a.u, a.v) + w.y * vec2(b.u, b.v) + w.z * vec2(c.u, c.v);
-    surface.diffuse *= textureColor(uint(material.diffuse.w) - 1, uv);
+    surface.diffuse *= textureColor(material.textureIndex, uv);
   }
   Skip self = Skip(hit.instance, triangle.triangle, none, none, nearOf(surface.position));
   Bounce bounce = Bounce(surface, self, false, away ? -geometric : geometric, vec3(0.0), 0.0);
@@ -120,19 +121,19 @@ Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
 vec3 glyphRadiance(ViewData view, vec3 origin, vec3 direction, inout float t) {
   vec3 glow = vec3(0.0);
   for (uint i = view.firstLight; i < view.firstLight + view.lightCount; ++i) {
-    vec3 center = lights[i].position.xyz - origin;
-    float radius = lights[i].position.w;
+    vec3 center = lights[i].position - origin;
+    float radius = lights[i].radius;
     float middle = dot(direction, center);
     vec3 offset = center - middle * direction;
     float halfChord2 = radius * radius - dot(offset, offset);
-    if (lights[i].glow.w == 0.0 || halfChord2 < 0.0) {
+    if (lights[i].hasGlyph == 0 || halfChord2 < 0.0) {
       continue;
     }
     float halfChord = sqrt(halfChord2);
     float met = middle > halfChord ? middle - halfChord : middle + halfChord;
     if (met > 0.0 && met < t) {
       t = met;
-      glow = lights[i].glow.rgb;
+      glow = lights[i].glow;
     }
   }
   return glow;
@@ -167,7 +168,7 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
     weight *= path.bounce.reflectance;
     vec3 channels = path.throughput * weight;
     float through = max(channels.r, max(channels.g, channels.b));
-    bool last = path.depth >= view.maxDepth || through < view.throughput.w || through == 0.0;
+    bool last = path.depth >= view.maxDepth || through < view.minThroughput || through == 0.0;
     path.direction = mirrored(path.direction, last ? surface.normal : path.m, path.bounce.planeNormal);
     if (last) {
       return sum + weight * backgroundRadiance(view, path.direction);
@@ -205,7 +206,7 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
 vec3 tracedRadiance(ViewData view, Bounce bounce, vec3 direction) {
   uint seed = pixelSeed();
   vec2 shift = pixelShift(seed);
-  int wanted = bounce.alpha > 0.0 ? int(roughSamples) : 1;
+  int wanted = bounce.alpha > 0.0 ? int(traceCounts.roughSamples) : 1;
   int most = 4 * wanted + 16;
   int taken = 0;
   vec3 layer = vec3(0.0);
@@ -218,7 +219,7 @@ vec3 tracedRadiance(ViewData view, Bounce bounce, vec3 direction) {
         continue;
       }
     }
-    Path path = Path(direction, bounce, m, view.depth, view.throughput.rgb);
+    Path path = Path(direction, bounce, m, view.depth, view.throughput);
     sum += follow(view, path, seed + uint(drawn), taken == 0, layer);
     ++taken;
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
 
-#include "systems/gpu_types.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
 
@@ -66,7 +66,7 @@ const Pipeline& DisplaySystem::pipelineFor(const MirrorImage& radiance, const Se
     }
     desc.fragConstants = {variant.toneMap == ToneMap::aces};
     desc.setLayouts = {layout_.get()};
-    desc.pushConstantBytes = sizeof(DisplayConstants);
+    desc.pushConstantBytes = sizeof(gpu::DisplayConstants);
     desc.color = variant.format;
     desc.depth = VK_FORMAT_UNDEFINED;
     desc.depthTest = false;
@@ -77,7 +77,7 @@ const Pipeline& DisplaySystem::pipelineFor(const MirrorImage& radiance, const Se
 }
 
 RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, const Pipeline& pipeline,
-                                 const VkDescriptorImageInfo& image, const DisplayConstants& constants) {
+                                 const VkDescriptorImageInfo& image, const auto& constants) {
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter().image(0, image).update(renderer_.device(), set);
   const PassScope scope = renderer_.beginPass(frame, desc);
@@ -92,13 +92,13 @@ RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, co
   const PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
   if (!cover_) {
     return draw(frame, desc, PassKind::display, pipelineFor(radiance, settings), radiance.descriptor,
-                {glm::vec4(1.0f, 1.0f, 0.0f, 0.0f), static_cast<float>(settings.view.exposure)});
+                gpu::DisplayConstants{{1.0f, 1.0f, 0.0f, 0.0f}, static_cast<float>(settings.view.exposure)});
   }
   const MirrorImage cover{.descriptor = cover_.descriptor(coverSampler_.get())};
   const glm::vec2 scale(static_cast<float>(cover_.extent().width) / static_cast<float>(frame.extent.width),
                         static_cast<float>(cover_.extent().height) / static_cast<float>(frame.extent.height));
   return draw(frame, desc, PassKind::display, pipelineFor(cover, Settings()), cover.descriptor,
-              {glm::vec4(scale, 0.0f, 0.0f), 1.0f});
+              gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), 1.0f});
 }
 
 std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
@@ -109,7 +109,7 @@ std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const Frame
   }
   return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView,
               pipelineFor(radiance, settings), radiance.descriptor,
-              {placement->lookup, static_cast<float>(settings.view.exposure)});
+              gpu::DisplayConstants{placement->lookup, static_cast<float>(settings.view.exposure)});
 }
 
 std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
@@ -118,8 +118,10 @@ std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const Frame
   if (!placement) {
     return std::nullopt;
   }
-  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView, depth.pipeline(),
-              depth.descriptor(), {placement->lookup, static_cast<float>(plan.projection.near / debug.halfDistance)});
+  return draw(
+      frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView, depth.pipeline(),
+      depth.descriptor(),
+      gpu::DepthViewConstants{placement->lookup, static_cast<float>(plan.projection.near / debug.halfDistance)});
 }
 
 void DisplaySystem::releaseView() {

@@ -59,7 +59,7 @@ class DisplaySystem {
   };
   const Pipeline& pipelineFor(const MirrorImage& radiance, const Settings& settings);
   RecordedPass draw(Frame& frame, const PassDesc& desc, PassKind kind, const Pipeline& pipeline,
-                    const VkDescriptorImageInfo& image, const DisplayConstants& constants);
+                    const VkDescriptorImageInfo& image, const auto& constants);
 
   Renderer& renderer_;
   DescriptorSetLayoutHandle layout_;

@@ -15,11 +15,11 @@ constexpr uint32_t groupWidth = 16;
 constexpr uint32_t groupHeight = 8;
 
 VkDescriptorBufferInfo searchOf(const Buffer& buffer, size_t target) {
-  return {buffer.get(), target * targetBytes, sizeof(CheckSearch)};
+  return {buffer.get(), target * targetBytes, sizeof(gpu::CheckSearch)};
 }
 
 VkDescriptorBufferInfo foundOf(const Buffer& buffer, size_t target) {
-  return {buffer.get(), target * targetBytes + place, sizeof(CheckFound)};
+  return {buffer.get(), target * targetBytes + place, sizeof(gpu::CheckFound)};
 }
 
 template <typename T>
@@ -60,7 +60,7 @@ void FiniteWatch::begin(const Frame& frame, size_t targets) {
                           "check finite " + std::to_string(frame.index));
   }
   for (size_t i = 0; i < targets; ++i) {
-    slot.results.writeObject(CheckSearch{.pixel = ~0u}, searchOf(slot.results, i).offset);
+    slot.results.writeObject(gpu::CheckSearch{.pixel = ~0u}, searchOf(slot.results, i).offset);
   }
   slot.targets.clear();
   slot.frame = frame.number;
@@ -75,7 +75,7 @@ const FiniteWatch::Pipelines& FiniteWatch::pipelines(bool multisampled) {
                                         ComputePipelineDesc{.name = name,
                                                             .comp = shader + ending,
                                                             .setLayouts = {layout_.get()},
-                                                            .pushConstantBytes = sizeof(CheckConstants)});
+                                                            .pushConstantBytes = sizeof(gpu::CheckConstants)});
     };
     pipelines.search = make("check finite", "check_finite");
     pipelines.lookUp = make("look up what is not finite", "check_finite_look_up");
@@ -102,7 +102,7 @@ void FiniteWatch::check(Frame& frame, const std::string& pass, const std::vector
   const auto dispatch = [&](const Pipeline& pipeline, uint32_t x, uint32_t y) {
     pipeline.bind(frame.commands);
     pipeline.bindSet(frame.commands, 0, set);
-    pipeline.push(frame.commands, CheckConstants{used.width, used.height});
+    pipeline.push(frame.commands, gpu::CheckConstants{{used.width, used.height}});
     vkCmdDispatch(frame.commands, x, y, 1);
   };
   const Pipelines& with = pipelines(image.samples() != VK_SAMPLE_COUNT_1_BIT);
@@ -145,15 +145,15 @@ void FiniteWatch::read(Slot& slot) {
   }
   std::vector<NonFinite> found;
   for (size_t i = 0; i < slot.targets.size(); ++i) {
-    const auto search = readAt<CheckSearch>(slot.results, searchOf(slot.results, i));
+    const auto search = readAt<gpu::CheckSearch>(slot.results, searchOf(slot.results, i));
     if (search.any != 0) {
-      const auto value = readAt<CheckFound>(slot.results, foundOf(slot.results, i));
+      const auto value = readAt<gpu::CheckFound>(slot.results, foundOf(slot.results, i));
       const Target& target = slot.targets[i];
       found.push_back({.pass = target.pass,
                        .path = target.path,
                        .x = static_cast<int>(search.pixel % target.used.width),
                        .y = static_cast<int>(search.pixel / target.used.width),
-                       .sample = static_cast<int>(value.sample),
+                       .sample = static_cast<int>(value.sampleIndex),
                        .value = value.value,
                        .count = search.count});
       count_ += search.count;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/renderer.hpp"
-#include "systems/gpu_types.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
 

@@ -7,11 +7,13 @@
 #include "frame/draw_order.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/pass_mask.hpp"
-#include "systems/gpu_data.hpp"
+#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 
 namespace {
+
+constexpr std::array bufferNames = {"views", "lights", "instances", "mirrors", "environments", "mirror vertices"};
 
 glm::dmat4 relativeToView(const View& view) {
   return glm::dmat4(view.worldToView);
@@ -26,7 +28,7 @@ glm::dvec4 relativeClipPlane(const View& view) {
 }
 
 // Ray directions are affine in the pixel's position; see Projection for the clip space that is inverted here.
-void setRays(ViewData& data, const View& view, const Projection& projection, const glm::ivec2& target) {
+void setRays(gpu::ViewData& data, const View& view, const Projection& projection, const glm::ivec2& target) {
   const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
   const double sx = projection.aspect / projection.focal;
   const double sy = 1.0 / projection.focal;
@@ -38,9 +40,10 @@ void setRays(ViewData& data, const View& view, const Projection& projection, con
   data.rayOrigin = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(corner.x * sx, -corner.y * sy, -1.0)), 0.0f);
 }
 
-void setBackground(ViewData& data, const Environment& environment) {
+void setBackground(gpu::ViewData& data, const Environment& environment) {
   data.ambient = glm::vec4(glm::vec3(environment.ambient), 0.0f);
-  data.background = glm::vec4(glm::vec3(environment.background), environment.sky ? 1.0f : 0.0f);
+  data.background = glm::vec3(environment.background);
+  data.hasSky = environment.sky.has_value();
   const Sky sky = environment.sky.value_or(Sky{});
   data.zenith = glm::vec4(glm::vec3(sky.zenith), 0.0f);
   data.horizon = glm::vec4(glm::vec3(sky.horizon), 0.0f);
@@ -49,8 +52,8 @@ void setBackground(ViewData& data, const Environment& environment) {
 
 }  // namespace
 
-InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
-                          const glm::dmat4& clipFromRelative) {
+gpu::InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
+                               const glm::dmat4& clipFromRelative) {
   const glm::dmat3& linear = instance.worldFromMesh.linear;
   const glm::dvec3 offset = instance.worldFromMesh.translation - view.eye;
   glm::dmat4 relativeFromMesh(linear);
@@ -60,16 +63,16 @@ InstanceData instanceData(const InstanceState& instance, const Object& object, c
   const glm::dvec4 plane = relativeClipPlane(view);
   const glm::dvec3 normal(plane);
 
-  InstanceData data{};
+  gpu::InstanceData data{};
   data.clipFromMesh = glm::mat4(clipFromRelative * relativeFromMesh);
   for (int r = 0; r < 3; ++r) {
     data.relativeFromMesh[r] = row(linear, r, offset[r]);
-    data.normalFromMesh[r] = row(normals, r, handedness);
+    data.normalFromMesh[r] = row(normals, r, 0.0);
   }
   data.clipPlane = glm::vec4(glm::dvec4(glm::transpose(linear) * normal, glm::dot(normal, offset) + plane.w));
-  data.diffuse = replacement(object.color);
-  data.specular = replacement(object.specular);
-  data.shininess = glm::vec4(static_cast<float>(object.shininess.value_or(0.0)));
+  data.change = materialChange(object);
+  data.shininess = static_cast<float>(object.shininess.value_or(0.0));
+  data.handedness = static_cast<float>(handedness);
   return data;
 }
 
@@ -87,25 +90,29 @@ const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
   return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.held ? &plan.held[draw.held->image].view : nullptr;
 }
 
-MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const EffectSettings& effects, const View& view,
-                      const View* image) {
-  MirrorData data{};
-  data.plane = glm::vec4(glm::dvec4(draw.plane.normal, draw.plane.distance(view.eye)));
-  data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), isSchlick(mirror.fresnel, effects) ? 1.0f : 0.0f);
-  data.baseColor = glm::vec4(glm::vec3(draw.back ? mirror.backColor : mirror.baseColor), 0.0f);
+gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const EffectSettings& effects,
+                           const View& view, const View* image) {
+  gpu::MirrorData data{.normal = glm::vec3(draw.plane.normal),
+                       .eyeDistance = static_cast<float>(draw.plane.distance(view.eye)),
+                       .reflectance = glm::vec3(mirror.reflectance),
+                       .schlick = isSchlick(mirror.fresnel, effects),
+                       .baseColor = glm::vec3(draw.back ? mirror.backColor : mirror.baseColor),
+                       .traceMirror = static_cast<uint32_t>(draw.mirror)};
   if (image) {
     const glm::dvec2 ratio = image->pictureSize / view.pictureSize;
     const PixelRect& rect = image->rect;
-    const glm::dvec2 offset = glm::dvec2(view.rect.x, view.rect.y) * ratio - glm::dvec2(rect.x, rect.y);
-    data.lookup = glm::vec4(glm::dvec4(ratio, offset));
-    data.image = glm::ivec4(rect.width, rect.height, 0, 0);
+    data.lookupScale = glm::vec2(ratio);
+    data.lookupOffset = glm::vec2(glm::dvec2(view.rect.x, view.rect.y) * ratio - glm::dvec2(rect.x, rect.y));
+    data.imageSize = {rect.width, rect.height};
   }
-  data.image.w = draw.mirror;
   if (draw.held && draw.held->moved) {
-    for (int column = 0; column < 3; ++column) {
-      data.reproject[column] =
-          glm::vec4(glm::dvec4(draw.held->texelFromPixel[column], draw.held->texelFromDisparity[column]));
+    for (int r = 0; r < 3; ++r) {
+      data.texelFromPixel[r] = row(draw.held->texelFromPixel, r, draw.held->texelFromDisparity[r]);
     }
+  }
+  if (draw.blurs) {
+    data.alpha = static_cast<float>(mirror.roughness * mirror.roughness);
+    data.blurSamples = effects.roughSamples;
   }
   return data;
 }
@@ -129,8 +136,9 @@ glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod
   return projection;
 }
 
-FrameData::FrameData(Device& device) : device_(device) {
-  std::array<DescriptorBinding, 6> bindings{};
+FrameData::FrameData(Device& device)
+    : device_(device), buffers_(device, bufferNames, "fewer copies of objects, or a lower reflection.max_passes") {
+  std::array<DescriptorBinding, kindCount + 1> bindings{};  // the last for the materials
   for (uint32_t i = 0; i < bindings.size(); ++i) {
     bindings[i] = {.binding = i, .type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
   }
@@ -143,6 +151,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   lights_.clear();
   instances_.clear();
   mirrors_.clear();
+  environments_.clear();
   mirrorVertices_.clear();
   passes_.clear();
   const Source source{scene, state, settings, environment, plan};
@@ -156,23 +165,20 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
     }
   }
 
-  upload(frame, views, std::as_bytes(std::span(views_)));
-  upload(frame, lights, std::as_bytes(std::span(lights_)));
-  upload(frame, instances, std::as_bytes(std::span(instances_)));
-  upload(frame, mirrors, std::as_bytes(std::span(mirrors_)));
-  upload(frame, mirrorVertices, std::as_bytes(std::span(mirrorVertices_)));
+  buffers_.write(frame, views, views_);
+  buffers_.write(frame, lights, lights_);
+  buffers_.write(frame, instances, instances_);
+  buffers_.write(frame, mirrors, mirrors_);
+  buffers_.write(frame, environments, environments_);
+  buffers_.write(frame, mirrorVertices, mirrorVertices_);
+  instanceBuffer_ = buffers_.buffer(frame, instances).get();
   set_ = frame.descriptors->allocate(layout_.get());
-  const auto& buffers = buffers_[frame.index];
-  instanceBuffer_ = buffers[instances].get();
-  constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-  DescriptorWriter()
-      .buffer(0, storage, buffers[views].descriptor())
-      .buffer(1, storage, buffers[lights].descriptor())
-      .buffer(2, storage, buffers[instances].descriptor())
-      .buffer(3, storage, resources.materials().descriptor())
-      .buffer(4, storage, buffers[mirrors].descriptor())
-      .buffer(5, storage, buffers[mirrorVertices].descriptor())
-      .update(device_, set_);
+  DescriptorWriter writer;
+  for (uint32_t kind = 0; kind < kindCount; ++kind) {
+    writer.buffer(kind, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffers_.buffer(frame, kind).descriptor());
+  }
+  writer.buffer(kindCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, resources.materials().descriptor());
+  writer.update(device_, set_);
 }
 
 glm::ivec2 faceCorner(const EnvironmentMap& map, size_t face) {
@@ -185,14 +191,15 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   const glm::dmat4 projection = viewProjection(common, pass.view, settings.reflection.clip);
   PassData& data = passes_.emplace_back();
   data.view = static_cast<uint32_t>(views_.size());
-  ViewData view{};
+  gpu::ViewData view{};
   view.clipFromRelative = glm::mat4(projection * relativeToView(pass.view));
   const bool clips = settings.reflection.clip != ClipMethod::none;
   view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
   setRays(view, pass.view, common, corner);
   setBackground(view, environment);
   view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, 0.0));
-  view.throughput = glm::vec4(glm::dvec4(pass.channels, settings.reflection.minThroughput));
+  view.throughput = glm::vec3(pass.channels);
+  view.minThroughput = static_cast<float>(settings.reflection.minThroughput);
   view.depth = static_cast<uint32_t>(pass.view.path.size());
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
   addLights(source, pass, view);
@@ -204,7 +211,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
 }
 
 // Lights whose glyphs are visible come first, so that one instanced draw covers them.
-void FrameData::addLights(const Source& source, const PlannedPass& pass, ViewData& view) {
+void FrameData::addLights(const Source& source, const PlannedPass& pass, gpu::ViewData& view) {
   const Scene& scene = source.scene;
   view.firstLight = static_cast<uint32_t>(lights_.size());
   view.lightCount = static_cast<uint32_t>(scene.lights.size());
@@ -214,12 +221,12 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, ViewDat
                         [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); });
   for (const int i : order) {
     const PointLight& light = scene.lights[i];
-    const glm::dvec3 relative = source.state.lights[i].position - pass.view.eye;
-    const bool glows = hasGlyph(light, source.settings.effects);
-    lights_.push_back(
-        {.position = glm::vec4(glm::dvec4(relative, light.radius)),
-         .irradiance = glm::vec4(glm::vec3(light.color * light.intensity), light.castsShadow ? 1.0f : 0.0f),
-         .glow = glm::vec4(glm::vec3(light.color * light.glow), glows ? 1.0f : 0.0f)});
+    lights_.push_back({.position = glm::vec3(source.state.lights[i].position - pass.view.eye),
+                       .radius = static_cast<float>(light.radius),
+                       .irradiance = glm::vec3(light.color * light.intensity),
+                       .castsShadow = light.castsShadow,
+                       .glow = glm::vec3(light.color * light.glow),
+                       .hasGlyph = hasGlyph(light, source.settings.effects)});
   }
 }
 
@@ -258,7 +265,7 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     }
     ++data.batches.back().count;
     instances_.push_back(instanceData(instance, object, pass.view, clipFromRelative));
-    instances_.back().shininess.y = static_cast<float>(i);  // exact up to 2^24
+    instances_.back().traceInstance = static_cast<uint32_t>(i);
     if (environment) {
       addEnvironment(source, pass, i, data.batches.back());
     }
@@ -272,21 +279,21 @@ void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, in
   const bool inFace = pass.depth < 0 && &pass != &source.plan.main;
   const bool exists = map != maps.end() && !inFace;
   const ObjectMirror& mirror = *source.scene.objects[source.state.instances[instance].object].mirror;
-  MirrorData data{};
-  const bool schlick = isSchlick(mirror.fresnel, source.settings.effects);
-  data.reflectance = glm::vec4(glm::vec3(mirror.reflectance), schlick ? 1.0f : 0.0f);
-  data.baseColor = glm::vec4(glm::vec3(mirror.baseColor), 0.0f);
+  gpu::EnvironmentData data{.hasMap = exists,
+                            .reflectance = glm::vec3(mirror.reflectance),
+                            .schlick = isSchlick(mirror.fresnel, source.settings.effects),
+                            .baseColor = glm::vec3(mirror.baseColor)};
   if (exists) {
-    const bool box = source.settings.effects.environmentBox;
-    data.plane = glm::vec4(glm::dvec4(map->center - pass.view.eye, 1.0));
-    data.lookup = glm::vec4(glm::dvec4(map->low - map->center, box ? 1.0 : 0.0));
-    data.reproject[0] = glm::vec4(glm::dvec4(map->high - map->center, 0.0));
-    data.image.x = map->size;
+    data.center = glm::vec3(map->center - pass.view.eye);
+    data.low = glm::vec3(map->low - map->center);
+    data.high = glm::vec3(map->high - map->center);
+    data.hasBox = source.settings.effects.environmentBox;
+    data.faceSize = map->size;
   }
   batch.environment = true;
   batch.map = exists ? static_cast<int>(map - maps.begin()) : -1;
-  instances_.back().shininess.z = static_cast<float>(mirrors_.size());
-  mirrors_.push_back(data);
+  instances_.back().environment = static_cast<uint32_t>(environments_.size());
+  environments_.push_back(data);
 }
 
 namespace {
@@ -340,10 +347,6 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
     mirrors_.push_back(mirrorData(draw, mirror, effects, pass.view, image));
-    if (draw.blurs) {
-      mirrors_.back().reproject[0] = glm::vec4(static_cast<float>(mirror.roughness * mirror.roughness),
-                                               static_cast<float>(effects.roughSamples), 0.0f, 0.0f);
-    }
     std::vector<glm::dvec4> clip;
     for (const glm::dvec3& p : draw.polygon) {
       clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
@@ -367,13 +370,6 @@ void FrameData::addMask(const PlannedPass& pass, const FramePlan& plan, const Se
   data.maskFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
   addFan(mirrorVertices_, clip);
   data.maskVertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - data.maskFirstVertex;
-}
-
-void FrameData::upload(Frame& frame, Kind kind, std::span<const std::byte> data) {
-  static constexpr std::array<const char*, kindCount> names = {"views", "lights", "instances", "mirrors",
-                                                               "mirror vertices"};
-  writeGrown(device_, buffers_[frame.index][kind], data, names[kind],
-             "fewer copies of objects, or a lower reflection.max_passes");
 }
 
 }  // namespace speculum

@@ -1,14 +1,22 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "core/renderer.hpp"
 #include "frame/frame_plan.hpp"
-#include "systems/gpu_types.hpp"
+#include "shaders/gpu_data.h"
+#include "systems/frame_buffers.hpp"
 #include "systems/scene_resources.hpp"
 
 namespace speculum {
+
+// What a mirror shows, and how its image is looked up; specialisation constants of mirror_shading.glsl.
+enum class MirrorShows : uint32_t {
+  image = gpu::showsImage,
+  background = gpu::showsBackground,
+  back = gpu::showsBack,
+};
+enum class Lookup : uint32_t { fetch = gpu::lookupFetch, bilinear = gpu::lookupBilinear, box = gpu::lookupBox };
 
 // Where a mirror's image was rendered to, for those who look it up.
 struct MirrorImage {
@@ -75,7 +83,8 @@ class FrameData {
   VkBuffer instanceBuffer() const { return instanceBuffer_; }
 
  private:
-  enum Kind { views, lights, instances, mirrors, mirrorVertices, kindCount };
+  // Bindings of interface.glsl; the next one is that of SceneResources::materials().
+  enum Kind { views, lights, instances, mirrors, environments, mirrorVertices, kindCount };
 
   // What all passes of a frame share.
   struct Source {
@@ -87,22 +96,22 @@ class FrameData {
   };
   // `corner`: where in its target the pass is drawn, in pixels.
   void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
-  void addLights(const Source& source, const PlannedPass& pass, ViewData& view);
+  void addLights(const Source& source, const PlannedPass& pass, gpu::ViewData& view);
   void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
   // Makes an instance's batch one that looks up its map.
   void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);
   void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
                   const EffectSettings& effects, PassData& data);
   void addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
-  void upload(Frame& frame, Kind kind, std::span<const std::byte> data);
 
   Device& device_;
   DescriptorSetLayoutHandle layout_;
-  std::array<std::array<Buffer, kindCount>, framesInFlight> buffers_;
-  std::vector<ViewData> views_;
-  std::vector<LightData> lights_;
-  std::vector<InstanceData> instances_;
-  std::vector<MirrorData> mirrors_;
+  FrameBuffers buffers_;
+  std::vector<gpu::ViewData> views_;
+  std::vector<gpu::LightData> lights_;
+  std::vector<gpu::InstanceData> instances_;
+  std::vector<gpu::MirrorData> mirrors_;
+  std::vector<gpu::EnvironmentData> environments_;
   std::vector<glm::vec4> mirrorVertices_;
   std::vector<PassData> passes_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
@@ -111,8 +120,8 @@ class FrameData {
 
 // What the shaders read of an instance seen in a view. `clipFromRelative` takes world space minus the view's eye to
 // clip space.
-InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
-                          const glm::dmat4& clipFromRelative);
+gpu::InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
+                               const glm::dmat4& clipFromRelative);
 
 // The projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. To clip space
 // whose unit square is `overscan(view)` times the picture.

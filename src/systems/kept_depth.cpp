@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "systems/gpu_types.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
 
@@ -58,7 +58,7 @@ const Pipeline& KeptDepth::pipeline() {
                               .vert = "full_screen.vert",
                               .frag = several ? "display_depth_samples.frag" : "display_depth.frag"};
     desc.setLayouts = {displayLayout_};
-    desc.pushConstantBytes = sizeof(DisplayConstants);
+    desc.pushConstantBytes = sizeof(gpu::DepthViewConstants);
     desc.color = renderer_.displayFormat();
     desc.depth = VK_FORMAT_UNDEFINED;
     desc.depthTest = false;

@@ -44,7 +44,7 @@ const Pipeline& MirrorSystem::pipeline(const Variant& variant, VkDescriptorSetLa
     const Shading shading = variant.shading;
     GraphicsPipelineDesc desc{.name = "mirror", .vert = "mirror.vert", .frag = "mirror.frag"};
     desc.setLayouts = {frameLayout_, imageLayout_.get()};
-    desc.pushConstantBytes = sizeof(DrawConstants);
+    desc.pushConstantBytes = sizeof(gpu::DrawConstants);
     desc.samples = variant.samples;
     desc.depthClamp = variant.clampDepth;
     desc.fragConstants = {shading == Shading::base, variant.reprojected};
@@ -163,7 +163,7 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
       if (traces) {
         drawn.bindSet(scope.commands(), 2, info.trace.set());
       }
-      drawn.push(scope.commands(), DrawConstants{data.view, mirror.mirror, 0});
+      drawn.push(scope.commands(), gpu::DrawConstants{.viewIndex = data.view, .mirrorIndex = mirror.mirror});
       scope.beginLabel(mirror.scatters ? "traced mirror" : "mirror");
       vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
       scope.endLabel();

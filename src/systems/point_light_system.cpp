@@ -17,7 +17,7 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
   if (!pipeline) {
     GraphicsPipelineDesc desc{.name = "point_light", .vert = "point_light.vert", .frag = "point_light.frag"};
     desc.setLayouts = {frameLayout_};
-    desc.pushConstantBytes = sizeof(DrawConstants);
+    desc.pushConstantBytes = sizeof(gpu::DrawConstants);
     desc.samples = format.samples;
     desc.sampleShading = format.samples != VK_SAMPLE_COUNT_1_BIT;
     desc.cullMode = VK_CULL_MODE_FRONT_BIT;
@@ -25,7 +25,7 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
   }
   pipeline->bind(scope.commands());
   pipeline->bindSet(scope.commands(), 0, info.data.set());
-  pipeline->push(scope.commands(), DrawConstants{data.view, 0, 0});
+  pipeline->push(scope.commands(), gpu::DrawConstants{.viewIndex = data.view});
   vkCmdDraw(scope.commands(), 36, data.glyphCount, 0, 0);
   info.ledger.draw(EffectKind::glyphs);
   return 1;

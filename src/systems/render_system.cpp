@@ -20,7 +20,7 @@ namespace {
 // Locations of scene.vert.
 void addVertexInput(GraphicsPipelineDesc& desc) {
   desc.vertexBindings = {{0, sizeof(GpuVertex), VK_VERTEX_INPUT_RATE_VERTEX},
-                         {1, sizeof(InstanceData), VK_VERTEX_INPUT_RATE_INSTANCE}};
+                         {1, sizeof(gpu::InstanceData), VK_VERTEX_INPUT_RATE_INSTANCE}};
   desc.vertexAttributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, position)},
                            {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, normal)},
                            {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(GpuVertex, uv)}};
@@ -29,10 +29,10 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
       desc.vertexAttributes.push_back({location + i, 1, format, static_cast<uint32_t>(offset + i * sizeof(glm::vec4))});
     }
   };
-  add(3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, clipFromMesh), 4);
-  add(7, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, relativeFromMesh), 3);
-  add(10, VK_FORMAT_R32G32B32_SFLOAT, offsetof(InstanceData, normalFromMesh), 3);
-  add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(InstanceData, clipPlane), 1);
+  add(3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipFromMesh), 4);
+  add(7, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, relativeFromMesh), 3);
+  add(10, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::InstanceData, normalFromMesh), 3);
+  add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipPlane), 1);
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLay
       addConstants(variant.trace, desc.fragConstants);
       desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
     }
-    desc.pushConstantBytes = sizeof(DrawConstants);
+    desc.pushConstantBytes = sizeof(gpu::DrawConstants);
     desc.samples = variant.samples;
     desc.depthClamp = variant.clampDepth;
     desc.lines = variant.wireframe;
@@ -71,7 +71,7 @@ const Pipeline& RenderSystem::sky(VkSampleCountFlagBits samples) {
   if (!pipeline) {
     GraphicsPipelineDesc desc{.name = "sky", .vert = "full_screen.vert", .frag = "sky.frag"};
     desc.setLayouts = {frameLayout_};
-    desc.pushConstantBytes = sizeof(DrawConstants);
+    desc.pushConstantBytes = sizeof(gpu::DrawConstants);
     desc.samples = samples;
     desc.depthWrite = false;
     desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
@@ -140,7 +140,9 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
       const SceneResources::Part& part = mesh.parts[p];
       pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
       for (const IndexRange& range : drawnRanges(partRange(info.scene, mesh, p, batch), batch)) {
-        pipeline.push(commands, DrawConstants{data.view, part.material, range.first / 3});
+        pipeline.push(commands,
+                      gpu::DrawConstants{
+                          .viewIndex = data.view, .materialIndex = part.material, .firstTriangle = range.first / 3});
         vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
         ++draws;
         countDraw(info.ledger, variant);
@@ -185,7 +187,7 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, siz
     const Pipeline& pipeline = sky(format.samples);
     pipeline.bind(scope.commands());
     pipeline.bindSet(scope.commands(), 0, info.data.set());
-    pipeline.push(scope.commands(), DrawConstants{data.view, 0, 0});
+    pipeline.push(scope.commands(), gpu::DrawConstants{.viewIndex = data.view});
     vkCmdDraw(scope.commands(), 3, 1, 0, 0);
     ++draws;
   }

@@ -20,11 +20,14 @@ std::vector<uint64_t> halfTexels(const Texture& texture) {
   return texels;
 }
 
-MaterialData materialData(const Material& material, bool textured) {
-  const int texture = textured ? material.diffuseTexture + 1 : 0;
-  return {.diffuse = glm::vec4(glm::vec3(material.diffuse), static_cast<float>(texture)),
-          .specular = glm::vec4(glm::vec3(material.specular), static_cast<float>(material.shininess)),
-          .emission = glm::vec4(glm::vec3(material.emission), 0.0f)};
+gpu::MaterialData materialData(const Material& material, bool textured) {
+  const bool hasTexture = textured && material.diffuseTexture >= 0;
+  return {.diffuse = glm::vec3(material.diffuse),
+          .hasTexture = hasTexture,
+          .specular = glm::vec3(material.specular),
+          .shininess = static_cast<float>(material.shininess),
+          .emission = glm::vec3(material.emission),
+          .textureIndex = hasTexture ? static_cast<uint32_t>(material.diffuseTexture) : 0};
 }
 
 std::vector<GpuVertex> gpuVertices(const std::vector<Vertex>& vertices) {
@@ -141,7 +144,7 @@ void SceneResources::createLevels(size_t mesh) {
 
 // In the order of GpuMesh::parts.
 void SceneResources::createMaterials(bool textured) {
-  std::vector<MaterialData> materials;
+  std::vector<gpu::MaterialData> materials;
   for (const Mesh& mesh : scene_.meshes) {
     for (const MeshPart& part : mesh.parts) {
       materials.push_back(materialData(part.material, textured));
@@ -149,7 +152,7 @@ void SceneResources::createMaterials(bool textured) {
   }
   materials.resize(std::max<size_t>(materials.size(), 1));
   materials_ =
-      uploader_.buffer(std::span<const MaterialData>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
+      uploader_.buffer(std::span<const gpu::MaterialData>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
   textured_ = textured;
 }
 

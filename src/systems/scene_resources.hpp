@@ -7,9 +7,16 @@
 #include "core/renderer.hpp"
 #include "core/uploader.hpp"
 #include "scene/scene.hpp"
-#include "systems/gpu_types.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
+
+// A vertex of a mesh; locations 0, 1, 2 of scene.vert.
+struct GpuVertex {
+  glm::vec3 position;
+  glm::vec3 normal;
+  glm::vec2 uv;
+};
 
 // What a scene keeps on the GPU: meshes and materials as long as it is shown, textures while something drawn has one.
 class SceneResources {

@@ -16,7 +16,7 @@ const Pipeline& TexelProbe::pipeline(bool multisampled) {
         ComputePipelineDesc{.name = "probe texel",
                             .comp = multisampled ? "probe_texel_samples.comp" : "probe_texel.comp",
                             .setLayouts = {layout_.get()},
-                            .pushConstantBytes = sizeof(ProbeConstants)});
+                            .pushConstantBytes = sizeof(gpu::ProbeConstants)});
   }
   return *pipeline;
 }
@@ -31,7 +31,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
   }
   Slot& slot = slots_[frame.index];
   if (!slot.result) {
-    slot.result = Buffer(device_, sizeof(ProbedTexel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
+    slot.result = Buffer(device_, sizeof(gpu::ProbedTexel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
                          "probe texel " + std::to_string(frame.index));
   }
   slot.asked = {.texel = texel, .depth = image.format() == depthFormat};
@@ -46,7 +46,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
   device_.barriers().targetToCheck(frame.commands, image);
   with.bind(frame.commands);
   with.bindSet(frame.commands, 0, set);
-  with.push(frame.commands, ProbeConstants{texel.x, texel.y});
+  with.push(frame.commands, gpu::ProbeConstants{texel});
   vkCmdDispatch(frame.commands, 1, 1, 1);
   device_.barriers().checkToWrite(frame.commands, image);
   device_.barriers().checkToHost(frame.commands);
@@ -79,7 +79,7 @@ void TexelProbe::collect() {
     if (value_ && frame < valueFrame_) {
       continue;
     }
-    ProbedTexel probed{};
+    gpu::ProbedTexel probed{};
     std::memcpy(&probed, slot.result.mapped(), sizeof probed);
     valueFrame_ = frame;
     value_ = slot.asked;

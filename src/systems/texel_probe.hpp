@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/renderer.hpp"
-#include "systems/gpu_types.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
 

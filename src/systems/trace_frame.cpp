@@ -1,44 +1,44 @@
 #include "systems/trace_frame.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 #include <utility>
 
 #include "geometry/reflection.hpp"
-#include "systems/gpu_data.hpp"
+#include "systems/gpu_conversion.hpp"
 #include "systems/trace_nodes.hpp"
 
 namespace speculum {
 
 namespace {
 
+constexpr std::array bufferNames = {"trace boxes",   "trace items",           "trace instances",
+                                    "trace mirrors", "trace mirror vertices", "light paths"};
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
-constexpr uint32_t frameDataBindings = 6;
+constexpr uint32_t frameDataBindings = 7;
 
-void setMirror(const std::optional<ObjectMirror>& mirror, const EffectSettings& effects, TraceInstance& data) {
-  CurvedMirror kind = CurvedMirror::none;
+void setMirror(const std::optional<ObjectMirror>& mirror, const EffectSettings& effects, gpu::TraceInstance& data) {
   if (mirror && effects.curved) {
-    kind = isSchlick(mirror->fresnel, effects) ? CurvedMirror::schlick : CurvedMirror::constant;
-    data.baseColor = glm::vec4(glm::vec3(mirror->baseColor), 0.0f);
+    data.curved = isSchlick(mirror->fresnel, effects) ? gpu::curvedSchlick : gpu::curvedConstant;
+    data.reflectance = glm::vec3(mirror->reflectance);
+    data.baseColor = glm::vec3(mirror->baseColor);
   }
-  const bool reflects = kind != CurvedMirror::none;
-  data.reflectance = glm::vec4(reflects ? glm::vec3(mirror->reflectance) : glm::vec3(0.0f), static_cast<float>(kind));
 }
 
-TraceInstance instanceData(const InstanceState& instance, const Object& object, const glm::dvec3& eye) {
+gpu::TraceInstance instanceData(const InstanceState& instance, const Object& object, const glm::dvec3& eye) {
   const glm::dmat3& linear = instance.worldFromMesh.linear;
   const glm::dmat3 inverse = glm::inverse(linear);
   const glm::dvec3 offset = inverse * (eye - instance.worldFromMesh.translation);
   const glm::dmat3 normals = unitNormalMatrix(linear);
-  TraceInstance data{};
+  gpu::TraceInstance data{};
   for (int r = 0; r < 3; ++r) {
     data.meshFromTrace[r] = row(inverse, r, offset[r]);
     data.normalFromMesh[r] = row(normals, r, 0.0);
   }
-  data.diffuse = replacement(object.color);
-  data.specular = replacement(object.specular);
+  data.change = materialChange(object);
   data.shininess = static_cast<float>(object.shininess.value_or(0.0));
   return data;
 }
@@ -64,11 +64,13 @@ Bounds boundsOf(const MirrorState& mirror, const glm::dvec3& eye) {
   return bounds;
 }
 
-glm::vec4 rippleData(const Ripple& ripple, double time) {
+void setRipple(const Ripple& ripple, double time, gpu::TraceMirror& data) {
   const double k = 2.0 * std::numbers::pi / ripple.wavelength;
-  // The phase is reduced in double: a float of it would have lost its fraction after hours.
-  const double phase = std::remainder(k * ripple.speed * time, 2.0 * std::numbers::pi);
-  return glm::vec4(glm::dvec4(k, ripple.amplitude * k, phase, 1.0));
+  data.hasRipple = 1;
+  data.waveNumber = static_cast<float>(k);
+  data.rippleSlope = static_cast<float>(ripple.amplitude * k);
+  // Reduced in double: a float of the phase would have lost its fraction after hours.
+  data.ripplePhase = static_cast<float>(std::remainder(k * ripple.speed * time, 2.0 * std::numbers::pi));
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants)
 }
 
 TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
-    : device_(device), uploader_(uploader), scene_(scene) {}
+    : device_(device), uploader_(uploader), scene_(scene), buffers_(device, bufferNames, "fewer copies of objects") {}
 
 void TraceFrame::create() {
   static_assert(storageBuffers == frameDataBindings + sceneBindings + kindCount);
@@ -101,11 +103,7 @@ void TraceFrame::release(RetireQueue& retired) {
   }
   stackSize_ = 1;
   retired.retire(std::exchange(nothing_, {}));
-  for (auto& buffers : buffers_) {
-    for (Buffer& buffer : buffers) {
-      retired.retire(std::exchange(buffer, {}));
-    }
-  }
+  buffers_.retire(retired);
 }
 
 void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects) {
@@ -128,12 +126,12 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
               .perSample = settings.effects.perSample && effects.traces()};
   addMirrors(state, settings);
   addInstances(state, settings, effects.traces());
-  upload(frame, topNodes, std::as_bytes(std::span(topNodes_)));
-  upload(frame, items, std::as_bytes(std::span(items_)));
-  upload(frame, instances, std::as_bytes(std::span(instances_)));
-  upload(frame, mirrors, std::as_bytes(std::span(mirrors_)));
-  upload(frame, mirrorVertices, std::as_bytes(std::span(mirrorVertices_)));
-  upload(frame, lightPaths, lightPathBytes(state, settings, effects));
+  buffers_.write(frame, topNodes, topNodes_);
+  buffers_.write(frame, items, items_);
+  buffers_.write(frame, instances, instances_);
+  buffers_.write(frame, mirrors, mirrors_);
+  buffers_.write(frame, mirrorVertices, mirrorVertices_);
+  buffers_.write(frame, lightPaths, lightPathBytes(state, settings, effects));
   allocateSet(frame);
 }
 
@@ -160,19 +158,13 @@ void TraceFrame::allocateSet(Frame& frame) {
     writer.buffer(i, storage, buffer.descriptor());
   }
   for (uint32_t i = 0; i < kindCount; ++i) {
-    writer.buffer(sceneBindings + i, storage, buffers_[frame.index][i].descriptor());
+    writer.buffer(sceneBindings + i, storage, buffers_.buffer(frame, i).descriptor());
   }
   writer.update(device_, set_);
 }
 
 uint64_t TraceFrame::bytes() const {
-  uint64_t sum = traceScene_ ? traceScene_->bytes() : 0;
-  for (const auto& buffers : buffers_) {
-    for (const Buffer& buffer : buffers) {
-      sum += buffer.bytes();
-    }
-  }
-  return sum;
+  return buffers_.bytes() + (traceScene_ ? traceScene_->bytes() : 0);
 }
 
 void TraceFrame::addInstances(const SceneState& state, const Settings& settings, bool meetsObjects) {
@@ -186,7 +178,7 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings,
     const InstanceState& instance = state.instances[i];
     const Object& object = scene_.objects[instance.object];
     const TraceScene::MeshRange& mesh = traceScene_->meshes()[instance.mesh];
-    TraceInstance data = instanceData(instance, object, eye);
+    gpu::TraceInstance data = instanceData(instance, object, eye);
     data.root = mesh.root;
     data.firstTriangle = mesh.firstTriangle;
     data.firstVertex = mesh.firstVertex;
@@ -199,7 +191,7 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings,
   }
   for (size_t i = 0; meetsObjects && i < state.mirrors.size(); ++i) {
     boxes.push_back(boundsOf(state.mirrors[i], eye));
-    found.push_back(static_cast<uint32_t>(i) | itemMirror);
+    found.push_back(static_cast<uint32_t>(i) | gpu::itemMirror);
   }
   const Bvh top(boxes, 1);
   appendNodes(top, 0, topNodes_);
@@ -219,20 +211,21 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
     const Mirror& mirror = scene_.mirrors[i];
     const MirrorState& placed = state.mirrors[i];
     const double alpha = settings.effects.roughness ? mirror.roughness * mirror.roughness : 0.0;
-    const bool ripples = settings.effects.ripple && mirror.ripple;
-    const bool schlick = isSchlick(mirror.fresnel, settings.effects);
     mirrors_.push_back({.origin = glm::vec3(placed.origin - state.camera.eye),
                         .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
                         .normal = glm::vec3(placed.normal),
                         .vertexCount = static_cast<uint32_t>(placed.polygon.size()),
                         .axisX = glm::vec3(placed.axisX),
-                        .twoSided = mirror.twoSided,
                         .axisY = glm::vec3(placed.axisY),
-                        .alpha = static_cast<float>(alpha),
-                        .reflectance = glm::vec4(glm::vec3(mirror.reflectance), schlick ? 1.0f : 0.0f),
-                        .baseColor = glm::vec4(glm::vec3(mirror.baseColor), 0.0f),
-                        .backColor = glm::vec4(glm::vec3(mirror.backColor), 0.0f),
-                        .ripple = ripples ? rippleData(*mirror.ripple, state.time) : glm::vec4(0.0f)});
+                        .reflectance = glm::vec3(mirror.reflectance),
+                        .schlick = isSchlick(mirror.fresnel, settings.effects),
+                        .baseColor = glm::vec3(mirror.baseColor),
+                        .twoSided = mirror.twoSided,
+                        .backColor = glm::vec3(mirror.backColor),
+                        .alpha = static_cast<float>(alpha)});
+    if (settings.effects.ripple && mirror.ripple) {
+      setRipple(*mirror.ripple, state.time, mirrors_.back());
+    }
     for (const glm::dvec3& p : placed.polygon) {
       const glm::dvec3 local = p - placed.origin;
       mirrorVertices_.emplace_back(glm::dvec2(glm::dot(local, placed.axisX), glm::dot(local, placed.axisY)));
@@ -242,10 +235,10 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
 
 std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const Settings& settings,
                                                   const TracedEffects& effects) const {
-  const LightPathHeader header{.count = static_cast<uint32_t>(effects.mirroredLights.size()),
-                               .itemCount = static_cast<uint32_t>(items_.size()),
-                               .roughSamples = static_cast<uint32_t>(settings.effects.roughSamples)};
-  std::vector<LightPath> paths;
+  const gpu::TraceCounts header{.lightPaths = static_cast<uint32_t>(effects.mirroredLights.size()),
+                                .items = static_cast<uint32_t>(items_.size()),
+                                .roughSamples = static_cast<uint32_t>(settings.effects.roughSamples)};
+  std::vector<gpu::LightPath> paths;
   for (const MirroredLight& mirrored : effects.mirroredLights) {
     const PointLight& light = scene_.lights[mirrored.light];
     const glm::dvec3& position = state.lights[mirrored.light].position;
@@ -258,18 +251,12 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
                      .light = glm::vec3(position - state.camera.eye),
                      .mirror = static_cast<uint32_t>(mirrored.mirror)});
   }
-  std::vector<std::byte> bytes(sizeof header + paths.size() * sizeof(LightPath));
+  std::vector<std::byte> bytes(sizeof header + paths.size() * sizeof(gpu::LightPath));
   std::memcpy(bytes.data(), &header, sizeof header);
   if (!paths.empty()) {
-    std::memcpy(bytes.data() + sizeof header, paths.data(), paths.size() * sizeof(LightPath));
+    std::memcpy(bytes.data() + sizeof header, paths.data(), paths.size() * sizeof(gpu::LightPath));
   }
   return bytes;
-}
-
-void TraceFrame::upload(Frame& frame, Kind kind, std::span<const std::byte> data) {
-  static constexpr std::array<const char*, kindCount> names = {
-      "trace boxes", "trace items", "trace instances", "trace mirrors", "trace mirror vertices", "light paths"};
-  writeGrown(device_, buffers_[frame.index][kind], data, names[kind], "fewer copies of objects");
 }
 
 }  // namespace speculum

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
 #include "core/renderer.hpp"
 #include "frame/traced_effects.hpp"
 #include "systems/effect_ledger.hpp"
+#include "systems/frame_buffers.hpp"
 #include "systems/trace_scene.hpp"
 
 namespace speculum {
@@ -31,8 +31,8 @@ class TraceFrame {
  public:
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
-  // That a fragment shader reads, with those of FrameData.
-  static constexpr uint32_t storageBuffers = 18;  // 6 + 6 of the scene + 6 of the frame
+  // Storage buffers that a fragment shader reads, with those of FrameData.
+  static constexpr uint32_t storageBuffers = 19;  // 7 + 6 of the scene + 6 of the frame
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if none is called for.
@@ -54,7 +54,6 @@ class TraceFrame {
   void addMirrors(const SceneState& state, const Settings& settings);
   std::vector<std::byte> lightPathBytes(const SceneState& state, const Settings& settings,
                                         const TracedEffects& effects) const;
-  void upload(Frame& frame, Kind kind, std::span<const std::byte> data);
 
   Device& device_;
   Uploader& uploader_;
@@ -62,11 +61,11 @@ class TraceFrame {
   DescriptorSetLayoutHandle layout_;
   std::optional<TraceScene> traceScene_;
   Buffer nothing_;  // bound in the place of a scene whose triangles no ray meets
-  std::array<std::array<Buffer, kindCount>, framesInFlight> buffers_;
-  std::vector<TraceNode> topNodes_;
+  FrameBuffers buffers_;
+  std::vector<gpu::TraceNode> topNodes_;
   std::vector<uint32_t> items_;
-  std::vector<TraceInstance> instances_;
-  std::vector<TraceMirror> mirrors_;
+  std::vector<gpu::TraceInstance> instances_;
+  std::vector<gpu::TraceMirror> mirrors_;
   std::vector<glm::vec2> mirrorVertices_;
   TraceVariant variant_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;

@@ -2,7 +2,7 @@
 
 namespace speculum {
 
-void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<TraceNode>& nodes) {
+void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<gpu::TraceNode>& nodes) {
   const auto firstNode = static_cast<uint32_t>(nodes.size());
   for (const Bvh::Node& node : hierarchy.nodes()) {
     const glm::dvec3 reach = glm::max(glm::abs(node.box.low), glm::abs(node.box.high));

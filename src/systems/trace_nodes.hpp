@@ -3,12 +3,12 @@
 #include <vector>
 
 #include "geometry/bvh.hpp"
-#include "systems/trace_types.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
 
 // Appends a hierarchy's nodes. Its primitives stand in `order()` from `firstPrimitive` on. Boxes grow by a millionth of
 // their coordinates, so that what they hold stays inside when it becomes float.
-void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<TraceNode>& nodes);
+void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<gpu::TraceNode>& nodes);
 
 }  // namespace speculum

@@ -10,11 +10,11 @@
 namespace speculum {
 
 struct TraceScene::Content {
-  std::vector<TraceNode> nodes;
-  std::vector<TraceTriangle> triangles;
+  std::vector<gpu::TraceNode> nodes;
+  std::vector<gpu::TraceTriangle> triangles;
   std::vector<uint32_t> indices;
-  std::vector<TraceVertex> vertices;
-  std::vector<glm::uvec4> textures;  // first texel, width, height
+  std::vector<gpu::TraceVertex> vertices;
+  std::vector<gpu::TraceTexture> textures;
   std::vector<uint64_t> texels;
   uint32_t materials = 0;  // of the meshes before, as SceneResources counts them
 };
@@ -54,9 +54,10 @@ uint64_t largestTraceBuffer(const Scene& scene, size_t instances) {
     texels += texture.texels.size();
   }
   // A binary tree has less than twice as many nodes as leaves, and leaves may hold a single triangle.
-  return std::max({2 * triangles * sizeof(TraceNode), triangles * sizeof(TraceTriangle), vertices * sizeof(TraceVertex),
-                   texels * sizeof(uint64_t), instances * sizeof(TraceInstance),
-                   2 * (instances + scene.mirrors.size()) * sizeof(TraceNode)});
+  return std::max({2 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle),
+                   vertices * sizeof(gpu::TraceVertex), texels * sizeof(uint64_t),
+                   instances * sizeof(gpu::TraceInstance),
+                   2 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceNode)});
 }
 
 TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
@@ -65,7 +66,8 @@ TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
     add(mesh, content);
   }
   for (const Texture& texture : scene.textures) {
-    content.textures.emplace_back(content.texels.size(), texture.width, texture.height, 0);
+    content.textures.push_back({static_cast<uint32_t>(content.texels.size()), static_cast<uint32_t>(texture.width),
+                                static_cast<uint32_t>(texture.height)});
     for (const glm::vec3& texel : texture.texels) {
       content.texels.push_back(glm::packHalf4x16(glm::vec4(texel, 1.0f)));
     }

@@ -2,7 +2,7 @@
 
 #include "core/uploader.hpp"
 #include "scene/scene.hpp"
-#include "systems/trace_types.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
 

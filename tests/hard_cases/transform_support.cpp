@@ -37,7 +37,7 @@ Mesh pointCloud(int count, unsigned seed) {
   return mesh;
 }
 
-glm::vec4 shaderClip(const InstanceData& data, const Vertex& vertex) {
+glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex) {
   return data.clipFromMesh * glm::vec4(glm::vec3(vertex.position), 1.0f);
 }
 
@@ -63,7 +63,7 @@ Scene moved(Scene scene, const glm::dvec3& offset) {
   return scene;
 }
 
-InstanceData dataIn(const FramePlan& plan, const View& view, const InstanceState& instance) {
+gpu::InstanceData dataIn(const FramePlan& plan, const View& view, const InstanceState& instance) {
   const glm::dmat4 clipFromRelative =
       viewProjection(plan.projection, view, ClipMethod::clipDistance) * glm::dmat4(view.worldToView);
   return instanceData(instance, Object{}, view, clipFromRelative);

@@ -30,7 +30,7 @@ class Random {
 Mesh pointCloud(int count, unsigned seed);
 
 // scene.vert's gl_Position, in float.
-glm::vec4 shaderClip(const InstanceData& data, const Vertex& vertex);
+glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex);
 
 // From clip space to pixels, y down.
 glm::dvec2 toPixel(const glm::dvec4& clip, int width, int height);
@@ -39,7 +39,7 @@ glm::dvec2 toPixel(const glm::dvec4& clip, int width, int height);
 Scene moved(Scene scene, const glm::dvec3& offset);
 
 // Instance data of `instance` in a pass's view, as the renderer computes it.
-InstanceData dataIn(const FramePlan& plan, const View& view, const InstanceState& instance);
+gpu::InstanceData dataIn(const FramePlan& plan, const View& view, const InstanceState& instance);
 
 // R = Ry Rx Rz of angles in degrees.
 LongMat3 longRotation(const glm::dvec3& pitchYawRoll);

@@ -89,7 +89,7 @@ Errors doublePathErrors(const Scene& scene, const Scene& truth, int maxDepth, si
   const LongMat3 worldToView = longWorldToView(truth.camera);
   std::vector<double> errors;
   const auto addPass = [&](const View& view) {
-    const InstanceData data = dataIn(plan, view, state.instances[0]);
+    const gpu::InstanceData data = dataIn(plan, view, state.instances[0]);
     for (const Vertex& vertex : truth.meshes[0].vertices) {
       const LongVec3 image = imageOf(truth, view.path, worldPoint(truth.objects[0], vertex));
       const glm::dvec2 expected =
@@ -240,7 +240,7 @@ Windings windingsOf(const glm::dvec3& scale, size_t depth) {
     if (view.path.size() != depth) {
       continue;
     }
-    const InstanceData data = dataIn(plan, view, instance);
+    const gpu::InstanceData data = dataIn(plan, view, instance);
     for (size_t i = 0; i + 2 < vertices.size(); i += 3) {
       std::array<glm::dvec2, 3> pixels;
       for (size_t k = 0; k < 3; ++k) {
@@ -253,7 +253,7 @@ Windings windingsOf(const glm::dvec3& scale, size_t depth) {
       const double turned = scale.x * scale.y * scale.z < 0.0 ? -1.0 : 1.0;
       const bool outside = turned * glm::dot(glm::cross(b - a, c - a), view.eye - a) > 0.0;
       const bool frontFacing = counterClockwise(pixels) == !view.mirrored();
-      const bool taken = frontFacing == (data.normalFromMesh[0].w > 0.0f);
+      const bool taken = frontFacing == (data.handedness > 0.0f);
       const bool floatTaken = frontFacing == (glm::determinant(glm::mat3(instance.worldFromMesh.linear)) > 0.0f);
       ++windings.triangles;
       windings.wrong += taken != outside;
@@ -280,7 +280,7 @@ TEST(NegativeScaleAndBounces, OutsideStaysOutside) {
 TEST(NegativeScaleAndBounces, SignOfATinyScaleIsNotLost) {
   const Windings windings = windingsOf(glm::dvec3(1e-16, -1e-16, 1e-16), 0);
   const InstanceState instance{.worldFromMesh = {glm::dmat3(1e-16) * glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, 1), {}}};
-  EXPECT_EQ(instanceData(instance, Object{}, View{}, glm::dmat4(1.0)).normalFromMesh[0].w, -1.0f);
+  EXPECT_EQ(instanceData(instance, Object{}, View{}, glm::dmat4(1.0)).handedness, -1.0f);
   EXPECT_GT(windings.floatSign, 0) << "a determinant in float is zero";
 }
 
@@ -305,7 +305,7 @@ NormalErrors normalErrors(const glm::dvec3& scale) {
   const LongMat3 rotation = longRotation(angles);
   const glm::dmat3 r = rotationFromDegrees(angles);
   const InstanceState instance{.worldFromMesh = {glm::dmat3(r[0] * scale.x, r[1] * scale.y, r[2] * scale.z), {}}};
-  const InstanceData data = instanceData(instance, Object{}, View{}, glm::dmat4(1.0));
+  const gpu::InstanceData data = instanceData(instance, Object{}, View{}, glm::dmat4(1.0));
   const glm::mat3 model(instance.worldFromMesh.linear);
   const glm::mat3 inverse = naiveInverseTranspose(model);
   NormalErrors errors;
@@ -353,7 +353,7 @@ CutErrors cutErrors(double offset) {
   const FramePlan plan = planOf(scene, state, 1);
   CutErrors errors;
   for (const PlannedPass& pass : plan.passes) {
-    const InstanceData data = dataIn(plan, pass.view, state.instances[0]);
+    const gpu::InstanceData data = dataIn(plan, pass.view, state.instances[0]);
     const Mirror& mirror = origin.mirrors[pass.view.path[0]];
     const LongVec3 n = longRotation(mirror.rotation)[2];
     const glm::vec3 planeNormal(pass.view.clip->normal);
@@ -396,7 +396,7 @@ TEST(NestedMirrors, EveryPassIsCutAtItsOwnMirror) {
     const LongVec3 n = longRotation(mirror.rotation)[2];
     InstanceState cloud = state.instances[0];
     cloud.worldFromMesh.translation = mirror.position;
-    const InstanceData data = dataIn(plan, pass.view, cloud);
+    const gpu::InstanceData data = dataIn(plan, pass.view, cloud);
     for (const Vertex& vertex : scene.meshes[0].vertices) {
       const LongVec3 offset =
           longRotation(scene.objects[0].rotation) * (LongVec3(scene.objects[0].scale) * LongVec3(vertex.position));

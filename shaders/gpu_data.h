@@ -1,0 +1,280 @@
+// Structures that C++ and the shaders share; both include this file. The layout is std430: a vec3 starts at a multiple of
+// 16 bytes, so a scalar or padding follows each.
+// Relative space: world space minus the eye of the pass's view, for small numbers near the eye wherever the scene lies.
+// Trace space: world space minus the eye of the main view, the same for all views of a frame.
+#ifndef SPECULUM_GPU_DATA_H
+#define SPECULUM_GPU_DATA_H
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <glm/glm.hpp>
+
+namespace speculum::gpu {
+
+using glm::ivec2;
+using glm::mat4;
+using glm::uint;
+using glm::uvec2;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+#endif
+
+// A pass's view, its background and its lights.
+struct ViewData {
+  mat4 clipFromRelative;
+  vec4 rayX;  // relative direction of the ray through a pixel: rayX * x + rayY * y + rayOrigin, not normalised
+  vec4 rayY;
+  vec4 rayOrigin;
+  vec4 clipPlane;  // (n, h): a relative point p is drawn where n.p + h >= 0
+  vec4 ambient;
+  vec3 background;
+  uint hasSky;  // the background is a gradient of the next three
+  vec4 zenith;
+  vec4 horizon;
+  vec4 ground;
+  vec4 traceOffset;     // added to a relative point gives one in trace space
+  vec3 throughput;      // of the mirrors up to this view
+  float minThroughput;  // a bounce below it is dropped
+  uint firstLight;
+  uint lightCount;
+  uint depth;     // recursion depth of the mirrors seen in this view
+  uint maxDepth;  // mirrors of this depth show the background
+};
+
+struct LightData {
+  vec3 position;  // relative
+  float radius;   // metres
+  vec3 irradiance;  // at 1 m, facing the light
+  uint castsShadow;
+  vec3 glow;  // radiance of the glyph
+  uint hasGlyph;
+};
+
+struct MaterialData {
+  vec3 diffuse;
+  uint hasTexture;
+  vec3 specular;
+  float shininess;
+  vec3 emission;
+  uint textureIndex;  // index into traceTextures, if hasTexture
+};
+
+// Colours that the scene gives an object in place of its material's.
+struct MaterialChange {
+  vec3 diffuse;
+  uint replacesDiffuse;
+  vec3 specular;
+  uint replacesSpecular;
+};
+
+struct InstanceData {
+  mat4 clipFromMesh;
+  vec4 relativeFromMesh[3];  // rows
+  vec4 normalFromMesh[3];    // rows, xyz
+  vec4 clipPlane;            // in mesh space
+  MaterialChange change;
+  float shininess;     // 0: the material's
+  float handedness;    // sign of the transform's determinant
+  uint traceInstance;  // index into traceInstances
+  uint environment;    // index into environments, for a curved mirror that looks up a map
+};
+
+// A mirror as one view shows it.
+struct MirrorData {
+  vec3 normal;        // of its plane, relative, towards the eye
+  float eyeDistance;  // from the plane, above 0
+  vec3 reflectance;
+  uint schlick;    // reflectance is that at normal incidence
+  vec3 baseColor;  // of the diffuse layer or of the back
+  uint traceMirror;   // index into traceMirrors
+  vec2 lookupScale;   // texel of the image = pixel of the pass * lookupScale + lookupOffset
+  vec2 lookupOffset;
+  ivec2 imageSize;  // texels of the image's used part
+  float alpha;      // of GGX, where the image is blurred
+  int blurSamples;  // lookups of a blurred image
+  vec4 texelFromPixel[3];  // reprojection: rows of the matrix from (pixel of the pass, 1, disparity) to a homogeneous texel
+};
+
+// A curved mirror as one view shows it, with the environment map that it looks up.
+struct EnvironmentData {
+  vec3 center;  // of the map, relative
+  uint hasMap;  // 0: the background is shown in its place
+  vec3 low;     // corners of the box around the map's centre, relative to the centre
+  uint hasBox;
+  vec3 high;
+  int faceSize;  // texels of a face's side
+  vec3 reflectance;
+  uint schlick;
+  vec3 baseColor;
+  uint padding;
+};
+
+// Push constants of a draw.
+struct DrawConstants {
+  uint viewIndex;
+  uint materialIndex;
+  uint mirrorIndex;
+  uint firstTriangle;  // of the draw, in its mesh
+};
+
+// What a mirror shows, and how it looks up its image: specialisation constants.
+const uint showsImage = 0;
+const uint showsBackground = 1;
+const uint showsBack = 2;
+const uint lookupFetch = 0;
+const uint lookupBilinear = 1;
+const uint lookupBox = 2;
+
+// A box of a hierarchy over triangles or items.
+struct TraceNode {
+  vec3 low;
+  uint first;  // leaf: first triangle or item; else: left child, the right one follows it
+  vec3 high;
+  uint count;  // triangles of a leaf, 1 item; 0: inner node
+};
+
+struct TraceTriangle {
+  vec3 a;         // mesh space
+  uint triangle;  // its number in the mesh
+  vec3 b;
+  uint material;
+  vec3 c;
+  uint padding;
+};
+
+struct TraceVertex {
+  vec3 position;  // mesh space
+  float u;
+  vec3 normal;
+  float v;
+};
+
+struct TraceTexture {
+  uint firstTexel;
+  uint width;
+  uint height;
+};
+
+struct TraceInstance {
+  vec4 meshFromTrace[3];   // rows
+  vec4 normalFromMesh[3];  // rows, xyz
+  MaterialChange change;
+  vec3 reflectance;  // of a curved mirror
+  uint curved;       // one of the curved* constants
+  vec3 baseColor;    // of a curved mirror
+  float shininess;   // 0: the material's
+  uint root;           // node
+  uint firstTriangle;  // of its mesh, in traceIndices / 3
+  uint firstVertex;    // of its mesh
+  uint padding;
+};
+
+const uint curvedNone = 0;
+const uint curvedConstant = 1;
+const uint curvedSchlick = 2;
+
+// A planar mirror in trace space.
+struct TraceMirror {
+  vec3 origin;
+  uint firstVertex;
+  vec3 normal;  // unit, to the front
+  uint vertexCount;
+  vec3 axisX;
+  float waveNumber;  // of its ripples, 1/m
+  vec3 axisY;
+  float rippleSlope;
+  vec3 reflectance;
+  uint schlick;
+  vec3 baseColor;
+  uint twoSided;
+  vec3 backColor;
+  float alpha;        // of GGX; 0: smooth
+  float ripplePhase;  // radians
+  uint hasRipple;
+  uint padding[2];
+};
+
+// A light's image in a mirror that casts light, in trace space.
+struct LightPath {
+  vec3 image;
+  float radius;
+  vec3 irradiance;  // at 1 m, facing the light
+  uint castsShadow;
+  vec3 light;
+  uint mirror;
+};
+
+// Stands before the light paths in their buffer.
+struct TraceCounts {
+  uint lightPaths;
+  uint items;
+  uint roughSamples;
+  uint padding;
+};
+
+const uint itemMirror = 0x80000000u;  // bit of an item that is a mirror, not an instance
+
+// Push constants of the display pass. Texel of the picture = pixel * lookup.xy + lookup.zw.
+struct DisplayConstants {
+  vec4 lookup;
+  float exposure;
+};
+
+// Push constants of the view of a depth image.
+struct DepthViewConstants {
+  vec4 lookup;      // as above
+  float halfDepth;  // depth shown half bright
+};
+
+// What debug.check_finite finds in an image: the search, and the value that it looks up afterwards.
+struct CheckSearch {
+  uint pixel;  // y * width + x of the first; at the start all bits
+  uint count;  // samples
+  uint any;    // 1 if there are some. A plain store: validation layer 1.3.239 does not take atomics for writes.
+};
+
+struct CheckFound {
+  vec4 value;
+  uint sampleIndex;
+  uint padding[3];
+};
+
+struct CheckConstants {
+  uvec2 size;  // pixels of the part that is in use
+};
+
+// What reading one texel back gives.
+struct ProbedTexel {
+  vec4 mean;   // of the samples
+  vec4 first;  // sample: depth has no mean
+};
+
+struct ProbeConstants {
+  ivec2 texel;
+};
+
+#ifdef __cplusplus
+static_assert(offsetof(ViewData, clipPlane) == 112 && offsetof(ViewData, hasSky) == 156 &&
+              offsetof(ViewData, traceOffset) == 208 && offsetof(ViewData, firstLight) == 240 && sizeof(ViewData) == 256);
+static_assert(offsetof(LightData, irradiance) == 16 && sizeof(LightData) == 48);
+static_assert(offsetof(MaterialData, specular) == 16 && sizeof(MaterialData) == 48);
+static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(InstanceData, change) == 176 &&
+              offsetof(InstanceData, shininess) == 208 && sizeof(InstanceData) == 224);
+static_assert(offsetof(MirrorData, lookupScale) == 48 && offsetof(MirrorData, texelFromPixel) == 80 &&
+              sizeof(MirrorData) == 128);
+static_assert(offsetof(EnvironmentData, high) == 32 && sizeof(EnvironmentData) == 80);
+static_assert(offsetof(TraceNode, high) == 16 && sizeof(TraceNode) == 32);
+static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48);
+static_assert(offsetof(TraceVertex, normal) == 16 && sizeof(TraceVertex) == 32);
+static_assert(offsetof(TraceInstance, change) == 96 && offsetof(TraceInstance, root) == 160 &&
+              sizeof(TraceInstance) == 176);
+static_assert(offsetof(TraceMirror, reflectance) == 64 && offsetof(TraceMirror, ripplePhase) == 112 &&
+              sizeof(TraceMirror) == 128);
+static_assert(offsetof(LightPath, light) == 32 && sizeof(LightPath) == 48 && sizeof(TraceCounts) == 16);
+static_assert(offsetof(CheckFound, sampleIndex) == 16 && sizeof(CheckFound) == 32);
+
+}  // namespace speculum::gpu
+#endif
+
+#endif

@@ -1,0 +1,48 @@
+#include "systems/frame_buffers.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace speculum {
+
+FrameBuffers::FrameBuffers(Device& device, std::span<const char* const> names, std::string advice)
+    : device_(device), names_(names), advice_(std::move(advice)) {
+  for (std::vector<Buffer>& buffers : buffers_) {
+    buffers.resize(names_.size());
+  }
+}
+
+void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::byte> data) {
+  const uint64_t limit = device_.limits().maxStorageBufferRange;
+  if (data.size() > limit) {
+    throw std::runtime_error("a frame has " + std::to_string(data.size() >> 20) + " MiB of " + names_[kind] +
+                             ", the device takes " + std::to_string(limit >> 20) + " (" + advice_ + ")");
+  }
+  Buffer& buffer = buffers_[frame.index][kind];
+  if (!buffer || buffer.bytes() < data.size()) {
+    buffer =
+        Buffer(device_, data.size() + data.size() / 2,
+               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, BufferPlace::host, names_[kind]);
+  }
+  buffer.write(data);
+}
+
+uint64_t FrameBuffers::bytes() const {
+  uint64_t sum = 0;
+  for (const std::vector<Buffer>& buffers : buffers_) {
+    for (const Buffer& buffer : buffers) {
+      sum += buffer.bytes();
+    }
+  }
+  return sum;
+}
+
+void FrameBuffers::retire(RetireQueue& retired) {
+  for (std::vector<Buffer>& buffers : buffers_) {
+    for (Buffer& buffer : buffers) {
+      retired.retire(std::exchange(buffer, {}));
+    }
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/renderer.hpp"
+
+namespace speculum {
+
+// Host buffers that the CPU writes every frame, for shaders and vertex attributes: one of each kind for each frame in
+// flight. A buffer that is too small is replaced by one with half as much again.
+class FrameBuffers {
+ public:
+  // `names` of the kinds, with static lifetime. `advice` says how to make a scene's frames smaller.
+  FrameBuffers(Device& device, std::span<const char* const> names, std::string advice);
+
+  // Throws std::runtime_error with the advice if the device takes no buffer of that size.
+  void write(const Frame& frame, size_t kind, std::span<const std::byte> data);
+  template <typename T>
+  void write(const Frame& frame, size_t kind, const std::vector<T>& data) {
+    write(frame, kind, std::as_bytes(std::span(data)));
+  }
+  const Buffer& buffer(const Frame& frame, size_t kind) const { return buffers_[frame.index][kind]; }
+  size_t kinds() const { return names_.size(); }
+  uint64_t bytes() const;
+  void retire(RetireQueue& retired);
+
+ private:
+  Device& device_;
+  std::span<const char* const> names_;
+  std::string advice_;
+  std::array<std::vector<Buffer>, framesInFlight> buffers_;
+};
+
+}  // namespace speculum

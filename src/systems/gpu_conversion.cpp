@@ -1,0 +1,26 @@
+#include "systems/gpu_conversion.hpp"
+
+#include <algorithm>
+
+#include "geometry/affine.hpp"
+
+namespace speculum {
+
+glm::vec4 row(const glm::dmat3& m, int r, double w) {
+  return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], w));
+}
+
+gpu::MaterialChange materialChange(const Object& object) {
+  return {.diffuse = glm::vec3(object.color.value_or(glm::dvec3(0.0))),
+          .replacesDiffuse = object.color.has_value(),
+          .specular = glm::vec3(object.specular.value_or(glm::dvec3(0.0))),
+          .replacesSpecular = object.specular.has_value()};
+}
+
+glm::dmat3 unitNormalMatrix(const glm::dmat3& linear) {
+  const glm::dmat3 normals = normalMatrix(linear);
+  const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});
+  return size > 0.0 ? normals * (1.0 / size) : normals;
+}
+
+}  // namespace speculum

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.hpp"
+#include "shaders/gpu_data.h"
+
+namespace speculum {
+
+// Conversions from the scene's doubles to the buffers of a frame.
+
+// Row `r` of a matrix, and `w`.
+glm::vec4 row(const glm::dmat3& m, int r, double w);
+// Colours that an object has in place of its material's.
+gpu::MaterialChange materialChange(const Object& object);
+// The normal matrix of a linear map, at unit size: shaders normalise, and a float would overflow at the extremes.
+glm::dmat3 unitNormalMatrix(const glm::dmat3& linear);
+
+}  // namespace speculum
