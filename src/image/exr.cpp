@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "image/exr_layout.hpp"
 #include "image/image.hpp"
 #include "platform/file_io.hpp"
 
@@ -66,7 +67,16 @@ std::vector<uint8_t> encodeExr(const std::filesystem::path& file, const LinearIm
 }  // namespace
 
 LinearImage readExr(const std::filesystem::path& file) {
-  const std::vector<uint8_t> bytes = readFileBytes(file);
+  std::vector<uint8_t> bytes = readFileBytes(file);
+  const auto refuse = [&](const std::string& fault) {
+    throw std::runtime_error(file.string() + ": is not an EXR that can be read: " + fault +
+                             " (a single-part RGB, RGBA or Y file is needed)");
+  };
+  try {
+    checkExrLayout(bytes);
+  } catch (const std::runtime_error& fault) {
+    refuse(fault.what());
+  }
   float* rgba = nullptr;
   int width = 0;
   int height = 0;
@@ -74,8 +84,7 @@ LinearImage readExr(const std::filesystem::path& file) {
   const int result = LoadEXRFromMemory(&rgba, &width, &height, bytes.data(), bytes.size(), &message);
   const std::unique_ptr<float, decltype(&std::free)> owner(rgba, &std::free);
   if (result != TINYEXR_SUCCESS) {
-    throw std::runtime_error(file.string() + ": is not an EXR that can be read: " + takeMessage(message) +
-                             " (a single-part RGB, RGBA or Y file is needed)");
+    refuse(takeMessage(message));
   }
   LinearImage image(width, height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
