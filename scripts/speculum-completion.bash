@@ -1,31 +1,12 @@
-# Completion of speculum in bash: source this file, or install the program. tests/completion.cpp holds its lists against
-# the program's own.
+# Completion of speculum in bash: source this file, or install the program. Options and settings come from --help.
 
+# Long options of a command, or of the program itself; `$1` is the program.
 _speculum_options() {
-  local common="--set --gpu --render-path --validation --log-level --shader-dir --help"
-  case $1 in
-    "" | demo)
-      echo "--scene --size --frames --sweep-results --present-mode $common"
-      [ -n "$1" ] || echo "--version"
-      ;;
-    render) echo "--scene --size --time --camera --out --sweep-results --stats --frames --fps $common" ;;
-    reference) echo "--scene --size --time --camera --out --samples $common" ;;
-    compare) echo "--mask --heatmap --json --max-flip --max-diff $common" ;;
-    accuracy) echo "--scene --size --time --out --sweep $common" ;;
-    bench) echo "--scene --size --time --camera --frames --warmup --json --sweep-results --prices --reference $common" ;;
-    info | scenes) echo "$common" ;;
-  esac
+  "$1" $2 --help 2>/dev/null | sed -n 's/^  \(-[a-z],\)\?\(--[a-z-]*\).*/\2/p'
 }
 
 _speculum_settings() {
-  echo "reflection.scale reflection.samples reflection.max_depth reflection.min_pixels reflection.min_throughput
-    reflection.max_passes reflection.update_interval reflection.skip_unchanged reflection.mesh_error
-    reflection.clip view.samples view.exposure view.tone_map
-    view.clear_color view.texture_filter view.wireframe view.continuous effects.shadows effects.roughness
-    effects.rough_samples effects.rough_lookup effects.per_sample effects.ripple effects.casts_light effects.curved
-    effects.curved_lookup effects.environment_size effects.environment_interval effects.environment_box effects.fresnel
-    effects.textures effects.glyphs quality.budget_ms quality.max_error
-    debug.omit_barrier debug.check_finite debug.skip_hidden debug.cull_clusters debug.mask_passes"
+  "$1" --help 2>/dev/null | sed -n '/^Settings/,/^$/s/^  \([^ ]*\).*/\1/p'
 }
 
 _speculum() {
@@ -41,7 +22,7 @@ _speculum() {
       return
       ;;
     --set)
-      mapfile -t COMPREPLY < <(compgen -W "$(_speculum_settings)" -S = -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W "$(_speculum_settings "${COMP_WORDS[0]}")" -S = -- "$word")
       compopt -o nospace 2>/dev/null
       return
       ;;
@@ -57,7 +38,7 @@ _speculum() {
       ;;
   esac
   if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$(_speculum_options "$command")" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "$(_speculum_options "${COMP_WORDS[0]}" "$command")" -- "$word")
   elif [ "$COMP_CWORD" -eq 1 ]; then
     mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$word")
   elif [ "$command" = compare ]; then

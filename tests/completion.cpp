@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "command_support.hpp"
-#include "frame/settings.hpp"
+#include "frame/setting_fields.hpp"
 #include "picture_support.hpp"
 #include "test_paths.hpp"
 
@@ -76,8 +76,8 @@ TEST(Completion, OffersTheOptionsOfEachCommand) {
 
 TEST(Completion, OffersTheSettings) {
   Words settings;
-  for (const SettingInfo& info : settingInfos()) {
-    settings.insert(std::string(info.key) + "=");
+  for (const SettingField& field : settingFields()) {
+    settings.insert(std::string(field.key) + "=");
   }
   EXPECT_EQ(completions({program, "render", "--set", ""}), settings);
 }

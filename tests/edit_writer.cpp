@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "edit_support.hpp"
+#include "frame/setting_fields.hpp"
 
 namespace speculum {
 namespace {
@@ -347,7 +348,7 @@ TEST(SaveScene, EverySettingReadsBack) {
   }
   TextScene text(kText);
   const std::vector<SavedSetting> changes = settingChanges(Settings(), other);
-  EXPECT_EQ(changes.size(), settingInfos().size()) << "a setting is not tried";
+  EXPECT_EQ(changes.size(), settingFields().size()) << "a setting is not tried";
   text.document.save(text.file, changes);
   EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(other));
   text.document.save(text.file, {});

@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
-#include "frame/settings.hpp"
+#include "frame/setting_fields.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {
@@ -27,15 +28,74 @@ TEST(Settings, EveryKeyHasItsDefault) {
   EXPECT_EQ(json["debug.check_finite"], false);
 }
 
+TEST(Settings, EveryDescriptionIsWhole) {
+  for (const SettingField& field : settingFields()) {
+    EXPECT_FALSE(field.text.empty() || field.cost.empty() || std::string(field.label).empty()) << field.key;
+    EXPECT_EQ(std::count_if(settingFields().begin(), settingFields().end(),
+                            [&](const SettingField& other) { return other.key == field.key; }),
+              1)
+        << field.key;
+    const auto* integer = std::get_if<IntegerSetting>(&field.kind);
+    EXPECT_TRUE(!integer || integer->powersOfTwo || field.slider) << field.key << ": the panel has no widget for it";
+    EXPECT_TRUE(!field.needs || !settingValue(Settings(), field.needs->key).empty()) << field.key;
+  }
+}
+
+// A setting of another value: the next of a list, or a number a little above.
+Settings changed(const SettingField& field) {
+  Settings settings;
+  for (const char* value : {"true", "false", "2", "0.5", "1", "32", "oblique", "aces", "trilinear", "image",
+                            "environment", "0.1,0.2,0.3", "queue"}) {
+    if (!setSetting(settings, field.key, value) && !sameSetting(field, settings, Settings())) {
+      return settings;
+    }
+  }
+  ADD_FAILURE() << field.key << ": add a value that it takes";
+  return settings;
+}
+
+TEST(Settings, EachValueStandsInItsOwnMember) {
+  for (const SettingField& field : settingFields()) {
+    const Settings settings = changed(field);
+    Settings copy;
+    copySetting(field, settings, copy);
+    for (const SettingField& other : settingFields()) {
+      EXPECT_EQ(sameSetting(other, settings, Settings()), other.key != field.key) << field.key << " and " << other.key;
+      EXPECT_TRUE(sameSetting(other, settings, copy)) << field.key << " and " << other.key;
+    }
+    EXPECT_NE(settingsKey(settings), settingsKey(Settings())) << field.key;
+  }
+}
+
+TEST(Settings, PicturesFollowFromWhatChangesThem) {
+  const std::set<std::string_view> othersThanImages{"reflection.update_interval",
+                                                    "reflection.skip_unchanged",
+                                                    "view.samples",
+                                                    "view.exposure",
+                                                    "view.tone_map",
+                                                    "view.continuous",
+                                                    "quality.budget_ms",
+                                                    "quality.max_error"};
+  const std::set<std::string_view> othersThanMainView{"view.exposure", "view.tone_map", "quality.budget_ms",
+                                                      "quality.max_error"};
+  for (const SettingField& field : settingFields()) {
+    const Settings settings = changed(field);
+    EXPECT_EQ(sameMirrorImages(settings, Settings()),
+              othersThanImages.contains(field.key) || field.key.starts_with("debug."))
+        << field.key;
+    EXPECT_EQ(sameMainView(settings, Settings()), othersThanMainView.contains(field.key)) << field.key;
+  }
+}
+
 TEST(Settings, EveryKeyTakesItsOwnValueBack) {
   Settings settings;
   ASSERT_FALSE(setSetting(settings, "view.clear_color", "0.1, 0.2,0.3"));
-  for (const SettingInfo& info : settingInfos()) {
+  for (const SettingField& field : settingFields()) {
     Settings copy;
-    const std::string value = settingValue(settings, info.key);
+    const std::string value = settingValue(settings, field.key);
     if (!value.empty()) {
-      EXPECT_FALSE(setSetting(copy, info.key, value)) << info.key;
-      EXPECT_EQ(settingValue(copy, info.key), value) << info.key;
+      EXPECT_FALSE(setSetting(copy, field.key, value)) << field.key;
+      EXPECT_EQ(settingValue(copy, field.key), value) << field.key;
     }
   }
 }
@@ -48,7 +108,7 @@ struct BadValue {
 
 class BadSettings : public testing::TestWithParam<BadValue> {};
 
-TEST_P(BadSettings, SayWhatIsWrongAndWhatWouldBeRight) {
+TEST_P(BadSettings, NameTheRemedy) {
   Settings settings;
   const auto problem = setSetting(settings, GetParam().key, GetParam().value);
   ASSERT_TRUE(problem);
@@ -74,15 +134,15 @@ INSTANTIATE_TEST_SUITE_P(
                  "view.clear_color: '1,2,3,4' is not a colour (three linear values >= 0, such as 0.1,0.2,0.3)"},
         BadValue{"view.exposur", "1", "view.exposur: unknown setting (did you mean 'view.exposure'?)"}));
 
-TEST(Settings, AKeyLikeNoneGetsTheListOfAll) {
+TEST(Settings, UnknownKeyListsAll) {
   Settings settings;
   const std::string problem = setSetting(settings, "zzz", "1").value_or("");
-  for (const SettingInfo& info : settingInfos()) {
-    EXPECT_NE(problem.find(info.key), std::string::npos) << info.key;
+  for (const SettingField& field : settingFields()) {
+    EXPECT_NE(problem.find(field.key), std::string::npos) << field.key;
   }
 }
 
-TEST(Settings, OfASceneNameFileAndLine) {
+TEST(Settings, SceneErrorsNameFileAndLine) {
   Scene scene;
   scene.file = "room.toml";
   scene.settings = {{"reflection.max_depth", int64_t{2}, 4}, {"view.exposure", 0.5, 5}};

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "frame/setting_fields.hpp"
+
 namespace speculum {
 
 namespace {
@@ -221,9 +223,8 @@ SweepPlanner::SweepPlanner(std::string name, const SweepContext& context) : base
 
 int SweepPlanner::add(const Changes& changes, const std::string& name) {
   for (const SettingChange& change : changes) {
-    // The last two change what is shown, not how well.
-    if (change.key.starts_with("quality.") || change.key.starts_with("debug.") || change.key == "view.clear_color" ||
-        change.key == "view.wireframe") {
+    const SettingField* field = findSettingField(change.key);
+    if (change.key.starts_with("quality.") || change.key.starts_with("debug.") || (field && field->subject)) {
       throw std::invalid_argument(change.key + ": cannot be swept");
     }
   }
@@ -236,10 +237,10 @@ int SweepPlanner::add(const Changes& changes, const std::string& name) {
                                 std::to_string(longestInterval));
   }
   SweepConfiguration configuration{.name = name};
-  for (const SettingInfo& info : settingInfos()) {
-    const std::string value = settingValue(settings, info.key);
-    if (value != settingValue(base_, info.key)) {
-      configuration.changes.push_back({std::string(info.key), value});
+  for (const SettingField& field : settingFields()) {
+    const std::string value = settingValue(settings, field.key);
+    if (value != settingValue(base_, field.key)) {
+      configuration.changes.push_back({std::string(field.key), value});
     }
   }
   auto& all = plan.configurations;

@@ -8,7 +8,7 @@
 
 #include "app/usage.hpp"
 #include "app/version.hpp"
-#include "frame/settings.hpp"
+#include "frame/setting_fields.hpp"
 
 namespace speculum {
 
@@ -208,6 +208,16 @@ void applyRaw(const Raw& raw, Options& options) {
   options.presentMode = modes.at(raw.presentMode);
 }
 
+std::string settingsText() {
+  std::string text = "Settings (--set key=value):\n";
+  for (const SettingField& field : settingFields()) {
+    const std::string key(field.key);
+    text += "  " + key + std::string(30 - std::min<size_t>(29, key.size()), ' ') + std::string(field.text) + " (" +
+            settingRangeWithUnit(field) + ")\n";
+  }
+  return text;
+}
+
 std::string oneLine(std::string text) {
   for (char& c : text) {
     c = c == '\n' ? ' ' : c;
@@ -240,12 +250,8 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
   addBench(*command("bench", "measure frames"), options, raw);
   command("info", "GPUs, drivers, features");
   command("scenes", "scenes that come with the program");
-  std::string keys = "Settings (--set key=value):\n";
-  for (const SettingInfo& info : settingInfos()) {
-    keys += "  " + std::string(info.key) + std::string(30 - std::min<size_t>(29, info.key.size()), ' ') +
-            std::string(info.help) + " (" + std::string(info.range) + ")\n";
-  }
-  app.footer(keys + "\n" + examplesText("demo") + examplesText("render").substr(std::string("Examples:\n").size()));
+  app.footer(settingsText() + "\n" + examplesText("demo") +
+             examplesText("render").substr(std::string("Examples:\n").size()));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

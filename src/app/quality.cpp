@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "frame/setting_fields.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {
@@ -24,10 +25,10 @@ bool contains(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-// Of what a sweep measures. The others say what is shown, or are no settings of the picture.
+// Whether a sweep measures the setting. The others choose what is shown, or change no radiance.
 bool isQuality(const std::string& key) {
-  return key != "view.exposure" && key != "view.tone_map" && key != "view.clear_color" && key != "view.wireframe" &&
-         !key.starts_with("quality.") && !key.starts_with("debug.");
+  const SettingField* field = findSettingField(key);
+  return !field || (field->changes < FramePart::display && !field->subject && !key.starts_with("debug."));
 }
 
 void warnOfDifferences(const SweepResults& results, const Options& options, const std::filesystem::path& scene) {

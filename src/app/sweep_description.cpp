@@ -6,6 +6,7 @@
 #include "accuracy/fingerprint.hpp"
 #include "app/session_subject.hpp"
 #include "app/version.hpp"
+#include "frame/setting_fields.hpp"
 #include "platform/platform.hpp"
 
 namespace speculum {
@@ -107,10 +108,10 @@ SweepResults describeSweep(Session& session, const SweepPlan& plan, double time)
                        .machine = machineDescription(),
                        .version = versionString,
                        .date = utcNow()};
-  for (const SettingInfo& info : settingInfos()) {
-    const std::string value = settingValue(session.settings(), info.key);
+  for (const SettingField& field : settingFields()) {
+    const std::string value = settingValue(session.settings(), field.key);
     if (!value.empty()) {
-      results.base.push_back({std::string(info.key), value});
+      results.base.push_back({std::string(field.key), value});
     }
   }
   return results;

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "frame/setting_fields.hpp"
 #include "platform/platform.hpp"
 
 namespace speculum {
@@ -47,10 +48,11 @@ std::string sceneText(const std::filesystem::path& file) {
 std::vector<std::string> settingArguments(const Scene& scene, const Settings& settings) {
   const Settings own = settingsOf(scene);
   std::vector<std::string> arguments;
-  for (const SettingInfo& info : settingInfos()) {
-    const std::string value = settingValue(settings, info.key);
-    if (info.key != "view.continuous" && info.key.rfind("quality.", 0) != 0 && value != settingValue(own, info.key)) {
-      arguments.insert(arguments.end(), {"--set", std::string(info.key) + "=" + value});
+  for (const SettingField& field : settingFields()) {
+    const std::string value = settingValue(settings, field.key);
+    if (field.key != "view.continuous" && field.key.rfind("quality.", 0) != 0 &&
+        value != settingValue(own, field.key)) {
+      arguments.insert(arguments.end(), {"--set", std::string(field.key) + "=" + value});
     }
   }
   return arguments;

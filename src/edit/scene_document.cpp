@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frame/setting_fields.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 
@@ -230,10 +231,10 @@ void SceneDocument::save(const fs::path& file, std::span<const SavedSetting> set
 
 std::vector<SavedSetting> settingChanges(const Settings& from, const Settings& to) {
   std::vector<SavedSetting> changes;
-  for (const SettingInfo& info : settingInfos()) {
-    std::string value = settingValue(to, info.key);
-    if (settingValue(from, info.key) != value) {
-      changes.push_back({std::string(info.key), std::move(value)});
+  for (const SettingField& field : settingFields()) {
+    std::string value = settingValue(to, field.key);
+    if (settingValue(from, field.key) != value) {
+      changes.push_back({std::string(field.key), std::move(value)});
     }
   }
   return changes;

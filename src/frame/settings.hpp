@@ -3,7 +3,6 @@
 #include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -98,16 +97,8 @@ struct Settings {
   DebugSettings debug;
 };
 
-// One key of the table that `--set`, a scene's [settings] and the panel share.
-struct SettingInfo {
-  std::string_view key;
-  std::string_view range;  // for people: "0.125 .. 4", "1 2 4 8"
-  std::string_view help;
-};
-std::span<const SettingInfo> settingInfos();
-
-// Sets one key. The value is text as on a command line: numbers, true/false, names, colours as "r,g,b" or "[r, g, b]".
-// Returns what is wrong and what would be right, or nothing.
+// Sets one key of settingFields(). The value is text as on a command line: numbers, true/false, names, colours as
+// "r,g,b" or "[r, g, b]". Returns what is wrong and what would be right, or nothing.
 std::optional<std::string> setSetting(Settings& settings, std::string_view key, std::string_view value);
 std::string settingValue(const Settings& settings, std::string_view key);
 // "key=value" of every key, a line each: equal for equal settings.
@@ -116,11 +107,9 @@ std::string settingsKey(const Settings& settings);
 // Defaults, then the scene's [settings]. Throws InputError with FILE:LINE.
 Settings settingsOf(const Scene& scene);
 
-// Whether a mirror image drawn under one of them could have been drawn under the other: they differ at most in
-// reflection.update_interval and .skip_unchanged, in debug.*, and in what only the main view and the display pass heed.
+// Whether mirror images, or the main view, rendered under one of them could have been rendered under the other: all
+// settings that change them (SettingField::changes) are equal.
 bool sameMirrorImages(const Settings& a, const Settings& b);
-
-// The same for the main view: they differ at most in what only the display pass heeds.
 bool sameMainView(const Settings& a, const Settings& b);
 
 // Every key with its value, as numbers, booleans and strings.

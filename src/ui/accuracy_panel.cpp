@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "frame/setting_fields.hpp"
 #include "ui/panels.hpp"
 #include "ui/setting_help.hpp"
 
@@ -181,9 +182,9 @@ void frontSlider(UiModel& model) {
 
 void budget(UiModel& model) {
   QualitySettings& quality = model.settings.quality;
-  const auto bound = [&](const char* label, double& value, double usual, const char* format, const char* key) {
+  const auto bound = [&](double& value, double usual, const char* format, const char* key) {
     bool active = value > 0.0;
-    if (ImGui::Checkbox(label, &active)) {
+    if (ImGui::Checkbox(findSettingField(key)->label, &active)) {
       value = active ? usual : 0.0;
     }
     notePlace(model, key);
@@ -199,8 +200,8 @@ void budget(UiModel& model) {
       }
     }
   };
-  bound("at most so many GPU ms", quality.budgetMs, 16.0, "%.2f", "quality.budget_ms");
-  bound("at most this mean FLIP", quality.maxError, 0.05, "%.4f", "quality.max_error");
+  bound(quality.budgetMs, 16.0, "%.2f", "quality.budget_ms");
+  bound(quality.maxError, 0.05, "%.4f", "quality.max_error");
   if (!model.accuracy.choice.empty()) {
     ImGui::TextWrapped("%s", model.accuracy.choice.c_str());
   }

@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include "ui/panels.hpp"
+#include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
 
@@ -55,12 +56,7 @@ void device(UiModel& model) {
     ImGui::EndTable();
   }
   ImGui::Separator();
-  ImGui::Checkbox("check that radiance is finite", &model.settings.debug.checkFinite);
-  describe(model, "debug.check_finite");
-  ImGui::Checkbox("leave out hidden mirrors", &model.settings.debug.skipHidden);
-  describe(model, "debug.skip_hidden");
-  ImGui::Checkbox("shade only what is looked up", &model.settings.debug.maskPasses);
-  describe(model, "debug.mask_passes");
+  settingRows(model, "debug.");
 }
 
 }  // namespace speculum::panels

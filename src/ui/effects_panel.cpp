@@ -1,55 +1,11 @@
 #include <imgui.h>
 
-#include <bit>
-
 #include "ui/panels.hpp"
+#include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
 
 namespace {
-
-void effectSwitch(UiModel& model, const char* label, bool& on, std::string_view key) {
-  ImGui::Checkbox(label, &on);
-  describe(model, key);
-}
-
-void environmentMaps(UiModel& model, EffectSettings& e) {
-  int lookup = static_cast<int>(e.curvedLookup);
-  ImGui::Combo("curved look-up", &lookup, "traced\0environment map\0");
-  e.curvedLookup = static_cast<CurvedLookup>(lookup);
-  describe(model, "effects.curved_lookup");
-  if (e.curvedLookup != CurvedLookup::environment) {
-    return;
-  }
-  int power = std::bit_width(static_cast<unsigned>(e.environmentSize)) - 1;
-  ImGui::SliderInt("map size", &power, 4, 10, std::to_string(e.environmentSize).c_str(), ImGuiSliderFlags_AlwaysClamp);
-  e.environmentSize = 1 << power;
-  describe(model, "effects.environment_size");
-  ImGui::SliderInt("map interval", &e.environmentInterval, 1, 60, "%d", ImGuiSliderFlags_AlwaysClamp);
-  describe(model, "effects.environment_interval");
-  effectSwitch(model, "map of a box", e.environmentBox, "effects.environment_box");
-}
-
-void switches(UiModel& model) {
-  EffectSettings& e = model.settings.effects;
-  effectSwitch(model, "shadows", e.shadows, "effects.shadows");
-  effectSwitch(model, "ripples", e.ripple, "effects.ripple");
-  effectSwitch(model, "bounced light", e.castsLight, "effects.casts_light");
-  effectSwitch(model, "roughness", e.roughness, "effects.roughness");
-  effectSwitch(model, "curved mirrors", e.curved, "effects.curved");
-  environmentMaps(model, e);
-  effectSwitch(model, "Fresnel", e.fresnel, "effects.fresnel");
-  effectSwitch(model, "textures", e.textures, "effects.textures");
-  effectSwitch(model, "glowing lights", e.glyphs, "effects.glyphs");
-  effectSwitch(model, "rays at every sample", e.perSample, "effects.per_sample");
-  int lookup = static_cast<int>(e.roughLookup);
-  ImGui::Combo("rough look-up", &lookup, "traced\0image\0");
-  e.roughLookup = static_cast<RoughLookup>(lookup);
-  describe(model, "effects.rough_lookup");
-  ImGui::SliderInt("rough samples", &e.roughSamples, 1, 256, "%d",
-                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-  describe(model, "effects.rough_samples");
-}
 
 std::string mebibytes(uint64_t bytes) {
   char text[32];
@@ -68,7 +24,7 @@ void effects(UiModel& model) {
   if (!ImGui::CollapsingHeader(title.c_str())) {
     return;
   }
-  switches(model);
+  settingRows(model, "effects.");
   if (!ImGui::BeginTable("effects", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
     return;
   }

@@ -2,96 +2,10 @@
 
 #include <imgui.h>
 
-#include <algorithm>
-
-#include "image/image.hpp"
 #include "ui/setting_help.hpp"
+#include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
-
-namespace {
-
-// 1, 2, 4 or 8 samples.
-void samplesCombo(UiModel& model, const char* label, int& samples, std::string_view key) {
-  static constexpr std::array<const char*, 4> names = {"1", "2", "4", "8"};
-  int index = samples >= 8 ? 3 : samples >= 4 ? 2 : samples >= 2 ? 1 : 0;
-  if (ImGui::Combo(label, &index, names.data(), static_cast<int>(names.size()))) {
-    samples = 1 << index;
-  }
-  describe(model, key);
-}
-
-void slider(UiModel& model, const char* label, double& value, double low, double high, const char* format,
-            std::string_view key) {
-  float edited = static_cast<float>(value);
-  if (ImGui::SliderFloat(label, &edited, static_cast<float>(low), static_cast<float>(high), format,
-                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
-    value = edited;
-  }
-  describe(model, key);
-}
-
-template <typename Enum>
-void choiceCombo(UiModel& model, const char* label, Enum& value, std::span<const char* const> names,
-                 std::string_view key) {
-  int index = static_cast<int>(value);
-  if (ImGui::Combo(label, &index, names.data(), static_cast<int>(names.size()))) {
-    value = static_cast<Enum>(index);
-  }
-  describe(model, key);
-}
-
-// The colour is linear in the settings and sRGB in the widget, as people know it from other programs.
-void clearColor(UiModel& model) {
-  const glm::dvec3 linear = model.settings.view.clearColor.value_or(glm::dvec3(model.sceneBackground));
-  std::array<float, 3> encoded{};
-  for (int i = 0; i < 3; ++i) {
-    encoded[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
-  }
-  if (ImGui::ColorEdit3("clear color", encoded.data())) {
-    model.settings.view.clearColor = glm::dvec3(srgbDecode(encoded[0]), srgbDecode(encoded[1]), srgbDecode(encoded[2]));
-  }
-  describe(model, "view.clear_color");
-  if (model.sceneSky && !model.settings.view.clearColor) {
-    ImGui::TextDisabled("the scene's sky is shown; a colour replaces it");
-  }
-}
-
-void reflectionSettings(UiModel& model) {
-  ReflectionSettings& r = model.settings.reflection;
-  static constexpr std::array<const char*, 3> clips = {"clip distance", "oblique", "none"};
-  slider(model, "scale", r.scale, 0.125, 4.0, "%.3f", "reflection.scale");
-  samplesCombo(model, "samples##reflection", r.samples, "reflection.samples");
-  ImGui::SliderInt("max depth", &r.maxDepth, 0, 32, "%d", ImGuiSliderFlags_AlwaysClamp);
-  describe(model, "reflection.max_depth");
-  slider(model, "min pixels", r.minPixels, 0.0, 10000.0, "%.1f", "reflection.min_pixels");
-  slider(model, "min throughput", r.minThroughput, 0.0, 1.0, "%.5f", "reflection.min_throughput");
-  ImGui::SliderInt("max passes", &r.maxPasses, 1, 256, "%d", ImGuiSliderFlags_AlwaysClamp);
-  describe(model, "reflection.max_passes");
-  ImGui::SliderInt("update interval", &r.updateInterval, 1, 16, "%d", ImGuiSliderFlags_AlwaysClamp);
-  describe(model, "reflection.update_interval");
-  ImGui::Checkbox("keep what is unchanged", &r.skipUnchanged);
-  describe(model, "reflection.skip_unchanged");
-  slider(model, "mesh error", r.meshError, 0.0, 16.0, "%.2f", "reflection.mesh_error");
-  choiceCombo(model, "clip", r.clip, clips, "reflection.clip");
-}
-
-void viewSettings(UiModel& model) {
-  static constexpr std::array<const char*, 2> curves = {"clamp", "ACES"};
-  static constexpr std::array<const char*, 2> filters = {"bilinear", "trilinear"};
-  ViewSettings& v = model.settings.view;
-  clearColor(model);
-  samplesCombo(model, "samples##view", v.samples, "view.samples");
-  slider(model, "exposure", v.exposure, 0.01, 100.0, "%.2f", "view.exposure");
-  choiceCombo(model, "tone curve", v.toneMap, curves, "view.tone_map");
-  choiceCombo(model, "texture filter", v.textureFilter, filters, "view.texture_filter");
-  ImGui::Checkbox("wireframe", &v.wireframe);
-  describe(model, "view.wireframe");
-  ImGui::Checkbox("draw continuously", &v.continuous);
-  describe(model, "view.continuous");
-}
-
-}  // namespace
 
 void describe(UiModel& model, std::string_view key) {
   notePlace(model, key);
@@ -208,12 +122,15 @@ void scene(UiModel& model) {
 
 void settings(UiModel& model) {
   if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
-    viewSettings(model);
+    settingRows(model, "view.");
+    if (model.sceneSky && !model.settings.view.clearColor) {
+      ImGui::TextDisabled("The scene's sky is shown; a clear color replaces it.");
+    }
   }
   if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
-    reflectionSettings(model);
+    settingRows(model, "reflection.");
   }
-  model.resetSettings = ImGui::Button("settings of the scene");
+  model.resetSettings = ImGui::Button("Reset settings");
   tip("every setting back to what the scene and the command line have it at");
 }
 

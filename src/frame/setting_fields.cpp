@@ -1,0 +1,399 @@
+#include "frame/setting_fields.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "scene/member_count.hpp"
+
+namespace speculum {
+
+namespace {
+
+using R = ReflectionSettings;
+using V = ViewSettings;
+using E = EffectSettings;
+using Q = QualitySettings;
+using D = DebugSettings;
+using enum FramePart;
+
+constexpr int anyCount = 1'000'000;
+
+template <auto Group, auto Member>
+constexpr auto& valueIn(Settings& settings) {
+  return (settings.*Group).*Member;
+}
+
+// The group of settings that a member pointer is of.
+template <typename Group>
+constexpr auto groupOf = nullptr;
+template <>
+constexpr auto groupOf<R> = &Settings::reflection;
+template <>
+constexpr auto groupOf<V> = &Settings::view;
+template <>
+constexpr auto groupOf<E> = &Settings::effects;
+template <>
+constexpr auto groupOf<Q> = &Settings::quality;
+template <>
+constexpr auto groupOf<D> = &Settings::debug;
+
+template <typename Group, typename T>
+Group ownerOf(T Group::*);
+template <typename Group, typename T>
+T typeOf(T Group::*);
+
+template <auto Member>
+constexpr SettingMember<decltype(typeOf(Member))> at{valueIn<groupOf<decltype(ownerOf(Member))>, Member>};
+
+// `names` in the order of the enumerators.
+template <auto Member>
+constexpr ChoiceSetting choice(std::span<const std::string_view> names) {
+  using Enum = decltype(typeOf(Member));
+  return {[](const Settings& settings) { return static_cast<int>(at<Member>.of(settings)); },
+          [](Settings& settings, int index) { at<Member>.of(settings) = static_cast<Enum>(index); }, names};
+}
+
+constexpr std::array<std::string_view, 3> clipMethods{"clip_distance", "oblique", "none"};
+constexpr std::array<std::string_view, 2> toneMaps{"clamp", "aces"};
+constexpr std::array<std::string_view, 2> textureFilters{"bilinear", "trilinear"};
+constexpr std::array<std::string_view, 2> roughLookups{"traced", "image"};
+constexpr std::array<std::string_view, 2> curvedLookups{"traced", "environment"};
+constexpr SettingNeed environmentMaps{"effects.curved_lookup", "environment"};
+
+constexpr SettingField fields[] = {
+    {.key = "reflection.scale",
+     .kind = NumberSetting{at<&R::scale>, 0.125, 4.0},
+     .label = "Mirror resolution",
+     .text = "resolution of mirror images relative to the screen",
+     .cost = "Pixels of mirror images grow with its square. Below 1 reflections blur, above 1 edges smooth.",
+     .slider = SettingSlider{0.125, 4.0, "%.3f"}},
+    {.key = "reflection.samples",
+     .kind = IntegerSetting{at<&R::samples>, 1, 8, false, true},
+     .label = "Samples",
+     .text = "samples a pixel of mirror images",
+     .cost = "Shading of mirror images grows with it. NVIDIA H200, gallery, with those of the main view:\n"
+             "3.46 ms with 1, 5.68 ms with 4, 9.46 ms with 8."},
+    {.key = "reflection.max_depth",
+     .kind = IntegerSetting{at<&R::maxDepth>, 0, 32},
+     .label = "Max. depth",
+     .text = "mirrors seen directly need 1, mirrors in mirrors one more each",
+     .cost = "Each depth adds passes. facing_mirrors at depth 16 over depth 1, 4 samples: 1.40 times the frame on an "
+             "H200,\n3.86 times on a CPU, 1.78 with mesh_error 0.5.",
+     .slider = SettingSlider{0, 32, "%d", false}},
+    {.key = "reflection.min_pixels",
+     .kind = NumberSetting{at<&R::minPixels>, 0.0, 1e12, true},
+     .label = "Min. pixels",
+     .text = "smallest visible mirror area worth a pass",
+     .cost = "Saves the passes of small mirrors: each costs some 0.02 ms of the CPU on the H200's host, whatever it "
+             "covers.",
+     .unit = "pixels",
+     .slider = SettingSlider{0.0, 1e4, "%.1f"}},
+    {.key = "reflection.min_throughput",
+     .kind = NumberSetting{at<&R::minThroughput>, 0.0, 1.0},
+     .label = "Min. throughput",
+     .text = "a bounce that lets less through is dropped",
+     .cost = "Saves the passes of bounces that can hardly be seen. 0 draws them all.",
+     .slider = SettingSlider{0.0, 1.0, "%.5f"}},
+    {.key = "reflection.max_passes",
+     .kind = IntegerSetting{at<&R::maxPasses>, 1, anyCount, true},
+     .label = "Max. passes",
+     .text = "most mirror passes a frame, best first",
+     .cost = "Bounds the price: a pass costs some 0.02 ms of the CPU beside an H200 before it draws anything.\n"
+             "mirror_maze needs 55 for all four depths.",
+     .slider = SettingSlider{1, 256, "%d", false}},
+    {.key = "reflection.update_interval",
+     .kind = IntegerSetting{at<&R::updateInterval>, 1, anyCount, true},
+     .label = "Update interval",
+     .text = "mirrors seen directly are rendered every n-th frame and reprojected in between",
+     .cost = "Saves the passes of mirrors seen directly in the frames between; what moves in them moves in steps.",
+     .unit = "frames",
+     .changes = mainView,
+     .slider = SettingSlider{1, 16, "%d", false}},
+    {.key = "reflection.skip_unchanged",
+     .kind = BooleanSetting{at<&R::skipUnchanged>},
+     .label = "Reuse unchanged images",
+     .text = "a mirror image that would come out the same is used again",
+     .cost = "Saves the passes of mirrors in which nothing changed, and the main view's where nothing at all did; "
+             "their images\nkeep their memory.",
+     .changes = mainView},
+    {.key = "reflection.mesh_error",
+     .kind = NumberSetting{at<&R::meshError>, 0.0, 16.0},
+     .label = "Mesh error",
+     .text = "texels by which simplified objects in mirror images may be off; 0 draws all triangles",
+     .cost = "Saves vertices of what is small in mirrors; shading shifts a little with the triangles. Without effect "
+             "while\nanything in the picture calls for rays. Simplifying takes a moment when it is first set.",
+     .unit = "texels",
+     .slider = SettingSlider{0.0, 16.0}},
+    {.key = "reflection.clip",
+     .kind = choice<&R::clip>(clipMethods),
+     .label = "Clipping",
+     .text = "how geometry behind a mirror is cut",
+     .cost = "oblique loses precision of depth where the eye is near the mirror; none shows what is behind it."},
+
+    {.key = "view.samples",
+     .kind = IntegerSetting{at<&V::samples>, 1, 8, false, true},
+     .label = "Samples",
+     .text = "samples a pixel of the main view",
+     .cost = "Shading of the main view grows with it. NVIDIA H200, single_plane, with those of mirror images:\n"
+             "1.11 ms with 1, 3.18 ms with 4, 5.75 ms with 8.",
+     .changes = mainView},
+    {.key = "view.exposure",
+     .kind = NumberSetting{at<&V::exposure>, 0.0, 1e6},
+     .label = "Exposure",
+     .text = "factor on radiance before the tone curve",
+     .cost = "One factor a pixel in the display pass.",
+     .changes = display,
+     .slider = SettingSlider{0.01, 100.0}},
+    {.key = "view.tone_map",
+     .kind = choice<&V::toneMap>(toneMaps),
+     .label = "Tone curve",
+     .text = "tone curve",
+     .cost = "A few operations a pixel in the display pass.",
+     .changes = display},
+    {.key = "view.clear_color",
+     .kind = ColorSetting{at<&V::clearColor>},
+     .label = "Clear color",
+     .text = "replaces the scene's background and sky",
+     .cost = "Costs nothing: it is drawn where nothing else is, in the place of background and sky.",
+     .subject = true},
+    {.key = "view.texture_filter",
+     .kind = choice<&V::textureFilter>(textureFilters),
+     .label = "Texture filter",
+     .text = "lookup of textures",
+     .cost = "trilinear reads eight texels where bilinear reads four; far textures grow calmer."},
+    {.key = "view.wireframe",
+     .kind = BooleanSetting{at<&V::wireframe>},
+     .label = "Wireframe",
+     .text = "edges of triangles only",
+     .cost = "To see triangles; a device without wireframe fills them.",
+     .subject = true},
+    {.key = "view.continuous",
+     .kind = BooleanSetting{at<&V::continuous>},
+     .label = "Draw continuously",
+     .text = "the window draws all the time, not only when something changes",
+     .cost = "Costs the energy of drawing all the time; without it a still picture costs nothing.",
+     .changes = mainView},
+
+    {.key = "effects.shadows",
+     .kind = BooleanSetting{at<&E::shadows>},
+     .label = "Shadows",
+     .text = "shadows of lights that cast them",
+     .cost = "Rays. On an H200 at every sample: 76.9 ms of 80.0 in shadows, 40.2 of 102.5 in pool."},
+    {.key = "effects.roughness",
+     .kind = BooleanSetting{at<&E::roughness>},
+     .label = "Roughness",
+     .text = "blur of rough mirrors",
+     .cost = "Rays. On an H200: 344.2 ms of 350.4 in rough with 64 rays a pixel."},
+    {.key = "effects.rough_samples",
+     .kind = IntegerSetting{at<&E::roughSamples>, 1, 4096},
+     .label = "Rough samples",
+     .text = "rays or look-ups a pixel of rough mirrors",
+     .cost = "Time grows with it, noise falls with its square root.",
+     .slider = SettingSlider{1, 256, "%d"}},
+    {.key = "effects.rough_lookup",
+     .kind = choice<&E::roughLookup>(roughLookups),
+     .label = "Rough look-up",
+     .text = "rough mirrors look up rays, or the image of the mirror as if it were smooth",
+     .cost = "image blurs the image of the smooth mirror, for a fraction of the time of rays."},
+    {.key = "effects.per_sample",
+     .kind = BooleanSetting{at<&E::perSample>},
+     .label = "Rays at every sample",
+     .text = "shadows and curved mirrors at every sample of a pixel, not once",
+     .cost = "On an H200, mirror_ball: 130.0 ms at every sample, 54.7 ms once a pixel."},
+    {.key = "effects.ripple",
+     .kind = BooleanSetting{at<&E::ripple>},
+     .label = "Ripples",
+     .text = "ripples of mirrors",
+     .cost = "Rays where water is seen. On an H200: 0.7 ms of 102.5 in pool."},
+    {.key = "effects.casts_light",
+     .kind = BooleanSetting{at<&E::castsLight>},
+     .label = "Bounced light",
+     .text = "light bounced off mirrors",
+     .cost = "Rays. On an H200 at every sample: 66.2 ms of 102.5 in pool, 13.1 of 74.6 in bounced_light."},
+    {.key = "effects.curved",
+     .kind = BooleanSetting{at<&E::curved>},
+     .label = "Curved mirrors",
+     .text = "objects that are mirrors",
+     .cost = "Rays. On an H200 at every sample: 70.5 ms of 130.0 in mirror_ball."},
+    {.key = "effects.fresnel",
+     .kind = BooleanSetting{at<&E::fresnel>},
+     .label = "Fresnel",
+     .text = "mirrors that reflect more towards grazing",
+     .cost = "One power of five for each pixel of a mirror that asks for it."},
+    {.key = "effects.textures",
+     .kind = BooleanSetting{at<&E::textures>},
+     .label = "Textures",
+     .text = "textures of objects",
+     .cost = "Four texels read for each pixel of what has one, and the memory of them all while one is in view."},
+    {.key = "effects.glyphs",
+     .kind = BooleanSetting{at<&E::glyphs>},
+     .label = "Glowing lights",
+     .text = "the spheres of lights that glow",
+     .cost = "One draw in each pass that sees a light: a sphere at every sample of the boxes around them."},
+    {.key = "effects.curved_lookup",
+     .kind = choice<&E::curvedLookup>(curvedLookups),
+     .label = "Curved look-up",
+     .text = "curved mirrors look up rays, or six images about the object's centre",
+     .cost = "An environment map takes no rays for curved mirrors, and is rendered only when what it shows has "
+             "changed."},
+    {.key = "effects.environment_size",
+     .kind = IntegerSetting{at<&E::environmentSize>, 16, 1024, false, true},
+     .label = "Map size",
+     .text = "side of such an image",
+     .cost = "Time and memory grow with its square; the error falls up to the size at which the mirror shows a texel a "
+             "pixel.",
+     .unit = "texels",
+     .needs = environmentMaps},
+    {.key = "effects.environment_interval",
+     .kind = IntegerSetting{at<&E::environmentInterval>, 1, anyCount, true},
+     .label = "Map interval",
+     .text = "such images are rendered anew every n-th frame at most",
+     .cost = "A map that has changed is rendered in one of so many frames; what moves in it moves in steps.",
+     .unit = "frames",
+     .slider = SettingSlider{1, 60, "%d", false},
+     .needs = environmentMaps},
+    {.key = "effects.environment_box",
+     .kind = BooleanSetting{at<&E::environmentBox>},
+     .label = "Box around the map",
+     .text = "look-ups as if what is around the object were a box",
+     .cost = "Nothing measurable; without it the mirror shows everything as if it were infinitely far.",
+     .needs = environmentMaps},
+
+    {.key = "quality.budget_ms",
+     .kind = NumberSetting{at<&Q::budgetMs>, 0.0, 1e6, true},
+     .label = "GPU budget (ms)",
+     .text = "the most accurate measured settings within so many GPU ms; 0: off",
+     .cost = "It chooses among what was measured and costs nothing itself.",
+     .changes = none},
+    {.key = "quality.max_error",
+     .kind = NumberSetting{at<&Q::maxError>, 0.0, 1.0},
+     .label = "Max. mean FLIP",
+     .text = "the fastest measured settings within this mean FLIP; 0: off",
+     .cost = "It chooses among what was measured and costs nothing itself.",
+     .changes = none},
+
+    {.key = "debug.omit_barrier",
+     .kind = TextSetting{at<&D::omitBarrier>, "name of a barrier"},
+     .label = "Omit barrier",
+     .text = "leaves one barrier out; validation must notice",
+     .cost = "Costs nothing; the picture may be wrong.",
+     .changes = mainView},
+    {.key = "debug.check_finite",
+     .kind = BooleanSetting{at<&D::checkFinite>},
+     .label = "Check that radiance is finite",
+     .text = "radiance that is NaN, infinite or negative is found",
+     .cost = "Reads every sample of every target once more on the GPU, each frame.",
+     .changes = mainView},
+    {.key = "debug.skip_hidden",
+     .kind = BooleanSetting{at<&D::skipHidden>},
+     .label = "Skip hidden mirrors",
+     .text = "mirrors that others or objects hide have no pass",
+     .cost = "Saves: in mirror_maze 55 passes show all four depths where 2 613 were needed.",
+     .changes = mainView},
+    {.key = "debug.cull_clusters",
+     .kind = BooleanSetting{at<&D::cullClusters>},
+     .label = "Cull clusters",
+     .text = "parts of objects that a view cannot see are not drawn",
+     .cost = "Saves the vertices of what a view cannot see of an object; costs a few draw calls.",
+     .changes = mainView},
+    {.key = "debug.mask_passes",
+     .kind = BooleanSetting{at<&D::maskPasses>},
+     .label = "Mask passes",
+     .text = "only what is seen of a mirror image is shaded",
+     .cost = "Saves: drawn for each sample seen, 1.32 instead of 1.50 in the gallery, 1.33 instead of 2.26 in "
+             "many_mirrors.",
+     .changes = mainView},
+};
+
+template <typename Group>
+consteval bool describes(std::string_view prefix) {
+  const auto described = std::count_if(std::begin(fields), std::end(fields),
+                                       [&](const SettingField& field) { return field.key.starts_with(prefix); });
+  return static_cast<size_t>(described) == memberCount<Group>();
+}
+static_assert(describes<R>("reflection."), "describe every member of ReflectionSettings above");
+static_assert(describes<V>("view."), "describe every member of ViewSettings above");
+static_assert(describes<E>("effects."), "describe every member of EffectSettings above");
+static_assert(describes<Q>("quality."), "describe every member of QualitySettings above");
+static_assert(describes<D>("debug."), "describe every member of DebugSettings above");
+static_assert(memberCount<Settings>() == 5, "name the group of settings above");
+
+}  // namespace
+
+std::span<const SettingField> settingFields() {
+  return fields;
+}
+
+const SettingField* findSettingField(std::string_view key) {
+  const auto* found =
+      std::find_if(std::begin(fields), std::end(fields), [&](const SettingField& field) { return field.key == key; });
+  return found == std::end(fields) ? nullptr : found;
+}
+
+std::string settingRange(const SettingField& field) {
+  struct Visitor {
+    std::string operator()(const NumberSetting& n) const {
+      return shortNumber(n.low) + " .." + (n.openEnd ? "" : " " + shortNumber(n.high));
+    }
+    std::string operator()(const IntegerSetting& n) const {
+      if (!n.powersOfTwo) {
+        return std::to_string(n.low) + " .." + (n.openEnd ? "" : " " + std::to_string(n.high));
+      }
+      std::string powers = std::to_string(n.low);
+      for (int power = 2 * n.low; power <= n.high; power *= 2) {
+        powers += " " + std::to_string(power);
+      }
+      return powers;
+    }
+    std::string operator()(const BooleanSetting&) const { return "true | false"; }
+    std::string operator()(const ChoiceSetting& choice) const {
+      std::string names(choice.names.front());
+      for (const std::string_view name : choice.names.subspan(1)) {
+        names.append(" | ").append(name);
+      }
+      return names;
+    }
+    std::string operator()(const ColorSetting&) const { return "r,g,b (linear, >= 0)"; }
+    std::string operator()(const TextSetting& text) const { return std::string(text.meaning); }
+
+    static std::string shortNumber(double value) {
+      std::ostringstream stream;
+      stream << value;
+      std::string text = stream.str();
+      const size_t exponent = text.find("e+0");
+      return exponent == std::string::npos ? text : text.erase(exponent + 1, 2);
+    }
+  };
+  return std::visit(Visitor(), field.kind);
+}
+
+std::string settingRangeWithUnit(const SettingField& field) {
+  return (field.unit.empty() ? "" : std::string(field.unit) + ", ") + settingRange(field);
+}
+
+bool sameSetting(const SettingField& field, const Settings& a, const Settings& b) {
+  return std::visit(
+      [&](const auto& kind) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ChoiceSetting>) {
+          return kind.get(a) == kind.get(b);
+        } else {
+          return kind.value.of(a) == kind.value.of(b);
+        }
+      },
+      field.kind);
+}
+
+void copySetting(const SettingField& field, const Settings& from, Settings& to) {
+  std::visit(
+      [&](const auto& kind) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ChoiceSetting>) {
+          kind.set(to, kind.get(from));
+        } else {
+          kind.value.of(to) = kind.value.of(from);
+        }
+      },
+      field.kind);
+}
+
+}  // namespace speculum

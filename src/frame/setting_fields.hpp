@@ -1,0 +1,95 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "frame/settings.hpp"
+
+namespace speculum {
+
+// Where a setting's value stands within Settings.
+template <typename T>
+struct SettingMember {
+  T& (*in)(Settings& settings);
+
+  T& of(Settings& settings) const { return in(settings); }
+  const T& of(const Settings& settings) const { return in(const_cast<Settings&>(settings)); }
+};
+
+// Numbers from low to high. With `openEnd` high only keeps what follows in range, and users are not shown it.
+struct NumberSetting {
+  SettingMember<double> value;
+  double low = 0.0;
+  double high = 1.0;
+  bool openEnd = false;
+};
+struct IntegerSetting {
+  SettingMember<int> value;
+  int low = 0;
+  int high = 1;
+  bool openEnd = false;
+  bool powersOfTwo = false;
+};
+struct BooleanSetting {
+  SettingMember<bool> value;
+};
+struct ChoiceSetting {
+  int (*get)(const Settings& settings);  // index into names
+  void (*set)(Settings& settings, int index);
+  std::span<const std::string_view> names;
+};
+struct ColorSetting {
+  SettingMember<std::optional<glm::dvec3>> value;  // linear
+};
+struct TextSetting {
+  SettingMember<std::string> value;
+  std::string_view meaning;
+};
+using SettingKind =
+    std::variant<NumberSetting, IntegerSetting, BooleanSetting, ChoiceSetting, ColorSetting, TextSetting>;
+
+// The first part of a frame that a setting changes. The parts before it are the same whatever its value.
+enum class FramePart { mirrorImages, mainView, display, none };
+
+// Slider of the panel; without one, numbers are typed or chosen from a list.
+struct SettingSlider {
+  double low = 0.0;
+  double high = 1.0;
+  const char* format = "%.2f";
+  bool logarithmic = true;
+};
+
+// A setting has an effect only while another one has this value.
+struct SettingNeed {
+  std::string_view key;
+  std::string_view value;
+};
+
+// All that the program knows of a setting. `--set`, [settings] of scenes, JSON, comparisons, the panel, tooltips,
+// `--help`, completion and docs/settings.md follow from it; the default is the member's in settings.hpp.
+struct SettingField {
+  std::string_view key;
+  SettingKind kind;
+  const char* label;      // in the panel
+  std::string_view text;  // what it does, one line
+  std::string_view cost;  // what it costs or saves, in the figures of docs/measurements.md where there are any
+  std::string_view unit = {};
+  FramePart changes = FramePart::mirrorImages;
+  bool subject = false;  // chooses what is shown, not how well: no sweep varies it
+  std::optional<SettingSlider> slider = std::nullopt;
+  std::optional<SettingNeed> needs = std::nullopt;
+};
+
+// In the order of `--help`.
+std::span<const SettingField> settingFields();
+const SettingField* findSettingField(std::string_view key);  // null: no such key
+
+// "0.125 .. 4", "1 2 4 8", "clamp | aces": what the setting takes, without its unit.
+std::string settingRange(const SettingField& field);
+std::string settingRangeWithUnit(const SettingField& field);  // "texels, 0 .. 16"
+bool sameSetting(const SettingField& field, const Settings& a, const Settings& b);
+void copySetting(const SettingField& field, const Settings& from, Settings& to);
+
+}  // namespace speculum

@@ -1,0 +1,120 @@
+#include "ui/setting_widgets.hpp"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "image/image.hpp"
+#include "ui/panels.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+bool combo(const char* label, int& index, std::span<const std::string> names) {
+  bool changed = false;
+  if (ImGui::BeginCombo(label, names[index].c_str())) {
+    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+      if (ImGui::Selectable(names[i].c_str(), i == index)) {
+        changed = i != index;
+        index = i;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  return changed;
+}
+
+struct Widget {
+  const SettingField& field;
+  Settings& settings;
+  const glm::dvec3& background;
+
+  ImGuiSliderFlags flags() const {
+    return ImGuiSliderFlags_AlwaysClamp | (field.slider->logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  }
+
+  bool operator()(const NumberSetting& number) const {
+    double& value = number.value.of(settings);
+    if (!field.slider) {
+      return ImGui::InputDouble(field.label, &value, 0.0, 0.0, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
+    }
+    float edited = static_cast<float>(value);
+    const bool changed = ImGui::SliderFloat(field.label, &edited, static_cast<float>(field.slider->low),
+                                            static_cast<float>(field.slider->high), field.slider->format, flags());
+    value = changed ? edited : value;
+    return changed;
+  }
+
+  bool operator()(const IntegerSetting& integer) const {
+    int& value = integer.value.of(settings);
+    if (!integer.powersOfTwo) {
+      const SettingSlider slider = *field.slider;
+      return ImGui::SliderInt(field.label, &value, static_cast<int>(slider.low), static_cast<int>(slider.high),
+                              slider.format, flags());
+    }
+    std::vector<std::string> names;
+    for (int power = integer.low; power <= integer.high; power *= 2) {
+      names.push_back(std::to_string(power));
+    }
+    int index = std::countr_zero(static_cast<unsigned>(value)) - std::countr_zero(static_cast<unsigned>(integer.low));
+    const bool changed = combo(field.label, index, names);
+    value = integer.low << index;
+    return changed;
+  }
+
+  bool operator()(const BooleanSetting& boolean) const {
+    return ImGui::Checkbox(field.label, &boolean.value.of(settings));
+  }
+
+  bool operator()(const ChoiceSetting& choice) const {
+    std::vector<std::string> names(choice.names.begin(), choice.names.end());
+    for (std::string& name : names) {
+      std::ranges::replace(name, '_', ' ');
+    }
+    int index = choice.get(settings);
+    const bool changed = combo(field.label, index, names);
+    choice.set(settings, index);
+    return changed;
+  }
+
+  // The colour is linear in the settings and sRGB in the widget, as users know it from other programs.
+  bool operator()(const ColorSetting& color) const {
+    std::optional<glm::dvec3>& value = color.value.of(settings);
+    const glm::dvec3 linear = value.value_or(background);
+    std::array<float, 3> encoded{};
+    for (int i = 0; i < 3; ++i) {
+      encoded[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
+    }
+    const bool changed = ImGui::ColorEdit3(field.label, encoded.data());
+    if (changed) {
+      value = glm::dvec3(srgbDecode(encoded[0]), srgbDecode(encoded[1]), srgbDecode(encoded[2]));
+    }
+    return changed;
+  }
+
+  bool operator()(const TextSetting&) const { return false; }
+};
+
+}  // namespace
+
+bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background) {
+  ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
+  const bool changed = std::visit(Widget{field, settings, background}, field.kind);
+  ImGui::PopID();
+  return changed;
+}
+
+void settingRows(UiModel& model, std::string_view prefix) {
+  for (const SettingField& field : settingFields()) {
+    const bool needed = !field.needs || settingValue(model.settings, field.needs->key) == field.needs->value;
+    if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {
+      settingWidget(field, model.settings, model.sceneBackground);
+      describe(model, field.key);
+    }
+  }
+}
+
+}  // namespace speculum::panels
