@@ -9,9 +9,9 @@ namespace speculum {
 
 namespace {
 
-// How far a sphere reaches into the cone. In a direction at an angle from that of its centre it reaches to
-// d cos + sqrt(r^2 - d^2 sin^2), which falls with the angle; the plane that the centre is farthest beyond bounds the
-// angle from below.
+// Distance from the eye to which a sphere reaches within the cone. In a direction at angle a from its centre, at
+// distance d, it reaches to d cos a + sqrt(r^2 - d^2 sin^2 a), which falls with a. The plane that the centre is
+// farthest beyond gives the least a.
 double reach(const View& view, const glm::dvec3& center, double radius) {
   double beyond = 0.0;
   for (const glm::dvec3& normal : view.cone) {
@@ -30,7 +30,7 @@ glm::dvec3 middleOf(const View& view, const Projection& projection) {
   return glm::normalize(glm::dvec3(ndc.x * projection.aspect / projection.focal, -ndc.y / projection.focal, -1.0));
 }
 
-// The view-space direction in the cone towards a point, or one near it.
+// View-space direction towards a point, or the nearest one found within the cone.
 glm::dvec3 directionTo(const View& view, const Projection& projection, const glm::dvec3& center) {
   constexpr int rounds = 16;
   glm::dvec3 d = center - view.eye;
@@ -104,7 +104,7 @@ std::optional<DepthReadout> depthReadout(const PlannedPass& pass, const Projecti
   };
   DepthView depth{.projection = projection, .pictureSize = view.pictureSize};
   DepthReadout readout{.distance = glm::length(farthest->point)};
-  // A clip distance cuts triangles and leaves depth as it is; the bound holds for cut ones.
+  // A clip distance cuts triangles and leaves depth as it is; the bound holds for cut triangles too.
   readout.clipDistance = readout.none = gapIn(depth);
   if (view.clip) {
     depth.plane = glm::dvec4(view.worldToView * view.clip->normal, view.clip->distance(view.eye));

@@ -8,8 +8,8 @@ namespace speculum {
 
 namespace {
 
-// To the far end of the bounding sphere: what surrounds others, such as a room, comes after what it holds, although it
-// reaches nearer to the eye.
+// Metres to the far end of the bounding sphere. A room reaches nearer to the eye than what it holds and must still be
+// drawn after it.
 double distanceOf(const View& view, const InstanceState& instance) {
   return glm::length(instance.center - view.eye) + instance.radius;
 }

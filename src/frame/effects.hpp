@@ -23,14 +23,14 @@ enum class EffectKind {
 };
 inline constexpr size_t effectKinds = 11;
 
-// One line of the ledger: an effect, whether something visible calls for it, and what that is.
+// An effect, whether something visible calls for it, and what that is, or why nothing does.
 struct Effect {
   std::string name;
   bool calledFor = false;
   std::string why;
 };
 
-// The settings that leave an effect out of the picture, as key and value.
+// Settings (key, value) that leave an effect out of the picture.
 std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effect);
 
 // Whether something with a texture is drawn, or was in the image of an earlier frame that is shown.

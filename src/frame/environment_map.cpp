@@ -20,7 +20,7 @@ struct Box {
   }
 };
 
-// Of each instance, in their order, then of each mirror.
+// One box per instance, then one per mirror, in scene order.
 std::vector<Box> boxesOf(const Scene& scene, const SceneState& state) {
   std::vector<Box> boxes;
   for (const InstanceState& instance : state.instances) {
@@ -40,8 +40,8 @@ std::vector<Box> boxesOf(const Scene& scene, const SceneState& state) {
   return boxes;
 }
 
-// The box that surrounds boxes[own]: on each side it reaches to the near face of what lies farthest there, such as a
-// wall, or to the far face of what has the object inside, such as a room; where there is neither, to the end of all.
+// Box that surrounds boxes[own]. Each side lies at the near face of the farthest box there, such as a wall, or at the
+// far face of a box that encloses the object, such as a room. Without either it lies at the end of the scene.
 Box boxAround(size_t own, std::span<const Box> boxes) {
   const Box& inner = boxes[own];
   Box all = inner;
@@ -71,7 +71,7 @@ Box boxAround(size_t own, std::span<const Box> boxes) {
   return around;
 }
 
-// As at a limit of depth: what is seen in it is not rendered.
+// Adds a mirror without an image, as at reflection.max_depth.
 void addMirror(const Mirror& material, const MirrorState& mirror, int index, PlannedPass& face) {
   const double height = glm::dot(mirror.normal, face.view.eye - mirror.origin);
   MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
@@ -113,7 +113,7 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
   return face;
 }
 
-// Instances that are curved mirrors and drawn, ascending.
+// Instances of curved mirrors that the passes draw, ascending.
 std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const PlannedPass* const> passes) {
   std::set<int> drawn;
   for (const PlannedPass* pass : passes) {

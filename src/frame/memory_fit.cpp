@@ -29,7 +29,7 @@ uint64_t heldPixels(const FramePlan& plan) {
   return sum;
 }
 
-// The most pixels of mirror images that are alive together: each from its own range of passes until its parent's.
+// Most pixels of mirror images that are alive together: each from its own range of passes to its parent's.
 uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   uint64_t alive = heldPixels(plan);
   uint64_t peak = alive;
@@ -47,7 +47,7 @@ uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   return peak;
 }
 
-// Of the depth images of a range's passes, which those of other ranges use in turn.
+// Pixels of the depth images, which the ranges use one after the other.
 uint64_t depthPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   std::vector<uint64_t> largest;
   for (const PassRange& range : ranges) {

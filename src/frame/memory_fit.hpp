@@ -15,7 +15,7 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 struct TargetLimits {
   uint64_t budgetBytes = 0;  // for all render targets together
   int largestSide = 0;       // pixels of a picture, at any resolution
-  bool tracesRays = true;    // shaders can tell on which triangle a ray starts, and the scene fits their buffers
+  bool tracesRays = true;    // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
 };
 
 struct FittedPlan {
@@ -24,15 +24,14 @@ struct FittedPlan {
   std::string message;  // what was lowered and why; empty if nothing was
 };
 
-// planFrame, with the resolution of mirror images within the largest side, and samples of mirror images, then of the
-// main view, then the resolution of mirror images and of environment maps halved step by step until the targets fit the
-// budget. What cannot be lowered any more is planned as it is. Before that, images that reflection.skip_unchanged would
-// show again are rendered with the others, if that needs less. Effects that trace rays are left out where the device
-// cannot.
+// Calls planFrame with settings lowered until the targets fit the limits. First unchanged images are rendered instead
+// of reused, if that needs less memory. Then these are halved step by step: samples of mirror images, samples of the
+// main view, resolution of mirror images and environment maps. A plan that still does not fit is returned as it is.
+// Traced effects are left out where the device cannot trace.
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
                       int width, int height, EarlierImages earlier = {});
 
-// Of the maps' targets, with the depth that they share.
+// Device memory of the environment maps' targets and of the depth that they share.
 uint64_t environmentBytes(const FramePlan& plan);
 
 }  // namespace speculum

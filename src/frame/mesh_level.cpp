@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// Of the angle between the axis and the line of sight farthest from it.
+// Cosine of the angle between the axis and the line of sight farthest from it.
 double leastCosine(const View& view, const Projection& projection) {
   double square = 0.0;
   for (const int x : {view.rect.x, view.rect.x + view.rect.width}) {
@@ -22,7 +22,7 @@ double leastCosine(const View& view, const Projection& projection) {
   return 1.0 / std::sqrt(1.0 + square);
 }
 
-// View depth of the nearest of the instance that is not cut away, metres.
+// View depth in metres of the nearest point of the instance that is not clipped away.
 double nearestDepth(const View& view, double cosine, const InstanceState& instance, const Mesh& mesh) {
   const glm::dmat3 viewFromMesh = view.worldToView * instance.worldFromMesh.linear;
   const glm::dvec3 along(viewFromMesh[0].z, viewFromMesh[1].z, viewFromMesh[2].z);
@@ -42,7 +42,7 @@ double largestError(const View& view, const Projection& projection, const Instan
   const double cosine = leastCosine(view, projection);
   const double depth = nearestDepth(view, cosine, instance, mesh);
   const glm::dvec2 focal = 0.5 * view.pictureSize * projection.focal / glm::dvec2(projection.aspect, 1.0);
-  // f d / ((z - d) cos a) = texels: the nearest point may come nearer by d itself.
+  // f d / ((z - d) cos a) = texels, because the displacement may move the nearest point nearer by d.
   const double reach = texels * cosine;
   const double displacement = reach * std::max(depth, 0.0) / (std::max(focal.x, focal.y) + reach);
   return displacement / largestScale(instance.worldFromMesh.linear);
@@ -52,12 +52,12 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
                         std::vector<IndexRange> seen) {
   LevelChoice best{.ranges = std::move(seen)};
   if (largestError <= 0.0) {
-    return best;  // levels are not made for nothing
+    return best;  // levels are made only when one may be used
   }
   const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
   const auto end = std::upper_bound(levels.begin(), levels.end(), largestError,
                                     [](double error, const MeshLevel& level) { return error < level.error; });
-  // From the coarsest; a finer one can be less to draw only where it is the first with clusters.
+  // Coarsest first. Of the finer levels only the first one with clusters can have fewer triangles to draw.
   for (auto level = end; level != levels.begin();) {
     --level;
     const bool clustered = !level->clusters.empty();

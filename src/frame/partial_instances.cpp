@@ -7,18 +7,18 @@ namespace speculum {
 
 namespace {
 
-// A draw call costs about as much as the vertices of so many triangles; shorter gaps are drawn.
+// A draw call costs about as much as the vertices of 96 triangles, so shorter gaps are drawn.
 constexpr uint32_t shortestGap = 3 * 96;  // indices
 constexpr double leastSaved = 0.1;        // of the mesh's indices
-constexpr double rounding = 1e-5;         // of floats on the GPU, with room to spare; of the sizes involved
+constexpr double rounding = 1e-5;  // relative to the sizes involved; float rounding on the GPU with room to spare
 
-// A plane in the space of Vertex::position: seen is what has dot(normal, p) + offset >= 0.
+// A plane in the space of Vertex::position. Points with dot(normal, p) + offset >= 0 are seen.
 struct LocalPlane {
   glm::dvec3 normal{0.0};
   double offset = 0.0;
 };
 
-// The planes that cut through the mesh's bounding box; those that it lies before as a whole decide nothing.
+// Planes of the view that cut the mesh's bounding box. Planes that have all of it on their visible side are left out.
 std::vector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent) {
   std::vector<LocalPlane> planes;
   const auto add = [&](const glm::dvec3& normal, double distance) {

@@ -12,24 +12,24 @@ namespace speculum {
 // An instance of which a view sees only some of the mesh's clusters.
 struct PartialInstance {
   int instance = 0;                // index into SceneState::instances
-  std::vector<IndexRange> ranges;  // of the indices of what is drawn of it; ascending, apart from each other
+  std::vector<IndexRange> ranges;  // indices that are drawn; ascending and disjoint
 };
 
-// An instance of which a pass draws fewer triangles: reflection.mesh_error.
+// An instance that a pass draws as a mesh level (reflection.mesh_error).
 struct SimplifiedInstance {
   int instance = 0;  // index into SceneState::instances
   int level = 0;     // index into MeshLevels::levels
 };
 
-// Of an ascending list, that of the instance; null if there is none.
+// Finds the instance in an ascending list; null if it is not there.
 const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int instance);
 
 IndexRange allOf(const Mesh& mesh);
 
-// The triangles of an instance that the view may see, cluster by cluster: one range of all of them unless that leaves
-// out a part that is worth a draw call of its own; none if it sees none. Never leaves out a triangle that it sees.
+// Ranges of the clusters that the view may see: everything in one range unless leaving some out saves more than the
+// extra draw calls cost, empty if the view sees nothing. No visible triangle is left out.
 std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh);
-// The same of triangles within the mesh's box that are drawn in its place: `all` of them, in these clusters.
+// The same for a mesh level: its triangles `all`, within the mesh's box, in these clusters.
 std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
                                       const IndexRange& all, std::span<const MeshCluster> clusters);
 uint32_t indexCount(std::span<const IndexRange> ranges);

@@ -19,11 +19,10 @@ std::vector<glm::dvec3> corners(const View& view) {
 
 }  // namespace
 
-// A pixel that is shaded has a sample inside the edge and reads the same texel. All of the texel's samples are wanted,
-// those that are not read as well: where only some of them pass the depth test, a driver may shade at another place.
-// At another resolution than the screen's, and in images of earlier frames, a pixel reads a box: as wide as itself and
-// at least as a texel, and half a texel more on each side for the samples, about a centre that may lie half a pixel
-// outside the edge.
+// At the screen's resolution a pixel reads one texel. The mask holds all samples of that texel, because a driver may
+// shade at another point where only some of them pass the depth test. At other resolutions, and in cached images, a
+// pixel reads a box about its centre, which may lie half a pixel outside the edge: as wide as a pixel and at least as a
+// texel, and half a texel more on each side for the samples.
 double lookupReach(const Settings& settings, bool standardLocations) {
   const ReflectionSettings& r = settings.reflection;
   if (r.scale != 1.0 || r.updateInterval > 1) {
@@ -35,7 +34,7 @@ double lookupReach(const Settings& settings, bool standardLocations) {
 }
 
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach) {
-  constexpr double rounding = 0.1;  // pixels, of float positions on the GPU, with room to spare
+  constexpr double rounding = 0.1;  // pixels; rounding of float positions on the GPU with room to spare
   const glm::dvec2 step = 2.0 / view.pictureSize;
   const glm::dvec2 perDevice(projection.aspect / projection.focal, 1.0 / projection.focal);
   const std::vector<glm::dvec3> rectangle = corners(view);
@@ -55,7 +54,7 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
     part = clipPolygon(part, Plane{line * (-offset / length2), line});
     cut = true;
   }
-  // An image is looked up only where its mirror is seen: without such a part, arithmetic failed.
+  // Nothing left can only be rounding, because the mirror is seen: keep the whole rectangle.
   if (!cut || part.size() < 3) {
     return {};
   }

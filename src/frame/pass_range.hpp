@@ -13,13 +13,13 @@ struct PassRange {
   size_t end = 0;
 };
 
-// The plan's passes in the order of recording, cut into ranges within which none shows another's image, so that they
-// can be drawn side by side. Passes of a range have depth of their own: together they are no larger than a picture of
-// their resolution, unless one alone is.
+// Cuts the plan's passes, in the order of recording, into ranges in which none shows another's image, so that a device
+// may overlap them. Each pass of a range has its own depth image; to bound that memory, a range covers no more pixels
+// than a picture at the passes' resolution, unless a single pass does.
 std::vector<PassRange> independentPasses(const FramePlan& plan);
 
-// Of a range's passes, the largest first: the place in it is that of the depth image it draws with, so that each of
-// these images is no larger than it must be.
+// A range's passes, largest first. The i-th of them draws with the i-th depth image, so that each depth image is as
+// small as it can be.
 std::vector<size_t> largestFirst(const FramePlan& plan, const PassRange& range);
 
 }  // namespace speculum

@@ -7,12 +7,12 @@
 
 namespace speculum {
 
-// A thing of a scene as people see it: "mirror 'floor'", or "mirror 2" for one without a name.
+// Name of a node for users: "mirror 'floor'", or "mirror 2" if it has none.
 std::string nameOf(const std::string& kind, const std::string& name, int index);
 
-// The name of a mirror as people see it: its `name`, or its index.
+// Name of a mirror for users: its `name`, or its index.
 std::string mirrorName(const Scene& scene, int mirror);
-// The mirrors of a path from the eye, as "floor > wall".
+// Name of a path for users: "floor > wall", from the eye on.
 std::string mirrorPathName(const Scene& scene, std::span<const int> path);
 
 }  // namespace speculum

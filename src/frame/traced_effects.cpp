@@ -22,14 +22,14 @@ bool asksForRays(const Scene& scene) {
                      [](const Mirror& m) { return m.roughness > 0.0 || m.ripple || m.castsLight; });
 }
 
-// What the passes draw that light falls on.
+// Surfaces in the passes that light falls on.
 struct Lit {
   std::vector<bool> instances;  // by index into SceneState::instances
-  bool any = false;             // of them
+  bool any = false;             // any instance at all
   bool mirrors = false;         // a layer under a reflection, or a back
 };
 
-// Adds the pass's own calls for effects, and what in it is lit.
+// Collects, pass by pass, what calls for effects and what is lit.
 class Collector {
  public:
   Collector(const Scene& scene, const SceneState& state, const EffectSettings& settings)
@@ -73,7 +73,7 @@ class Collector {
     }
   }
 
-  // What such rays meet may be anything in the scene.
+  // Reflected rays may meet anything in the scene.
   bool reflectsRays() const { return effects_.roughRays || effects_.curvedRays || !effects_.ripple.empty(); }
   bool anythingLit() const { return lit_.mirrors || lit_.any || reflectsRays(); }
 

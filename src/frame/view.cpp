@@ -9,8 +9,8 @@ namespace speculum {
 
 namespace {
 
-// As an angle at the eye. Rounding turns the plane through a shorter one by more than 1e-7, and what it bounds is no
-// wider than rounding anyway.
+// Angle at the eye. Rounding turns the plane through a shorter edge by more than 1e-7, and what that edge bounds is no
+// wider than rounding.
 constexpr double shortestEdge = 1e-9;
 
 // Planes through the eye and the polygon's edges, turned inwards. An edge that points at the eye bounds nothing.
@@ -44,7 +44,7 @@ std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3
     reach = std::max({reach, glm::length(p - view.clip->point), glm::length(p - polygon[0])});
     highest = std::max(highest, view.clip->distance(p));
   }
-  // A mirror in the plane of the one it would be seen in shows nothing; rounding must not lift it off.
+  // A mirror in the plane of the mirror it would be seen in is not seen; rounding must not lift it off that plane.
   if (highest <= 1e-12 * reach) {
     return {};
   }
@@ -99,7 +99,7 @@ void widen(View& view, const Projection& projection, int pixels) {
 glm::dvec2 overscan(const View& view) {
   const glm::dvec2 low(view.rect.x, view.rect.y);
   const glm::dvec2 high = low + glm::dvec2(view.rect.width, view.rect.height) - view.pictureSize;
-  // A rectangle is rounded up to whole pixels, which takes it past a picture's size that is not whole.
+  // Rectangles are rounded up to whole pixels and may so exceed a picture size that is not whole; floor() ignores that.
   const glm::dvec2 beyond = glm::max(-low, glm::floor(high));
   return 1.0 + 2.0 * glm::max(beyond, 0.0) / view.pictureSize;
 }
@@ -138,7 +138,7 @@ bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& 
   const glm::dvec3 axes = glm::dvec3(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
                                      glm::length(worldFromBox.linear[2])) *
                           halfExtent;
-  const double rounding = 1e-5 * (axes.x + axes.y + axes.z);  // of floats on the GPU, with room to spare
+  const double rounding = 1e-5 * (axes.x + axes.y + axes.z);  // float rounding on the GPU, with room to spare
   const auto reach = [&](const glm::dvec3& normal) {
     const glm::dvec3 along = glm::abs(normal * worldFromBox.linear) * halfExtent;
     return along.x + along.y + along.z + rounding;

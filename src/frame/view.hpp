@@ -11,12 +11,12 @@
 
 namespace speculum {
 
-// What one pass looks through: the camera, or the camera reflected in a chain of mirrors. All views of a frame share
-// one projection, so that a mirror's image lines up with the view it is seen from, pixel by pixel.
+// The camera, or the camera reflected in a chain of mirrors. All views of a frame share one projection, so that a
+// mirror image lines up with the view it is seen from, pixel by pixel.
 struct View {
   glm::dvec3 eye{0.0};           // world; reflected about every mirror of the path
   glm::dmat3 worldToView{1.0};   // V R1 .. Rk, linear part; apply it to differences from `eye`
-  std::optional<Plane> clip;     // world; only what is on its positive side is drawn
+  std::optional<Plane> clip;     // world; only its positive side is drawn
   std::vector<glm::dvec3> cone;  // world, inward unit normals of planes through `eye` that bound what can be seen
   PixelRect rect;                // pixels of the whole picture at this view's resolution
   glm::dvec2 pictureSize{0.0};   // pixels of the whole picture at this view's resolution; need not be whole
@@ -32,29 +32,28 @@ View mainView(const CameraPose& camera, const Projection& projection, int width,
 // Moves the rectangle's sides and the cone's planes outwards on the screen.
 void widen(View& view, const Projection& projection, int pixels);
 
-// The part of the plane of projection that must be drawn, in widths and heights of the picture, centred: 1 where
-// `view.rect` lies within the picture, more where an image has a margin beyond its border.
+// Size of the drawn part of the projection plane, centred, in widths and heights of the picture: 1 where `view.rect`
+// lies within the picture, more where an image has a margin beyond the picture's border.
 glm::dvec2 overscan(const View& view);
 
-// The view that a mirror's plane makes of `parent`. `plane` faces the parent's eye, `visible` is the part of the mirror
-// that the parent sees (world). `rect` and `pictureSize` are at the resolution of mirror images.
+// `parent` reflected about a mirror's plane. `plane` faces the parent's eye; `visible` is the mirror's visible region
+// (world). `rect` and `pictureSize` are at the resolution of mirror images.
 View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,
                    const PixelRect& rect, const glm::dvec2& pictureSize);
 
-// The part of a convex polygon (world) that the view can see: cut by its clip plane and by its cone.
+// Cuts a convex polygon (world) by the view's clip plane and cone.
 std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon);
 
-// What to draw of it: a little more, so that no edge is added where pixels count. A float cannot tell how near the eye
-// is to a polygon with vertices far outside the view; one cut in double keeps the pixels that it covers.
+// The same with a margin, for drawing, so that no new edge lies in the picture. Polygons with vertices far outside the
+// view are cut in double, because floats cannot tell how near the eye such a polygon passes.
 std::vector<glm::dvec3> drawnPart(const View& view, std::span<const glm::dvec3> polygon);
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 
-// Whether any of a box may be seen: `halfExtent` about the origin of its own space, which `worldFromBox` takes to the
-// world.
+// Whether the view may see a part of the box with `halfExtent` about the origin of its own space.
 bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent);
 
-// World positions to clip space, with the difference from the eye taken first.
+// Takes world positions to clip space, subtracting the eye first.
 std::vector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon);
 
 }  // namespace speculum
