@@ -16,10 +16,24 @@ if(SPECULUM_SANITIZE)
   target_link_options(speculum_flags INTERFACE -fsanitize=${SPECULUM_SANITIZE})
 endif()
 
-# speculum_library(NAME PUBLIC dep... PRIVATE dep...): the static library of src/NAME. Its headers are included as
-# "NAME/header.hpp", and only by targets that link NAME: the include path holds nothing but that one folder.
+# speculum_precompiled(NAME LIBRARIES lib... HEADERS header... [LIGHT]): headers that many sources include, compiled once.
+# Targets take them with target_precompile_headers(TARGET REUSE_FROM NAME), and need the same optimisation as NAME.
+function(speculum_precompiled name)
+  cmake_parse_arguments(ARG "LIGHT" "" "LIBRARIES;HEADERS" ${ARGN})
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} speculum_flags)
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+  if(ARG_LIGHT)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endfunction()
+
+# speculum_library(NAME PUBLIC dep... PRIVATE dep... [LIGHT]): the static library of src/NAME. Its headers are included as
+# "NAME/header.hpp", and only by targets that link NAME: the include path holds nothing but that one folder. A LIGHT one
+# waits for the user or the GPU: optimising it takes longer than it saves.
 function(speculum_library name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(include_dir ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${include_dir})
@@ -28,6 +42,14 @@ function(speculum_library name)
     add_library(${name} STATIC ${sources})
     target_include_directories(${name} PUBLIC ${include_dir})
     target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} speculum_flags)
+    if(ARG_LIGHT)
+      target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+      target_precompile_headers(${name} REUSE_FROM light_headers)
+    else()
+      target_precompile_headers(${name} REUSE_FROM fast_headers)
+      # GCC 12 takes string copies of a precompiled header for code of this project and warns of sizes that none has.
+      target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
+    endif()
   else()
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE ${include_dir})

@@ -1,13 +1,19 @@
 # Sourced by check-hard-cases and hard-case-pictures, which set `root`: a worktree of the last commit, in which the
-# patches of tests/hard_cases/mutations put the naive method in the place of a stable one.
+# patches of tests/hard_cases/mutations put the naive method in the place of a stable one. It stays in build/naive, so
+# that the next run compiles only what has changed.
 
 patches=$root/tests/hard_cases/mutations
+tree=$root/build/naive
 
 make_naive_tree() {
   scratch=$(mktemp -d)
-  tree=$scratch/speculum
-  trap 'git -C "$root" worktree remove --force "$tree" 2>/dev/null; rm -rf "$scratch"' EXIT
-  git -C "$root" worktree add --quiet --detach "$tree" HEAD
+  trap 'rm -rf "$scratch"' EXIT
+  if [ -e "$tree/.git" ]; then
+    git -C "$tree" checkout --quiet --detach --force "$(git -C "$root" rev-parse HEAD)"
+  else
+    git -C "$root" worktree prune
+    git -C "$root" worktree add --quiet --detach "$tree" HEAD
+  fi
   export CCACHE_BASEDIR=$tree CCACHE_NOHASHDIR=1 TEST_TMPDIR=$scratch/ LP_NATIVE_VECTOR_WIDTH=128
   cmake -S "$tree" --preset ci >"$scratch/build.log" || { cat "$scratch/build.log" >&2; return 1; }
 }

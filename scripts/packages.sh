@@ -17,6 +17,9 @@ bench_packages=(python3)
 # For scripts/fuzz only.
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 
+# For scripts/check_metrics only.
+metrics_packages=(python3-skimage)
+
 # install_missing PACKAGE...: silent when everything is there.
 install_missing() {
   local missing=() package

@@ -8,6 +8,6 @@ foreach(name core_retire_queue core_device core_render core_barriers core_pipeli
   speculum_test(${name} SOURCES core_fixture.cpp ${name}.cpp LIBRARIES core ext::spdlog)
   add_dependencies(${name} test_shaders)
 endforeach()
-speculum_test(core_window SOURCES core_fixture.cpp virtual_display.cpp core_window.cpp LIBRARIES core ext::spdlog
-              LABELS window)
+speculum_test(core_window SOURCES core_fixture.cpp core_window.cpp
+              LIBRARIES core display_support ext::spdlog LABELS window)
 add_dependencies(core_window test_shaders)

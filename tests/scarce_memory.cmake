@@ -1,4 +1,2 @@
-speculum_test(scarce_memory_tests
-              SOURCES demo_memory.cpp scarce_memory.cpp picture_support.cpp virtual_display.cpp
-              LIBRARIES app
-              LABELS window TIMEOUT 300)
+speculum_test(scarce_memory_tests SOURCES demo_memory.cpp scarce_memory.cpp
+              LIBRARIES picture_support display_support LABELS window)

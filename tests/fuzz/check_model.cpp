@@ -38,7 +38,7 @@ void checkMesh(const Mesh& mesh, size_t textureCount) {
 }  // namespace
 
 void checkModel(std::string_view text) {
-  static const InputFolder folder("model");
+  static const TemporaryFolder folder;
   static const bool hasTexture = [] {
     writePng(folder / "t.png", Image8(2, 2));
     return true;

@@ -127,7 +127,7 @@ void editScene(Scene scene, std::string_view text, const std::filesystem::path& 
 }  // namespace
 
 void checkScene(std::string_view text) {
-  static const InputFolder folder("scene");
+  static const TemporaryFolder folder;
   static const std::array models{
       folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
       folder.write("large.obj", "v 0 0 0\nv 1e200 0 0\nv 0 -1e200 0\nf 1 2 3\n"),

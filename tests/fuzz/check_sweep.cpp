@@ -35,7 +35,7 @@ void checkPlan(const SweepPlan& plan) {
 }  // namespace
 
 void checkSweep(std::string_view text) {
-  static const InputFolder folder("sweep");
+  static const TemporaryFolder folder;
   SweepResults results;
   const std::filesystem::path json = folder.write("results.json", text);
   if (accepted([&] { results = readSweepResults(json); })) {

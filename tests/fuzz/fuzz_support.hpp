@@ -1,31 +1,14 @@
 #pragma once
 
 #include <cmath>
-#include <filesystem>
 #include <glm/glm.hpp>
-#include <string>
 #include <string_view>
 
 #include "fuzz_checks.hpp"
 #include "scene/scene_loader.hpp"
+#include "temporary_folder.hpp"
 
 namespace speculum::fuzz {
-
-// The folder that holds one kind of input and what goes with it; there until the program ends, but a fuzzer ends
-// without cleaning up.
-class InputFolder {
- public:
-  explicit InputFolder(std::string_view kind);
-  ~InputFolder();
-  InputFolder(const InputFolder&) = delete;
-  InputFolder& operator=(const InputFolder&) = delete;
-
-  std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-  std::filesystem::path write(std::string_view name, std::string_view content) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 void require(bool kept, const char* promise);
 

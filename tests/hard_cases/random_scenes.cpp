@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "geometry/affine.hpp"
+#include "sampling.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 
@@ -158,7 +159,8 @@ TEST_P(HardScenes, AreTheTracers) {
   expectHardTruth(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, HardScenes, testing::Range(0u, 200u));
+INSTANTIATE_TEST_SUITE_P(Seeds, HardScenes, testing::ValuesIn(sampledSeeds(200, 10)),
+                         testing::PrintToStringParamName());
 
 TEST(FreshHardScene, IsTheTracers) {
   unsigned seed = std::random_device()() % 1000000 + 1000;
