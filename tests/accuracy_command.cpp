@@ -85,7 +85,7 @@ class AccuracyCommand : public testing::Test {
   TemporaryDirectory out_;
 };
 
-TEST_F(AccuracyCommand, WritesAReportWhosePicturesHaveTheErrorsItSays) {
+TEST_F(AccuracyCommand, ReportsErrorsOfItsPictures) {
   const ProcessResult result = measure();
   ASSERT_EQ(result.exitCode, 0) << result.output;
   const SweepResults results = readSweepResults(out("report/results.json"));
@@ -111,14 +111,14 @@ TEST_F(AccuracyCommand, WritesAReportWhosePicturesHaveTheErrorsItSays) {
   EXPECT_NE(html.find("<svg"), std::string::npos);
 }
 
-TEST_F(AccuracyCommand, ASecondRunMeasuresNothingAnew) {
+TEST_F(AccuracyCommand, SecondRunMeasuresNothing) {
   ASSERT_EQ(measure().exitCode, 0);
   const std::string first = readText(out("report/measurements/measurements.json"));
   ASSERT_EQ(measure().exitCode, 0);
   EXPECT_EQ(readText(out("report/measurements/measurements.json")), first);
 }
 
-TEST_F(AccuracyCommand, AStoredSweepChoosesForABudget) {
+TEST_F(AccuracyCommand, StoredSweepMeetsABudget) {
   ASSERT_EQ(measure().exitCode, 0);
   const SweepResults results = readSweepResults(out("report/results.json"));
   const auto chosen = [&](const std::string& bound) {
@@ -172,7 +172,7 @@ TEST_F(AccuracyCommand, MistakesAreOneLineAndExitTwo) {
             std::string::npos);
 }
 
-TEST_F(AccuracyCommand, BenchOfTheReference) {
+TEST_F(AccuracyCommand, BenchesTheReference) {
   const ProcessResult result = speculum({"bench", "--reference", "--json", out("b.json")});
   ASSERT_EQ(result.exitCode, 0) << result.output;
   EXPECT_NE(result.output.find("million rays per second"), std::string::npos) << result.output;

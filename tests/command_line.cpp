@@ -181,7 +181,7 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
   EXPECT_EQ(stats["totals"]["non_finite"], 0);
 }
 
-TEST_F(CommandLine, RadianceThatIsNegativeIsNamedAndExitsOne) {
+TEST_F(CommandLine, NegativeRadianceExitsOne) {
   const TemporaryDirectory shaders;
   writeShaders(shaders.path(), "scene_shading.glsl", "  color.r = -1.0;\n");
   const auto run = [&](std::vector<std::string> arguments, const std::string& checked) {
@@ -221,7 +221,7 @@ TEST_F(CommandLine, BenchSummarisesTimes) {
 }
 
 // Of a scene that stands still, too: otherwise it would measure nothing.
-TEST_F(CommandLine, BenchRendersEveryImageUnlessAskedNotTo) {
+TEST_F(CommandLine, BenchRendersEveryImageByDefault) {
   const auto mirrorPasses = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments = {"bench",          "--scene", "single_plane", "--size", "64x36",
                                           "--frames",       "3",       "--warmup",     "1",      "--json",
@@ -254,7 +254,7 @@ TEST_F(CommandLine, SequenceWritesEveryPictureAndTimeMoves) {
   EXPECT_FALSE(fs::exists(out("003.png")));
 }
 
-TEST_F(CommandLine, ExrIsTheLinearPictureBehindThePng) {
+TEST_F(CommandLine, ExrHoldsThePicturesRadiance) {
   for (const char* name : {"a.png", "a.exr"}) {
     ASSERT_EQ(speculum({"render", "--scene", scene_, "--size", "64x36", "--out", out(name)}).exitCode, 0);
   }
@@ -262,7 +262,7 @@ TEST_F(CommandLine, ExrIsTheLinearPictureBehindThePng) {
   EXPECT_LE(difference(shown, readImage8(out("a.png")), 1).largest, 1);
 }
 
-TEST_F(CommandLine, CompareTellsEqualFromDifferent) {
+TEST_F(CommandLine, CompareDistinguishesPictures) {
   for (const auto& [name, exposure] : std::map<std::string, std::string>{{"a.png", "1"}, {"b.png", "1.2"}}) {
     ASSERT_EQ(speculum({"render", "--scene", scene_, "--size", "64x36", "--out", out(name), "--set",
                         "view.exposure=" + exposure})
@@ -284,7 +284,7 @@ TEST_F(CommandLine, CompareTellsEqualFromDifferent) {
   EXPECT_EQ(speculum({"compare", out("a.png"), out("missing.png")}).exitCode, 2);
 }
 
-TEST_F(CommandLine, ACameraTakesThePlaceOfTheScenes) {
+TEST_F(CommandLine, CameraReplacesTheScenes) {
   const auto render = [&](const std::string& name, std::vector<std::string> more) {
     more.insert(more.begin(), {"render", "--scene", scene_, "--size", "64x36", "--out", out(name)});
     const ProcessResult result = speculum(more);
@@ -304,7 +304,7 @@ TEST_F(CommandLine, ACameraTakesThePlaceOfTheScenes) {
   expectAlike(readImage8(out("other.png")), readImage8(out("traced.png")), 2, "command_line_camera");
 }
 
-TEST_F(CommandLine, ABookmarkIsACamera) {
+TEST_F(CommandLine, BookmarkIsACamera) {
   const auto render = [&](const std::string& camera) {
     const ProcessResult result =
         speculum({"render", "--scene", scene_, "--size", "64x36", "--camera", camera, "--out", out("b.png")});
@@ -318,7 +318,7 @@ TEST_F(CommandLine, ABookmarkIsACamera) {
   EXPECT_EQ(wrong.output, "--camera: the scene has no bookmark 'asid' (did you mean 'aside'?)\n");
 }
 
-TEST_F(CommandLine, ReferenceIsThePictureThatTheRendererDraws) {
+TEST_F(CommandLine, ReferenceMatchesTheRenderer) {
   ASSERT_EQ(
       speculum({"reference", "--scene", scene_, "--size", "160x90", "--samples", "1", "--out", out("r.png")}).exitCode,
       0);
@@ -351,7 +351,7 @@ TEST_F(CommandLine, SmallestAndFlattestPicturesAreDrawn) {
   }
 }
 
-TEST_F(CommandLine, BenchSaysWhatEachEffectCosts) {
+TEST_F(CommandLine, BenchListsTheCostOfEffects) {
   const std::string scene =
       writeScene("effects", smallScene +
                                 "[[mirror]]\nname = 'rough'\nposition = [1, 1, -1]\nsize = [1, 1]\nroughness = 0.2\n"

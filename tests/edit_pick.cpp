@@ -256,7 +256,7 @@ TEST_F(Corridor, IsPickedDirectlyAndThroughMirrors) {
   EXPECT_EQ(twice[2].what, ahead);
 }
 
-TEST_F(Corridor, FollowsMirrorsAsFarAsTheyAreDrawn) {
+TEST_F(Corridor, FollowsMirrorsAsDeepAsDrawn) {
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.maxDepth = 1})[0].what, behind) << "it shows the background";
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.maxDepth = 0})[0].what, ahead);
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.minThroughput = 0.93})[0].what, behind) << "0.95 squared is below";
@@ -273,7 +273,7 @@ TEST_F(Corridor, LightsArePickedByTheirGlow) {
   EXPECT_TRUE(picker_.at(state_, picture_, {2.0, 2.0}, {}).empty()) << "the background";
 }
 
-TEST_F(Corridor, MirrorsAreLookedThroughFromTheirFrontOnly) {
+TEST_F(Corridor, MirrorsReflectOnTheirFrontOnly) {
   EXPECT_TRUE(picture_.through(scene_, state_, std::vector<int>{0, 1, 0}));
   EXPECT_FALSE(picture_.through(scene_, state_, std::vector<int>{1})) << "behind the eye";
   EXPECT_FALSE(picture_.through(scene_, state_, std::vector<int>{0, 7}));

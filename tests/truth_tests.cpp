@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sampling.hpp"
+#include "scene_text.hpp"
 #include "truth_support.hpp"
 
 namespace speculum {
@@ -33,19 +34,11 @@ INSTANTIATE_TEST_SUITE_P(HardScenes, SceneTruth,
                                          "hard/turning_fast"),
                          [](const auto& info) { return std::string(info.param).substr(5); });
 
-std::string randomObject(Random& random, unsigned seed) {
-  static constexpr std::array<const char*, 6> models = {"teapot", "torus_knot", "sphere", "vase", "queen", "gem"};
-  const std::string model = random.chance(0.4) ? writeRandomMesh(seed) : "MODELS/" + random.pick(models) + ".obj";
+// A point in a box, as a scene file takes it.
+std::string pointText(Random& random, const glm::dvec3& low, const glm::dvec3& high) {
   std::ostringstream out;
-  const double size = random.uniform(0.3, 1.0);
-  out << "[[object]]\nmodel = \"" << model << "\"\nposition = [" << random.uniform(-3, 3) << ", "
-      << random.uniform(-0.5, 2) << ", " << random.uniform(-2.5, 2.5) << "]\nrotation = " << random.vec(-180, 180)
-      << "\nscale = [" << (random.chance(0.3) ? -size : size) << ", " << size * random.uniform(0.5, 2) << ", " << size
-      << "]\n";
-  if (random.chance(0.5)) {
-    out << "color = " << random.vec(0, 1) << "\nspecular = " << random.vec(0, 0.3)
-        << "\nshininess = " << std::pow(10.0, random.uniform(0, 3)) << "\n";
-  }
+  out << "[" << random.uniform(low.x, high.x) << ", " << random.uniform(low.y, high.y) << ", "
+      << random.uniform(low.z, high.z) << "]";
   return out.str();
 }
 
@@ -76,13 +69,13 @@ std::filesystem::path randomScene(unsigned seed) {
   out << "[camera]\nposition = [" << random.uniform(-0.8, 0.8) << ", " << random.uniform(0.5, 1.5) << ", "
       << random.uniform(2.6, 3.4) << "]\ntarget = [" << random.uniform(-0.4, 0.4) << ", " << random.uniform(0.6, 1.2)
       << ", -3]\nvertical_fov = " << random.uniform(45, 80) << "\n";
-  for (int i = 0; i < 7; ++i) {
-    out << randomObject(random, seed * 16 + static_cast<unsigned>(i));
+  for (unsigned i = 0; i < 7; ++i) {
+    out << randomObjectText(random, seed * 16 + i, 1.0, {0.5, 2}, [&] {
+      return pointText(random, {-3, -0.5, -2.5}, {3, 2, 2.5});
+    });
   }
   for (int i = 0; i < 2; ++i) {
-    out << "[[light]]\nposition = [" << random.uniform(-3, 3) << ", " << random.uniform(1, 4) << ", "
-        << random.uniform(-2, 3) << "]\ncolor = " << random.vec(0.2, 1) << "\nintensity = " << random.uniform(3, 15)
-        << "\nradius = " << random.uniform(0.02, 0.2) << "\n";
+    out << randomLightText(random, pointText(random, {-3, 1, -2}, {3, 4, 3}));
   }
   out << randomMirror(random, 0, 1, -3, 0, random.uniform(12, 15));
   if (seed % 2 == 0) {

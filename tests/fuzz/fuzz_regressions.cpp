@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Each, FuzzInputs,
                                          Subject{"sweep", checkSweep}),
                          [](const auto& info) { return std::string(info.param.name); });
 
-TEST(FuzzHeapWatch, SeesWhatIsAllocatedInBetween) {
+TEST(FuzzHeapWatch, CountsAllocations) {
   restartHeapPeak();
   const size_t before = heapPeak();
   std::vector<char>(8u << 20, 'x').back() = 'y';

@@ -11,7 +11,6 @@
 namespace speculum {
 namespace {
 
-using namespace hard_cases;
 using namespace testing_support;
 
 constexpr PictureSize size{641, 361};  // odd: the middle of a pixel looks at the target
@@ -20,14 +19,9 @@ std::string environment(const glm::dvec3& background) {
   return "[environment]\nbackground = " + text(background) + "\nambient = [1, 1, 1]\n";
 }
 
-std::string camera(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up = {0, 1, 0}) {
-  return "[camera]\nposition = " + text(eye) + "\ntarget = " + text(target) + "\nup = " + text(up) + "\n";
-}
-
 // A square of that half side about a point; the rotation turns it from facing +z.
 std::string quad(const glm::dvec3& center, const glm::dvec3& rotation, double half, const glm::dvec3& color) {
-  return "[[object]]\nmodel = \"quad.obj\"\nposition = " + text(center) + "\nrotation = " + text(rotation) +
-         "\nscale = " + text(half) + "\ncolor = " + text(color) + "\n";
+  return objectText("quad.obj", center, rotation, half, color);
 }
 
 const glm::dvec3 red(1, 0, 0);
@@ -54,7 +48,7 @@ Count countColors(const Image8& picture) {
 
 Image8 drawWith(const std::string& name, const std::string& scene, const std::string& clip = "clip_distance") {
   writeQuad();
-  Options options = truthOptions(sceneFile(name, scene), size, 1);
+  Options options = truthOptions(writeScene(name, scene), size, 1);
   options.settings.emplace_back("reflection.clip", clip);
   return draw(options);
 }
@@ -83,7 +77,7 @@ NearMirror nearMirror(double h, double angleDegrees) {
   view.eye = {0, 0, h};
   view.toPair = {std::sin(a), 0.0, std::cos(a)};
   view.rotation = {0, 180 + angleDegrees, 0};
-  view.prefix = environment({0, 0, 0}) + camera(view.eye, view.eye + glm::dvec3(std::sin(a), 0.0, -std::cos(a))) +
+  view.prefix = environment({0, 0, 0}) + cameraText(view.eye, view.eye + glm::dvec3(std::sin(a), 0.0, -std::cos(a))) +
                 "[[mirror]]\nposition = [0, 0, 0]\nsize = [1e4, 1e4]\nreflectance = [1, 1, 1]\n";
   return view;
 }
@@ -114,7 +108,7 @@ TEST(EyeAMicrometreFromTheMirror, ObliqueDepthLosesIt) {
 Count orderAtAngle(double angle, double relativeGap) {
   const glm::dvec3 rotation(-angle, 0, 0);
   const double half = angle < 70 ? 20.0 : 40.0;
-  const std::string prefix = environment({0, 0, 0}) + camera({0, 0, 0}, {0, 0, -50});
+  const std::string prefix = environment({0, 0, 0}) + cameraText({0, 0, 0}, {0, 0, -50});
   return orderOf("grazing", prefix, quad({0, 0, -50}, rotation, half, red),
                  quad({0, 0, -50.0 * (1.0 + relativeGap)}, rotation, half, green));
 }
@@ -158,7 +152,7 @@ std::string nearPlaneScene(double near, double distance, const std::string& mirr
 TEST(EyeNearerThanTheNearPlane, MirrorCoversTheView) {
   for (const auto& [near, distance] : {std::pair(0.1, 0.01), std::pair(10.0, 0.01), std::pair(0.1, 1e-5)}) {
     const Image8 black = draw(
-        truthOptions(sceneFile("near_plane", nearPlaneScene(near, distance, "reflectance = [0, 0, 0]\n")), size, 4));
+        truthOptions(writeScene("near_plane", nearPlaneScene(near, distance, "reflectance = [0, 0, 0]\n")), size, 4));
     EXPECT_EQ(countColors(black).red, 0) << "a hole: near " << near << ", " << distance << " m from the mirror";
   }
 }
@@ -174,7 +168,7 @@ TEST(EyeNearerThanTheNearPlane, CuttingAtNearLeavesAHole) {
 }
 
 TEST(EyeNearerThanTheNearPlane, ReflectionIsRight) {
-  const std::filesystem::path file = sceneFile("near_plane_truth", nearPlaneScene(0.1, 0.01, R"(
+  const std::filesystem::path file = writeScene("near_plane_truth", nearPlaneScene(0.1, 0.01, R"(
 [[object]]
 model = "MODELS/torus_knot.obj"
 position = [0.3, 1, 2]
@@ -194,7 +188,7 @@ constexpr PictureSize tileSize{640, 360};  // even: turned left to right, pixel 
 const glm::dvec3 plateAngles(-70, 25, 10);
 
 std::string plateScene(double side, const std::string& mirror) {
-  return environment(blue) + camera({side * 1.6, 0.5, 0.3}, {-side, 0.12, 0.05}) +
+  return environment(blue) + cameraText({side * 1.6, 0.5, 0.3}, {-side, 0.12, 0.05}) +
          quad({0.02, -0.3, 0.1}, plateAngles, 3, red) +
          (mirror.empty() ? ""
                          : "[[mirror]]\npolygon = [[0, -99, 99], [0, -99, -99], [0, 99, -99], [0, 99, 99]]\n" + mirror);
@@ -202,7 +196,7 @@ std::string plateScene(double side, const std::string& mirror) {
 
 Image8 drawPlate(const std::string& name, const std::string& scene, const std::string& clip) {
   writeQuad();
-  Options options = truthOptions(sceneFile(name, scene), tileSize, 1);
+  Options options = truthOptions(writeScene(name, scene), tileSize, 1);
   options.settings.emplace_back("reflection.clip", clip);
   return draw(options);
 }
@@ -222,7 +216,7 @@ double distanceFromSeam(int x, int y) {
 // The image that the mirror looks up, also where something stands before the mirror.
 Image8 plateInMirror(const std::string& clip) {
   writeQuad();
-  Options options = truthOptions(sceneFile("plate_mirrored", plateScene(1, "reflectance = [1, 1, 1]\n")), tileSize, 1);
+  Options options = truthOptions(writeScene("plate_mirrored", plateScene(1, "reflectance = [1, 1, 1]\n")), tileSize, 1);
   options.settings.emplace_back("reflection.clip", clip);
   Session session(options);
   const DrawnFrame first = session.draw(0.0, false);

@@ -13,7 +13,6 @@
 namespace speculum {
 namespace {
 
-using namespace hard_cases;
 using namespace testing_support;
 
 constexpr PictureSize size{641, 361};
@@ -54,9 +53,8 @@ constexpr double wallDistance = 20.0;  // metres between the mirrors of a nested
 std::string prefixOf(const Case& c) {
   const double s = std::sqrt(0.5);
   const glm::dvec3 eye(0, 0, c.h);
-  std::string scene = "[environment]\nbackground = [0, 0, 0]\nambient = [1, 1, 1]\n[camera]\nposition = " + text(eye) +
-                      "\ntarget = " + text(eye + glm::dvec3(s, 0, -s)) +
-                      "\nvertical_fov = " + text(c.nested ? 15.0 : 60.0) +
+  std::string scene = "[environment]\nbackground = [0, 0, 0]\nambient = [1, 1, 1]\n" +
+                      cameraText(eye, eye + glm::dvec3(s, 0, -s)) + "vertical_fov = " + text(c.nested ? 15.0 : 60.0) +
                       "\n[[mirror]]\nposition = [0, 0, 0]\nsize = [1e4, 1e4]\nreflectance = [1, 1, 1]\n";
   if (c.nested) {
     scene += "[[mirror]]\nposition = " + text(glm::dvec3(0, 0, wallDistance)) +
@@ -66,26 +64,24 @@ std::string prefixOf(const Case& c) {
 }
 
 // A square at `distance` along the path, `scale` of what fills a good part of the picture.
-std::string square(const Case& c, double distance, double scale, const char* model, const char* color) {
+std::string square(const Case& c, double distance, double scale, const char* model, const glm::dvec3& color) {
   const double s = std::sqrt(0.5);
   const glm::dvec3 direction(s, 0, c.nested ? -s : s);  // where the line of sight leads after its mirrors
   const glm::dvec3 image(0, 0, c.nested ? 2 * wallDistance + c.h : -c.h);
   const double half = (c.nested ? 0.2 : 1.0) * c.half * c.distance * scale;
   // Facing the eye's image, then turned by 45 degrees about x.
-  return std::string("[[object]]\nmodel = \"") + model + "\"\nposition = " + text(image + distance * direction) +
-         "\nrotation = " + text(glm::dvec3(45, c.nested ? -45 : 225, 0)) + "\nscale = " + text(half) +
-         "\ncolor = " + color + "\n";
+  return objectText(model, image + distance * direction, {45, c.nested ? -45 : 225, 0}, half, color);
 }
 
 Options optionsOf(const Case& c, const std::string& squares, const std::string& clip) {
-  Options options = truthOptions(sceneFile("readout", prefixOf(c) + squares), size, c.nested ? 2 : 1);
+  Options options = truthOptions(writeScene("readout", prefixOf(c) + squares), size, c.nested ? 2 : 1);
   options.settings.emplace_back("reflection.clip", clip);
   return options;
 }
 
 // Of the pass that the squares are to be seen in.
 DepthReadout readoutOf(const Case& c) {
-  Session session(optionsOf(c, square(c, c.distance, 1.0, c.near, "[1, 0, 0]"), "clip_distance"));
+  Session session(optionsOf(c, square(c, c.distance, 1.0, c.near, {1, 0, 0}), "clip_distance"));
   const DrawnFrame& frame = session.draw(0.0, false);
   const size_t depth = c.nested ? 2 : 1;
   for (const PlannedPass& pass : frame.plan.passes) {
@@ -106,8 +102,8 @@ struct Count {
 // Both orders of drawing: with equal depths the one that is drawn first stays. What the nearer square covers is drawn
 // by itself: the mirror's plane cuts the two along lines a gap apart.
 Count orderOf(const Case& c, double gap, const std::string& clip) {
-  const std::string nearer = square(c, c.distance, 1.0, c.near, "[1, 0, 0]");
-  const std::string farther = square(c, c.distance + gap, 0.96, c.far, "[0, 1, 0]");
+  const std::string nearer = square(c, c.distance, 1.0, c.near, {1, 0, 0});
+  const std::string farther = square(c, c.distance + gap, 0.96, c.far, {0, 1, 0});
   const Image8 alone = draw(optionsOf(c, nearer, clip));
   Count count;
   for (const std::string& squares : {nearer + farther, farther + nearer}) {
@@ -175,36 +171,36 @@ class DepthReadoutOf : public testing::Test {
 constexpr std::array<std::pair<const char*, const char*>, 4> meshes = {
     {{"quad.obj", "grid.obj"}, {"grid.obj", "quad.obj"}, {"grid.obj", "grid.obj"}, {"quad.obj", "quad.obj"}}};
 
-TEST_F(DepthReadoutOf, AMirrorAMetreAwayHoldsForMeshesOfAnyKind) {
+TEST_F(DepthReadoutOf, GapHoldsForEveryMesh) {
   for (const auto& [near, far] : meshes) {
     EXPECT_EQ(expectInOrder({.near = near, .far = far}), 3);
   }
 }
 
-TEST_F(DepthReadoutOf, AMirrorAMetreAwayHoldsAtEveryDistance) {
+TEST_F(DepthReadoutOf, GapHoldsAtEveryDistance) {
   EXPECT_EQ(expectInOrder({.distance = 5.0}), 3);
   EXPECT_EQ(expectInOrder({.distance = 500.0}), 3);
 }
 
-TEST_F(DepthReadoutOf, AMirrorHoldsForSurfacesThatTheViewAndTheMirrorCut) {
+TEST_F(DepthReadoutOf, GapHoldsForCutSurfaces) {
   for (const auto& [near, far] : meshes) {
     EXPECT_EQ(expectInOrder({.half = 1.0, .near = near, .far = far}), 3);
   }
 }
 
-TEST_F(DepthReadoutOf, ANearMirrorHolds) {
+TEST_F(DepthReadoutOf, GapHoldsInANearMirror) {
   EXPECT_EQ(expectInOrder({.h = 0.01}), 3);
   EXPECT_EQ(expectInOrder({.h = 1e-6}), 2) << "oblique depth keeps no gap there";
   EXPECT_FALSE(readoutOf({.h = 1e-6}).oblique);
 }
 
-TEST_F(DepthReadoutOf, AMirrorInAMirrorHolds) {
+TEST_F(DepthReadoutOf, GapHoldsInAMirrorInAMirror) {
   EXPECT_EQ(expectInOrder({.h = 1.0, .distance = 45.0, .nested = true}), 3);
   EXPECT_EQ(expectInOrder({.h = 0.01, .distance = 45.0, .nested = true, .near = "grid.obj", .far = "quad.obj"}), 3);
 }
 
 // What the bound leaves: snapping that this rasteriser does not pass on to depth, and errors that seldom meet.
-TEST_F(DepthReadoutOf, AHundredthOfTheGapFails) {
+TEST_F(DepthReadoutOf, HundredthOfTheGapFails) {
   int lost = 0;
   for (const auto& [near, far] : meshes) {
     lost += losing({.near = near, .far = far}, 1.0 / 100.0);

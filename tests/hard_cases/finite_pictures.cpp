@@ -83,7 +83,7 @@ std::filesystem::path writeLitScene() {
   writeModel("cancelling.obj",
              "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nvn 0 0 -1\nvn 1 0 0\nvn -1 0 0\n"
              "f 1//1 2//2 3//1\nf 1//3 3//4 4//3\n");
-  return sceneFile("lit", litScene);
+  return writeScene("lit", litScene);
 }
 
 int notStorable(const LinearImage& image) {
@@ -107,7 +107,7 @@ TEST(LightOnASurface, EveryPixelIsFinite) {
   }
 }
 
-TEST(LightOnASurface, PictureIsTheTracers) {
+TEST(LightOnASurface, MatchesTheTracer) {
   const std::filesystem::path file = writeLitScene();
   expectTruth(file, size, 3, trace(file, size, 3));
 }
@@ -121,7 +121,7 @@ float naiveRadiance(const glm::vec3& n, const glm::vec3& toLight, const glm::vec
   return quotient(irradiance * glm::dot(n, l), glm::dot(toLight, toLight)) * brdf;
 }
 
-TEST(LightOnASurface, ShadingWithoutFloorsIsNot) {
+TEST(LightOnASurface, ShadingWithoutFloorsIsNotFinite) {
   const glm::vec3 n(0, 0, 1);
   const glm::vec3 up(0, 0, 1);
   EXPECT_FALSE(std::isfinite(naiveRadiance(n, glm::vec3(0.0f), up, 5.0f, 0.0f, 1.0f))) << "light on the surface";
@@ -137,8 +137,8 @@ TEST(LightOnASurface, ShadingWithoutFloorsIsNot) {
 class AnySize : public testing::TestWithParam<PictureSize> {};
 
 // A mirror over all of the view shows the sky; a body would have edges, and a pixel here is metres wide.
-TEST_P(AnySize, PictureIsTheTracers) {
-  const std::filesystem::path file = sceneFile("any_size", R"([environment]
+TEST_P(AnySize, MatchesTheTracer) {
+  const std::filesystem::path file = writeScene("any_size", R"([environment]
 sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
 [camera]
 position = [0, 1, 2]
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
     Sizes, AnySize, testing::Values(PictureSize{1, 1}, PictureSize{2, 1}, PictureSize{1, 720}, PictureSize{8192, 1}),
     [](const auto& info) { return std::to_string(info.param.width) + "x" + std::to_string(info.param.height); });
 
-TEST(AnySizeOfView, ProjectionOfNoHeightIsNotANumber) {
+TEST(AnySizeOfView, ZeroHeightHasNoFiniteProjection) {
   const Projection projection(1.0, quotient(640.0, 0.0), 0.001);
   EXPECT_FALSE(std::isfinite(quotient(1.0, projection.matrix()[0][0]))) << "the naive way should fail";
 }
@@ -185,7 +185,7 @@ Options windowOptions() {
   return options;
 }
 
-TEST(TimeSteps, PauseOfTheProgramIsNoneOfTheAnimations) {
+TEST(TimeSteps, SuspendDoesNotAdvanceAnimation) {
   const test::VirtualDisplay display(1280, 900);
   Demo demo(windowOptions());
   ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > 2; }));
@@ -197,7 +197,7 @@ TEST(TimeSteps, PauseOfTheProgramIsNoneOfTheAnimations) {
   EXPECT_LT(demo.model().time - before, 0.5);
 }
 
-TEST(AnySizeOfWindow, OnePixelRunsAndNoneAtAllPauses) {
+TEST(AnySizeOfWindow, OnePixelRunsAndMinimisedPauses) {
   const test::VirtualDisplay display(1280, 900);
   Demo demo(windowOptions());
   const auto until = [&](const auto& condition) { return runUntil(demo, condition); };

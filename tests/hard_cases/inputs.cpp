@@ -14,16 +14,8 @@
 namespace speculum {
 namespace {
 
-using hard_cases::text;
+using testing_support::text;
 using Polygon = std::vector<glm::dvec3>;
-
-std::string polygonText(const Polygon& polygon) {
-  std::string out = "polygon = [";
-  for (const glm::dvec3& p : polygon) {
-    out += text(p) + ", ";
-  }
-  return out + "]\n";
-}
 
 class RejectedShapes : public testing::Test {
  protected:
@@ -33,7 +25,9 @@ class RejectedShapes : public testing::Test {
     folder_.write("t.obj", kTriangleObj);
     return inputErrorOf([&] { loadScene(file); });
   }
-  std::string mirrorMessage(const Polygon& polygon) { return message("[[mirror]]\n" + polygonText(polygon)); }
+  std::string mirrorMessage(const Polygon& polygon) {
+    return message("[[mirror]]\n" + testing_support::polygonText(polygon));
+  }
   void expectRejected(const std::string& rest, const std::string& says) {
     const std::string text = message(rest);
     EXPECT_NE(text.find("scene.toml:"), std::string::npos) << text;
@@ -119,7 +113,7 @@ class SliverTriangles : public testing::Test {
   LogCapture log_;
 };
 
-TEST_F(SliverTriangles, AreWarnedOfBelowOneInAHundredThousand) {
+TEST_F(SliverTriangles, AreReportedBelow1e5) {
   EXPECT_EQ(load(sliver(1.1e-5)).indices.size(), 3u);
   EXPECT_EQ(log_.text(), "");
   const Mesh mesh = load(sliver(0.9e-5));
@@ -128,7 +122,7 @@ TEST_F(SliverTriangles, AreWarnedOfBelowOneInAHundredThousand) {
   EXPECT_LT(degreesOff(mesh.vertices[0].normal), 0.01);
 }
 
-TEST_F(SliverTriangles, AreDroppedBelowOneInTenBillion) {
+TEST_F(SliverTriangles, AreDroppedBelow1e10) {
   EXPECT_EQ(load(sliver(1.1e-10)).indices.size(), 3u);
   EXPECT_EQ(load(sliver(0.9e-10) + "v 5 5 5\nv 6 5 5\nv 5 6 5\nf 4 5 6\n").indices.size(), 3u);
   EXPECT_NE(log_.text().find("dropped 1 degenerate triangles"), std::string::npos) << log_.text();
@@ -140,7 +134,7 @@ TEST_F(SliverTriangles, NonFiniteVerticesAreDropped) {
   EXPECT_NE(log_.text().find("dropped 2 faces with vertices that are not finite"), std::string::npos) << log_.text();
 }
 
-TEST_F(SliverTriangles, FloatNormalsOfThemAreWild) {
+TEST_F(SliverTriangles, HaveWildFloatNormals) {
   const Mesh mesh = load(sliver(1e-7));
   const auto corner = [&](int i) { return glm::vec3(mesh.center + mesh.vertices[mesh.indices[i]].position); };
   const glm::vec3 naive = glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));

@@ -165,7 +165,7 @@ TEST(Invariants, DistancesAreKept) {
   });
 }
 
-TEST(Invariants, TwoParallelReflectionsAreATranslationByTwiceTheirDistance) {
+TEST(Invariants, TwoParallelReflectionsTranslate) {
   expectProperty("R2 R1 = translation", [] {
     const Plane first = plane();
     const double gap = coordinate();
@@ -259,7 +259,7 @@ TEST(Invariants, RectangleHoldsEveryHit) {
   std::printf("%d hits\n", static_cast<int>(inView));
 }
 
-TEST(Invariants, MirrorImageIsTheDirectImageOfTheMirroredScene) {
+TEST(Invariants, MirrorImageShowsTheMirroredScene) {
   int judged = 0;
   expectProperty("seen in the mirror = mirrored and seen", [&] {
     const Scene scene = lookingAtAMirror();

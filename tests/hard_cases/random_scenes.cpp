@@ -13,7 +13,6 @@
 namespace speculum {
 namespace {
 
-using namespace hard_cases;
 using namespace testing_support;
 
 constexpr PictureSize size{192, 108};
@@ -46,23 +45,6 @@ Setting randomSetting(Random& random, bool deep) {
   return s;
 }
 
-std::string randomBody(Random& random, const Setting& s, unsigned seed) {
-  static constexpr std::array<const char*, 6> models = {"teapot", "torus_knot", "sphere", "vase", "queen", "gem"};
-  const std::string model = random.chance(0.4) ? writeRandomMesh(seed) : "MODELS/" + random.pick(models) + ".obj";
-  const double scale = random.uniform(0.3, 0.9);
-  // Some stand across the mirror's plane.
-  const glm::dvec3 position = s.at(random.uniform(1.5, s.reach), random.uniform(-3, 3), random.uniform(-0.2, 2.5));
-  std::ostringstream out;
-  out << "[[object]]\nmodel = \"" << model << "\"\nposition = " << text(position)
-      << "\nrotation = " << random.vec(-180, 180) << "\nscale = [" << (random.chance(0.3) ? -scale : scale) << ", "
-      << scale * random.uniform(0.6, 1.6) << ", " << scale << "]\n";
-  if (random.chance(0.5)) {
-    out << "color = " << random.vec(0, 1) << "\nspecular = " << random.vec(0, 0.3)
-        << "\nshininess = " << std::pow(10.0, random.uniform(0, 3)) << "\n";
-  }
-  return out.str();
-}
-
 std::string mirrorText(Random& random, const std::string& shape, bool plain) {
   std::ostringstream out;
   out << "[[mirror]]\n" << shape << "reflectance = " << random.vec(plain ? 0.85 : 0.6, 1.0) << "\n";
@@ -78,18 +60,12 @@ std::string mirrorText(Random& random, const std::string& shape, bool plain) {
   return out.str();
 }
 
-std::string placed(const glm::dvec3& position, const glm::dvec3& angles, double width, double height) {
-  return "position = " + text(position) + "\nrotation = " + text(angles) + "\nsize = [" + text(width) + ", " +
-         text(height) + "]\n";
-}
-
 // A polygon in the mirror's frame.
-std::string polygon(const Setting& s, const std::vector<glm::dvec3>& corners) {
-  std::string out = "polygon = [";
-  for (const glm::dvec3& p : corners) {
-    out += text(s.at(p.x, p.y, p.z)) + ", ";
+std::string polygon(const Setting& s, std::vector<glm::dvec3> corners) {
+  for (glm::dvec3& p : corners) {
+    p = s.at(p.x, p.y, p.z);
   }
-  return out + "]\n";
+  return polygonText(corners);
 }
 
 // Above the mirror and parallel to it but for a little; seen in it, and it in that, without end.
@@ -121,29 +97,29 @@ HardScene hardScene(unsigned seed) {
   const glm::dvec3 up = s.frame * rotationAboutAxis({1, 0, 0}, roll) * glm::dvec3(0, 0, 1);
   std::ostringstream out;
   out << "[environment]\nambient = " << random.vec(0.02, 0.2) << "\nsky = { zenith = " << random.vec(0, 1)
-      << ", horizon = " << random.vec(0, 1) << ", ground = " << random.vec(0, 1)
-      << " }\n[camera]\nposition = " << text(eye) << "\ntarget = " << text(target) << "\nup = " << text(up)
-      << "\nvertical_fov = " << random.uniform(40, 85) << "\n";
+      << ", horizon = " << random.vec(0, 1) << ", ground = " << random.vec(0, 1) << " }\n"
+      << cameraText(eye, target, up) << "vertical_fov = " << random.uniform(40, 85) << "\n";
   for (unsigned i = 0; i < 6; ++i) {
-    out << randomBody(random, s, seed * 16 + i + 100000);
+    // Some stand across the mirror's plane.
+    out << randomObjectText(random, seed * 16 + i + 100000, 0.9, {0.6, 1.6}, [&] {
+      return text(s.at(random.uniform(1.5, s.reach), random.uniform(-3, 3), random.uniform(-0.2, 2.5)));
+    });
   }
   for (int i = 0; i < 2; ++i) {
-    out << "[[light]]\nposition = " << text(s.at(random.uniform(0, 6), random.uniform(-3, 3), random.uniform(0.5, 2.4)))
-        << "\ncolor = " << random.vec(0.2, 1) << "\nintensity = " << random.uniform(3, 15)
-        << "\nradius = " << random.uniform(0.02, 0.2) << "\n";
+    out << randomLightText(random, text(s.at(random.uniform(0, 6), random.uniform(-3, 3), random.uniform(0.5, 2.4))));
   }
-  out << mirrorText(random, placed(s.origin, s.angles, random.uniform(14, 40), random.uniform(14, 40)), deep);
+  out << mirrorText(random, rectangleText(s.origin, s.angles, random.uniform(14, 40), random.uniform(14, 40)), deep);
   if (deep) {
     out << mirrorText(random, facingMirror(random, s), true);
   } else {
     out << mirrorText(random, wallAhead(random, s), false);
     const glm::dvec3 tilted = s.angles + glm::dvec3(random.uniform(-60, 60), random.uniform(-60, 60), 0);
     out << mirrorText(random,
-                      placed(s.at(random.uniform(-1, 4), random.uniform(-2, 2), random.uniform(0.3, 2)), tilted,
-                             random.uniform(0.5, 4), random.uniform(0.5, 4)),
+                      rectangleText(s.at(random.uniform(-1, 4), random.uniform(-2, 2), random.uniform(0.3, 2)), tilted,
+                                    random.uniform(0.5, 4), random.uniform(0.5, 4)),
                       false);
   }
-  return {sceneFile("hard_" + std::to_string(seed), out.str()), deep ? 32 : 4};
+  return {writeScene("hard_" + std::to_string(seed), out.str()), deep ? 32 : 4};
 }
 
 void expectHardTruth(unsigned seed) {
@@ -155,14 +131,14 @@ void expectHardTruth(unsigned seed) {
 
 class HardScenes : public testing::TestWithParam<unsigned> {};
 
-TEST_P(HardScenes, AreTheTracers) {
+TEST_P(HardScenes, MatchTheTracer) {
   expectHardTruth(GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, HardScenes, testing::ValuesIn(sampledSeeds(200, 10)),
                          testing::PrintToStringParamName());
 
-TEST(FreshHardScene, IsTheTracers) {
+TEST(FreshHardScene, MatchesTheTracer) {
   unsigned seed = std::random_device()() % 1000000 + 1000;
   while (share(trace(hardScene(seed).file, size, 4).traced.mirrorMask, 1) < 0.2) {
     ++seed;

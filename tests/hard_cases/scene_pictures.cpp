@@ -11,7 +11,6 @@
 namespace speculum {
 namespace {
 
-using namespace hard_cases;
 using namespace testing_support;
 
 constexpr PictureSize size{320, 180};
@@ -83,19 +82,19 @@ polygon = [)" +
          p(-3, 0, 5) + ", " + p(-3, 3, 5) + ", " + p(3, 3, 5.5) + ", " + p(3, 0, 5.5) + "]\n";
 }
 
-TEST(SceneMovedFar, PictureIsTheSameAsAtTheOrigin) {
+TEST(SceneMovedFar, PictureEqualsThatAtTheOrigin) {
   constexpr double time = 3.7;
-  const Image8 near = draw(headless(sceneFile("at_origin", fullScene(glm::dvec3(0.0))), size), time);
+  const Image8 near = draw(headless(writeScene("at_origin", fullScene(glm::dvec3(0.0))), size), time);
   for (const glm::dvec3& at : {glm::dvec3(1e3, -2e3, 1e3), 1e7 * glm::dvec3(1.0, -0.7, 0.9)}) {
-    const Image8 far = draw(headless(sceneFile("far_away", fullScene(at)), size), time);
+    const Image8 far = draw(headless(writeScene("far_away", fullScene(at)), size), time);
     const PictureAgreement d = difference(far, near, 1);
     EXPECT_EQ(d.over, 0) << "largest difference " << d.largest << "/255, " << at.x << " m away";
     expectAlike(far, near, 1, "moved_far");
   }
 }
 
-TEST(SceneMovedFar, PictureIsTheTracers) {
-  const std::filesystem::path file = sceneFile("far_truth", fullScene(1e7 * glm::dvec3(-0.6, 1.0, 0.3)));
+TEST(SceneMovedFar, MatchesTheTracer) {
+  const std::filesystem::path file = writeScene("far_truth", fullScene(1e7 * glm::dvec3(-0.6, 1.0, 0.3)));
   expectTruth(file, size, 4, trace(file, size, 4));
 }
 
@@ -132,14 +131,14 @@ size = [6, 4]
 )";
 }
 
-TEST(NegativeScaleAndBounces, PictureIsTheTracers) {
+TEST(NegativeScaleAndBounces, MatchesTheTracer) {
   writeModel(
       "body.obj",
       "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 5 6 7 8\n"
       "f 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n");
   for (const glm::dvec3& scale :
        {glm::dvec3(0.3), glm::dvec3(-0.3, 0.3, 0.4), glm::dvec3(0.3, -0.4, -0.3), glm::dvec3(-0.3)}) {
-    const std::filesystem::path file = sceneFile("turned_body", turnedBody(scale));
+    const std::filesystem::path file = writeScene("turned_body", turnedBody(scale));
     const Truth truth = trace(file, size, 4);
     EXPECT_GT(share(truth.traced.mirrorDepth, 3), 0.01) << "too few bounces in view";
     expectTruth(file, size, 4, truth);
@@ -186,7 +185,7 @@ std::filesystem::path nestedScene(const std::string& name, const std::array<int,
   for (const int i : order) {
     scene += nestedMirrors[i];
   }
-  return sceneFile(name, scene);
+  return writeScene(name, scene);
 }
 
 // A clip plane or a winding left over from another pass would depend on which pass came before.
@@ -197,14 +196,14 @@ TEST(NestedMirrors, OrderOfPassesLeavesNoTrace) {
   }
 }
 
-TEST(NestedMirrors, PictureIsTheTracers) {
+TEST(NestedMirrors, MatchesTheTracer) {
   const std::filesystem::path file = nestedScene("nested_truth", {0, 1, 2, 3});
   const Truth truth = trace(file, size, 5);
   EXPECT_GT(share(truth.traced.mirrorDepth, 4), 0.02) << "too few nested mirrors in view";
   expectTruth(file, size, 5, truth);
 }
 
-TEST(FacingMirrorsAtDepth32, PictureIsTheTracers) {
+TEST(FacingMirrorsAtDepth32, MatchesTheTracer) {
   for (const char* scene : {"scenes/facing_mirrors.toml", "scenes/hard/depth_32.toml"}) {
     const std::filesystem::path file = sourceFile(scene);
     const Truth truth = trace(file, size, 32);
@@ -225,10 +224,8 @@ std::filesystem::path seamScene(unsigned seed) {
   const auto between = [&](double low, double high) { return random.uniform(low, high); };
   const glm::dvec3 eye(between(0.5, 3.5), between(0.3, 2.5), between(0.5, 3.5));
   const glm::dvec3 target(between(-1.0, 0.5), between(0.0, 0.7), between(-1.0, 0.5));
-  return sceneFile("seams", "[environment]\nambient = [1, 1, 1]\n[camera]\nposition = " + text(eye) +
-                                "\ntarget = " + text(target) + R"(
-up = [0.05, 1, 0]
-[settings]
+  return writeScene("seams",
+                    "[environment]\nambient = [1, 1, 1]\n" + cameraText(eye, target, {0.05, 1, 0}) + R"([settings]
 "reflection.max_depth" = 6
 "reflection.max_passes" = 5000
 "reflection.min_pixels" = 0
@@ -272,7 +269,7 @@ TEST(SeamsOfMirrorsAndBodies, NoPixelShowsTheBackground) {
 int darkPixelsBetween(double gapMetres) {
   writeQuad();
   const std::string half = text(0.5 * gapMetres);
-  Options options = headless(sceneFile("gap", "[environment]\nambient = [1, 1, 1]\n" + std::string(R"([camera]
+  Options options = headless(writeScene("gap", "[environment]\nambient = [1, 1, 1]\n" + std::string(R"([camera]
 position = [0, 0, 1]
 target = [0, 0, 0]
 up = [0.2718, 1, 0]
@@ -285,12 +282,12 @@ color = [1, 1, 1]
 [[mirror]]
 reflectance = [1, 1, 1]
 polygon = [[-5, -5, 0], [-)") + half + ", -5, 0], [-" +
-                                                  half +
-                                                  R"(, 5, 0], [-5, 5, 0]]
+                                                   half +
+                                                   R"(, 5, 0], [-5, 5, 0]]
 [[mirror]]
 reflectance = [1, 1, 1]
 polygon = [[)" + half + ", -5, 0], [5, -5, 0], [5, 5, 0], [" +
-                                                  half + ", 5, 0]]\n"),
+                                                   half + ", 5, 0]]\n"),
                              {640, 360});
   Session session(options);
   session.draw(0.0, true);
@@ -301,13 +298,13 @@ polygon = [[)" + half + ", -5, 0], [5, -5, 0], [5, 5, 0], [" +
   return static_cast<int>(dark);
 }
 
-TEST(SeamsOfMirrorsAndBodies, GapAsWideAsRoundingIsClosedAndAPixelIsNot) {
+TEST(SeamsOfMirrorsAndBodies, OnlyRoundingGapsAreClosed) {
   const double pixel = 2.0 * std::tan(glm::radians(30.0)) / 360.0;
   EXPECT_EQ(darkPixelsBetween(pixel / 200), 0);
   EXPECT_GT(darkPixelsBetween(pixel), 300);
 }
 
-TEST(SeamsOfMirrorsAndBodies, AveragedImagesShowIt) {
+TEST(SeamsOfMirrorsAndBodies, AveragedImagesShowTheBackground) {
   const int dark = darkPixels(0, "4", "1");
   EXPECT_GT(dark, 20) << "the naive way, samples that have no counterpart, should fail";
   std::printf("%d pixels\n", dark);

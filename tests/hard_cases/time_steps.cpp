@@ -103,7 +103,7 @@ TEST(TimeSteps, PausesAndBackwardClocksLeaveNoTrace) {
   }
 }
 
-TEST(TimeSteps, FloatAnglesAndSummedStepsAreNot) {
+TEST(TimeSteps, FloatAnglesAndSummedStepsDrift) {
   const double exact = static_cast<double>(std::cos(turned(0.0, 47.3, 1e6) * std::numbers::pi_v<long double> / 180));
   EXPECT_GT(std::abs(std::cos(glm::radians(47.3f * 1e6f)) - exact), 1e-3) << "the naive way should fail";
   // An hour of frames, each turned by a small float matrix.

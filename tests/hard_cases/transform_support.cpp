@@ -5,27 +5,6 @@
 
 namespace speculum::hard_cases {
 
-glm::dvec3 Random::inBox(double side) {
-  const double x = uniform(-side, side);
-  const double y = uniform(-side, side);
-  return {x, y, uniform(-side, side)};
-}
-
-glm::dvec3 Random::direction() {
-  for (;;) {
-    const glm::dvec3 v = inBox(1.0);
-    const double length = glm::length(v);
-    if (length > 0.1 && length <= 1.0) {
-      return v / length;
-    }
-  }
-}
-
-double Random::magnitude(double low, double high) {
-  const double size = std::pow(10.0, uniform(low, high));
-  return uniform(-1.0, 1.0) < 0.0 ? -size : size;
-}
-
 Mesh pointCloud(int count, unsigned seed) {
   Random random(seed);
   Mesh mesh;

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <random>
 #include <vector>
 
 #include "frame/frame_plan.hpp"
+#include "random.hpp"
 #include "systems/frame_data.hpp"
 
 // What the vertex shader makes of a frame's data, and the same from the scene's own numbers in extended precision.
@@ -13,18 +13,7 @@ namespace speculum::hard_cases {
 using LongVec3 = glm::vec<3, long double, glm::highp>;
 using LongMat3 = glm::mat<3, 3, long double, glm::highp>;
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  glm::dvec3 inBox(double side);
-  glm::dvec3 direction();
-  // Log-uniform over 10^low .. 10^high, either sign.
-  double magnitude(double low, double high);
-
- private:
-  std::mt19937 engine_;
-};
+using testing_support::Random;
 
 // Points in the box [-1, 1]^3, as a mesh of which nothing but its vertices matters.
 Mesh pointCloud(int count, unsigned seed);

@@ -166,7 +166,7 @@ std::vector<int> alternating(int length) {
   return path;
 }
 
-TEST(SceneMovedFar, VerticesStayWithinTwoThousandthsOfAPixel) {
+TEST(SceneMovedFar, VerticesStayWithin2e3Pixels) {
   const Scene origin = corridor();
   for (const double distance : {0.0, 1e3, 1e5, 1e7}) {
     const Scene far = moved(origin, distance * glm::dvec3(1.0, -0.7, 0.9));
@@ -187,7 +187,7 @@ TEST(SceneMovedFar, FloatWorldSpaceIsSixtyPixelsOff) {
   std::printf("float, 1e7 m: median %.1e, largest %.1e px\n", errors.median, errors.largest);
 }
 
-TEST(FacingMirrorsAtDepth32, DoublePathStaysWithinAThousandthOfAPixel) {
+TEST(FacingMirrorsAtDepth32, DoublePathStaysWithin1e3Pixels) {
   for (const size_t depth : {1, 8, 16, 32}) {
     Errors worst;
     for (unsigned seed = 0; seed < 40; ++seed) {
@@ -277,7 +277,7 @@ TEST(NegativeScaleAndBounces, OutsideStaysOutside) {
   }
 }
 
-TEST(NegativeScaleAndBounces, SignOfATinyScaleIsNotLost) {
+TEST(NegativeScaleAndBounces, TinyScaleKeepsItsSign) {
   const Windings windings = windingsOf(glm::dvec3(1e-16, -1e-16, 1e-16), 0);
   const InstanceState instance{.worldFromMesh = {glm::dmat3(1e-16) * glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, 1), {}}};
   EXPECT_EQ(instanceData(instance, Object{}, View{}, glm::dmat4(1.0)).handedness, -1.0f);
@@ -325,7 +325,7 @@ NormalErrors normalErrors(const glm::dvec3& scale) {
   return errors;
 }
 
-TEST(NonUniformAndExtremeScale, NormalsAreRightToATenThousandthOfADegree) {
+TEST(NonUniformAndExtremeScale, NormalsAreWithin1e4Degrees) {
   for (const double size : {1.0, 1e-20, 1e13}) {
     const NormalErrors errors = normalErrors(size * glm::dvec3(1, 2, 5));
     EXPECT_LE(errors.production, 1e-4) << size;
@@ -373,7 +373,7 @@ CutErrors cutErrors(double offset) {
   return errors;
 }
 
-TEST(ObjectAcrossTheMirrorPlane, CutLiesWithinAMillionthOfTheDistance) {
+TEST(ObjectAcrossTheMirrorPlane, CutIsWithin1e6OfTheDistance) {
   for (const double offset : {0.0, 1e3, 1e7}) {
     const CutErrors errors = cutErrors(offset);
     EXPECT_LE(errors.production, 1e-6) << offset;
@@ -384,7 +384,7 @@ TEST(ObjectAcrossTheMirrorPlane, CutLiesWithinAMillionthOfTheDistance) {
 }
 
 // Points of two rooms, one on each side of each mirror's plane, that the wrong plane would cut.
-TEST(NestedMirrors, EveryPassIsCutAtItsOwnMirror) {
+TEST(NestedMirrors, PassesAreCutAtTheirMirrors) {
   const Scene scene = corridor();
   const SceneState state = evaluate(scene, 0.0);
   const FramePlan plan = planOf(scene, state, 4);

@@ -1,15 +1,13 @@
 #include "scene_text.hpp"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "picture_support.hpp"
 
-namespace speculum::hard_cases {
+namespace speculum::testing_support {
 
 std::string text(double value) {
   std::ostringstream out;
@@ -22,22 +20,91 @@ std::string text(const glm::dvec3& v) {
   return "[" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + "]";
 }
 
-std::filesystem::path sceneFile(const std::string& name, const std::string& toml) {
-  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-  std::string prefix = std::string(test->test_suite_name()) + "_" + test->name() + "_";
-  std::replace(prefix.begin(), prefix.end(), '/', '_');
-  return testing_support::writeScene(prefix + name, toml);
+std::string cameraText(const glm::dvec3& position, const glm::dvec3& target, const glm::dvec3& up) {
+  return "[camera]\nposition = " + text(position) + "\ntarget = " + text(target) + "\nup = " + text(up) + "\n";
+}
+
+std::string objectText(const std::string& model, const glm::dvec3& position, const glm::dvec3& rotation, double scale,
+                       const glm::dvec3& color) {
+  return "[[object]]\nmodel = \"" + model + "\"\nposition = " + text(position) + "\nrotation = " + text(rotation) +
+         "\nscale = " + text(scale) + "\ncolor = " + text(color) + "\n";
+}
+
+std::string rectangleText(const glm::dvec3& position, const glm::dvec3& rotation, double width, double height) {
+  return "position = " + text(position) + "\nrotation = " + text(rotation) + "\nsize = [" + text(width) + ", " +
+         text(height) + "]\n";
+}
+
+std::string polygonText(const std::vector<glm::dvec3>& corners) {
+  std::string out = "polygon = [";
+  for (const glm::dvec3& p : corners) {
+    out += text(p) + ", ";
+  }
+  return out + "]\n";
 }
 
 void writeModel(const std::string& file, const std::string& obj) {
-  const std::filesystem::path folder = sceneFile("folder", "").parent_path();
-  const std::filesystem::path own = folder / (file + "." + std::to_string(getpid()));
-  std::ofstream(own) << obj;
-  std::filesystem::rename(own, folder / file);  // whole or not at all for who reads it meanwhile
+  std::ofstream(sceneDirectory() / file) << obj;
 }
 
 void writeQuad() {
   writeModel("quad.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
 }
 
-}  // namespace speculum::hard_cases
+std::string writeRandomMesh(unsigned seed) {
+  Random random(seed + 1000);
+  constexpr int rings = 14;
+  constexpr int sectors = 20;
+  const double waves = std::floor(random.uniform(1, 6));
+  const double depth = random.uniform(0.05, 0.35);
+  std::ostringstream out;
+  const auto vector = [&](const char* key, const glm::dvec3& v) {
+    out << key << ' ' << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  };
+  for (int i = 0; i <= rings; ++i) {
+    for (int j = 0; j < sectors; ++j) {
+      const double theta = std::numbers::pi * i / rings;
+      const double phi = 2.0 * std::numbers::pi * j / sectors;
+      const glm::dvec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+      vector("v", (0.5 + depth * std::sin(waves * theta) * std::cos(waves * phi)) * n);
+      vector("vn", n);
+    }
+  }
+  const auto corner = [&](int i, int j) {
+    const std::string index = std::to_string(i * sectors + j % sectors + 1);
+    return ' ' + (seed % 2 == 0 ? index + "//" + index : index);
+  };
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < sectors; ++j) {
+      out << 'f' << corner(i, j) << corner(i, j + 1) << corner(i + 1, j + 1) << corner(i + 1, j) << '\n';
+    }
+  }
+  const std::string name = "lump_" + std::to_string(seed) + ".obj";
+  writeModel(name, out.str());
+  return (sceneDirectory() / name).string();
+}
+
+std::string randomObjectText(Random& random, unsigned seed, double size, const glm::dvec2& stretch,
+                             const std::function<std::string()>& position) {
+  static constexpr std::array<const char*, 6> models = {"teapot", "torus_knot", "sphere", "vase", "queen", "gem"};
+  const std::string model = random.chance(0.4) ? writeRandomMesh(seed) : "MODELS/" + random.pick(models) + ".obj";
+  const double side = random.uniform(0.3, size);
+  std::ostringstream out;
+  out << "[[object]]\nmodel = \"" << model << "\"\nposition = " << position()
+      << "\nrotation = " << random.vec(-180, 180) << "\nscale = [" << (random.chance(0.3) ? -side : side) << ", "
+      << side * random.uniform(stretch.x, stretch.y) << ", " << side << "]\n";
+  if (random.chance(0.5)) {
+    out << "color = " << random.vec(0, 1) << "\nspecular = " << random.vec(0, 0.3)
+        << "\nshininess = " << std::pow(10.0, random.uniform(0, 3)) << "\n";
+  }
+  return out.str();
+}
+
+std::string randomLightText(Random& random, const std::string& position) {
+  std::ostringstream out;
+  out << "[[light]]\nposition = " << position << "\ncolor = " << random.vec(0.2, 1)
+      << "\nintensity = " << random.uniform(3, 15) << "\nradius = " << random.uniform(0.02, 0.2) << "\n";
+  return out.str();
+}
+
+}  // namespace speculum::testing_support

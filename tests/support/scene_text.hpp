@@ -1,22 +1,47 @@
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
+#include <vector>
 
-namespace speculum::hard_cases {
+#include "random.hpp"
 
-// Numbers as a scene file takes them, with all their digits.
+// Scene files as text, written beside those of writeScene.
+namespace speculum::testing_support {
+
+// Numbers with all their digits.
 std::string text(double value);
 std::string text(const glm::dvec3& v);
 
-// writeScene with the running test's name before `name`: tests that run at the same time do not meet.
-std::filesystem::path sceneFile(const std::string& name, const std::string& toml);
+// The table [camera].
+std::string cameraText(const glm::dvec3& position, const glm::dvec3& target, const glm::dvec3& up = {0, 1, 0});
 
-// Writes a model beside the scenes; they name it by file name. The same text for the same name, whichever test writes.
+// The table [[object]] of a matt model in that colour.
+std::string objectText(const std::string& model, const glm::dvec3& position, const glm::dvec3& rotation, double scale,
+                       const glm::dvec3& color);
+
+// Keys of [[mirror]]: a rectangle, a polygon.
+std::string rectangleText(const glm::dvec3& position, const glm::dvec3& rotation, double width, double height);
+std::string polygonText(const std::vector<glm::dvec3>& corners);
+
+// Writes a model beside the scenes; they name it by file name.
 void writeModel(const std::string& file, const std::string& obj);
 
 // quad.obj: 2 x 2 m in the plane z = 0 about the origin, facing +z.
 void writeQuad();
 
-}  // namespace speculum::hard_cases
+// A lumpy sphere about the origin, at most 0.85 m in radius; without normals for odd seeds, so that flat shading is met
+// as well. Returns the file.
+std::string writeRandomMesh(unsigned seed);
+
+// The table [[object]]: a shipped model or a random mesh, at most `size` m along x, along y that times a factor within
+// `stretch`, now and then turned inside out, half of them with a material of their own. `position` is called once, when
+// its random numbers are due.
+std::string randomObjectText(Random& random, unsigned seed, double size, const glm::dvec2& stretch,
+                             const std::function<std::string()>& position);
+
+// The table [[light]].
+std::string randomLightText(Random& random, const std::string& position);
+
+}  // namespace speculum::testing_support

@@ -1,9 +1,6 @@
 #include "truth_support.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -56,45 +53,6 @@ std::vector<bool> notBackground(const TraceResult& traced) {
 double share(const std::vector<uint8_t>& values, int atLeast) {
   const auto count = std::count_if(values.begin(), values.end(), [&](uint8_t v) { return v >= atLeast; });
   return static_cast<double>(count) / static_cast<double>(values.size());
-}
-
-std::string Random::vec(double low, double high) {
-  std::ostringstream out;
-  out << "[" << uniform(low, high) << ", " << uniform(low, high) << ", " << uniform(low, high) << "]";
-  return out.str();
-}
-
-std::string writeRandomMesh(unsigned seed) {
-  Random random(seed + 1000);
-  const std::filesystem::path file = sceneDirectory() / ("lump_" + std::to_string(seed) + ".obj");
-  std::ofstream out(file);
-  out << "# no material library\n";
-  constexpr int rings = 14;
-  constexpr int sectors = 20;
-  const double waves = std::floor(random.uniform(1, 6));
-  const double depth = random.uniform(0.05, 0.35);
-  for (int i = 0; i <= rings; ++i) {
-    for (int j = 0; j < sectors; ++j) {
-      const double theta = 3.14159265358979 * i / rings;
-      const double phi = 2.0 * 3.14159265358979 * j / sectors;
-      const double r = 0.5 + depth * std::sin(waves * theta) * std::cos(waves * phi);
-      out << "v " << r * std::sin(theta) * std::cos(phi) << ' ' << r * std::cos(theta) << ' '
-          << r * std::sin(theta) * std::sin(phi) << '\n';
-      out << "vn " << std::sin(theta) * std::cos(phi) << ' ' << std::cos(theta) << ' '
-          << std::sin(theta) * std::sin(phi) << '\n';
-    }
-  }
-  const auto corner = [&](int i, int j) {
-    const std::string index = std::to_string(i * sectors + j % sectors + 1);
-    return seed % 2 == 0 ? index + "//" + index : index;
-  };
-  for (int i = 0; i < rings; ++i) {
-    for (int j = 0; j < sectors; ++j) {
-      out << "f " << corner(i, j) << ' ' << corner(i, j + 1) << ' ' << corner(i + 1, j + 1) << ' ' << corner(i + 1, j)
-          << '\n';
-    }
-  }
-  return file.string();
 }
 
 }  // namespace speculum::testing_support
