@@ -11,6 +11,7 @@ run_packages=(mesa-vulkan-drivers)
 test_packages=(
   vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
   xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux clang-format-14 python3-minimal
+  chromium chromium-driver python3-selenium
 )
 # For scripts/bench-mirrors only.
 bench_packages=(python3)

@@ -1,15 +1,37 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "accuracy/sweep_results.hpp"
 
 namespace speculum {
 
-// The report as one HTML file that needs nothing beside it and no network. Pictures are read from `folder`, scaled to
-// nothing smaller, and embedded as JPEG; the files they came from are named beside them. Pictures that are missing are
-// left out with a note in their place.
+// The report as one HTML file that needs nothing beside it and no network: the page of src/accuracy/page with
+// reportJson() embedded.
 std::string reportHtml(const SweepResults& results, const std::filesystem::path& folder);
+
+// What the page shows:
+//   results   as in results.json
+//   fronts    { flip, rmse, mirrors }: indices of points on the front of each error, cheapest first
+//   changed   base settings that are not the program's defaults
+//   pictures  { reference, legend, shown: [{ point, picture, map }] }, each picture { width, height, uri } or null
+// Pictures are read from `folder` and embedded in full size as JPEG; a missing or damaged file gives null.
+nlohmann::ordered_json reportJson(const SweepResults& results, const std::filesystem::path& folder);
+
+// Points whose pictures go into the report, most important first, at most `most`: the base, the ends of the front, the
+// worst, the rest of the front, evenly, then the best, the cheapest and the dearest. Only points with pictures.
+std::vector<int> shownPoints(const SweepResults& results, int most);
+
+// RFC 4648, with padding, without line breaks.
+std::string base64(std::span<const uint8_t> bytes);
+
+// The page with its style sheet and scripts, and "@DATA@" where its JSON belongs. Written at build time.
+std::string_view reportPage();
 
 }  // namespace speculum
