@@ -8,6 +8,8 @@ import sys
 import tempfile
 import unittest
 
+sys.dont_write_bytecode = True
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "scripts"))
 from headless_browser import HeadlessBrowser  # noqa: E402
 
