@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/obj_loader.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
 
@@ -98,11 +99,10 @@ TEST_F(ObjText, FacesOfUpTo1000Vertices) {
             place(5) + "f: has 1001 vertices (3 .. 1000 are needed)");
 }
 
-TEST_F(ObjText, LinesThatOnlyTheParserWouldTakeForFacesAreNone) {
+TEST_F(ObjText, SecondByteOrderMarkIsNoFace) {
   EXPECT_EQ(load("\xef\xbb\xbf\xef\xbb\xbf" + std::string("f 99 99 99\n") + kSquare + "f 1 2 3\n").indices.size(), 3u);
 }
 
-// The parser would take it for infinite.
 TEST_F(ObjText, NumbersOfManyDigitsAreWhatTheyAre) {
   const std::string one = "1" + std::string(400, '0') + "e-400";
   EXPECT_EQ(load(kSquare + "v " + one + " 1 2\nf 1 2 5\n").halfExtent, glm::dvec3(0.5, 0.5, 1.0));

@@ -10,7 +10,7 @@
 
 #include "geometry/mesh_levels.hpp"
 #include "geometry/surface_distance.hpp"
-#include "scene/scene_loader.hpp"
+#include "scene/obj_loader.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {

@@ -154,11 +154,14 @@ TEST_F(LoadObj, UnusedVerticesDoNotWidenTheBox) {
   EXPECT_EQ(mesh.halfExtent, glm::dvec3(0.5, 0.5, 0));
 }
 
-TEST_F(LoadObj, NumbersAreDoubles) {
-  const Mesh mesh = load("v 0.1234567890123456 0 0\nv 1.1234567890123456e0 0 0\nv +.5 1. -0\nf 1 2 3\n");
-  EXPECT_NEAR(corners(mesh, 0)[0].x, 0.1234567890123456, 3e-16);
-  EXPECT_NEAR(corners(mesh, 0)[1].x, 1.1234567890123456, 5e-16);
+TEST_F(LoadObj, NumbersAreTheNearestDoubles) {
+  const Mesh mesh = load(
+      "v 0.1234567890123456 0 0\nv -0.1234567890123456e0 0 0\nv +.5 1. -0\nvn 0 0 1\nvt 0.3 0.7\nf 1/1/1 2/1/1 "
+      "3/1/1\n");
+  EXPECT_EQ(corners(mesh, 0)[0].x, 0.1234567890123456);
+  EXPECT_EQ(corners(mesh, 0)[1].x, -0.1234567890123456);
   EXPECT_EQ(corners(mesh, 0)[2].x, 0.5);
+  EXPECT_EQ(mesh.vertices[0].uv, glm::dvec2(0.3, 0.7));
 }
 
 TEST_F(LoadObj, CornersAreSharedByIndexTriple) {

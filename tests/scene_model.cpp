@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/model_scene.hpp"
 #include "scene/scene_state.hpp"
 #include "scene_support.hpp"
 

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "scene/obj_loader.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
 

@@ -93,6 +93,9 @@ class EarClipper {
 }  // namespace
 
 std::vector<std::array<int, 3>> triangulate(std::span<const glm::dvec3> polygon) {
+  if (polygon.size() == 3) {
+    return {{0, 1, 2}};
+  }
   return EarClipper(polygon).run();
 }
 

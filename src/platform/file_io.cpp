@@ -25,7 +25,9 @@ std::vector<uint8_t> readFileBytes(const fs::path& file, uintmax_t most) {
   if (!stream) {
     throw std::runtime_error(file.string() + ": cannot be read: " + std::strerror(errno) + " (check the path)");
   }
-  std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::vector<uint8_t> bytes(fs::file_size(file, ignored));
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<size_t>(stream.gcount()));
   if (stream.bad()) {
     throw std::runtime_error(file.string() + ": cannot be read: " + std::strerror(errno) + " (check the disk)");
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "platform/file_io.hpp"
+
 namespace speculum {
 
 std::string oneLine(std::string message) {
@@ -16,6 +18,17 @@ void throwInputError(const std::filesystem::path& file, int line, std::string_vi
   std::string message = file.string() + ":" + std::to_string(line) + ": ";
   message.append(key).append(": ").append(wrong).append(" (").append(right).append(")");
   throw InputError(oneLine(std::move(message)));
+}
+
+std::string readInputText(const std::filesystem::path& file, std::string_view right) {
+  try {
+    const std::vector<uint8_t> bytes = readFileBytes(file);
+    return std::string(bytes.begin(), bytes.end());
+  } catch (const std::runtime_error& failure) {
+    const std::string message = failure.what();
+    const size_t start = file.string().size() + 2;
+    throwInputError(file, 1, "file", message.substr(start, message.rfind(" (") - start), right);
+  }
 }
 
 }  // namespace speculum

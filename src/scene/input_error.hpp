@@ -1,12 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
-#include "scene/scene_loader.hpp"
-
 namespace speculum {
+
+// Bad input. what() is one line: `FILE:LINE: key: what is wrong (what would be right)`.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 // The message with control characters, which names and keys taken from a file may hold, replaced by '?': always one
 // line.
@@ -15,5 +20,8 @@ std::string oneLine(std::string message);
 // Throws InputError with `FILE:LINE: key: wrong (right)`, made one line.
 [[noreturn]] void throwInputError(const std::filesystem::path& file, int line, std::string_view key,
                                   std::string_view wrong, std::string_view right);
+
+// The content of an input file. Throws InputError for line 1 and key `file`; `right` says which file is needed.
+std::string readInputText(const std::filesystem::path& file, std::string_view right);
 
 }  // namespace speculum

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <unordered_map>
 
 #include "geometry/convex_faces.hpp"
 #include "geometry/convex_mesh.hpp"
@@ -57,141 +55,23 @@ TriangleShape shapeOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
   return {unit(area), glm::length(area) / longest};
 }
 
-struct CornerHash {
-  size_t operator()(const ObjCorner& c) const {
-    size_t hash = static_cast<size_t>(c.position);
-    hash = hash * 0x9e3779b97f4a7c15u + static_cast<size_t>(c.texcoord + 1);
-    return hash * 0x9e3779b97f4a7c15u + static_cast<size_t>(c.normal + 1);
+void rebase(Mesh& mesh) {
+  if (mesh.vertices.empty()) {
+    return;
   }
-};
-
-struct CornerEqual {
-  bool operator()(const ObjCorner& a, const ObjCorner& b) const {
-    return a.position == b.position && a.texcoord == b.texcoord && a.normal == b.normal;
+  glm::dvec3 low(std::numeric_limits<double>::infinity());
+  glm::dvec3 high = -low;
+  for (const Vertex& vertex : mesh.vertices) {
+    low = glm::min(low, vertex.position);
+    high = glm::max(high, vertex.position);
   }
-};
-
-class MeshBuilder {
- public:
-  MeshBuilder(const ObjGeometry& geometry, const ObjScan& scan) : geometry_(geometry), scan_(scan) {
-    normals_.reserve(geometry.normals.size());
-    for (size_t i = 0; i < geometry.normals.size(); ++i) {
-      normals_.push_back(scan.finiteNormal[i] && isFinite(geometry.normals[i]) ? unit(geometry.normals[i])
-                                                                               : glm::dvec3(0.0));
-    }
+  mesh.center = 0.5 * low + 0.5 * high;
+  for (Vertex& vertex : mesh.vertices) {
+    vertex.position -= mesh.center;
+    mesh.halfExtent = glm::max(mesh.halfExtent, glm::abs(vertex.position));
+    mesh.radius = std::max(mesh.radius, length(vertex.position));
   }
-
-  void add(const ObjFace& face) {
-    points_.clear();
-    for (size_t i = 0; i < face.cornerCount; ++i) {
-      const ObjCorner& corner = geometry_.corners[face.firstCorner + i];
-      if (!finitePosition(corner.position) || (corner.texcoord >= 0 && !finiteTexcoord(corner.texcoord))) {
-        ++nonFinite_;
-        return;
-      }
-      points_.push_back(geometry_.positions[corner.position]);
-    }
-    for (const std::array<int, 3>& triangle : triangulate(points_)) {
-      addTriangle(face, triangle);
-    }
-  }
-
-  Mesh finish(const std::function<Material(int)>& materialOf) {
-    for (const int material : order_) {
-      const std::vector<uint32_t>& indices = indices_[material];
-      mesh_.parts.push_back({.firstIndex = static_cast<uint32_t>(mesh_.indices.size()),
-                             .indexCount = static_cast<uint32_t>(indices.size()),
-                             .material = materialOf(material)});
-      mesh_.indices.insert(mesh_.indices.end(), indices.begin(), indices.end());
-    }
-    rebase();
-    return std::move(mesh_);
-  }
-
-  void warn(const std::filesystem::path& file) const {
-    if (nonFinite_ > 0) {
-      spdlog::warn("{}: dropped {} faces with vertices that are not finite", file.string(), nonFinite_);
-    }
-    if (degenerate_ > 0) {
-      spdlog::warn("{}: dropped {} degenerate triangles", file.string(), degenerate_);
-    }
-    if (slivers_ > 0) {
-      spdlog::warn("{}: {} triangles are slivers, their normals are inexact", file.string(), slivers_);
-    }
-  }
-
- private:
-  // The parser's arithmetic may round the largest doubles, which are finite to the scan, to infinity.
-  bool finitePosition(int i) const { return scan_.finitePosition[i] && isFinite(geometry_.positions[i]); }
-  bool finiteTexcoord(int i) const {
-    return scan_.finiteTexcoord[i] && isFinite(glm::dvec3(geometry_.texcoords[i], 0.0));
-  }
-
-  void addTriangle(const ObjFace& face, const std::array<int, 3>& triangle) {
-    const TriangleShape shape = shapeOf(points_[triangle[0]], points_[triangle[1]], points_[triangle[2]]);
-    if (!(shape.quality >= 1e-10)) {
-      ++degenerate_;
-      return;
-    }
-    slivers_ += shape.quality < 1e-5;
-    if (indices_.find(face.material) == indices_.end()) {
-      order_.push_back(face.material);
-    }
-    std::vector<uint32_t>& indices = indices_[face.material];
-    int flat = -1;
-    for (const int i : triangle) {
-      ObjCorner corner = geometry_.corners[face.firstCorner + i];
-      if (corner.normal < 0 || normals_[corner.normal] == glm::dvec3(0.0)) {
-        if (flat < 0) {
-          flat = static_cast<int>(normals_.size());
-          normals_.push_back(shape.normal);
-        }
-        corner.normal = flat;
-      }
-      indices.push_back(vertexOf(corner));
-    }
-  }
-
-  uint32_t vertexOf(const ObjCorner& corner) {
-    const auto [it, isNew] = vertexIndex_.try_emplace(corner, static_cast<uint32_t>(mesh_.vertices.size()));
-    if (isNew) {
-      mesh_.vertices.push_back({.position = geometry_.positions[corner.position],
-                                .normal = normals_[corner.normal],
-                                .uv = corner.texcoord < 0 ? glm::dvec2(0.0) : geometry_.texcoords[corner.texcoord]});
-    }
-    return it->second;
-  }
-
-  void rebase() {
-    if (mesh_.vertices.empty()) {
-      return;
-    }
-    glm::dvec3 low(std::numeric_limits<double>::infinity());
-    glm::dvec3 high = -low;
-    for (const Vertex& vertex : mesh_.vertices) {
-      low = glm::min(low, vertex.position);
-      high = glm::max(high, vertex.position);
-    }
-    mesh_.center = 0.5 * low + 0.5 * high;
-    for (Vertex& vertex : mesh_.vertices) {
-      vertex.position -= mesh_.center;
-      mesh_.halfExtent = glm::max(mesh_.halfExtent, glm::abs(vertex.position));
-      mesh_.radius = std::max(mesh_.radius, length(vertex.position));
-    }
-  }
-
-  const ObjGeometry& geometry_;
-  const ObjScan& scan_;
-  std::vector<glm::dvec3> normals_;  // unit or zero; those of the file, then those of flat triangles
-  std::vector<glm::dvec3> points_;
-  std::map<int, std::vector<uint32_t>> indices_;  // by material
-  std::vector<int> order_;                        // of materials
-  std::unordered_map<ObjCorner, uint32_t, CornerHash, CornerEqual> vertexIndex_;
-  Mesh mesh_;
-  size_t nonFinite_ = 0;   // faces
-  size_t degenerate_ = 0;  // triangles
-  size_t slivers_ = 0;     // triangles
-};
+}
 
 // What hides a whole mirror is a wall, a door, a cupboard or a column: few triangles, or few of them large.
 void findOccluders(Mesh& mesh) {
@@ -208,15 +88,94 @@ void findOccluders(Mesh& mesh) {
 
 }  // namespace
 
-Mesh buildMesh(const std::filesystem::path& file, const ObjGeometry& geometry, const ObjScan& scan,
-               const std::function<Material(int)>& materialOf) {
-  MeshBuilder builder(geometry, scan);
-  for (const ObjFace& face : geometry.faces) {
-    builder.add(face);
+size_t MeshBuilder::CornerHash::operator()(const FaceCorner& corner) const {
+  size_t hash = static_cast<size_t>(corner.position);
+  hash = hash * 0x9e3779b97f4a7c15u + static_cast<size_t>(corner.texcoord + 1);
+  return hash * 0x9e3779b97f4a7c15u + static_cast<size_t>(corner.normal + 1);
+}
+
+void MeshBuilder::addNormal(const glm::dvec3& normal) {
+  normals_.push_back(isFinite(normal) ? unit(normal) : glm::dvec3(0.0));
+}
+
+void MeshBuilder::setMaterial(int material) {
+  material_ = material;
+  indices_ = nullptr;
+}
+
+void MeshBuilder::addFace(std::span<const FaceCorner> corners) {
+  points_.clear();
+  for (const FaceCorner& corner : corners) {
+    const glm::dvec2 uv = corner.texcoord < 0 ? glm::dvec2(0.0) : texcoords_[corner.texcoord];
+    if (!isFinite(positions_[corner.position]) || !isFinite(glm::dvec3(uv, 0.0))) {
+      ++nonFinite_;
+      return;
+    }
+    points_.push_back(positions_[corner.position]);
   }
-  builder.warn(file);
-  Mesh mesh = builder.finish(materialOf);
-  mesh.source = file;
+  for (const auto& [a, b, c] : triangulate(points_)) {
+    addTriangle(corners[a], corners[b], corners[c]);
+  }
+}
+
+void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c) {
+  const TriangleShape shape = shapeOf(positions_[a.position], positions_[b.position], positions_[c.position]);
+  if (!(shape.quality >= 1e-10)) {
+    ++degenerate_;
+    return;
+  }
+  slivers_ += shape.quality < 1e-5;
+  if (indices_ == nullptr) {
+    const auto [found, isNew] = materialIndices_.try_emplace(material_);
+    indices_ = &found->second;
+    if (isNew) {
+      materialOrder_.push_back(material_);
+    }
+  }
+  for (const FaceCorner& corner : {a, b, c}) {
+    indices_->push_back(vertexOf(corner, shape.normal));
+  }
+}
+
+uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal) {
+  const auto index = static_cast<uint32_t>(vertices_.size());
+  const bool usable = corner.normal >= 0 && normals_[corner.normal] != glm::dvec3(0.0);
+  if (usable) {
+    const auto [found, isNew] = sharedVertices_.try_emplace(corner, index);
+    if (!isNew) {
+      return found->second;
+    }
+  }
+  vertices_.push_back({.position = positions_[corner.position],
+                       .normal = usable ? normals_[corner.normal] : triangleNormal,
+                       .uv = corner.texcoord < 0 ? glm::dvec2(0.0) : texcoords_[corner.texcoord]});
+  return index;
+}
+
+void MeshBuilder::warn(const std::filesystem::path& file) const {
+  if (nonFinite_ > 0) {
+    spdlog::warn("{}: dropped {} faces with vertices that are not finite", file.string(), nonFinite_);
+  }
+  if (degenerate_ > 0) {
+    spdlog::warn("{}: dropped {} degenerate triangles", file.string(), degenerate_);
+  }
+  if (slivers_ > 0) {
+    spdlog::warn("{}: {} triangles are slivers, their normals are inexact", file.string(), slivers_);
+  }
+}
+
+Mesh MeshBuilder::finish(const std::filesystem::path& file, const std::function<Material(int)>& materialOf) {
+  warn(file);
+  Mesh mesh{.source = file, .vertices = std::move(vertices_)};
+  for (const int material : materialOrder_) {
+    const std::vector<uint32_t>& indices = materialIndices_[material];
+    mesh.parts.push_back({.firstIndex = static_cast<uint32_t>(mesh.indices.size()),
+                          .indexCount = static_cast<uint32_t>(indices.size()),
+                          .material = materialOf(material)});
+    mesh.indices.insert(mesh.indices.end(), indices.begin(), indices.end());
+  }
+  *this = {};
+  rebase(mesh);
   findOccluders(mesh);
   sortIntoClusters(mesh);
   mesh.clusters = clustersOf(mesh);

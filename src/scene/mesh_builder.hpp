@@ -1,39 +1,68 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
+#include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "geometry/mesh.hpp"
-#include "scene/obj_scan.hpp"
 
 namespace speculum {
 
-// The lines of an OBJ file. Indices are 0-based and in range; -1: none.
-struct ObjCorner {
+// Indices into what was added before, from 0; -1: none.
+struct FaceCorner {
   int position = -1;
   int texcoord = -1;
   int normal = -1;
+  bool operator==(const FaceCorner&) const = default;
 };
 
-struct ObjFace {
-  size_t firstCorner = 0;
-  size_t cornerCount = 0;
-  int material = -1;
-};
+// Builds a mesh from the elements of a model file in their order.
+class MeshBuilder {
+ public:
+  void addPosition(const glm::dvec3& position) { positions_.push_back(position); }
+  void addTexcoord(const glm::dvec2& texcoord) { texcoords_.push_back(texcoord); }
+  void addNormal(const glm::dvec3& normal);  // any length
+  // Material of the faces that follow, -1: the default one.
+  void setMaterial(int material);
+  // Triangulates the face. Corners without a usable normal get that of their triangle. Drops faces with coordinates
+  // that are not finite and triangles without an area.
+  void addFace(std::span<const FaceCorner> corners);
 
-struct ObjGeometry {
-  std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec2> texcoords;
-  std::vector<glm::dvec3> normals;  // any length
-  std::vector<ObjCorner> corners;
-  std::vector<ObjFace> faces;
-};
+  size_t positionCount() const { return positions_.size(); }
+  size_t texcoordCount() const { return texcoords_.size(); }
+  size_t normalCount() const { return normals_.size(); }
 
-// Triangles of the faces, grouped by material in the order of first use. Drops faces with non-finite vertices and
-// triangles without area with a warning that names `file` and their number. The mesh may come out empty.
-Mesh buildMesh(const std::filesystem::path& file, const ObjGeometry& geometry, const ObjScan& scan,
-               const std::function<Material(int)>& materialOf);
+  // The triangles, grouped by material in the order of first use. Empties the builder; the mesh may have no triangle.
+  // Logs a warning that names `file` for each kind of dropped or doubtful triangles.
+  Mesh finish(const std::filesystem::path& file, const std::function<Material(int)>& materialOf);
+
+ private:
+  struct CornerHash {
+    size_t operator()(const FaceCorner& corner) const;
+  };
+
+  void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c);
+  uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
+  void warn(const std::filesystem::path& file) const;
+
+  std::vector<glm::dvec3> positions_;
+  std::vector<glm::dvec2> texcoords_;
+  std::vector<glm::dvec3> normals_;  // unit, or zero: unusable
+  std::vector<glm::dvec3> points_;   // of the face that is added
+  int material_ = -1;
+  std::vector<uint32_t>* indices_ = nullptr;              // of material_, set by its next triangle
+  std::map<int, std::vector<uint32_t>> materialIndices_;  // by material
+  std::vector<int> materialOrder_;
+  std::unordered_map<FaceCorner, uint32_t, CornerHash> sharedVertices_;
+  std::vector<Vertex> vertices_;
+  size_t nonFinite_ = 0;   // faces
+  size_t degenerate_ = 0;  // triangles
+  size_t slivers_ = 0;     // triangles
+};
 
 }  // namespace speculum

@@ -1,8 +1,11 @@
+#include "scene/model_scene.hpp"
+
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
 
 #include "scene/input_error.hpp"
+#include "scene/obj_loader.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {

@@ -1,97 +1,146 @@
-#include <algorithm>
-#include <functional>
-#include <sstream>
+#include "scene/obj_loader.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <charconv>
 
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/obj_materials.hpp"
-#include "scene/obj_scan.hpp"
-#include "scene/scene_loader.hpp"
+#include "scene/text_lines.hpp"
 
 namespace speculum {
 
 namespace {
 
-// What the parser's callbacks fill. The indices it passes on are those of the file: from 1, negative ones relative, 0
-// for none; the scan has made sure of their range.
-struct ObjSink {
-  ObjGeometry geometry;
-  ObjMaterials materials;
-  int material = -1;
-  std::function<void()> alive;  // called now and then
-  size_t calls = 0;
+// Triangulation takes time in the square of this.
+constexpr size_t kMostCorners = 1000;
+// Share of the time that reading the text of a large model takes; the rest sorts its triangles.
+constexpr double kReadShare = 0.65;
 
-  void count() {
-    constexpr size_t kOften = 1 << 14;
-    if (++calls % kOften == 0 && alive) {
-      alive();
+// An index of a face, which counts from 1, or backwards from -1, into `count` lines of `kind` above; from 0.
+int indexOf(const LineReader& line, std::string_view token, const char* kind, size_t count) {
+  long long index = 0;
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), index);
+  if (token.empty() || end != token.data() + token.size() || error == std::errc::invalid_argument) {
+    line.fail("f", fmt::format("'{}' is not an index", token), "write v, v/vt, v//vn or v/vt/vn");
+  }
+  const auto largest = static_cast<long long>(count);
+  if (error != std::errc() || index == 0 || index > largest || index < -largest) {
+    const std::string range =
+        count == 0 ? fmt::format("there is no {} line above", kind) : fmt::format("1 .. {0}, or -{0} .. -1", count);
+    line.fail("f", fmt::format("{} index {} is out of range", kind, token), range);
+  }
+  return static_cast<int>(index < 0 ? largest + index : index - 1);
+}
+
+FaceCorner cornerOf(const LineReader& line, std::string_view token, const MeshBuilder& mesh) {
+  const size_t first = token.find('/');
+  FaceCorner corner{.position = indexOf(line, token.substr(0, first), "v", mesh.positionCount())};
+  if (first == std::string_view::npos) {
+    return corner;
+  }
+  const size_t second = token.find('/', first + 1);
+  const std::string_view texcoord = token.substr(first + 1, second - first - 1);
+  if (second == std::string_view::npos || !texcoord.empty()) {
+    corner.texcoord = indexOf(line, texcoord, "vt", mesh.texcoordCount());
+  }
+  if (second != std::string_view::npos) {
+    corner.normal = indexOf(line, token.substr(second + 1), "vn", mesh.normalCount());
+  }
+  return corner;
+}
+
+// Feeds the lines of an OBJ file to a mesh builder.
+class ObjReader {
+ public:
+  ObjReader(const std::filesystem::path& file, MeshBuilder& mesh, ObjMaterials& materials)
+      : file_(file), mesh_(mesh), materials_(materials) {}
+
+  void read(std::string_view text, const LoadProgress& progress) {
+    constexpr int kLinesBetweenCalls = 1 << 14;
+    LineReader line(file_, text, LineReader::Continuation::backslash);
+    for (int count = 1; line.next(); ++count) {
+      readLine(line);
+      if (progress && count % kLinesBetweenCalls == 0) {
+        progress(file_, kReadShare * line.done());
+      }
     }
   }
 
-  static int zeroBased(int index, size_t count) { return index < 0 ? static_cast<int>(count) + index : index - 1; }
-
-  static void position(void* self, double x, double y, double z, double) {
-    static_cast<ObjSink*>(self)->count();
-    static_cast<ObjSink*>(self)->geometry.positions.emplace_back(x, y, z);
-  }
-
-  static void texcoord(void* self, double u, double v, double) {
-    static_cast<ObjSink*>(self)->geometry.texcoords.emplace_back(u, v);
-  }
-
-  static void normal(void* self, double x, double y, double z) {
-    static_cast<ObjSink*>(self)->geometry.normals.emplace_back(x, y, z);
-  }
-
-  static void face(void* self, tinyobj::index_t* indices, int count) {
-    ObjSink& sink = *static_cast<ObjSink*>(self);
-    sink.count();
-    ObjGeometry& geometry = sink.geometry;
-    geometry.faces.push_back(
-        {.firstCorner = geometry.corners.size(), .cornerCount = static_cast<size_t>(count), .material = sink.material});
-    for (int i = 0; i < count; ++i) {
-      geometry.corners.push_back({.position = zeroBased(indices[i].vertex_index, geometry.positions.size()),
-                                  .texcoord = zeroBased(indices[i].texcoord_index, geometry.texcoords.size()),
-                                  .normal = zeroBased(indices[i].normal_index, geometry.normals.size())});
+ private:
+  void readLine(LineReader& line) {
+    const std::string_view keyword = line.keyword();
+    if (keyword == "v") {
+      // Up to a weight and three of a colour, which are not used.
+      const std::vector<double>& numbers = line.numbers(3, 8);
+      mesh_.addPosition({numbers[0], numbers[1], numbers[2]});
+    } else if (keyword == "vt") {
+      const std::vector<double>& numbers = line.numbers(1, 3);
+      mesh_.addTexcoord({numbers[0], numbers.size() > 1 ? numbers[1] : 0.0});
+    } else if (keyword == "vn") {
+      const std::vector<double>& numbers = line.numbers(3, 3);
+      mesh_.addNormal({numbers[0], numbers[1], numbers[2]});
+    } else if (keyword == "f") {
+      readFace(line);
+    } else if (keyword == "usemtl") {
+      mesh_.setMaterial(materials_.find(line.argument()));
+    } else if (keyword == "mtllib") {
+      readMaterials(line);
     }
   }
 
-  static void useMaterial(void* self, const char* name, int) {
-    ObjSink& sink = *static_cast<ObjSink*>(self);
-    sink.material = sink.materials.find(name);
+  void readFace(const LineReader& line) {
+    const size_t count = line.tokens().size() - 1;
+    if (count < 3 || count > kMostCorners) {
+      line.fail("f", fmt::format("has {} vertices", count),
+                count < 3 ? "a face needs 3 or more" : fmt::format("3 .. {} are needed", kMostCorners));
+    }
+    corners_.clear();
+    for (size_t i = 1; i <= count; ++i) {
+      corners_.push_back(cornerOf(line, line.tokens()[i], mesh_));
+    }
+    mesh_.addFace(corners_);
   }
+
+  // The first of the files that is there counts. A backslash keeps the character behind it, a blank for example.
+  void readMaterials(const LineReader& line) {
+    const std::string_view names = line.argument();
+    std::string name;
+    for (size_t i = 0; i <= names.size(); ++i) {
+      if (i == names.size() || names[i] == ' ') {
+        if (!name.empty() && materials_.read(name)) {
+          return;
+        }
+        name.clear();
+      } else if (names[i] != '\\') {
+        name += names[i];
+      } else if (++i < names.size()) {
+        name += names[i];
+      }
+    }
+  }
+
+  const std::filesystem::path& file_;
+  MeshBuilder& mesh_;
+  ObjMaterials& materials_;
+  std::vector<FaceCorner> corners_;
 };
 
 }  // namespace
 
 Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
-  // Shares of the time that the steps take of a large model.
-  constexpr double kScanned = 0.35;
-  constexpr double kParsed = 0.65;
-  const auto tell = [&](double done) {
-    if (progress) {
-      progress(file, done);
-    }
-  };
-  tell(0.0);
-  const ObjScan scan = scanObj(file, readText(file, file, 1, "file", "a Wavefront OBJ file is needed"),
-                               [&](double part) { tell(kScanned * part); });
-  ObjSink sink{.materials = ObjMaterials(file)};
-  tinyobj::callback_t callback;
-  callback.vertex_cb = &ObjSink::position;
-  callback.texcoord_cb = &ObjSink::texcoord;
-  callback.normal_cb = &ObjSink::normal;
-  callback.index_cb = &ObjSink::face;
-  callback.usemtl_cb = &ObjSink::useMaterial;
-  std::istringstream stream(scan.text);
-  sink.alive = [&] {
-    const double part = static_cast<double>(stream.tellg()) / static_cast<double>(scan.text.size());
-    tell(kScanned + (kParsed - kScanned) * std::clamp(part, 0.0, 1.0));
-  };
-  tell(kScanned);
-  tinyobj::LoadObjWithCallback(stream, callback, &sink, &sink.materials);
-  tell(kParsed);
-  Mesh mesh = buildMesh(file, sink.geometry, scan, [&](int index) { return sink.materials.material(index, textures); });
+  if (progress) {
+    progress(file, 0.0);
+  }
+  MeshBuilder builder;
+  ObjMaterials materials(file);
+  ObjReader(file, builder, materials).read(readInputText(file, "a Wavefront OBJ file is needed"), progress);
+  if (progress) {
+    progress(file, kReadShare);
+  }
+  Mesh mesh = builder.finish(file, [&](int index) { return materials.material(index, textures); });
   if (mesh.indices.empty()) {
     throwInputError(file, 1, "f", "the model has no triangle", "at least one face with an area is needed");
   }

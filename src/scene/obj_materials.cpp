@@ -1,6 +1,8 @@
 #include "scene/obj_materials.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <array>
@@ -8,8 +10,8 @@
 #include <sstream>
 
 #include "image/image.hpp"
-#include "platform/file_io.hpp"
 #include "scene/input_error.hpp"
+#include "scene/text_lines.hpp"
 
 namespace speculum {
 
@@ -23,17 +25,16 @@ fs::path relativeTo(const fs::path& file, std::string name) {
   return (file.parent_path() / name).lexically_normal();
 }
 
-// The parser's arithmetic may round the largest doubles, which are finite to the scan, to infinity.
+// The parser's arithmetic may round the largest doubles to infinity.
 bool allFinite(const Material& material) {
-  bool finite = std::isfinite(material.shininess);
-  for (int i = 0; i < 3; ++i) {
-    finite = finite && std::isfinite(material.diffuse[i]) && std::isfinite(material.specular[i]) &&
-             std::isfinite(material.emission[i]);
-  }
-  return finite;
+  const auto finite = [](const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  return finite(material.diffuse) && finite(material.specular) && finite(material.emission) &&
+         std::isfinite(material.shininess);
 }
 
-// A file's fault without the advice in brackets at its end.
+// A file's problem without the advice in brackets at its end.
 std::string withoutAdvice(const std::string& message) {
   return message.substr(0, message.rfind(" ("));
 }
@@ -67,20 +68,97 @@ int textureIndex(const fs::path& file, std::vector<Texture>& textures) {
   return static_cast<int>(textures.size()) - 1;
 }
 
-}  // namespace
-
-std::string readText(const fs::path& file, const fs::path& from, int line, std::string_view key,
-                     std::string_view right) {
-  try {
-    const std::vector<uint8_t> bytes = readFileBytes(file);
-    return std::string(bytes.begin(), bytes.end());
-  } catch (const std::runtime_error& error) {
-    throwInputError(from, line, key, withoutAdvice(error.what()), right);
+// Words that an option of a texture takes behind it; up to 3 numbers for -o, -s and -t. -1: no option.
+int wordsOf(std::string_view option) {
+  constexpr std::array<std::string_view, 10> one{"-blendu", "-blendv", "-cc",      "-clamp", "-boost",
+                                                 "-bm",     "-texres", "-imfchan", "-type",  "-colorspace"};
+  if (option == "-o" || option == "-s" || option == "-t") {
+    return 3;
   }
+  return option == "-mm" ? 2 : std::find(one.begin(), one.end(), option) != one.end() ? 1 : -1;
 }
 
-bool ObjMaterials::operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                              std::map<std::string, int>* indices, std::string* warning, std::string* error) {
+// The file name, which may hold blanks, behind the options, none of which is used.
+std::string_view textureName(const LineReader& line) {
+  const std::vector<std::string_view>& tokens = line.tokens();
+  size_t i = 1;
+  while (i < tokens.size() && wordsOf(tokens[i]) >= 0) {
+    const int most = wordsOf(tokens[i++]);
+    for (int word = 0; word < most && i < tokens.size() && (most < 3 || parseNumber(tokens[i])); ++word) {
+      ++i;
+    }
+  }
+  return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
+}
+
+// The line with its numbers written anew: the parser's arithmetic overflows on 1e2147483648.
+std::string checkedNumbers(LineReader& line, bool color) {
+  std::string text(line.keyword());
+  for (const double value : color ? line.numbers(3, 3) : line.numbers(1, 1)) {
+    if (!std::isfinite(value)) {
+      line.fail(line.keyword(), "is not finite", "finite numbers are needed");
+    }
+    if (color && value < 0.0) {
+      line.fail(line.keyword(), "is negative", "colours are 0 or more");
+    }
+    text += ' ' + fmt::to_string(value);
+  }
+  return text;
+}
+
+struct MaterialLines {
+  int newmtl = 0;
+  int mapKd = 0;
+};
+
+struct CheckedMtl {
+  std::string text;                            // for the parser: the lines that are used, without comments and options
+  std::map<std::string, MaterialLines> lines;  // by material, the last one of a name
+};
+
+CheckedMtl checkMtl(const fs::path& file, std::string_view text) {
+  // The parser keeps some kilobytes for each material.
+  constexpr size_t kMostMaterials = 10'000;
+  CheckedMtl checked;
+  MaterialLines* current = nullptr;
+  size_t count = 0;
+  LineReader line(file, text, LineReader::Continuation::none);
+  while (line.next()) {
+    const std::string_view key = line.keyword();
+    const bool color = key == "Kd" || key == "Ks" || key == "Ke";
+    if (color || key == "Ns" || key == "d" || key == "Tr") {
+      checked.text.append(checkedNumbers(line, color));
+    } else if (key == "newmtl") {
+      if (++count > kMostMaterials) {
+        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
+      }
+      current = &checked.lines[std::string(line.argument())];
+      current->newmtl = line.number();
+      checked.text.append("newmtl ").append(line.argument());
+    } else if (key == "map_Kd" || key == "map_d") {
+      checked.text.append(key).append(" ").append(textureName(line));
+      if (key == "map_Kd" && current != nullptr) {
+        current->mapKd = line.number();
+      }
+    }
+    checked.text.push_back('\n');
+  }
+  return checked;
+}
+
+// Without its texture.
+Material materialOf(const tinyobj::material_t& source) {
+  const auto color = [](const tinyobj::real_t(&rgb)[3]) { return glm::dvec3(rgb[0], rgb[1], rgb[2]); };
+  return {.name = source.name,
+          .diffuse = color(source.diffuse),
+          .specular = color(source.specular),
+          .emission = color(source.emission),
+          .shininess = std::max(1.0, static_cast<double>(source.shininess))};
+}
+
+}  // namespace
+
+bool ObjMaterials::read(std::string_view name) {
   const fs::path file = relativeTo(objFile_, std::string(trimmed(name)));
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) {
@@ -89,21 +167,23 @@ bool ObjMaterials::operator()(const std::string& name, std::vector<tinyobj::mate
     missingFile_ = true;
     return false;
   }
-  // Materials multiply when many lines name one file.
-  if (!read_.insert(fs::weakly_canonical(file, ignored)).second) {
+  if (!filesRead_.insert(fs::weakly_canonical(file, ignored)).second) {
     return true;
   }
-  const std::string text = readText(file, file, 1, "file", "a Wavefront MTL file is needed");
-  const MtlScan scan = scanMtl(file, text);
-  const size_t first = materials->size();
-  std::istringstream stream(scan.text);
-  tinyobj::LoadMtl(indices, materials, &stream, warning, error);
-  for (size_t i = first; i < materials->size(); ++i) {
-    const tinyobj::material_t& material = (*materials)[i];
-    const std::string key(trimmed(material.name));
-    const auto found = scan.lines.find(key);
+  const CheckedMtl checked = checkMtl(file, readInputText(file, "a Wavefront MTL file is needed"));
+  std::vector<tinyobj::material_t> materials;
+  std::map<std::string, int> indices;
+  std::string warning;
+  std::string error;
+  std::istringstream stream(checked.text);
+  tinyobj::LoadMtl(&indices, &materials, &stream, &warning, &error);
+  for (const tinyobj::material_t& source : materials) {
+    const std::string key(trimmed(source.name));
+    const auto found = checked.lines.find(key);
+    const MaterialLines lines = found == checked.lines.end() ? MaterialLines{} : found->second;
     indices_.try_emplace(key, static_cast<int>(entries_.size()));
-    entries_.push_back({material, file, found == scan.lines.end() ? MtlLines{} : found->second});
+    entries_.push_back({materialOf(source), source.dissolve >= 1.0 && source.alpha_texname.empty(),
+                        source.diffuse_texname, file, lines.newmtl, lines.mapKd});
   }
   return true;
 }
@@ -126,25 +206,20 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
     return {};
   }
   const Entry& entry = entries_[index];
-  const tinyobj::material_t& source = entry.source;
-  Material material{.name = source.name,
-                    .diffuse = {source.diffuse[0], source.diffuse[1], source.diffuse[2]},
-                    .specular = {source.specular[0], source.specular[1], source.specular[2]},
-                    .emission = {source.emission[0], source.emission[1], source.emission[2]},
-                    .shininess = std::max(1.0, static_cast<double>(source.shininess))};
+  Material material = entry.material;
   if (!allFinite(material)) {
-    throwInputError(entry.file, std::max(1, entry.lines.newmtl), "newmtl", "has a number that is out of range",
+    throwInputError(entry.file, std::max(1, entry.line), "newmtl", "has a number that is out of range",
                     "numbers that a double can hold are needed");
   }
-  if (source.dissolve < 1.0 || !source.alpha_texname.empty()) {
-    spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.lines.newmtl,
-                 source.name);
+  if (!entry.opaque) {
+    spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.line,
+                 material.name);
   }
-  if (!source.diffuse_texname.empty()) {
+  if (!entry.diffuseTexture.empty()) {
     try {
-      material.diffuseTexture = textureIndex(relativeTo(entry.file, source.diffuse_texname), textures);
+      material.diffuseTexture = textureIndex(relativeTo(entry.file, entry.diffuseTexture), textures);
     } catch (const std::runtime_error& error) {
-      throwInputError(entry.file, std::max(1, entry.lines.mapKd), "map_Kd", withoutAdvice(error.what()),
+      throwInputError(entry.file, std::max(1, entry.textureLine), "map_Kd", withoutAdvice(error.what()),
                       "name a PNG or JPEG file, relative to the MTL file");
     }
   }

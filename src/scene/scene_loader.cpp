@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "scene/input_error.hpp"
+#include "scene/model_scene.hpp"
+#include "scene/obj_loader.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"
 

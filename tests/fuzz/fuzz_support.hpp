@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "fuzz_checks.hpp"
+#include "scene/obj_loader.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
 

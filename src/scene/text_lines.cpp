@@ -1,0 +1,133 @@
+#include "scene/text_lines.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+#include "scene/input_error.hpp"
+
+namespace speculum {
+
+namespace {
+
+bool isBlank(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) {
+    text.remove_prefix(1);
+  }
+  while (!text.empty() && isBlank(text.back())) {
+    text.remove_suffix(1);
+  }
+  return text;
+}
+
+std::optional<double> parseNumber(std::string_view token) {
+  if (token.starts_with('+')) {
+    token.remove_prefix(1);
+    if (token.starts_with('-')) {
+      return std::nullopt;
+    }
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+  if (end != token.data() + token.size() || error == std::errc::invalid_argument) {
+    return std::nullopt;
+  }
+  // from_chars does not tell overflow from underflow.
+  return error == std::errc() ? value : std::strtod(std::string(token).c_str(), nullptr);
+}
+
+LineReader::LineReader(const std::filesystem::path& file, std::string_view text, Continuation continuation)
+    : file_(file), rest_(text), size_(text.size()), continuation_(continuation) {
+  if (rest_.starts_with("\xef\xbb\xbf")) {
+    rest_.remove_prefix(3);
+  }
+}
+
+bool LineReader::next() {
+  while (!rest_.empty()) {
+    number_ += linesTaken_;
+    linesTaken_ = 0;
+    line_ = takeLine();
+    if (continues(line_)) {
+      joinContinuation();
+    }
+    if (line_.find('\0') != std::string_view::npos) {
+      fail("file", "is not a text file", "a Wavefront OBJ or MTL file is needed");
+    }
+    split();
+    if (!tokens_.empty()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+const std::vector<double>& LineReader::numbers(size_t least, size_t most) {
+  numbers_.clear();
+  for (size_t i = 1; i < tokens_.size(); ++i) {
+    const std::optional<double> value = parseNumber(tokens_[i]);
+    if (!value) {
+      fail(keyword(), fmt::format("'{}' is not a number", tokens_[i]), "write for example 0.5 or -1e-3");
+    }
+    numbers_.push_back(*value);
+  }
+  if (numbers_.size() < least || numbers_.size() > most) {
+    const std::string right = least == most ? fmt::to_string(least) : fmt::format("{} .. {}", least, most);
+    fail(keyword(), fmt::format("has {} numbers", numbers_.size()), right + " are needed");
+  }
+  return numbers_;
+}
+
+void LineReader::fail(std::string_view key, const std::string& wrong, const std::string& right) const {
+  throwInputError(file_, number_, key, wrong, right);
+}
+
+std::string_view LineReader::takeLine() {
+  const auto end = std::find_if(rest_.begin(), rest_.end(), [](char c) { return c == '\n' || c == '\r'; });
+  const std::string_view line = rest_.substr(0, end - rest_.begin());
+  rest_.remove_prefix(line.size());
+  rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<size_t>(1, rest_.size()));
+  ++linesTaken_;
+  return line;
+}
+
+// A backslash that ends a comment is part of the comment.
+bool LineReader::continues(std::string_view line) const {
+  return continuation_ == Continuation::backslash && line.ends_with('\\') && line.find('#') == std::string_view::npos;
+}
+
+void LineReader::joinContinuation() {
+  joined_.clear();
+  while (continues(line_)) {
+    joined_.append(line_.substr(0, line_.size() - 1)).push_back(' ');
+    line_ = rest_.empty() ? std::string_view() : takeLine();
+  }
+  joined_.append(line_);
+  line_ = joined_;
+}
+
+void LineReader::split() {
+  tokens_.clear();
+  const std::string_view line = line_.substr(0, line_.find('#'));
+  for (size_t i = 0; i < line.size();) {
+    const size_t begin = i;
+    while (i < line.size() && !isBlank(line[i])) {
+      ++i;
+    }
+    if (i > begin) {
+      tokens_.push_back(line.substr(begin, i - begin));
+    } else {
+      ++i;
+    }
+  }
+}
+
+}  // namespace speculum

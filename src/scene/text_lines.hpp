@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace speculum {
+
+// `text` without leading and trailing blanks.
+std::string_view trimmed(std::string_view text);
+
+// The number that the whole of `token` spells. Infinite or NaN values, spelled or overflown, are numbers.
+std::optional<double> parseNumber(std::string_view token);
+
+// Splits the text of an OBJ or MTL file into lines of tokens. Lines end as on any system; a byte order mark, comments
+// and lines without a token are passed over. `file` is only named in errors; it and the text must outlive the reader.
+class LineReader {
+ public:
+  // A backslash at the end of a line joins the next line to it, in OBJ but not in MTL files.
+  enum class Continuation { backslash, none };
+
+  LineReader(const std::filesystem::path& file, std::string_view text, Continuation continuation);
+
+  // Goes on to the next line with a token; false at the end. Throws InputError for a line that holds a zero byte.
+  bool next();
+
+  const std::vector<std::string_view>& tokens() const { return tokens_; }
+  std::string_view keyword() const { return tokens_[0]; }
+  // The line from a token on, blanks inside and a comment behind it included.
+  std::string_view from(std::string_view token) const { return trimmed(line_.substr(token.data() - line_.data())); }
+  std::string_view argument() const { return trimmed(from(keyword()).substr(keyword().size())); }
+  int number() const { return number_; }  // from 1; the first of joined lines
+  double done() const { return 1.0 - static_cast<double>(rest_.size()) / static_cast<double>(size_); }
+
+  // The numbers after the keyword, valid until the next call. Throws InputError for other tokens and other counts.
+  const std::vector<double>& numbers(size_t least, size_t most);
+
+  [[noreturn]] void fail(std::string_view key, const std::string& wrong, const std::string& right) const;
+
+ private:
+  std::string_view takeLine();
+  bool continues(std::string_view line) const;
+  void joinContinuation();
+  void split();
+
+  const std::filesystem::path& file_;
+  std::string_view rest_;
+  size_t size_;
+  Continuation continuation_;
+  std::string_view line_;
+  std::string joined_;  // storage of a line_ that was joined
+  std::vector<std::string_view> tokens_;
+  std::vector<double> numbers_;
+  int number_ = 1;
+  int linesTaken_ = 0;  // lines that line_ joins
+};
+
+}  // namespace speculum
