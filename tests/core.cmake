@@ -3,7 +3,6 @@ file(GLOB test_shader_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/shader
      ${CMAKE_CURRENT_LIST_DIR}/shaders/*.frag ${CMAKE_CURRENT_LIST_DIR}/shaders/*.comp)
 speculum_shaders(test_shaders OUTPUT ${PROJECT_BINARY_DIR}/tests/core_shaders SOURCES ${test_shader_sources})
 
-speculum_test(platform_tests SOURCES platform_files.cpp LIBRARIES platform ext::glm)
 foreach(name core_retire_queue core_device core_render core_barriers core_pipeline)
   speculum_test(${name} SOURCES core_fixture.cpp ${name}.cpp LIBRARIES core ext::spdlog)
   add_dependencies(${name} test_shaders)

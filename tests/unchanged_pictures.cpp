@@ -248,8 +248,7 @@ TEST(UnchangedPictures, MemoryComesBackWhenReflectionsGo) {
 
 // What is watched is compared by its time, which has whole seconds on some systems.
 void replaceShader(const std::filesystem::path& file, const std::string& code) {
-  const std::vector<uint8_t> content = *readFile(file);
-  std::string text(content.begin(), content.end());
+  std::string text = readText(file);
   text.insert(text.rfind('}'), code);
   std::ofstream(file) << text;
   std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));

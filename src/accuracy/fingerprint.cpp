@@ -1,6 +1,7 @@
 #include "accuracy/fingerprint.hpp"
 
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
+#include "platform/fnv1a.hpp"
 
 namespace speculum {
 
@@ -32,9 +33,7 @@ void addMesh(Fingerprint& fingerprint, const Mesh& mesh) {
 }  // namespace
 
 void Fingerprint::add(std::span<const std::byte> bytes) {
-  for (const std::byte byte : bytes) {
-    state_ = (state_ ^ static_cast<uint64_t>(byte)) * 0x100000001b3u;
-  }
+  state_ = fnv1a(bytes, state_);
 }
 
 void Fingerprint::add(std::string_view text) {
@@ -52,7 +51,7 @@ std::string Fingerprint::hex() const {
 }
 
 void addScene(Fingerprint& fingerprint, const Scene& scene) {
-  const std::vector<uint8_t> file = readFileBytes(scene.file);
+  const std::vector<uint8_t> file = readFile(scene.file);
   fingerprint.add(std::as_bytes(std::span(file)));
   for (const Mesh& mesh : scene.meshes) {
     addMesh(fingerprint, mesh);

@@ -23,7 +23,7 @@ class Fingerprint {
   std::string hex() const;  // 16 digits
 
  private:
-  uint64_t state_ = 0xcbf29ce484222325u;
+  uint64_t state_ = kFnv1aStart;
 };
 
 // Everything that a picture of the scene depends on: the scene file's text, and models and textures as they were read.

@@ -2,7 +2,7 @@
 
 #include "accuracy/sweep_json.hpp"
 #include "accuracy/sweep_results.hpp"
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 
@@ -91,7 +91,7 @@ ErrorFigures readErrors(const JsonReader& errors) {
 SweepResults readSweepResults(const std::filesystem::path& file) {
   ordered_json json;
   try {
-    const std::vector<uint8_t> bytes = readFileBytes(file, 64u << 20);
+    const std::vector<uint8_t> bytes = readFile(file, 64u << 20);
     json = ordered_json::parse(bytes.begin(), bytes.end());
   } catch (const nlohmann::json::exception&) {
     throw InputError(file.string() + ": not JSON (a results.json of speculum accuracy is needed)");

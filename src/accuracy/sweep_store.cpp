@@ -3,10 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 
@@ -15,24 +14,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-void writeText(const fs::path& file, const std::string& text) {
-  replaceFile(file, [&](const fs::path& path) {
-    std::ofstream out(path, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-      throw std::runtime_error(file.string() + ": cannot be written");
-    }
-  });
-}
-
 // Nothing for a file that is absent or broken: what it held is measured again.
 std::optional<ordered_json> readJson(const fs::path& file) {
   if (!fs::exists(file)) {
     return std::nullopt;
   }
   try {
-    const std::vector<uint8_t> bytes = readFileBytes(file);
+    const std::vector<uint8_t> bytes = readFile(file);
     return ordered_json::parse(bytes.begin(), bytes.end());
   } catch (const std::exception&) {
     spdlog::warn("{}: unreadable, what it held is measured again", file.string());
@@ -108,7 +96,7 @@ void SweepStore::save() const {
       json[key]["error"] = errorsJson(m.errors->whole, m.errors->mirrors);
     }
   }
-  writeText(folder_ / "measurements.json", json.dump());
+  replaceFile(folder_ / "measurements.json", json.dump());
 }
 
 std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
@@ -144,7 +132,7 @@ void SweepStore::keepTruth(const std::string& key, const GroundTruth& truth) con
                              {"threads", truth.threads},
                              {"throughput_beyond", truth.throughputBeyond}};
   // Last: it is what says that the rest is there.
-  writeText(base + ".json", json.dump());
+  replaceFile(base + ".json", json.dump());
 }
 
 std::string SweepStore::keepPicture(const std::string& name, const Image8& image) const {

@@ -54,9 +54,7 @@ fs::path Demo::fileOfView(std::string& problem) {
     const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, loaded_->settings));
     fs::path file = folder / (own.stem().string() + "-" + contentName(text) + ".toml");
     keepNewest(folder);
-    if (!replaceFile(file, {reinterpret_cast<const uint8_t*>(text.data()), text.size()})) {
-      throw std::runtime_error(file.string() + ": cannot be written (check the folder and the disk)");
-    }
+    replaceFile(file, text);
     return file;
   } catch (const std::runtime_error& error) {
     problem = error.what();

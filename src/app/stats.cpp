@@ -250,8 +250,7 @@ ordered_json mergeStats(const std::vector<ordered_json>& frames) {
 }
 
 void writeText(const std::filesystem::path& file, const std::string& text) {
-  const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
-  if (!replaceFile(file, bytes)) {
+  if (!storeFile(file, text)) {
     throw std::runtime_error(file.string() + ": cannot be written (a file in a writable directory)");
   }
 }

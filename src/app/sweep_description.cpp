@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void addFile(Fingerprint& fingerprint, const fs::path& file) {
-  if (const std::optional<std::vector<uint8_t>> bytes = readFile(file)) {
+  if (const std::optional<std::vector<uint8_t>> bytes = readFileIfAny(file)) {
     fingerprint.add(std::as_bytes(std::span(*bytes)));
   }
 }

@@ -3,7 +3,8 @@
 #include <cstring>
 
 #include "core/pipeline.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/fnv1a.hpp"
 
 namespace speculum {
 
@@ -15,15 +16,6 @@ struct FileHeader {
   uint64_t bytes = 0;
   uint64_t hash = 0;
 };
-
-// FNV-1a, 64 bit.
-uint64_t hashOf(std::span<const uint8_t> data) {
-  uint64_t hash = 0xcbf29ce484222325;
-  for (const uint8_t byte : data) {
-    hash = (hash ^ byte) * 0x100000001b3;
-  }
-  return hash;
-}
 
 std::string fileName(const VkPhysicalDeviceProperties& properties) {
   std::string name = "pipelines_";
@@ -55,7 +47,7 @@ std::span<const uint8_t> payload(const VkPhysicalDeviceProperties& properties, s
   std::memcpy(&header, file.data(), sizeof header);
   const std::span<const uint8_t> data = file.subspan(sizeof header);
   const bool whole = std::memcmp(header.magic, expected.magic, sizeof header.magic) == 0 &&
-                     header.bytes == data.size() && header.hash == hashOf(data);
+                     header.bytes == data.size() && header.hash == fnv1a(std::as_bytes(data));
   return whole && madeBy(properties, data) ? data : std::span<const uint8_t>{};
 }
 
@@ -66,7 +58,7 @@ PipelineCache::PipelineCache(Device& device, const std::filesystem::path& direct
   std::span<const uint8_t> data;
   if (!directory.empty()) {
     file_ = directory / fileName(device.properties());
-    if (std::optional<std::vector<uint8_t>> found = readFile(file_)) {
+    if (std::optional<std::vector<uint8_t>> found = readFileIfAny(file_)) {
       content = std::move(*found);
       data = payload(device.properties(), content);
       loaded_ = !data.empty();
@@ -105,9 +97,9 @@ bool PipelineCache::save() const {
   }
   content.resize(sizeof header + bytes);
   header.bytes = bytes;
-  header.hash = hashOf(std::span(content).subspan(sizeof header));
+  header.hash = fnv1a(std::as_bytes(std::span(content).subspan(sizeof header)));
   std::memcpy(content.data(), &header, sizeof header);
-  return replaceFile(file_, content);
+  return storeFile(file_, content);
 }
 
 }  // namespace speculum

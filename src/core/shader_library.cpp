@@ -26,7 +26,7 @@ bool isSpirv(const std::vector<uint8_t>& code) {
 
 // Of a make rule "output: source include include", lines joined by backslashes.
 std::vector<fs::path> sourcesIn(const fs::path& depfile) {
-  const auto content = readFile(depfile);
+  const auto content = readFileIfAny(depfile);
   std::vector<fs::path> sources;
   if (!content) {
     return sources;
@@ -74,7 +74,7 @@ VkShaderModule ShaderLibrary::module(const std::string& name) {
   }
   if (!entry.module) {
     const fs::path file = spirvDir_ / (name + ".spv");
-    std::optional<std::vector<uint8_t>> code = readFile(file);
+    std::optional<std::vector<uint8_t>> code = readFileIfAny(file);
     if (!code) {
       throw std::runtime_error("shader " + file.string() + " cannot be read (build the target 'shaders')");
     }
@@ -109,7 +109,7 @@ bool ShaderLibrary::compile(const std::string& name, Entry& entry) {
   const ProcessResult result =
       runProcess({"glslangValidator", "--quiet", "-V", "--target-env", "vulkan1.1", "-I" + glslDir_.string(),
                   "--depfile", depfile.string(), "-o", output.string(), (glslDir_ / name).string()});
-  std::optional<std::vector<uint8_t>> code = readFile(output);
+  std::optional<std::vector<uint8_t>> code = readFileIfAny(output);
   if (result.exitCode != 0 || !code || !isSpirv(*code)) {
     entry.error = result.exitCode == 127 ? "glslangValidator was not found (install glslang-tools)" : result.output;
     spdlog::warn("shader {} did not compile; the last good one stays:\n{}", name, entry.error);

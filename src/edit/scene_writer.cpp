@@ -10,7 +10,7 @@
 #include "edit/toml_editor.hpp"
 #include "edit/toml_text.hpp"
 #include "frame/settings.hpp"
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 
@@ -177,11 +177,6 @@ void check(const fs::path& file, const std::string& text, const SceneContent& co
   }
 }
 
-std::string textOf(const fs::path& file) {
-  const std::vector<uint8_t> bytes = readFileBytes(file);
-  return {bytes.begin(), bytes.end()};
-}
-
 }  // namespace
 
 SceneContent contentOf(const Scene& scene) {
@@ -232,17 +227,11 @@ void writeSceneFile(const fs::path& file, const std::string& text, const std::op
                     bool overwrite) {
   try {
     std::error_code error;
-    if (!overwrite && fs::exists(file, error) && (!expected || textOf(file) != *expected)) {
+    if (!overwrite && fs::exists(file, error) && (!expected || readText(file) != *expected)) {
       refuse(file, expected ? "another program has changed the file since it was read" : "there is such a file already",
              "save under another name, or overwrite it");
     }
-    replaceFile(file, [&](const fs::path& partial) {
-      std::ofstream stream(partial, std::ios::binary);
-      stream << text;
-      if (!stream.flush()) {
-        throw std::runtime_error(partial.string() + ": cannot be written (check the folder and the disk)");
-      }
-    });
+    replaceFile(file, text);
   } catch (const SaveError&) {
     throw;
   } catch (const std::runtime_error& problem) {

@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 
 #include "image/exr_layout.hpp"
 #include "image/image.hpp"
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 
@@ -58,8 +57,7 @@ std::vector<uint8_t> encodeExr(const std::filesystem::path& file, const LinearIm
   const size_t size = SaveEXRImageToMemory(&source, &header, &memory, &message);
   const std::unique_ptr<unsigned char, decltype(&std::free)> owner(memory, &std::free);
   if (size == 0) {
-    throw std::runtime_error(file.string() + ": cannot be encoded as EXR: " + takeMessage(message) +
-                             " (a smaller picture is needed)");
+    throw FileError(file, "cannot be encoded as EXR: " + takeMessage(message), "a smaller picture is needed");
   }
   return {memory, memory + size};
 }
@@ -67,10 +65,9 @@ std::vector<uint8_t> encodeExr(const std::filesystem::path& file, const LinearIm
 }  // namespace
 
 LinearImage readExr(const std::filesystem::path& file) {
-  std::vector<uint8_t> bytes = readFileBytes(file);
+  std::vector<uint8_t> bytes = readFile(file);
   const auto refuse = [&](const std::string& fault) {
-    throw std::runtime_error(file.string() + ": is not an EXR that can be read: " + fault +
-                             " (a single-part RGB, RGBA or Y file is needed)");
+    throw FileError(file, "is not an EXR that can be read: " + fault, "a single-part RGB, RGBA or Y file is needed");
   };
   try {
     checkExrLayout(bytes);
@@ -95,17 +92,9 @@ LinearImage readExr(const std::filesystem::path& file) {
 
 void writeExr(const std::filesystem::path& file, const LinearImage& image) {
   if (image.width < 1 || image.height < 1) {
-    throw std::runtime_error(file.string() + ": the picture has no pixels (width and height of 1 or more are needed)");
+    throw FileError(file, "the picture has no pixels", "width and height of 1 or more are needed");
   }
-  const std::vector<uint8_t> bytes = encodeExr(file, image);
-  replaceFile(file, [&](const std::filesystem::path& target) {
-    std::ofstream stream(target, std::ios::binary);
-    stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    stream.close();
-    if (!stream) {
-      throw std::runtime_error(file.string() + ": cannot be written (check the folder's permissions and free space)");
-    }
-  });
+  replaceFile(file, encodeExr(file, image));
 }
 
 }  // namespace speculum

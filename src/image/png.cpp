@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 
 #include "image/image.hpp"
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 
@@ -32,21 +30,23 @@ void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& by
   int channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) != 0 &&
       int64_t{width} * height > most) {
-    throw std::runtime_error(file.string() + ": the picture has " + std::to_string(width) + "x" +
-                             std::to_string(height) + " pixels (at most 2^26, such as 8192x8192, are read)");
+    throw FileError(file, "the picture has " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
+                    "at most 2^26, such as 8192x8192, are read");
   }
 }
 
-void writeChunk(void* stream, void* data, int size) {
-  static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(data), size);
+void appendBytes(void* context, void* data, int size) {
+  auto& bytes = *static_cast<std::vector<uint8_t>*>(context);
+  const auto* first = static_cast<const uint8_t*>(data);
+  bytes.insert(bytes.end(), first, first + size);
 }
 
 }  // namespace
 
 Image8 readImage8(const std::filesystem::path& file) {
-  const std::vector<uint8_t> bytes = readFileBytes(file);
+  const std::vector<uint8_t> bytes = readFile(file);
   if (!isPngOrJpeg(bytes)) {
-    throw std::runtime_error(file.string() + ": is not a picture that can be read (a PNG or JPEG file is needed)");
+    throw FileError(file, "is not a picture that can be read", "a PNG or JPEG file is needed");
   }
   checkSize(file, bytes);
   int width = 0;
@@ -56,8 +56,8 @@ Image8 readImage8(const std::filesystem::path& file) {
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
       &stbi_image_free);
   if (!pixels) {
-    throw std::runtime_error(file.string() + ": the picture is damaged: " + stbi_failure_reason() +
-                             " (a complete PNG or JPEG file is needed)");
+    throw FileError(file, std::string("the picture is damaged: ") + stbi_failure_reason(),
+                    "a complete PNG or JPEG file is needed");
   }
   Image8 image(width, height);
   std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());
@@ -66,18 +66,14 @@ Image8 readImage8(const std::filesystem::path& file) {
 
 void writePng(const std::filesystem::path& file, const Image8& image) {
   if (image.width < 1 || image.height < 1) {
-    throw std::runtime_error(file.string() + ": the picture has no pixels (width and height of 1 or more are needed)");
+    throw FileError(file, "the picture has no pixels", "width and height of 1 or more are needed");
   }
   [[maybe_unused]] static const int level = stbi_write_png_compression_level = 9;
-  replaceFile(file, [&](const std::filesystem::path& target) {
-    std::ofstream stream(target, std::ios::binary);
-    const bool encoded = stream && stbi_write_png_to_func(&writeChunk, &stream, image.width, image.height, 4,
-                                                          image.rgba.data(), image.width * 4);
-    stream.close();
-    if (!encoded || !stream) {
-      throw std::runtime_error(file.string() + ": cannot be written (check the folder's permissions and free space)");
-    }
-  });
+  std::vector<uint8_t> bytes;
+  if (!stbi_write_png_to_func(&appendBytes, &bytes, image.width, image.height, 4, image.rgba.data(), image.width * 4)) {
+    throw FileError(file, "cannot be encoded as PNG", "is there memory left?");
+  }
+  replaceFile(file, bytes);
 }
 
 }  // namespace speculum

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 
@@ -20,14 +20,11 @@ void throwInputError(const std::filesystem::path& file, int line, std::string_vi
   throw InputError(oneLine(std::move(message)));
 }
 
-std::string readInputText(const std::filesystem::path& file, std::string_view right) {
+std::string readInputText(const std::filesystem::path& file, std::string_view right, uintmax_t most) {
   try {
-    const std::vector<uint8_t> bytes = readFileBytes(file);
-    return std::string(bytes.begin(), bytes.end());
-  } catch (const std::runtime_error& failure) {
-    const std::string message = failure.what();
-    const size_t start = file.string().size() + 2;
-    throwInputError(file, 1, "file", message.substr(start, message.rfind(" (") - start), right);
+    return readText(file, most);
+  } catch (const FileError& error) {
+    throwInputError(file, 1, "file", error.problem(), right);
   }
 }
 

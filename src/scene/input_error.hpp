@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -21,7 +22,8 @@ std::string oneLine(std::string message);
 [[noreturn]] void throwInputError(const std::filesystem::path& file, int line, std::string_view key,
                                   std::string_view wrong, std::string_view right);
 
-// The content of an input file. Throws InputError for line 1 and key `file`; `right` says which file is needed.
-std::string readInputText(const std::filesystem::path& file, std::string_view right);
+// The content of an input file. Throws InputError for line 1 and key `file`; `right` says which file is needed, `most`
+// its largest size in bytes.
+std::string readInputText(const std::filesystem::path& file, std::string_view right, uintmax_t most = 1u << 30);
 
 }  // namespace speculum

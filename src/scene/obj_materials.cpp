@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "image/image.hpp"
+#include "platform/files.hpp"
 #include "scene/input_error.hpp"
 #include "scene/text_lines.hpp"
 
@@ -32,11 +33,6 @@ bool allFinite(const Material& material) {
   };
   return finite(material.diffuse) && finite(material.specular) && finite(material.emission) &&
          std::isfinite(material.shininess);
-}
-
-// A file's problem without the advice in brackets at its end.
-std::string withoutAdvice(const std::string& message) {
-  return message.substr(0, message.rfind(" ("));
 }
 
 Texture loadTexture(const fs::path& file) {
@@ -216,10 +212,11 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
                  material.name);
   }
   if (!entry.diffuseTexture.empty()) {
+    const fs::path picture = relativeTo(entry.file, entry.diffuseTexture);
     try {
-      material.diffuseTexture = textureIndex(relativeTo(entry.file, entry.diffuseTexture), textures);
-    } catch (const std::runtime_error& error) {
-      throwInputError(entry.file, std::max(1, entry.textureLine), "map_Kd", withoutAdvice(error.what()),
+      material.diffuseTexture = textureIndex(picture, textures);
+    } catch (const FileError& error) {
+      throwInputError(entry.file, std::max(1, entry.textureLine), "map_Kd", picture.string() + ": " + error.problem(),
                       "name a PNG or JPEG file, relative to the MTL file");
     }
   }

@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "platform/file_io.hpp"
 #include "scene/input_error.hpp"
 #include "scene/toml_depth.hpp"
 
@@ -12,28 +11,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A device or pipe might never end, and nobody writes a larger scene by hand.
+// Nobody writes a larger scene by hand.
 constexpr uintmax_t kLargestFile = 16u << 20;
 
 }  // namespace
 
 std::string readTomlText(const fs::path& file, std::string_view kind) {
-  const std::string right = fmt::format("a {} is needed", kind);
-  std::error_code error;
-  if (fs::exists(file, error) && !fs::is_directory(file, error)) {
-    const bool regular = fs::is_regular_file(file, error);
-    if (!regular || fs::file_size(file, error) > kLargestFile) {
-      throwInputError(file, 1, "file", regular ? "is larger than 16 MiB" : "is a device or pipe", right);
-    }
-  }
-  try {
-    const std::vector<uint8_t> bytes = readFileBytes(file);
-    return std::string(bytes.begin(), bytes.end());
-  } catch (const std::runtime_error& failure) {
-    const std::string message = failure.what();
-    const size_t start = file.string().size() + 2;
-    throwInputError(file, 1, "file", message.substr(start, message.rfind(" (") - start), right);
-  }
+  return readInputText(file, fmt::format("a {} is needed", kind), kLargestFile);
 }
 
 toml::table readToml(const fs::path& file, std::string_view kind) {

@@ -21,7 +21,7 @@ std::filesystem::path themeFile() {
 }  // namespace
 
 Theme savedTheme() {
-  const auto content = readFile(themeFile());
+  const auto content = readFileIfAny(themeFile());
   const std::string_view text =
       content ? std::string_view(reinterpret_cast<const char*>(content->data()), content->size()) : darkText;
   return text == lightText ? Theme::light : Theme::dark;
@@ -29,7 +29,7 @@ Theme savedTheme() {
 
 void saveTheme(Theme theme) {
   const std::string_view text = theme == Theme::light ? lightText : darkText;
-  if (!replaceFile(themeFile(), {reinterpret_cast<const uint8_t*>(text.data()), text.size()})) {
+  if (!storeFile(themeFile(), text)) {
     spdlog::warn("{} cannot be written: the theme is not remembered", themeFile().string());
   }
 }

@@ -23,7 +23,7 @@ std::filesystem::path choicesFile() {
 
 PanelChoices savedPanelChoices() {
   PanelChoices choices;
-  const auto content = readFile(choicesFile());
+  const auto content = readFileIfAny(choicesFile());
   std::istringstream lines(content ? std::string(content->begin(), content->end()) : std::string());
   std::string word;
   std::string value;
@@ -43,7 +43,7 @@ void savePanelChoices(const PanelChoices& choices) {
   for (const PanelName& panel : panelNames) {
     text += choices.*panel.open ? std::string(openWord) + " " + std::string(panel.name) + "\n" : "";
   }
-  if (!replaceFile(choicesFile(), {reinterpret_cast<const uint8_t*>(text.data()), text.size()})) {
+  if (!storeFile(choicesFile(), text)) {
     spdlog::warn("{} cannot be written: the open panels are not remembered", choicesFile().string());
   }
 }

@@ -64,11 +64,7 @@ void run(std::vector<std::string> arguments) {
   for (int i = 0; i < count; ++i) {
     paste(strip, i * (part.width * zoom + gap), readImage8(arguments[3 + i]), part, zoom);
   }
-  const std::vector<uint8_t> jpeg = encodeJpeg(strip, quality);
-  replaceFile(arguments[0], [&](const std::filesystem::path& file) {
-    std::ofstream(file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
-  });
+  replaceFile(arguments[0], encodeJpeg(strip, quality));
 }
 
 }  // namespace

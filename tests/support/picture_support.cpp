@@ -120,7 +120,7 @@ void writeShaders(const std::filesystem::path& directory, const std::string& sha
   for (const auto& entry : std::filesystem::directory_iterator(sourceFile("shaders"))) {
     std::filesystem::copy_file(entry.path(), directory / entry.path().filename());
   }
-  const std::vector<uint8_t> content = *readFile(directory / shader);
+  const std::vector<uint8_t> content = readFile(directory / shader);
   std::string text(content.begin(), content.end());
   text.insert(text.rfind('}'), code);
   std::ofstream(directory / shader) << text;

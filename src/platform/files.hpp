@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace speculum {
+
+// A file that cannot be read or written. what() is `FILE: problem (remedy)`.
+class FileError : public std::runtime_error {
+ public:
+  FileError(const std::filesystem::path& file, std::string problem, const std::string& remedy);
+  const std::string& problem() const { return problem_; }
+
+ private:
+  std::string problem_;
+};
+
+// The content of a file. Throws FileError when it is missing, unreadable, a folder, a device or pipe (which might never
+// end), or larger than `most` bytes.
+std::vector<uint8_t> readFile(const std::filesystem::path& file, uintmax_t most = 1u << 30);
+std::string readText(const std::filesystem::path& file, uintmax_t most = 1u << 30);
+// Nothing for a file that readFile() refuses.
+std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& file);
+
+// Writes beside `file` and renames over it, so that a reader sees the old or the new content and a failure leaves the
+// old one. Devices are written to. Throws FileError, also when the folder is missing.
+void replaceFile(const std::filesystem::path& file, std::span<const uint8_t> content);
+void replaceFile(const std::filesystem::path& file, std::string_view text);
+// Creates the folder as well. Returns false on failure, for files whose loss does no harm.
+bool storeFile(const std::filesystem::path& file, std::span<const uint8_t> content);
+bool storeFile(const std::filesystem::path& file, std::string_view text);
+
+bool isWritable(const std::filesystem::path& file);  // the folder of a file that does not exist
+
+// Seconds since an arbitrary epoch with sub-second resolution; nothing for a file that does not exist.
+std::optional<double> modificationTime(const std::filesystem::path& file);
+
+// A folder of this process, removed with its content on destruction.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory();
+  ~TemporaryDirectory();
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace speculum

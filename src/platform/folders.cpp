@@ -1,0 +1,89 @@
+#include "platform/folders.hpp"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "platform/process.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path userDir(const char* variable, const char* fallback) {
+  // The XDG base directory specification says to ignore relative paths.
+  const fs::path base = environment(variable);
+  if (base.is_absolute()) {
+    return base / "speculum";
+  }
+  const std::string home = environment("HOME");
+  return (home.empty() ? fs::temp_directory_path() : fs::path(home) / fallback) / "speculum";
+}
+
+// The folder that the file of xdg-user-dirs names: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
+fs::path configuredDir(const std::string& variable, const std::string& home) {
+  std::ifstream file(userConfigDir().parent_path() / "user-dirs.dirs");
+  const std::string key = variable + "=\"";
+  for (std::string line; std::getline(file, line);) {
+    const size_t end = line.rfind('"');
+    if (line.rfind(key, 0) != 0 || end < key.size()) {
+      continue;
+    }
+    const std::string value = line.substr(key.size(), end - key.size());
+    return value.rfind("$HOME/", 0) == 0 ? fs::path(home) / value.substr(6) : fs::path(value);
+  }
+  return {};
+}
+
+fs::path desktopDir(const std::string& variable, const char* fallback) {
+  const std::string home = environment("HOME");
+  for (const fs::path& folder : {fs::path(environment(variable)), configuredDir(variable, home)}) {
+    if (folder.is_absolute()) {
+      return folder;
+    }
+  }
+  return home.empty() ? fs::temp_directory_path() : fs::path(home) / fallback;
+}
+
+}  // namespace
+
+fs::path executablePath() {
+  return fs::read_symlink("/proc/self/exe");
+}
+
+fs::path userCacheDir() {
+  return userDir("XDG_CACHE_HOME", ".cache");
+}
+
+fs::path userConfigDir() {
+  return userDir("XDG_CONFIG_HOME", ".config");
+}
+
+fs::path picturesDir() {
+  return desktopDir("XDG_PICTURES_DIR", "Pictures");
+}
+
+fs::path documentsDir() {
+  return desktopDir("XDG_DOCUMENTS_DIR", "Documents");
+}
+
+fs::path dataDirectory(std::string_view name) {
+  const fs::path exe = executablePath().parent_path();
+  const fs::path up = exe.parent_path();
+  // Built: beside the program, a folder higher for test programs, then up to the source tree.
+  const fs::path candidates[] = {exe / name, up / "share" / "speculum" / name, up / name, up.parent_path() / name,
+                                 up.parent_path().parent_path() / name};
+  std::string searched;
+  for (const fs::path& candidate : candidates) {
+    std::error_code error;
+    if (fs::is_directory(candidate, error)) {
+      return candidate;
+    }
+    searched += (searched.empty() ? "" : ", ") + candidate.string();
+  }
+  throw std::runtime_error("no directory '" + std::string(name) + "' was found; looked at " + searched +
+                           " (build the project, or install it with cmake --install)");
+}
+
+}  // namespace speculum

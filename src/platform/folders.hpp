@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace speculum {
+
+std::filesystem::path executablePath();
+std::filesystem::path userCacheDir();   // $XDG_CACHE_HOME/speculum or ~/.cache/speculum; not created
+std::filesystem::path userConfigDir();  // $XDG_CONFIG_HOME/speculum or ~/.config/speculum; not created
+// The user's folder for pictures: $XDG_PICTURES_DIR, the one that user-dirs.dirs names, or ~/Pictures.
+std::filesystem::path picturesDir();
+std::filesystem::path documentsDir();  // likewise $XDG_DOCUMENTS_DIR, ~/Documents
+
+// The directory of shipped data `name` ("shaders", "scenes", "models"): beside the executable, in
+// <prefix>/share/speculum, or up to three folders above the executable. Throws std::runtime_error that lists where it
+// looked.
+std::filesystem::path dataDirectory(std::string_view name);
+
+}  // namespace speculum

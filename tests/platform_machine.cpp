@@ -1,0 +1,64 @@
+#include "platform/machine.hpp"
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+#include <sys/resource.h>
+
+#include <thread>
+#include <vector>
+
+#include "platform/process.hpp"
+
+namespace speculum::test {
+namespace {
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+// Page faults of a thread that allocates, fills and frees 8 MiB again and again; the first four times do not count.
+long faultsOfAllocating() {
+  long faults = 0;
+  std::thread([&] {
+    const auto faultsSoFar = [] {
+      rusage usage{};
+      ::getrusage(RUSAGE_THREAD, &usage);
+      return usage.ru_minflt;
+    };
+    long before = 0;
+    for (int i = 0; i < 20; ++i) {
+      before = i == 4 ? faultsSoFar() : before;
+      std::vector<std::vector<char>> blocks;
+      for (int k = 0; k < 32; ++k) {
+        blocks.emplace_back(256 << 10, 'x');
+      }
+    }
+    faults = faultsSoFar() - before;
+  }).join();
+  return faults;
+}
+
+TEST(Machine, KeepsFreedMemory) {
+  ::unsetenv("MALLOC_TRIM_THRESHOLD_");
+  ::unsetenv("MALLOC_MMAP_THRESHOLD_");
+  ::mallopt(M_TRIM_THRESHOLD, 128 << 10);
+  ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
+  EXPECT_GT(faultsOfAllocating(), 16 * 1000);
+  keepFreedMemory();
+  EXPECT_LT(faultsOfAllocating(), 1000);
+}
+
+TEST(Machine, KeepsTheUsersMallocThresholds) {
+  ::mallopt(M_TRIM_THRESHOLD, 128 << 10);
+  ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
+  setEnvironment("MALLOC_TRIM_THRESHOLD_", "131072");
+  keepFreedMemory();
+  ::unsetenv("MALLOC_TRIM_THRESHOLD_");
+  EXPECT_GT(faultsOfAllocating(), 16 * 1000);
+}
+#endif
+
+TEST(Machine, PeakMemoryIsPlausible) {
+  EXPECT_GT(peakResidentBytes(), uint64_t{1} << 20);
+  EXPECT_LT(peakResidentBytes(), uint64_t{1} << 40);
+}
+
+}  // namespace
+}  // namespace speculum::test
