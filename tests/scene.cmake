@@ -1,3 +1,3 @@
 speculum_test(scene_tests
-  SOURCES scene_evaluate.cpp scene_loader.cpp scene_loader_errors.cpp scene_mesh.cpp scene_obj.cpp scene_model.cpp scene_levels.cpp
+  SOURCES scene_evaluate.cpp scene_loader.cpp scene_loader_errors.cpp scene_model.cpp scene_levels.cpp
   LIBRARIES scene ext::spdlog)

@@ -7,7 +7,7 @@
 namespace speculum {
 namespace {
 
-constexpr const char* kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
+const std::string kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
 
 Scene load(const std::string& text) {
   const TemporaryFolder folder;
@@ -31,7 +31,7 @@ TEST(SceneDefaults, OfFileAndCamera) {
 }
 
 TEST(SceneDefaults, OfObject) {
-  const Scene scene = load(std::string(kCamera) + "[[object]]\nmodel = 'triangle.obj'\n");
+  const Scene scene = load(kCamera + "[[object]]\nmodel = 'triangle.obj'\n");
   ASSERT_EQ(scene.objects.size(), 1u);
   const Object& object = scene.objects[0];
   EXPECT_EQ(object.name, "");
@@ -46,7 +46,7 @@ TEST(SceneDefaults, OfObject) {
 }
 
 TEST(SceneDefaults, OfLight) {
-  const Scene scene = load(std::string(kCamera) + "[[light]]\nposition = [1, 2, 3]\n");
+  const Scene scene = load(kCamera + "[[light]]\nposition = [1, 2, 3]\n");
   ASSERT_EQ(scene.lights.size(), 1u);
   const PointLight& light = scene.lights[0];
   EXPECT_EQ(light.position, glm::dvec3(1, 2, 3));
@@ -59,7 +59,7 @@ TEST(SceneDefaults, OfLight) {
 }
 
 TEST(SceneDefaults, OfOrbitAndRipple) {
-  const Scene scene = load(std::string(kCamera) +
+  const Scene scene = load(kCamera +
                            "[[light]]\nposition = [1, 2, 3]\norbit = {}\n"
                            "[[mirror]]\nsize = [1, 1]\nripple = { amplitude = 0.01 }\n"
                            "[[mirror]]\nsize = [1, 1]\nripple = { wavelength = 0.1 }\n");
@@ -74,7 +74,7 @@ TEST(SceneDefaults, OfOrbitAndRipple) {
 }
 
 TEST(SceneDefaults, OfMirror) {
-  const Scene scene = load(std::string(kCamera) + "[[mirror]]\nsize = [2, 1.5]\n");
+  const Scene scene = load(kCamera + "[[mirror]]\nsize = [2, 1.5]\n");
   ASSERT_EQ(scene.mirrors.size(), 1u);
   const Mirror& mirror = scene.mirrors[0];
   EXPECT_EQ(mirror.position, glm::dvec3(0.0));
@@ -227,18 +227,17 @@ TEST(SceneLoader, ReadsBookmarks) {
 }
 
 TEST(SceneLoader, OneScaleStandsForThree) {
-  const Scene scene = load(std::string(kCamera) + "[[object]]\nmodel = 'triangle.obj'\nscale = -2\n");
+  const Scene scene = load(kCamera + "[[object]]\nmodel = 'triangle.obj'\nscale = -2\n");
   EXPECT_EQ(scene.objects[0].scale, glm::dvec3(-2.0));
 }
 
 TEST(SceneLoader, NamesMayRepeat) {
-  const Scene scene =
-      load(std::string(kCamera) + "[[mirror]]\nname = 'a'\nsize = [1, 1]\n[[mirror]]\nname = 'a'\nsize = [1, 1]\n");
+  const Scene scene = load(kCamera + "[[mirror]]\nname = 'a'\nsize = [1, 1]\n[[mirror]]\nname = 'a'\nsize = [1, 1]\n");
   EXPECT_EQ(scene.mirrors.size(), 2u);
 }
 
 TEST(SceneLoader, SettingsAreFlattenedWithTheirLines) {
-  const Scene scene = load(std::string(kCamera) +
+  const Scene scene = load(kCamera +
                            "[settings]\n\"reflection.scale\" = 1\nreflection.samples = 4.5\n\n"
                            "view = { wireframe = true, tone_map = 'aces' }\nview2.clear_color = [1, 0.5, 0]\n"
                            "[settings.quality]\nshadow = 2\n");
@@ -262,10 +261,10 @@ TEST(SceneLoader, EachModelAndTextureIsLoadedOnce) {
   folder.write("models/b.obj", std::string("mtllib m.mtl\nusemtl m\n") + kTriangleObj);
   folder.write("models/m.mtl", "newmtl m\nmap_Kd t.png\n");
   writePng(folder / "models/t.png", Image8(2, 2));
-  const Scene scene = loadScene(folder.write("scenes/s.toml", std::string(kCamera) +
-                                                                  "[[object]]\nmodel = '../models/a.obj'\n"
-                                                                  "[[object]]\nmodel = '../models/b.obj'\n"
-                                                                  "[[object]]\nmodel = '../scenes/../models/a.obj'\n"));
+  const Scene scene =
+      loadScene(folder.write("scenes/s.toml", kCamera + "[[object]]\nmodel = '../models/a.obj'\n"
+                                                        "[[object]]\nmodel = '../models/b.obj'\n"
+                                                        "[[object]]\nmodel = '../scenes/../models/a.obj'\n"));
   EXPECT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.objects[0].mesh, 0);
   EXPECT_EQ(scene.objects[1].mesh, 1);

@@ -82,7 +82,7 @@ TEST(ModelScene, TellsWhatCannotBeShown) {
   const std::string message = inputErrorOf([&] { loadScene(tiny); });
   EXPECT_EQ(message.rfind(tiny.string() + ":1: v: the model's bounding sphere", 0), 0u) << message;
   const std::string missing = inputErrorOf([&] { loadScene(folder / "none.obj"); });
-  EXPECT_NE(missing.find("none.obj: cannot be read"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("none.obj:1: file: cannot be read"), std::string::npos) << missing;
 }
 
 constexpr const char* kTwoModels =

@@ -26,7 +26,7 @@ double safeInverse(double d) {
   return 1.0 / (std::abs(d) < 1e-300 ? std::copysign(1e-300, d) : d);
 }
 
-// By some units in the last place, so that a ray within a face of the box is inside.
+// Widens a box by some units in the last place, so that a ray within one of its faces is inside.
 Bounds widened(Bounds box) {
   const glm::dvec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
   const double margin = 1e-15 * std::max({reach.x, reach.y, reach.z});

@@ -37,7 +37,7 @@ struct Ray {
   glm::dvec3 at(double t) const { return origin + t * direction; }
 };
 
-// What a ray's box tests share.
+// A ray prepared for tests against boxes.
 struct BoxTester {
   glm::dvec3 origin;
   glm::dvec3 inverse;
@@ -54,7 +54,7 @@ struct BoxTester {
   }
 
  private:
-  // By value: each is one instruction, where the library's references make branches.
+  // Take values: each is one instruction, where the library's references make branches.
   static double smaller(double x, double y) { return x < y ? x : y; }
   static double larger(double x, double y) { return x > y ? x : y; }
 };
@@ -68,6 +68,10 @@ class Bvh {
     uint32_t first = 0;  // leaf: first primitive; else: left child, the right one follows it
     uint32_t count = 0;  // primitives of a leaf; 0: inner node
   };
+
+  // Splits fall back to halves at a depth from where 2^32 primitives still fit below.
+  static constexpr int maxBinnedDepth = 64;
+  static constexpr int stackSize = maxBinnedDepth + 40;  // enough for a traversal that visits one child first
 
   Bvh() = default;
   explicit Bvh(std::span<const Bounds> primitives, int leafSize = 4);
@@ -85,10 +89,6 @@ class Bvh {
 
  private:
   struct Builder;
-  // Splits fall back to halves at a depth from where 2^32 primitives still fit below.
-  static constexpr int maxBinnedDepth = 64;
-  static constexpr int stackSize = maxBinnedDepth + 40;
-
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_;
   int depth_ = 0;

@@ -18,7 +18,7 @@ glm::dvec3 roundings(const glm::dvec3& v) {
   return {rounding(v.x), rounding(v.y), rounding(v.z)};
 }
 
-// How wrong the depth of one surface may be.
+// Bounds of the error of one surface's depth.
 struct DepthErrors {
   double storage = 0.0;
   double rounding = 0.0;

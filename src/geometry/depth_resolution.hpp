@@ -17,19 +17,19 @@ namespace speculum {
 // on, and never when m / c <= 2 e t. For the common projection e is a part of D itself, and s / t does not depend on t;
 // for the oblique one e is a part of a constant, and s = 2 e c t^2 / (a h): it dies with h.
 //
-// What e is made of; r(x) is half a unit in the last place of a float at x.
+// The error e is the sum of three terms; r(x) is half a unit in the last place of a float at x.
 // - Storage: r(D).
 // - Rounding. Clip x, y and w are linear in the position, so that wrong ones are those of a vertex moved by d, with
 //   |d_i| <= 6 r(E) + 3 r(|p_i|): five roundings of the products and sums of a matrix and a vertex at most E from its
-//   mesh's centre, one of the centre's own place, and three of the sum's (the centre, the last addition, a vertex that
-//   clipping adds). That moves the surface by n.d / n.u along the ray; z, which does not move with it, is wrong by L.d
-//   and its own rounding. For the common projection z is `near` exactly. Division and depth's viewport add 2 r(D);
+//   mesh's centre, one of the centre's own position, and three of the sum's (the centre, the last addition, a vertex
+//   that clipping adds). That moves the surface by n.d / n.u along the ray; z, which does not move with it, is wrong by
+//   L.d and its own rounding. For the common projection z is `near` exactly. Division and depth's viewport add 2 r(D);
 //   window coordinates and the plane equation of the rasteriser are good to four roundings of a coordinate of the
 //   picture, times the slope of depth on the screen. On that slope: with q = (x, y, -1) of a pixel, depth on the
 //   surface n.p = k is L.q + m n.q / k.
 // - Snapping of vertices to 1/256 pixel (VkPhysicalDeviceLimits::subPixelPrecisionBits is 8 on common devices): half a
-//   step in x and in y, times that slope. Two surfaces whose vertices project to the same places are snapped alike and
-//   do without; a rasteriser may also interpolate between vertices where they were.
+//   step in x and in y, times that slope. Two surfaces whose vertices project to the same points are snapped
+//   alike and do without; a rasteriser may also interpolate between vertices where they were.
 //
 // Sources: Lapidous, Jiao, "Optimal Depth Buffer for Low-Cost Graphics Hardware" (1999); Upchurch, Desbrun, "Tightening
 // the Precision of Perspective Rendering" (2012); Lengyel (2005), see obliqueProjection; Higham, "Accuracy and
@@ -42,7 +42,7 @@ struct DepthView {
   glm::dvec2 pictureSize{0.0};  // pixels
 };
 
-// One of two parallel surfaces, the nearer one, where the gap is asked for. View space, metres.
+// A point of the nearer of two parallel surfaces. View space, metres.
 struct DepthSurface {
   glm::dvec3 point{0.0};
   glm::dvec3 normal{0.0, 0.0, 1.0};  // unit length, either side
@@ -51,14 +51,14 @@ struct DepthSurface {
 
 // Gaps in metres along the ray; nothing where no gap is kept in order, or where there is no such projection.
 struct DepthResolution {
-  std::optional<double> storage;  // if only what is stored were rounded
+  std::optional<double> storage;  // if only the stored depth were rounded
   std::optional<double> rounded;  // with the rounding of vertices and of interpolation
-  std::optional<double> snapped;  // and with vertices snapped to 1/256 pixel: holds whatever surfaces are made of
+  std::optional<double> snapped;  // and with vertices snapped to 1/256 pixel: holds for any two surfaces
 };
 
 DepthResolution depthResolution(const DepthView& view, const DepthSurface& surface);
 
-// The worst `snapped` of surfaces seen at that angle from facing (radians), over 16 directions of tilt.
+// Largest `snapped` of surfaces tilted by `angle` (radians) away from the eye, over 16 directions of tilt.
 std::optional<double> resolvableGap(const DepthView& view, const glm::dvec3& point, double angle, double extent);
 
 }  // namespace speculum

@@ -56,22 +56,20 @@ struct MeshCluster {
   glm::dvec3 halfExtent{0.0};
 };
 
-// Triangles in model space, counter-clockwise seen from outside. Positions are kept in double relative to the
-// centre of the bounding box, so that their conversion to float for the GPU loses nothing to a far-off origin.
+// Triangles in model space, counter-clockwise seen from outside. Positions are kept in double relative to `center`, so
+// that their conversion to float for the GPU loses nothing to a far-off origin.
 struct Mesh {
   std::filesystem::path source;
-  glm::dvec3 center{0.0};      // model space
-  glm::dvec3 halfExtent{0.0};  // of the bounding box about `center`
+  glm::dvec3 center{0.0};      // model space, of the bounding box
+  glm::dvec3 halfExtent{0.0};  // of the bounding box
   double radius = 0.0;         // of the bounding sphere about `center`
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
   std::vector<MeshPart> parts;
-  std::vector<MeshCluster> clusters;  // of all triangles, in their order; none of a small mesh. See clustersOf
-  std::vector<std::vector<glm::dvec3>>
-      faces;  // flat and convex, the largest few; relative to `center`. See convexFaces
-  std::vector<glm::dvec3>
-      convexVertices;  // relative to `center`; none unless the mesh is convex. See geometry/convex_mesh
-  mutable std::shared_ptr<LevelsOfMesh> levels;  // what levelsOf has made of it, if it was asked
+  std::vector<MeshCluster> clusters;             // see clustersOf()
+  std::vector<std::vector<glm::dvec3>> faces;    // relative to `center`, see convexFaces()
+  std::vector<glm::dvec3> convexVertices;        // relative to `center`, see convexVertices()
+  mutable std::shared_ptr<LevelsOfMesh> levels;  // owned by levelsOf(), which makes them when they are first asked for
 };
 
 }  // namespace speculum

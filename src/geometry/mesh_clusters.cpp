@@ -24,7 +24,7 @@ MeshCluster clusterOf(std::span<const Vertex> vertices, std::span<const uint32_t
   return {first, count, 0.5 * (low + high), 0.5 * (high - low)};
 }
 
-// Of about unit size, so that nothing is lost to the range of floats.
+// Positions scaled to about unit size, so that floats can hold them.
 std::vector<glm::vec3> unitPositions(const Mesh& mesh) {
   std::vector<glm::vec3> positions;
   positions.reserve(mesh.vertices.size());
@@ -53,12 +53,12 @@ void sortTriangles(std::span<uint32_t> indices, const std::vector<glm::vec3>& po
 }
 
 void sortVertices(Mesh& mesh) {
-  std::vector<uint32_t> places(mesh.vertices.size());
+  std::vector<uint32_t> remap(mesh.vertices.size());
   std::vector<Vertex> sorted(
-      meshopt_optimizeVertexFetchRemap(places.data(), mesh.indices.data(), mesh.indices.size(), mesh.vertices.size()));
+      meshopt_optimizeVertexFetchRemap(remap.data(), mesh.indices.data(), mesh.indices.size(), mesh.vertices.size()));
   for (uint32_t& index : mesh.indices) {
-    sorted[places[index]] = mesh.vertices[index];
-    index = places[index];
+    sorted[remap[index]] = mesh.vertices[index];
+    index = remap[index];
   }
   mesh.vertices = std::move(sorted);
 }

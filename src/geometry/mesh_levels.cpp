@@ -30,10 +30,10 @@ double longestSide(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
   return std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
 }
 
-// How far some things lie from a surface, at most: no less than what is given at first.
+// Largest distance of points and triangles from a surface.
 class Deviation {
  public:
-  // `spacing`: of the points at which triangles are measured.
+  // `spacing`: distance of the points at which triangles are measured; `atLeast`: lower bound of the result.
   Deviation(const SurfaceDistance& surface, double spacing, double atLeast)
       : surface_(surface), spacing_(spacing), largest_(atLeast) {}
 
@@ -43,7 +43,7 @@ class Deviation {
     }
   }
 
-  // Its corners were added.
+  // Measures points between the corners, which were added before.
   void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     constexpr double mostSteps = 8.0;
     const double side = longestSide(a, b, c);
@@ -67,41 +67,41 @@ class Deviation {
   double largest_;
 };
 
-// The vertices of a level: of each point of the mesh those whose normals a triangle needs there.
+// Vertices of a level: one for each normal that its triangles need at a point of the mesh.
 class LevelVertices {
  public:
   explicit LevelVertices(std::vector<Vertex>& all) : all_(all) {}
 
-  // `point` is one of the mesh's, whatever their numbers; equal numbers are the same point.
+  // Index of the vertex at a point, a number that only tells points apart, with a normal near that of `vertex`.
   uint32_t find(uint32_t point, const Vertex& vertex) {
-    constexpr double steps = 128.0;  // of a normal's coordinates; what is nearer is one
+    constexpr double steps = 128.0;  // of a normal's coordinates; nearer normals count as one
     uint64_t key = point;
     for (int i = 0; i < 3; ++i) {
       key = key << 9 | static_cast<uint64_t>(std::lround(steps * (1.0 + vertex.normal[i])));
     }
-    const auto [place, isNew] = places_.try_emplace(key, static_cast<uint32_t>(all_.size()));
+    const auto [found, isNew] = indices_.try_emplace(key, static_cast<uint32_t>(all_.size()));
     if (isNew) {
       all_.push_back(vertex);
     }
-    return place->second;
+    return found->second;
   }
 
  private:
   std::vector<Vertex>& all_;
-  std::unordered_map<uint64_t, uint32_t> places_;
+  std::unordered_map<uint64_t, uint32_t> indices_;  // into all_, by point and rounded normal
 };
 
-// One part of a mesh, and what is left of it. What stands in one place is one point where the surface is smooth there,
-// whether its normals are interpolated or those of its faces. Across hard edges and seams of texture coordinates points
-// stay apart, and meshoptimizer keeps those that three or more sides meet in: without its corners a slab would be
-// thinner than it is, and what lies under it come out.
+// One part of a mesh and its simplified triangles. Vertices of equal position are one point where the surface is
+// smooth, whether its normals are interpolated or those of its faces. Across hard edges and seams of texture
+// coordinates points stay apart, and meshoptimizer keeps those in which three or more sides meet: without its corners a
+// slab would be thinner than it is, and objects below it would show through.
 class SimplifiedPart {
  public:
-  // `firstPoint`: more than the numbers of all points of the parts before.
+  // `firstPoint`: number of the first point, above those of the parts before.
   SimplifiedPart(const Mesh& mesh, const MeshPart& part, uint32_t firstPoint)
       : lockBorder_(mesh.parts.size() > 1), firstPoint_(firstPoint) {
     const bool textured = part.material.diffuseTexture >= 0;
-    std::map<std::array<double, 5>, std::vector<uint32_t>> places;
+    std::map<std::array<double, 5>, std::vector<uint32_t>> coincident;
     std::unordered_map<uint32_t, uint32_t> points;  // by vertex
     for (uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; ++i) {
       const auto [point, isNew] = points.try_emplace(mesh.indices[i]);
@@ -109,7 +109,7 @@ class SimplifiedPart {
         const Vertex& vertex = mesh.vertices[mesh.indices[i]];
         const glm::dvec3& p = vertex.position;
         const glm::dvec2 uv = textured ? vertex.uv : glm::dvec2(0.0);
-        point->second = pointFor(vertex, places[{p.x, p.y, p.z, uv.x, uv.y}]);
+        point->second = pointFor(vertex, coincident[{p.x, p.y, p.z, uv.x, uv.y}]);
       }
       indices_.push_back(point->second);
     }
@@ -138,7 +138,7 @@ class SimplifiedPart {
     indices_ = std::move(fewer);
   }
 
-  // Of what is left; `atLeast` is that of the level before.
+  // Distance between the part and its simplified triangles, at least that of the level before.
   double error(double atLeast) const {
     const SurfaceDistance left(corners(indices_));
     Deviation ofMesh(left, meanSide_, atLeast);
@@ -179,7 +179,7 @@ class SimplifiedPart {
     return corners;
   }
 
-  // Of a large mesh every so manieth serves.
+  // Distance, in indices, of the vertices or triangles that are measured: large parts are sampled.
   static size_t stride(size_t count) { return 1 + count / mostMeasured; }
 
   void add(Deviation& deviation, const std::vector<uint32_t>& indices) const {
@@ -189,23 +189,23 @@ class SimplifiedPart {
     }
   }
 
-  // Of those in one place, the point of the same smooth surface, or a new one.
-  uint32_t pointFor(const Vertex& vertex, std::vector<uint32_t>& place) {
+  // The point of `coincident`, which share a position, on the same smooth surface, or a new one.
+  uint32_t pointFor(const Vertex& vertex, std::vector<uint32_t>& coincident) {
     constexpr double smooth = 0.77;  // cosine; bevels are steeper
-    for (const uint32_t point : place) {
+    for (const uint32_t point : coincident) {
       if (glm::dot(vertices_[point].front().normal, vertex.normal) >= smooth) {
         vertices_[point].push_back(vertex);
         return point;
       }
     }
-    place.push_back(static_cast<uint32_t>(positions_.size()));
+    coincident.push_back(static_cast<uint32_t>(positions_.size()));
     positions_.push_back(vertex.position);
     floats_.emplace_back(vertex.position);
     vertices_.push_back({vertex});
-    return place.back();
+    return coincident.back();
   }
 
-  // Of those at a point the one that suits a triangle of this normal best.
+  // The vertex at a point that suits a triangle of this normal best.
   Vertex vertexFor(uint32_t point, const glm::dvec3& normal) const {
     const std::vector<Vertex>& all = vertices_[point];
     Vertex best = *std::max_element(all.begin(), all.end(), [&](const Vertex& a, const Vertex& b) {
@@ -219,12 +219,12 @@ class SimplifiedPart {
 
   bool lockBorder_;
   uint32_t firstPoint_;
-  std::vector<glm::dvec3> positions_;  // of the points
+  std::vector<glm::dvec3> positions_;  // by point
   std::vector<glm::vec3> floats_;
-  std::vector<std::vector<Vertex>> vertices_;  // of the mesh, at each point
-  std::vector<uint32_t> allIndices_;           // into `positions_`, of the mesh
-  std::vector<uint32_t> indices_;              // likewise, of what is left
-  double meanSide_ = 0.0;                      // the longest of each triangle of the mesh
+  std::vector<std::vector<Vertex>> vertices_;  // of the mesh, by point
+  std::vector<uint32_t> allIndices_;           // of the mesh, into positions_
+  std::vector<uint32_t> indices_;              // simplified, into positions_
+  double meanSide_ = 0.0;                      // mean of the longest sides of the mesh's triangles
   std::unique_ptr<SurfaceDistance> original_;
 };
 
@@ -236,7 +236,7 @@ size_t indexCount(const std::vector<SimplifiedPart>& parts) {
   return count;
 }
 
-// At least that of the level before.
+// Largest error of all parts, at least that of the level before.
 double errorOf(const std::vector<SimplifiedPart>& parts, double before) {
   for (const SimplifiedPart& part : parts) {
     before = part.error(before);
@@ -244,7 +244,7 @@ double errorOf(const std::vector<SimplifiedPart>& parts, double before) {
   return before;
 }
 
-// The next level, of what is left of the parts.
+// Appends the simplified triangles of the parts as the next level.
 MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, double error, MeshLevels& levels) {
   MeshLevel level{.error = error};
   level.all.first = static_cast<uint32_t>(levels.indices.size());
@@ -302,7 +302,7 @@ const MeshLevels& levelsOf(const Mesh& mesh) {
     }
     made = mesh.levels;
   }
-  // Simplifying takes seconds: other meshes do not wait for it.
+  // Outside the lock, because simplifying takes seconds and other meshes must not wait for it.
   std::call_once(made->once, [&] { made->levels = simplified(mesh); });
   return made->levels;
 }

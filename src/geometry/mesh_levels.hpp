@@ -8,31 +8,31 @@ namespace speculum {
 
 // A mesh with fewer triangles.
 struct MeshLevel {
-  // In the unit of Vertex::position: the farthest that a point of the mesh lies from this level's triangles of the same
-  // part, or one of these from the mesh's, measured at vertices and at points between them; in large parts at every so
-  // manieth. What normals and texture coordinates are off by is not in it.
+  // Largest distance between the mesh and this level in either direction, part by part, in the unit of
+  // Vertex::position. Measured at vertices and at points between them, in large parts at a fraction of both. Errors of
+  // normals and texture coordinates are not included.
   double error = 0.0;
   IndexRange all;                     // of MeshLevels::indices
   std::vector<IndexRange> parts;      // of MeshLevels::indices, in the order of Mesh::parts
-  std::vector<MeshCluster> clusters;  // likewise, of all of it; none of a small one
+  std::vector<MeshCluster> clusters;  // of all parts; none of a small level
 };
 
-// Each has about seven tenths of the triangles of the one before, the first of those of the mesh; errors ascend and no
-// part vanishes.
+// Levels from fine to coarse. Each has about seven tenths of the triangles of the one before, the first of those of the
+// mesh; errors ascend and no part vanishes.
 struct MeshLevels {
-  // Each level has a run of its own: lavapipe, which keeps few vertices, runs the vertex shader on all between the
-  // least and the greatest index of a draw.
+  // Each level has a range of its own, because lavapipe runs the vertex shader on all vertices between the least and
+  // the greatest index of a draw.
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;  // into `vertices`
   std::vector<MeshLevel> levels;
 };
 
-// Quadric error metrics (Garland and Heckbert 1997), by meshoptimizer. Edges between parts stay as they are, hard edges
-// and seams of texture coordinates stay joined, and what three or more hard edges meet in stays in its place. No levels
-// of a mesh with few triangles or one that cannot be simplified, such as a box.
+// Simplifies by quadric error metrics (Garland and Heckbert 1997) with meshoptimizer. Edges between parts stay as they
+// are, hard edges and seams of texture coordinates stay joined, and points in which three or more hard edges meet stay
+// in place. A mesh with few triangles, or one that cannot be simplified, such as a box, has no levels.
 MeshLevels simplified(const Mesh& mesh);
 
-// Made when it is first asked for, and kept in the mesh; from any thread.
+// The levels of a mesh, made by the first call and kept in the mesh. May be called from any thread.
 const MeshLevels& levelsOf(const Mesh& mesh);
 
 }  // namespace speculum

@@ -17,17 +17,17 @@ struct Plane {
   double distance(const glm::dvec3& p) const { return glm::dot(normal, p - point); }
 };
 
-// Newell's area vector of a closed polygon (Sutherland, Sproull, Schumacker 1974), taken relative to the first vertex:
-// half of it has the polygon's area as length; it points to where the vertices run counter-clockwise.
+// Newell's area vector of a closed polygon (Sutherland, Sproull, Schumacker 1974), relative to the first vertex: twice
+// the polygon's area as length, towards the side from which the vertices run counter-clockwise.
 glm::dvec3 newellVector(std::span<const glm::dvec3> polygon);
 
-// The mean of the vertices of a polygon that has some. Differences are summed, for a far-off origin.
+// Mean of one or more vertices. Sums differences, so that a far-off origin costs no precision.
 glm::dvec3 vertexMean(std::span<const glm::dvec3> polygon);
 
 double polygonArea(std::span<const glm::dvec3> polygon);
 
-// What makes a polygon unusable as a mirror, or nothing: fewer than 3 vertices, non-finite, area below 1e-8 diameter^2,
-// a vertex further than 1e-4 diameters off the plane, not convex.
+// Says why a polygon is unusable as a mirror, or nothing: fewer than 3 vertices, non-finite, area below 1e-8
+// diameter^2, a vertex further than 1e-4 diameters off the plane, not convex.
 std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon);
 
 // Sutherland-Hodgman (1974): the part of a convex polygon with dot(normal, v - point) >= 0.

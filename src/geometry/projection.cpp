@@ -28,7 +28,8 @@ bool touchesEyePlane(std::span<const glm::dvec4> clip) {
   return std::any_of(clip.begin(), clip.end(), [](const glm::dvec4& v) { return !(v.w > eyePlane); });
 }
 
-// Rounded outwards and padded; clamped first, because a vertex may project to anywhere a double reaches.
+// Start and end in pixels, rounded outwards and padded. Clamps before it converts, because a vertex may project to any
+// double.
 std::pair<int, int> paddedRange(double low, double high, int start, int size) {
   const double end = static_cast<double>(start) + size;
   const double from = std::clamp(std::floor(low) - 1.0, static_cast<double>(start), end);
@@ -40,7 +41,7 @@ double sign(double x) {
   return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Positive where y, downwards, turns to the right of x.
+// Twice the signed area, positive for corners that run clockwise on the screen, where y points down.
 double twiceArea(std::span<const glm::dvec2> corners) {
   double twice = 0.0;
   for (size_t i = 1; i + 1 < corners.size(); ++i) {

@@ -43,16 +43,18 @@ struct PixelRect {
 
 PixelRect intersect(const PixelRect& a, const PixelRect& b);
 
-// Pixels that a polygon may touch. `clip`: its vertices in clip space, already cut to w+x, w-x, w+y, w-y >= 0;
-// `width`, `height`: the picture's size in pixels. Rounded outwards and padded by one pixel, within `bounds`. All of
-// `bounds` if a vertex is in the eye's plane (w <= 1e-12), where no division is meaningful.
+// The three functions below take a polygon's vertices in clip space, already clipped to w+x, w-x, w+y, w-y >= 0, and
+// the picture's size in pixels.
+
+// Pixels that the polygon may touch, rounded outwards and padded by one pixel, within `bounds`. All of `bounds` if a
+// vertex is in the eye's plane (w <= 1e-12), where no division is meaningful.
 PixelRect screenRect(std::span<const glm::dvec4> clip, double width, double height, const PixelRect& bounds);
 
-// Area in square pixels of such a polygon; that of the picture if a vertex is in the eye's plane.
+// Area in square pixels; that of the picture if a vertex is in the eye's plane.
 double screenArea(std::span<const glm::dvec4> clip, double width, double height);
 
-// Such a polygon with its edges moved outwards by so many pixels; every vertex keeps its z and w. An acute corner moves
-// less than its edges would take it, a polygon with a vertex in the eye's plane stays as it is.
+// The polygon with its edges moved outwards by `pixels`; every vertex keeps its z and w. An acute corner moves less
+// than its edges would take it; a polygon with a vertex in the eye's plane stays as it is.
 std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, double height, double pixels);
 
 }  // namespace speculum

@@ -4,21 +4,21 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <span>
 
 namespace speculum {
 
 namespace {
 
-constexpr size_t leafTriangles = 4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Distances below are squared.
 double square(const glm::dvec3& v) {
   return glm::dot(v, v);
 }
 
-double toBox(const glm::dvec3& point, const glm::dvec3& low, const glm::dvec3& high) {
-  return square(glm::max(glm::max(low - point, point - high), glm::dvec3(0.0)));
+double toBox(const glm::dvec3& point, const Bounds& box) {
+  return square(glm::max(glm::max(box.low - point, point - box.high), glm::dvec3(0.0)));
 }
 
 double toSegment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
@@ -28,7 +28,7 @@ double toSegment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3&
   return square(point - (a + t * along));
 }
 
-// To its plane where the foot of the perpendicular lies inside all edges, else to the nearest edge.
+// Distance to the plane where the foot of the perpendicular lies inside all edges, else to the nearest edge.
 double toTriangle(const glm::dvec3& point, const glm::dvec3* corner) {
   const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
   const double area = square(normal);
@@ -46,78 +46,47 @@ double toTriangle(const glm::dvec3& point, const glm::dvec3* corner) {
 
 }  // namespace
 
-SurfaceDistance::SurfaceDistance(std::vector<glm::dvec3> corners) {
-  std::vector<uint32_t> triangles(corners.size() / 3);
-  std::iota(triangles.begin(), triangles.end(), 0);
-  if (triangles.empty()) {
-    return;
+SurfaceDistance::SurfaceDistance(const std::vector<glm::dvec3>& corners) {
+  std::vector<Bounds> boxes(corners.size() / 3);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    boxes[i / 3].add(corners[i]);
   }
-  build(triangles, 0, corners);
+  bvh_ = Bvh(boxes);
   corners_.reserve(corners.size());
-  for (const uint32_t triangle : triangles) {
+  for (const uint32_t triangle : bvh_.order()) {
     const auto first = corners.begin() + 3 * static_cast<std::ptrdiff_t>(triangle);
     corners_.insert(corners_.end(), first, first + 3);
   }
 }
 
-uint32_t SurfaceDistance::build(std::span<uint32_t> triangles, uint32_t first, const std::vector<glm::dvec3>& corners) {
-  Node node{.low = glm::dvec3(infinity), .high = glm::dvec3(-infinity)};
-  for (const uint32_t triangle : triangles) {
-    for (size_t i = 0; i < 3; ++i) {
-      node.low = glm::min(node.low, corners[3 * size_t{triangle} + i]);
-      node.high = glm::max(node.high, corners[3 * size_t{triangle} + i]);
-    }
-  }
-  const auto place = static_cast<uint32_t>(nodes_.size());
-  nodes_.push_back(node);
-  if (triangles.size() <= leafTriangles) {
-    nodes_[place].first = first;
-    nodes_[place].count = static_cast<uint32_t>(triangles.size());
-    return place;
-  }
-  const glm::dvec3 size = node.high - node.low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const auto center = [&](uint32_t t) {
-    return corners[3 * size_t{t}][axis] + corners[3 * size_t{t} + 1][axis] + corners[3 * size_t{t} + 2][axis];
-  };
-  const size_t half = triangles.size() / 2;
-  std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(half), triangles.end(),
-                   [&](uint32_t a, uint32_t b) { return center(a) < center(b); });
-  build(triangles.first(half), first, corners);
-  const uint32_t second = build(triangles.subspan(half), first + static_cast<uint32_t>(half), corners);
-  nodes_[place].first = second;
-  return place;
-}
-
-double SurfaceDistance::nearest(const glm::dvec3& point, double best, double enough) const {
-  std::array<uint32_t, 64> stack{};  // of a balanced tree
-  size_t size = nodes_.empty() ? 0 : 1;
+double SurfaceDistance::nearest(const glm::dvec3& point, double enough) const {
+  const std::span<const Bvh::Node> nodes = bvh_.nodes();
+  std::array<uint32_t, Bvh::stackSize> stack{};
+  size_t size = nodes.empty() ? 0 : 1;
+  double best = infinity;
   while (size > 0 && best > enough) {
-    const uint32_t place = stack[--size];
-    const Node& node = nodes_[place];
-    if (toBox(point, node.low, node.high) >= best) {
+    const Bvh::Node& node = nodes[stack[--size]];
+    if (toBox(point, node.box) >= best) {
       continue;
     }
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
       best = std::min(best, toTriangle(point, &corners_[3 * size_t{i}]));
     }
     if (node.count == 0) {
-      const std::array<uint32_t, 2> children{place + 1, node.first};
-      const bool firstIsNearer = toBox(point, nodes_[children[0]].low, nodes_[children[0]].high) <=
-                                 toBox(point, nodes_[children[1]].low, nodes_[children[1]].high);
-      stack[size++] = children[firstIsNearer ? 1 : 0];
-      stack[size++] = children[firstIsNearer ? 0 : 1];
+      const bool leftIsNearer = toBox(point, nodes[node.first].box) <= toBox(point, nodes[node.first + 1].box);
+      stack[size++] = node.first + (leftIsNearer ? 1 : 0);
+      stack[size++] = node.first + (leftIsNearer ? 0 : 1);
     }
   }
   return best;
 }
 
 bool SurfaceDistance::within(const glm::dvec3& point, double distance) const {
-  return nearest(point, infinity, distance * distance) <= distance * distance;
+  return nearest(point, distance * distance) <= distance * distance;
 }
 
 double SurfaceDistance::to(const glm::dvec3& point) const {
-  return std::sqrt(nearest(point, infinity, -1.0));
+  return std::sqrt(nearest(point, -1.0));
 }
 
 }  // namespace speculum

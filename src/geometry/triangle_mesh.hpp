@@ -17,7 +17,7 @@ class ShearedRay {
  public:
   explicit ShearedRay(const Ray& ray);
 
-  // x, y: across the ray; z: the parameter t of the ray.
+  // x and y across the ray, z the ray's parameter t.
   glm::dvec3 project(const glm::dvec3& p) const { return project(glm::value_ptr(p)); }
   glm::dvec3 project(const double* p) const {
     const double along = p[kz_] - origin_.z;

@@ -15,7 +15,7 @@ class EarClipper {
         normal_(newellVector(polygon)),
         left_(polygon.size()),
         isLeft_(polygon.size(), true),
-        looks_(polygon.size()) {
+        searches_(polygon.size()) {
     std::iota(left_.begin(), left_.end(), 0);
   }
 
@@ -32,12 +32,12 @@ class EarClipper {
   }
 
  private:
-  // How far the search for a vertex inside the triangle of a vertex and its neighbours has come. While the neighbours
-  // stay, those passed stay outside, so that all searches of a vertex together pass every other one only once.
-  struct Look {
+  // Progress of the search for a vertex inside the triangle of a vertex and its neighbours. While the neighbours stay,
+  // vertices that were found outside stay outside, so that all searches of a vertex together pass each other one once.
+  struct Search {
     int before = -1;
     int after = -1;
-    int next = -1;  // vertex to look at; `before` when all are outside
+    int next = -1;  // vertex to test; `before` when all are outside
   };
 
   // Positive when a, b, c turn left seen against the polygon's normal.
@@ -60,19 +60,19 @@ class EarClipper {
     if (turn(a, b, c) <= 0.0) {
       return false;
     }
-    Look& look = looks_[b];
-    if (look.before != a || look.after != c) {
-      look = {a, c, follower(c)};
+    Search& search = searches_[b];
+    if (search.before != a || search.after != c) {
+      search = {a, c, follower(c)};
     }
-    while (look.next != a && !(isLeft_[look.next] && inside(look.next, a, b, c))) {
-      look.next = follower(look.next);
+    while (search.next != a && !(isLeft_[search.next] && inside(search.next, a, b, c))) {
+      search.next = follower(search.next);
     }
-    return look.next == a;
+    return search.next == a;
   }
 
   int follower(int vertex) const { return vertex + 1 == static_cast<int>(points_.size()) ? 0 : vertex + 1; }
 
-  // From the second vertex on, which makes fans of convex polygons. Without any ear left the second vertex goes.
+  // Starts at the second vertex, which makes fans of convex polygons. Without any ear the second vertex is cut off.
   size_t findEar() {
     for (size_t k = 0; k < left_.size(); ++k) {
       const size_t i = (k + 1) % left_.size();
@@ -87,7 +87,7 @@ class EarClipper {
   glm::dvec3 normal_;
   std::vector<int> left_;
   std::vector<bool> isLeft_;
-  std::vector<Look> looks_;
+  std::vector<Search> searches_;
 };
 
 }  // namespace

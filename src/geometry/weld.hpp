@@ -8,7 +8,7 @@
 
 namespace speculum {
 
-// Numbers places from 0; equal coordinates are one place.
+// Numbers points from 0; equal coordinates are one point.
 class PointWelder {
  public:
   uint32_t weld(const glm::dvec3& p) {

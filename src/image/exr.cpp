@@ -22,7 +22,7 @@ std::string takeMessage(const char* message) {
   return text.substr(0, text.find('\n'));
 }
 
-// In memory, because SaveEXR() takes a file for written whose last bytes the disk refused.
+// Encodes in memory, because SaveEXR() does not notice when the disk refuses a file's last bytes.
 std::vector<uint8_t> encodeExr(const std::filesystem::path& file, const LinearImage& image) {
   // Readers expect the channels in alphabetical order.
   std::array<EXRChannelInfo, 3> channels{};

@@ -22,9 +22,9 @@ double unitInterval(uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1.0p-53;
 }
 
-// The ray seen in the plane through `position` with unit `normal`: it starts at the reflected eye and, because
-// distances are kept, reaches the mirror at the same t. A ray that would go below the mirror's own plane is turned back
-// above it.
+// The mirror image of a ray in the plane through `position` with unit `normal`. It starts at the reflected eye and,
+// because distances stay the same, reaches the mirror at the same t. A ray that would go below the mirror's own plane
+// is turned back above it.
 Ray reflectedRay(const Ray& ray, const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& planeNormal,
                  double t) {
   const glm::dvec3 toEye = ray.origin - position;
@@ -38,7 +38,7 @@ Ray reflectedRay(const Ray& ray, const glm::dvec3& position, const glm::dvec3& n
   return reflected;
 }
 
-// A normal of GGX with density D(m)(n.m), about n: Walter et al., "Microfacet Models for Refraction through Rough
+// Samples a normal about n with GGX density D(m)(n.m): Walter et al., "Microfacet Models for Refraction through Rough
 // Surfaces" (2007), equations 35 and 36.
 glm::dvec3 microfacet(const glm::dvec3& n, double alpha, const glm::dvec2& u) {
   const double cosine2 = (1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x);

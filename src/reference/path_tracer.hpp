@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-// Points in the unit square for microfacets. Mirrors seen directly draw from an additive recurrence with the plastic
+// Samples of the unit square for microfacets. Mirrors seen directly use an additive recurrence with the plastic
 // number (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), shifted per pixel; deeper ones
 // from a hash, so that the levels are independent of each other.
 class MicrofacetSampler {
@@ -24,7 +24,7 @@ class MicrofacetSampler {
   uint64_t drawn_ = 0;
 };
 
-// Reflecting sides in a row along a ray, the one that is cut off by maxDepth included.
+// Run of reflecting sides along a ray, including the one that maxDepth cuts off.
 struct MirrorChain {
   int count = 0;            // at most 255
   double throughput = 1.0;  // product of their reflectances, mean of the channels
@@ -51,9 +51,9 @@ class PathTracer {
     glm::dvec3 throughput;  // of the bounces so far
     int roughLevel;         // rough bounces so far
   };
-  // The reflecting side of a mirror or of a curved one at one point.
+  // One point of the reflecting side of a flat or curved mirror.
   struct Bounce {
-    ShadingPoint base;       // the layer under the reflection; its normal is with ripples, or the shading normal
+    ShadingPoint base;       // the layer under the reflection; its normal includes ripples
     glm::dvec3 planeNormal;  // unit, on the viewer's side; of a curved mirror the triangle's own
     glm::dvec3 reflectance;
     double roughness;

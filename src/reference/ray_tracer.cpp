@@ -71,7 +71,7 @@ struct RayTracer::Impl {
     time = state.time;
   }
 
-  // Through (x, y) pixels from the top left corner; the eye is the origin.
+  // The ray through (x, y), in pixels from the top left corner; the eye is the origin.
   Ray cameraRay(int width, int height, double x, double y) const {
     const double tangent = std::tan(0.5 * camera.verticalFov);
     const glm::dvec3 view((2.0 * x / width - 1.0) * tangent * width / height, (1.0 - 2.0 * y / height) * tangent, -1.0);

@@ -24,14 +24,14 @@ struct TraceOptions {
 
 struct TraceResult {
   LinearImage image;
-  // By pixel, row 0 at the top; what the ray through the pixel's centre meets.
-  std::vector<uint8_t> mirrorMask;       // 1: first of all the reflecting side of a mirror
-  std::vector<uint8_t> backgroundMask;   // 1: nothing
+  // Per pixel, row 0 at the top, for the ray through its centre:
+  std::vector<uint8_t> mirrorMask;       // 1: it meets the reflecting side of a mirror first
+  std::vector<uint8_t> backgroundMask;   // 1: it meets nothing
   std::vector<uint8_t> mirrorDepth;      // reflecting sides in a row, at most maxDepth + 1; roughness is ignored
   std::vector<double> mirrorThroughput;  // product of their reflectances, mean of the channels; 1 without any
 };
 
-// What the ray through a point of the picture meets first.
+// The first surface on a ray.
 struct PickResult {
   enum class Kind { nothing, object, mirror, light };
   Kind kind = Kind::nothing;
@@ -41,12 +41,12 @@ struct PickResult {
   bool mirrorFront = true;  // of mirrors
 };
 
-// The ground truth: a picture by ray tracing in double precision, sample by sample the radiance that docs/picture.md
+// Ray tracer in double precision, whose pictures are the reference: each sample is the radiance that docs/picture.md
 // defines. Reflections are traced from the reflected eye, starting at the mirror, so nothing is moved off a surface.
 // Rough mirrors are sampled with a fixed low-discrepancy sequence per pixel, so every run gives the same bits whatever
 // the number of threads (those of the calling oneTBB arena).
 //
-// Where the picture's definition leaves a choice: a rippled mirror is one height field seen from either side; a rough
+// Choices that the picture's definition leaves: a rippled mirror is one height field seen from either side; a rough
 // mirror that is cut off shows the background of the smooth reflection; the second leg of mirrored light ignores only
 // the mirror that it comes from.
 class RayTracer {
@@ -57,10 +57,10 @@ class RayTracer {
   RayTracer(RayTracer&&) noexcept;
   RayTracer& operator=(RayTracer&&) noexcept;
 
-  // Another time or camera of the same scene; the meshes' hierarchies are kept.
+  // Moves to another time or camera of the same scene and keeps the hierarchies of its meshes.
   void setState(const SceneState& state);
 
-  // Called with the finished fraction, 0 .. 1, by one thread at a time, any of the arena's; false cancels.
+  // Receives the finished fraction, 0 .. 1, from one thread of the arena at a time; returning false cancels.
   using Progress = std::function<bool(double)>;
 
   // Nothing if cancelled. Throws std::invalid_argument for an empty size, samples that are no square, or less than one

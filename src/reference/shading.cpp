@@ -14,7 +14,7 @@ glm::dvec3 safeNormalize(const glm::dvec3& v) {
   return v / std::sqrt(std::max(glm::dot(v, v), 1e-200));
 }
 
-// Light of `irradiance` at 1 m, from a source (or its mirror image) at `toLight` from the point.
+// Radiance due to a source (or its mirror image) at `toLight` from the point that gives `irradiance` at 1 m.
 glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, const glm::dvec3& irradiance,
                          double radius) {
   const glm::dvec3 l = safeNormalize(toLight);
@@ -25,7 +25,7 @@ glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, c
   return irradiance * (cosine / std::max(glm::dot(toLight, toLight), radius * radius)) * brdf;
 }
 
-// The light by way of one mirror: a straight line from the point to the light's image behind the mirror.
+// Radiance due to the light by way of one mirror: a straight line from the point to the light's image behind it.
 glm::dvec3 mirroredLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
   const Mirror& material = world.scene().mirrors[mirror];
   const MirrorState& plane = world.mirrors()[mirror];

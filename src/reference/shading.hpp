@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// A point of a surface as its radiance formula sees it. Positions are relative to the eye of the world's state.
+// A point of a surface with all that its radiance depends on. Positions are relative to the eye of the world's state.
 struct ShadingPoint {
   glm::dvec3 position{0.0};
   glm::dvec3 normal{0.0};    // unit, on the viewer's side; zero if the model's normals cancel
@@ -20,14 +20,15 @@ struct ShadingPoint {
   Skip self;
 };
 
-// Of an object that `ray` met. The shading normal is negated when the triangle's geometric normal, by the winding in
-// the model file, faces away from the viewer.
+// The point at which `ray` met an object. The shading normal is negated when the triangle's geometric normal, by the
+// winding in the model file, faces away from the viewer.
 ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit& hit);
 
-// Emission, ambient, and Phong-Blinn from every light and its images in mirrors that cast light, with shadows.
+// Sum of emission, ambient light, and Phong-Blinn from every light and its images in mirrors that cast light, with
+// shadows.
 glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
 
-// Bilinear on linear texels, repeated, v up; texel centres at (i + 0.5) / size.
+// Interpolates linear texels bilinearly, repeated, v up; texel centres at (i + 0.5) / size.
 glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv);
 
 // The mirror's front normal at a world position relative to the eye: its plane's, or with ripples that of the height

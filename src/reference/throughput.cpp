@@ -14,7 +14,7 @@ namespace speculum {
 
 namespace {
 
-// Time that this thread spent on a processor: others' load does not count.
+// Processor time of this thread, which other load does not change.
 double threadSeconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

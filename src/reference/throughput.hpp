@@ -4,7 +4,7 @@
 
 namespace speculum {
 
-// How fast the tracer's rays are: closest hits on a generated mesh, by one thread.
+// Speed of the tracer's closest-hit queries on a generated mesh, on one thread.
 struct RayThroughput {
   int64_t triangles = 0;
   int64_t rays = 0;
@@ -15,8 +15,8 @@ struct RayThroughput {
   double raysPerSecond() const { return static_cast<double>(rays) / seconds; }
 };
 
-// A bumpy sphere of about that many triangles, and rays with random origins around it towards random points near it,
-// in no order that would help a cache. The rays are the same in every run.
+// Measures a bumpy sphere of about `triangles` triangles and rays from random origins around it to random points near
+// it, in no order that would help a cache. The rays are the same in every run.
 RayThroughput measureRayThroughput(int64_t triangles, int64_t rays);
 
 }  // namespace speculum

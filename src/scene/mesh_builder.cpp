@@ -19,13 +19,13 @@ double largestComponent(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// Whose square need not be within the range of a double.
+// Length of a vector whose square may leave the range of a double.
 double length(const glm::dvec3& v) {
   const double scale = largestComponent(v);
   return scale > 0.0 ? scale * glm::length(v / scale) : 0.0;
 }
 
-// Unit length whatever the magnitude; zero for zero.
+// Direction of a vector of any magnitude; zero for zero.
 glm::dvec3 unit(const glm::dvec3& v) {
   const double scale = largestComponent(v);
   return scale > 0.0 ? glm::normalize(v / scale) : glm::dvec3(0.0);
@@ -73,7 +73,7 @@ void rebase(Mesh& mesh) {
   }
 }
 
-// What hides a whole mirror is a wall, a door, a cupboard or a column: few triangles, or few of them large.
+// Meshes that hide a whole mirror, such as walls, doors and cupboards, have few triangles or few large ones.
 void findOccluders(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;

@@ -24,7 +24,7 @@ std::string text(const glm::dvec3& v) {
   return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
 
-// As a TOML string.
+// A TOML string.
 std::string quoted(const std::string& name) {
   std::string result = "\"";
   for (const char c : name) {

@@ -142,7 +142,7 @@ CheckedMtl checkMtl(const fs::path& file, std::string_view text) {
   return checked;
 }
 
-// Without its texture.
+// Converts all but the texture.
 Material materialOf(const tinyobj::material_t& source) {
   const auto color = [](const tinyobj::real_t(&rgb)[3]) { return glm::dvec3(rgb[0], rgb[1], rgb[2]); };
   return {.name = source.name,

@@ -10,7 +10,7 @@ namespace speculum {
 
 namespace {
 
-// Angles are reduced before they are added up, so that a long run loses no precision to a large sum.
+// Reduces the angles before it adds them, so that a long run loses no precision to a large sum.
 glm::dvec3 spun(const glm::dvec3& rotation, const glm::dvec3& spin, double time) {
   glm::dvec3 angles;
   for (int i = 0; i < 3; ++i) {
@@ -44,7 +44,7 @@ LightState lightState(const PointLight& light, double time) {
   return {orbit.center + rotationAboutAxis(orbit.axis, orbit.speed * time) * (light.position - orbit.center)};
 }
 
-// Unit direction of the first edge that has a length, in the plane: the vertices may lie a little off it.
+// Unit direction of the first edge with a length, projected into the plane, off which vertices may lie a little.
 glm::dvec3 firstEdge(const std::vector<glm::dvec3>& polygon, const glm::dvec3& normal) {
   for (size_t i = 1; i < polygon.size(); ++i) {
     const glm::dvec3 edge = polygon[i] - polygon[i - 1];

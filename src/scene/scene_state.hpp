@@ -10,7 +10,7 @@
 namespace speculum {
 
 // Everything that moves, at one time, in world space and double. Planner, renderer and reference tracer all read this,
-// so that they cannot disagree on where things are.
+// so that they cannot disagree on positions.
 
 struct CameraPose {
   glm::dvec3 eye{0.0};
@@ -52,13 +52,13 @@ struct SceneState {
   std::vector<MirrorState> mirrors;      // parallel to Scene::mirrors
 };
 
-// Pure function of scene and time. Angles are reduced in double, so 1e6 s of animation is as exact as one.
+// The scene's nodes at a time. Angles are reduced in double, so 1e6 s of animation are as exact as one.
 SceneState evaluate(const Scene& scene, double timeSeconds);
 
-// The camera at a bookmark, standing still.
+// A camera at the bookmark that does not move.
 CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera);
 
-// Whether anything depends on the time.
+// Says whether anything depends on the time.
 bool moves(const Scene& scene);
 
 }  // namespace speculum

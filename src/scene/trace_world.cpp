@@ -8,7 +8,7 @@ namespace speculum {
 
 namespace {
 
-// Scaled before anything is multiplied: scales from 1e-20 to 1e13 must not leave the range of double.
+// Scales the matrix first, because entries from 1e-20 to 1e13 must not leave the range of double.
 glm::dmat3 inverseOf(const glm::dmat3& m) {
   double largest = 0.0;
   for (int c = 0; c < 3; ++c) {
@@ -23,7 +23,7 @@ bool isInvertible(const glm::dmat3& m) {
   return std::isfinite(glm::dot(inverse[0] + inverse[1] + inverse[2], glm::dvec3(1.0)));
 }
 
-// Rays are rounded on their way into mesh space, so the box in world space needs a margin.
+// Adds a margin for the rounding of rays on their way into mesh space.
 Bounds padded(Bounds box) {
   const glm::dvec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
   const double margin = 1e-13 * std::max({reach.x, reach.y, reach.z});
@@ -134,7 +134,7 @@ std::optional<double> TraceWorld::meetMirror(const Ray& ray, int mirror) const {
   return meetPolygon(ray, ShearedRay(ray), mirrors_[mirror], ray.tMax);
 }
 
-// The distance of centre and ray is taken directly: the textbook discriminant cancels for small, distant glyphs.
+// Uses the distance of centre and ray: the textbook discriminant cancels for small, distant glyphs.
 std::optional<double> TraceWorld::meetGlyph(const Ray& ray, int light, double tMax) const {
   const double radius = scene_->lights[light].radius;
   const glm::dvec3 toCenter = lights_[light].position - ray.origin;

@@ -21,7 +21,7 @@ struct SceneHit {
   bool mirrorFront = false;  // mirrors: the ray comes from the front side
 };
 
-// Surfaces that a ray does not see: the one it starts on, and the mirror that it was bounced by.
+// Surfaces that a ray ignores: the one it starts on, and the mirror that reflected it.
 struct Skip {
   int instance = -1;
   uint32_t triangle = 0;
@@ -31,19 +31,19 @@ struct Skip {
   bool skips(int mirrorIndex) const { return mirrorIndex == mirror || mirrorIndex == secondMirror; }
 };
 
-// Everything that a ray can meet at one time: a BVH over instances, mirrors and glyphs; objects are met in their own
-// mesh's space. Positions are relative to the eye of the state, because differences of world coordinates are exact
-// where coordinates far from the world's origin are not.
+// Everything that a ray can meet at one time: a BVH over instances, mirrors and glyphs. Instances are intersected in
+// their mesh's space. Positions are relative to the eye of the state, because differences of world coordinates are
+// exact where coordinates far from the world's origin are not.
 class TraceWorld {
  public:
-  // Keeps a reference to the scene. Builds the BVHs of its meshes.
+  // Keeps a reference to the scene and builds the BVHs of its meshes.
   explicit TraceWorld(const Scene& scene);
   void place(const SceneState& state);
 
   std::optional<SceneHit> closest(const Ray& ray, const Skip& skip) const;
-  // Whether an object or a mirror, from either side, lies on the ray. Glyphs cast no shadow.
+  // Says whether an object or a mirror, from either side, lies on the ray. Glyphs cast no shadow.
   bool occluded(const Ray& ray, const Skip& skip) const;
-  // Where the ray meets a mirror's polygon, within (tMin, tMax).
+  // Parameter t in (tMin, tMax) at which the ray meets a mirror's polygon.
   std::optional<double> meetMirror(const Ray& ray, int mirror) const;
 
   const Scene& scene() const { return *scene_; }

@@ -1,0 +1,285 @@
+#include "scene/obj_loader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "geometry/polygon.hpp"
+#include "obj_support.hpp"
+
+namespace speculum {
+namespace {
+
+using ObjLoader = ObjTest;
+
+// The three corners of a triangle in model space.
+std::array<glm::dvec3, 3> corners(const Mesh& mesh, size_t triangle) {
+  std::array<glm::dvec3, 3> points;
+  for (size_t i = 0; i < 3; ++i) {
+    points[i] = mesh.center + mesh.vertices[mesh.indices[3 * triangle + i]].position;
+  }
+  return points;
+}
+
+TEST_F(ObjLoader, TriangleWithoutNormalsIsFlat) {
+  const Mesh mesh = load(kTriangleObj);
+  EXPECT_EQ(mesh.indices, (std::vector<uint32_t>{0, 1, 2}));
+  ASSERT_EQ(mesh.vertices.size(), 3u);
+  for (const Vertex& vertex : mesh.vertices) {
+    EXPECT_EQ(vertex.normal, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(vertex.uv, glm::dvec2(0.0));
+  }
+  EXPECT_EQ(mesh.source, folder_ / "m.obj");
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(ObjLoader, IsRebasedToTheCentreOfItsBox) {
+  const Mesh mesh = load("v 10000000.25 0 0\nv 10000001.25 0 0\nv 10000000.25 3 0\nf 1 2 3\n");
+  EXPECT_EQ(mesh.center, glm::dvec3(10000000.75, 1.5, 0));
+  EXPECT_EQ(mesh.halfExtent, glm::dvec3(0.5, 1.5, 0));
+  EXPECT_NEAR(mesh.radius, std::sqrt(2.5), 1e-15);
+  EXPECT_EQ(mesh.vertices[0].position, glm::dvec3(-0.5, -1.5, 0));
+}
+
+TEST_F(ObjLoader, UnusedVerticesDoNotWidenTheBox) {
+  const Mesh mesh = load(std::string("v 100 100 100\n") + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n");
+  EXPECT_EQ(mesh.halfExtent, glm::dvec3(0.5, 0.5, 0));
+}
+
+TEST_F(ObjLoader, NumbersAreTheNearestDoubles) {
+  const Mesh mesh = load(
+      "v 0.1234567890123456 0 0\nv -.1234567890123456e0 0 0\nv 0 +1. -0\nvn 0 0 1\nvt 0.3 0.7\nf 1/1/1 2/1/1 3/1/1\n");
+  EXPECT_EQ(corners(mesh, 0)[0].x, 0.1234567890123456);
+  EXPECT_EQ(corners(mesh, 0)[1].x, -0.1234567890123456);
+  EXPECT_EQ(corners(mesh, 0)[2], glm::dvec3(0, 1, 0));
+  EXPECT_EQ(mesh.vertices[0].uv, glm::dvec2(0.3, 0.7));
+}
+
+TEST_F(ObjLoader, CornersAreSharedByIndexTriple) {
+  const Mesh mesh = load(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 2\n"
+      "f 1/1/1 2/2/1 3/3/1 4/4/1\nf 1/2/1 2/2/1 3/3/1\n");
+  EXPECT_EQ(mesh.indices.size(), 9u);
+  EXPECT_EQ(mesh.vertices.size(), 5u) << "only the first corner of the second face differs";
+  EXPECT_EQ(mesh.vertices[2].uv, glm::dvec2(1, 1));
+  EXPECT_EQ(mesh.vertices[2].normal, glm::dvec3(0, 0, 1));
+}
+
+TEST_F(ObjLoader, RelativeIndicesCountBackwards) {
+  const Mesh mesh = load("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nvn 0 1 0\nf -3//-1 -2//-1 -1//-2\nv 5 5 5\n");
+  EXPECT_EQ(corners(mesh, 0)[0], glm::dvec3(0, 0, 0));
+  EXPECT_EQ(corners(mesh, 0)[2], glm::dvec3(0, 1, 0));
+  EXPECT_EQ(mesh.vertices[0].normal, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(mesh.vertices[2].normal, glm::dvec3(1, 0, 0));
+}
+
+TEST_F(ObjLoader, ConcavePolygonKeepsItsArea) {
+  const Mesh mesh = load("v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 1 2 3 4\n");
+  ASSERT_EQ(mesh.indices.size(), 6u);
+  EXPECT_NEAR(polygonArea(corners(mesh, 0)) + polygonArea(corners(mesh, 1)), 1.0, 1e-12);
+}
+
+TEST_F(ObjLoader, LongPolygonsAreRead) {
+  std::string text;
+  std::string face = "f";
+  for (int i = 0; i < 400; ++i) {
+    const double angle = 2.0 * std::acos(-1.0) * i / 400;
+    text += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
+    face += " " + std::to_string(i + 1);
+  }
+  EXPECT_EQ(load(text + face + "\n").indices.size(), 3u * 398u);
+}
+
+TEST_F(ObjLoader, BadNormalsAreReplacedByTheFacesOwn) {
+  const Mesh mesh = load(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nvn nan 1 0\nvn 0 -1e-200 0\n"
+      "f 1//1 2//2 3//3\n");
+  EXPECT_EQ(mesh.vertices[0].normal, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(mesh.vertices[1].normal, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(mesh.vertices[2].normal, glm::dvec3(0, -1, 0)) << "short is not zero";
+}
+
+TEST_F(ObjLoader, FacesWithNonFiniteVerticesAreDropped) {
+  const Mesh mesh = load(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 0 inf 0\nv 0 0 1e999\nvt nan 0\n"
+      "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 6 3\nf 1/1 2/1 3/1\n");
+  EXPECT_EQ(mesh.indices.size(), 3u);
+  EXPECT_EQ(warnings(), "warning: m.obj: dropped 4 faces with vertices that are not finite\n");
+}
+
+TEST_F(ObjLoader, UnderflowIsZeroNotAnError) {
+  EXPECT_EQ(load("v 1e-999 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").indices.size(), 3u);
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
+  const Mesh mesh = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0.5 0.9e-10 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2 5\n");
+  EXPECT_EQ(mesh.indices.size(), 3u);
+  EXPECT_EQ(warnings(), "warning: m.obj: dropped 3 degenerate triangles\n");
+}
+
+TEST_F(ObjLoader, SliversAreKeptWithAWarning) {
+  const Mesh mesh =
+      load("v 0 0 0\nv 1 0 0\nv 0.5 1.1e-10 0\nv 0.5 0.9e-5 0\nv 0.5 1.1e-5 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
+  EXPECT_EQ(mesh.indices.size(), 9u);
+  EXPECT_NE(warnings().find("2 triangles are slivers"), std::string::npos) << warnings();
+}
+
+TEST_F(ObjLoader, QualityDoesNotDependOnSize) {
+  for (const char* unit : {"1e-170", "1e-20", "1e13", "1e170"}) {
+    const std::string u(unit);
+    const Mesh mesh = load("v 0 0 0\nv " + u + " 0 0\nv 0 " + u + " 0\nf 1 2 3\n");
+    EXPECT_EQ(mesh.indices.size(), 3u) << unit;
+    EXPECT_EQ(mesh.vertices[0].normal, glm::dvec3(0, 0, 1)) << unit;
+  }
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(ObjLoader, FaceContinuesAfterABackslash) {
+  for (const std::string end : {"\n", "\r\n"}) {
+    const Mesh mesh = load(kSquare + "f 1 2 \\" + end + "3 \\" + end + "4" + end);
+    EXPECT_EQ(mesh.indices.size(), 6u);
+    EXPECT_EQ(mesh.halfExtent, glm::dvec3(0.5, 0.5, 0.0));
+  }
+}
+
+TEST_F(ObjLoader, VertexContinuesAfterABackslash) {
+  const Mesh mesh = load("v 0 0 \\\n4\nv 2 0 4\\\n\nv 0 2 4\nf 1 2 3\n");
+  EXPECT_EQ(mesh.center, glm::dvec3(1.0, 1.0, 4.0));
+}
+
+TEST_F(ObjLoader, BackslashSeparatesTokens) {
+  EXPECT_EQ(load(kSquare + "f 1 2\\\n3\n").indices.size(), 3u);
+}
+
+TEST_F(ObjLoader, BackslashMayEndTheFile) {
+  EXPECT_EQ(load(kSquare + "f 1 2 3 \\").indices.size(), 3u);
+}
+
+TEST_F(ObjLoader, CommentIsNotContinued) {
+  EXPECT_EQ(load(kSquare + "# C:\\models\\\nf 1 2 3\nf 1 3 4 # half \\\nf 1 2 4\n").indices.size(), 9u);
+}
+
+TEST_F(ObjLoader, FaultIsAtTheFirstOfContinuedLines) {
+  EXPECT_TRUE(faultOf(kSquare + "f 1 2 \\\n\\\n9\n").starts_with("m.obj:5: "));
+}
+
+TEST_F(ObjLoader, ContinuedLinesCountEach) {
+  EXPECT_TRUE(faultOf(kSquare + "f 1 2 \\\n3 \\\r\n4\n\n# comment\nf 1 2 9\n").starts_with("m.obj:10: "));
+}
+
+TEST_F(ObjLoader, ArbitraryBytesAreRefused) {
+  std::string bytes;
+  for (int i = 0; i < 4096; ++i) {
+    bytes.push_back(static_cast<char>(1 + (i * 131 + i / 7) % 255));
+  }
+  for (const std::string& text :
+       {std::string(), bytes, bytes + '\0', std::string(100, '\\'), std::string("\\\n\\\n")}) {
+    const std::string fault = faultOf(text);
+    EXPECT_TRUE(fault.starts_with("m.obj:")) << fault;
+    EXPECT_EQ(fault.find('\n'), std::string::npos);
+  }
+}
+
+TEST_F(ObjLoader, FacesOfUpTo1000Vertices) {
+  EXPECT_EQ(load(kSquare + "f" + repeated(" 1 2 3 4", 250) + "\n").parts.size(), 1u);
+  EXPECT_EQ(faultOf(kSquare + "f" + repeated(" 1 2 3 4", 250) + " 1\n"),
+            "m.obj:5: f: has 1001 vertices (3 .. 1000 are needed)");
+}
+
+TEST_F(ObjLoader, SecondByteOrderMarkIsNoFace) {
+  EXPECT_EQ(load("\xef\xbb\xbf\xef\xbb\xbf" + std::string("f 99 99 99\n") + kSquare + "f 1 2 3\n").indices.size(), 3u);
+}
+
+TEST_F(ObjLoader, NumbersMayHaveManyDigits) {
+  const std::string one = "1" + std::string(400, '0') + "e-400";
+  EXPECT_EQ(load(kSquare + "v " + one + " 1 2\nf 1 2 5\n").halfExtent, glm::dvec3(0.5, 0.5, 1.0));
+  const Mesh mesh = load(kSquare + "vn " + one + " 0 0\nvt " + one + " 0\nf 1/1/1 2/1/1 3/1/1\n");
+  EXPECT_EQ(mesh.vertices[0].normal, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(mesh.vertices[0].uv, glm::dvec2(1, 0));
+}
+
+TEST_F(ObjLoader, ExponentsOfAnySize) {
+  const Mesh mesh = load(kSquare + "v 1e2147483648 0 0\nv 2 0e99999999999 1e-2147483649\nf 1 2 5\nf 1 6 3\n");
+  ASSERT_EQ(mesh.indices.size(), 3u);
+  EXPECT_EQ(mesh.center + mesh.vertices[1].position, glm::dvec3(2, 0, 0));
+}
+
+TEST_F(ObjLoader, RadiusOfAnySize) {
+  EXPECT_NEAR(load("v 0 0 0\nv 6e200 0 0\nv 0 8e200 0\nf 1 2 3\n").radius / 5e200, 1.0, 1e-14);
+  EXPECT_NEAR(load("v 0 0 0\nv 6e-200 0 0\nv 0 8e-200 0\nf 1 2 3\n").radius / 5e-200, 1.0, 1e-14);
+}
+
+TEST_F(ObjLoader, CommentsAndByteOrderMarkAreNoTokens) {
+  const Mesh mesh = load("\xef\xbb\xbfv 0 0 0 # first\nv 1 0 0\nv 0 1 0\nf 1 2 3 # 1 2 3\nf 3 2 1#x");
+  EXPECT_EQ(mesh.indices.size(), 6u);
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(ObjLoader, MissingFilesAndFoldersAreRefused) {
+  for (const auto& [file, problem] :
+       {std::pair("none.obj", "cannot be read: No such file or directory"), std::pair("", "is a folder")}) {
+    const std::filesystem::path path = folder_ / file;
+    EXPECT_EQ(inputErrorOf([&] { loadObj(path, textures_); }),
+              path.string() + ":1: file: " + problem + " (a Wavefront OBJ file is needed)");
+  }
+}
+
+struct ObjFault {
+  const char* name;
+  std::string text;
+  const char* place;    // line and key
+  const char* message;  // part of it
+};
+
+void PrintTo(const ObjFault& fault, std::ostream* stream) {
+  *stream << fault.name;
+}
+
+class ObjFaults : public ObjTest, public testing::WithParamInterface<ObjFault> {};
+
+TEST_P(ObjFaults, NameTheirLine) {
+  const std::string fault = faultOf(GetParam().text);
+  EXPECT_TRUE(fault.starts_with("m.obj:" + std::string(GetParam().place) + " ")) << fault;
+  EXPECT_NE(fault.find(GetParam().message), std::string::npos) << fault;
+  EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+}
+
+const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Tokens, ObjFaults,
+    testing::Values(
+        ObjFault{"WordInPosition", "# a comment\nv 1 abc 2\n", "2: v:", "'abc' is not a number"},
+        ObjFault{"TrailingLetters", "v 1 2 3x\n", "1: v:", "'3x' is not a number"},
+        ObjFault{"TwoSigns", "v 1 2 +-3\n", "1: v:", "'+-3' is not a number"},
+        ObjFault{"TwoCoordinates", "v 1 2\n", "1: v:", "has 2 numbers (3 .. 8 are needed)"},
+        ObjFault{"NormalOfFour", "vn 1 2 3 4\n", "1: vn:", "has 4 numbers (3 are needed)"},
+        ObjFault{"EmptyTexcoord", "vt\n", "1: vt:", "has 0 numbers (1 .. 3 are needed)"},
+        ObjFault{"IndexTooLarge", kVertices + "f 1 2 4\n", "4: f:", "v index 4 is out of range (1 .. 3, or -3 .. -1)"},
+        ObjFault{"IndexZero", kVertices + "f 0 1 2\n", "4: f:", "v index 0 is out of range"},
+        ObjFault{"RelativeIndexTooFar", kVertices + "f -4 1 2\n", "4: f:", "v index -4 is out of range"},
+        ObjFault{"IndexOfLaterVertex", kVertices + "f 1 2 4\nv 1 1 1\n", "4: f:", "v index 4 is out of range"},
+        ObjFault{"IndexBeyondIntegers", kVertices + "f 1 2 99999999999999999999\n", "4: f:", "is out of range"},
+        ObjFault{"TexcoordTooLarge", kVertices + "vt 0 0\nf 1/1 2/2 3/1\n",
+                 "5: f:", "vt index 2 is out of range (1 .. 1"},
+        ObjFault{"NoTexcoords", kVertices + "f 1/1 2/1 3/1\n", "4: f:", "(there is no vt line above)"},
+        ObjFault{"NormalTooLarge", kVertices + "vn 0 0 1\nf 1//1 2//1 3//2\n", "5: f:", "vn index 2 is out of range"},
+        ObjFault{"NormalOfTriple", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/-2 3/1/1\n", "6: f:", "vn index -2"},
+        ObjFault{"IndexIsWord", kVertices + "f 1 2 x\n", "4: f:", "'x' is not an index"},
+        ObjFault{"IndexIsEmpty", kVertices + "f 1 2 3//\n", "4: f:", "'' is not an index"},
+        ObjFault{"IndexOfFour", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1/1 2 3\n", "6: f:", "'1/1' is not an index"},
+        ObjFault{"FaceOfTwo", kVertices + "f 1 2\n", "4: f:", "has 2 vertices (a face needs 3 or more)"},
+        ObjFault{"FaceOfNone", kVertices + "\nf\n", "5: f:", "has 0 vertices"},
+        ObjFault{"LinesOfOldMacs", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 9\r", "4: f:", "v index 9"},
+        ObjFault{"LinesOfWindows", "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 9\r\n", "4: f:", "v index 9"},
+        ObjFault{"Empty", "", "1: f:", "has no triangle"},
+        ObjFault{"OnlyVertices", kVertices, "1: f:", "has no triangle"},
+        ObjFault{"OnlyDegenerateFaces", kVertices + "f 1 1 2\n", "1: f:", "has no triangle"},
+        ObjFault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
+        ObjFault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no triangle"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace speculum

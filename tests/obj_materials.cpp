@@ -1,0 +1,144 @@
+#include "scene/obj_materials.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "image/image.hpp"
+#include "obj_support.hpp"
+
+namespace speculum {
+namespace {
+
+using MtlFile = ObjTest;
+
+void expectDefault(const Material& material) {
+  EXPECT_EQ(material.diffuse, glm::dvec3(0.6));
+  EXPECT_EQ(material.specular, glm::dvec3(0.0));
+  EXPECT_EQ(material.emission, glm::dvec3(0.0));
+  EXPECT_EQ(material.shininess, 1.0);
+  EXPECT_EQ(material.diffuseTexture, -1);
+}
+
+TEST_F(MtlFile, IsRead) {
+  const Mesh mesh = load(kSquare + "usemtl red\nf 1 2 3\n",
+                         "newmtl red\n\tKd 0.8 0.1 0.2 # a comment\n  Ks 0.1 0.2 0.3\nKe 1 2 3\nNs 64\r\nKa 1 1 1\n");
+  const Material& material = mesh.parts.at(0).material;
+  EXPECT_EQ(material.name, "red");
+  EXPECT_NEAR(material.diffuse.x, 0.8, 1e-15);
+  EXPECT_NEAR(material.diffuse.z, 0.2, 1e-15);
+  EXPECT_NEAR(material.specular.y, 0.2, 1e-15);
+  EXPECT_EQ(material.emission, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(material.shininess, 64.0);
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(MtlFile, ShininessBelowOneCountsAsOne) {
+  EXPECT_EQ(load(kSquare + "usemtl m\nf 1 2 3\n", "newmtl m\nNs 0.2\n").parts[0].material.shininess, 1.0);
+}
+
+TEST_F(MtlFile, FacesAreGroupedInTheOrderOfFirstUse) {
+  const Mesh mesh = load(kSquare + "f 1 2 3\nusemtl b\nf 1 2 3\nf 3 2 1\nusemtl a \nf 1 2 3\nusemtl b\nf 2 3 1\n",
+                         "newmtl a\nKd 1 0 0\nnewmtl unused\nmap_Kd none.png\nnewmtl b\nKd 0 1 0\n");
+  ASSERT_EQ(mesh.parts.size(), 3u);
+  expectDefault(mesh.parts[0].material);
+  EXPECT_EQ(mesh.parts[1].material.name, "b");
+  EXPECT_EQ(mesh.parts[2].material.name, "a");
+  EXPECT_EQ(mesh.parts[0].indexCount, 3u);
+  EXPECT_EQ(mesh.parts[1].firstIndex, 3u);
+  EXPECT_EQ(mesh.parts[1].indexCount, 9u);
+  EXPECT_EQ(mesh.parts[2].firstIndex, 12u);
+  EXPECT_EQ(mesh.parts[2].indexCount, 3u);
+  EXPECT_EQ(mesh.indices.size(), 15u);
+}
+
+TEST_F(MtlFile, MissingFileIsAWarning) {
+  const Mesh mesh = load("mtllib none.mtl\nusemtl x\n" + std::string(kTriangleObj));
+  expectDefault(mesh.parts.at(0).material);
+  EXPECT_EQ(warnings(), "warning: m.obj: there is no material file 'none.mtl', its faces get the default material\n");
+}
+
+TEST_F(MtlFile, MissingNameIsOneWarning) {
+  const Mesh mesh = load(kSquare + "usemtl x\nf 1 2 3\nusemtl x\nf 1 2 3\n", "newmtl y\nKd 1 1 1\n");
+  expectDefault(mesh.parts.at(0).material);
+  EXPECT_EQ(warnings(), "warning: m.obj: there is no material 'x', its faces get the default material\n");
+}
+
+TEST_F(MtlFile, OpacityIsAWarning) {
+  for (const char* opacity : {"d 0.5", "Tr 0.5", "map_d mask.png"}) {
+    load(kSquare + "usemtl m\nf 1 2 3\n", std::string("newmtl m\nKd 1 1 1\n") + opacity + "\n");
+    EXPECT_NE(warnings().find("m.mtl:1: material 'm' is not opaque, it is drawn opaque\n"), std::string::npos)
+        << opacity;
+  }
+}
+
+TEST_F(MtlFile, TextureIsDecodedToLinear) {
+  Image8 image(2, 1);
+  image.at(1, 0)[0] = 0;
+  image.at(1, 0)[1] = 128;
+  std::filesystem::create_directory(folder_ / "images");
+  writePng(folder_ / "images/my wall.png", image);
+  const Mesh mesh = load(kSquare + "usemtl m\nf 1 2 3\n", "newmtl m\nKd 1 1 1\nmap_Kd images\\my wall.png\n");
+  EXPECT_EQ(mesh.parts[0].material.diffuseTexture, 0);
+  ASSERT_EQ(textures_.size(), 1u);
+  EXPECT_EQ(textures_[0].width, 2);
+  EXPECT_EQ(textures_[0].height, 1);
+  EXPECT_EQ(textures_[0].texels[0], glm::vec3(1.0f));
+  EXPECT_EQ(textures_[0].texels[1], glm::vec3(0.0f, static_cast<float>(srgbDecode(128.0 / 255.0)), 1.0f));
+}
+
+TEST_F(MtlFile, OptionsOfATextureAreNotItsName) {
+  writePng(folder_ / "a wall.png", Image8(1, 1));
+  for (const char* options : {"-blendu on ", "-bm 0.5 -clamp off\t", "-o 1 ", "-o 1 2 3 -s 1e2147483648 -mm 0 1 "}) {
+    const Mesh mesh = load(kSquare + "usemtl m\nf 1 2 3\n",
+                           std::string("newmtl m\nmap_Kd ") + options + "a wall.png\nKd 0.5 0.5 0.5\n");
+    EXPECT_EQ(mesh.parts[0].material.diffuseTexture, 0) << options;
+    EXPECT_EQ(mesh.parts[0].material.diffuse, glm::dvec3(0.5)) << options;
+  }
+  EXPECT_EQ(textures_.size(), 1u);
+}
+
+TEST_F(MtlFile, UnreadableTexturesAreRefused) {
+  folder_.write("text.png", "no picture");
+  const std::string right = " (name a PNG or JPEG file, relative to the MTL file)";
+  for (const auto& [name, problem] : {std::pair("none.png", "none.png: cannot be read: No such file or directory"),
+                                      std::pair("text.png", "text.png: is not a picture that can be read"),
+                                      std::pair("/dev/zero", "/dev/zero: is a device or pipe")}) {
+    EXPECT_EQ(faultOf(kSquare + "usemtl m\nf 1 2 3\n", std::string("newmtl m\nKd 1 1 1\nmap_Kd ") + name + "\n"),
+              std::string("m.mtl:3: map_Kd: ") + problem + right);
+  }
+}
+
+TEST_F(MtlFile, FilesAreReadOnce) {
+  folder_.write("m.mtl", repeated("newmtl a\n", 10'000));
+  const auto start = std::chrono::steady_clock::now();
+  load(repeated("mtllib m.mtl\nmtllib ./m.mtl\n", 1000) + kSquare + "usemtl a\nf 1 2 3\n");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5)) << "read 2000 times it takes minutes";
+}
+
+TEST_F(MtlFile, FirstFileThatIsThereIsRead) {
+  folder_.write("my file.mtl", "newmtl a\nNs 7\n");
+  const Mesh mesh = load("mtllib none.mtl my\\ file.mtl m.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", "newmtl b\n");
+  EXPECT_EQ(mesh.parts.at(0).material.shininess, 7.0);
+}
+
+TEST_F(MtlFile, MostAreTenThousand) {
+  EXPECT_EQ(faultOf(kSquare, repeated("newmtl a\n", 10'001)),
+            "m.mtl:10001: newmtl: is one too many (at most 10000 materials are read)");
+}
+
+TEST_F(MtlFile, FaultsNameTheirLine) {
+  for (const auto& [mtl, fault] : std::initializer_list<std::pair<std::string, const char*>>{
+           {"newmtl a\nKd nan 0 0\n", "2: Kd: is not finite"},
+           {"newmtl a\nKs 0 -1 0\n", "2: Ks: is negative"},
+           {"newmtl a\nKe x 0 0\n", "2: Ke: 'x' is not a number"},
+           {"newmtl a\nKd 0.5\n", "2: Kd: has 1 numbers (3 are needed)"},
+           {"newmtl a\nNs inf\n", "2: Ns: is not finite"},
+           {"newmtl a\nd half\n", "2: d: 'half' is not a number"},
+           {std::string("newmtl a\n\0\0", 11), "2: file: is not a text file"}}) {
+    EXPECT_TRUE(faultOf(kSquare, mtl).starts_with(std::string("m.mtl:") + fault)) << fault;
+  }
+}
+
+}  // namespace
+}  // namespace speculum
