@@ -6,7 +6,7 @@
 #include <random>
 
 #include "image/image.hpp"
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
 #include "temporary_folder.hpp"
 
 namespace speculum {
@@ -232,7 +232,7 @@ TEST_F(ExrLayout, PackedRowsMustBeComplete) {
   // 3 rows of 100 pixels; the last bytes are left out of what zlib unpacks.
   LinearImage image(100, 3);
   writeExr(folder_ / "a.exr", image);
-  std::vector<uint8_t> bytes = readFileBytes(folder_ / "a.exr");
+  std::vector<uint8_t> bytes = readFile(folder_ / "a.exr");
   const std::string good(bytes.begin(), bytes.end());
   EXPECT_EQ(refusal(good), "");
   std::string taller = good;
@@ -246,7 +246,7 @@ TEST_F(ExrLayout, PackedRowsMustBeComplete) {
 // For sanitizers: nothing but an exception comes of any damage.
 TEST_F(ExrLayout, DamagedBytesAreReadOrRefused) {
   writeExr(folder_ / "zip.exr", LinearImage(20, 40));
-  const std::vector<uint8_t> zip = readFileBytes(folder_ / "zip.exr");
+  const std::vector<uint8_t> zip = readFile(folder_ / "zip.exr");
   const std::vector<std::string> files = {rows().bytes(), tiles(0).bytes(), tiles(1).bytes(), {zip.begin(), zip.end()}};
   std::mt19937 engine(4);
   int refused = 0;

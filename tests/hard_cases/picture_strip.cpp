@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "image/image.hpp"
-#include "platform/file_io.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 namespace {
