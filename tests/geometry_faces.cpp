@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
 #include <numeric>
 
 #include "geometry/convex_faces.hpp"
@@ -103,6 +105,23 @@ TEST(ConvexFaces, ACrackOfOneBitKeepsFacesApart) {
   const double next = std::nextafter(1.0, 2.0);
   t.quad({next, 0, 0}, {2, 0, 0}, {2, 1, 0}, {next, 1, 0});
   EXPECT_EQ(t.faces().size(), 2u);
+}
+
+TEST(ConvexFaces, LargeDiscsAreJoinedQuickly) {
+  constexpr int sides = 2048;
+  Triangles disc;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = glm::radians(360.0) * i / sides;
+    disc.positions.emplace_back(0.6 * std::cos(angle), std::sin(angle), 0.8 * std::cos(angle));
+  }
+  for (uint32_t i = 1; i + 1 < sides; ++i) {
+    disc.indices.insert(disc.indices.end(), {0, i, i + 1});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto faces = disc.faces(32, 4096);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1)) << "in cubic time it takes ten";
+  ASSERT_EQ(faces.size(), 1u);
+  EXPECT_EQ(faces[0].size(), size_t{sides});
 }
 
 TEST(ConvexFaces, LimitsAreKept) {
