@@ -10,14 +10,6 @@ namespace speculum {
 
 inline const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-inline std::string repeated(const std::string& part, int count) {
-  std::string text;
-  for (int i = 0; i < count; ++i) {
-    text += part;
-  }
-  return text;
-}
-
 // Loads models from text. Messages name the files m.obj and m.mtl without their folder.
 class ObjTest : public testing::Test {
  protected:

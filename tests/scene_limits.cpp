@@ -12,17 +12,6 @@ namespace {
 
 // Files that are no scene by anybody's hand must still end in one line, without a crash and in short time.
 
-constexpr const char* kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
-
-std::string repeated(const std::string& part, size_t count) {
-  std::string text;
-  text.reserve(part.size() * count);
-  for (size_t i = 0; i < count; ++i) {
-    text += part;
-  }
-  return text;
-}
-
 std::string faultOf(const std::string& text) {
   const TemporaryFolder folder;
   folder.write("triangle.obj", kTriangleObj);
@@ -162,7 +151,7 @@ TEST(SceneLimits, CameraTurnsAboutATargetThatItNearlyTouches) {
 
 TEST(SceneLimits, ManySettingsAreReadInShortTime) {
   const TemporaryFolder folder;
-  std::string text = std::string(kCamera) + "[settings]\n";
+  std::string text = kCamera + "[settings]\n";
   for (int i = 0; i < 200'000; ++i) {
     text += "key" + std::to_string(i) + " = " + std::to_string(i) + "\n";
   }
@@ -189,7 +178,7 @@ TEST(SceneLimits, PipesDevicesAndHugeFilesAreNotRead) {
 TEST(SceneLimits, LineEndsAndByteOrderMarkKeepTheLines) {
   EXPECT_EQ(faultOf("\r\nnear = 0\r\n"), "5: camera.near: is 0 (a finite number above 0 is needed)");
   const TemporaryFolder folder;
-  const auto file = folder.write("scene.toml", std::string("\xef\xbb\xbf") + kCamera + "near = 0\n");
+  const auto file = folder.write("scene.toml", "\xef\xbb\xbf" + kCamera + "near = 0\n");
   EXPECT_EQ(inputErrorOf([&] { loadScene(file); }),
             file.string() + ":4: camera.near: is 0 (a finite number above 0 is needed)");
 }
@@ -199,9 +188,8 @@ TEST(SceneLimits, ModelsAreFoundThroughLinkedFolders) {
   folder.write("far/models/box.obj", kTriangleObj);
   std::filesystem::create_directories(folder / "far/parts");
   std::filesystem::create_directory_symlink(folder / "far/parts", folder / "parts");
-  const auto file =
-      folder.write("scene.toml", std::string(kCamera) + "[[object]]\nmodel = 'parts/../models/box.obj'\n" +
-                                     "[[object]]\nmodel = 'far/models/box.obj'\n");
+  const auto file = folder.write("scene.toml", kCamera + "[[object]]\nmodel = 'parts/../models/box.obj'\n" +
+                                                   "[[object]]\nmodel = 'far/models/box.obj'\n");
   EXPECT_EQ(loadScene(file).meshes.size(), 1u);
 }
 

@@ -7,8 +7,6 @@
 namespace speculum {
 namespace {
 
-const std::string kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
-
 Scene load(const std::string& text) {
   const TemporaryFolder folder;
   folder.write("triangle.obj", kTriangleObj);

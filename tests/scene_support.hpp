@@ -13,7 +13,7 @@
 
 namespace speculum {
 
-// Takes what is logged, one message a line, in the place of the default logger while it lives.
+// Collects the log, one message a line, instead of the default logger while it lives.
 class LogCapture {
  public:
   LogCapture() : previous_(spdlog::default_logger()) {
@@ -44,6 +44,17 @@ std::string inputErrorOf(Action action) {
   return "no InputError was thrown";
 }
 
+// The least that a scene file may hold.
+inline const std::string kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
+
 inline constexpr const char* kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+inline std::string repeated(const std::string& part, size_t count) {
+  std::string text;
+  for (size_t i = 0; i < count; ++i) {
+    text += part;
+  }
+  return text;
+}
 
 }  // namespace speculum
