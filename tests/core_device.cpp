@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "core_fixture.hpp"
-#include "platform/platform.hpp"
+#include "platform/process.hpp"
 
 namespace speculum::test {
 namespace {

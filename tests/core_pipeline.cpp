@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "core_fixture.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
 #include "test_paths.hpp"
 
 namespace speculum::test {

@@ -6,7 +6,9 @@
 
 #include "app/demo.hpp"
 #include "picture_support.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
+#include "platform/process.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum::testing_support {

@@ -6,7 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "picture_support.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/stats.hpp"
 #include "picture_support.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 namespace {

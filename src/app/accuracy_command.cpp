@@ -7,7 +7,7 @@
 #include "app/session_subject.hpp"
 #include "app/stats.hpp"
 #include "app/sweep_description.hpp"
-#include "platform/platform.hpp"
+#include "platform/process.hpp"
 
 namespace speculum {
 

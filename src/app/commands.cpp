@@ -7,7 +7,8 @@
 #include <map>
 
 #include "app/demo.hpp"
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
+#include "platform/machine.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {

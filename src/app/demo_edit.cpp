@@ -4,7 +4,8 @@
 
 #include "app/demo.hpp"
 #include "edit/save_place.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "app/demo.hpp"
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

@@ -6,7 +6,8 @@
 #include "accuracy/fingerprint.hpp"
 #include "app/demo.hpp"
 #include "app/view_command.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

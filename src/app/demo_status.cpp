@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/demo.hpp"
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

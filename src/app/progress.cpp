@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "app/options.hpp"
-#include "platform/platform.hpp"
+#include "platform/process.hpp"
 
 namespace speculum {
 

@@ -3,7 +3,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/session.hpp"
-#include "platform/platform.hpp"
+#include "platform/process.hpp"
 #include "reference/ray_tracer.hpp"
 
 namespace speculum {

@@ -11,7 +11,7 @@
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "app/stats.hpp"
-#include "platform/platform.hpp"
+#include "platform/process.hpp"
 #include "reference/throughput.hpp"
 
 namespace speculum {

@@ -3,7 +3,7 @@
 #include <array>
 #include <ctime>
 
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

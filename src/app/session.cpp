@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "app/screenshot.hpp"
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "frame/depth_readout.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/machine.hpp"
 
 namespace speculum {
 

@@ -7,7 +7,9 @@
 #include "app/session_subject.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
+#include "platform/machine.hpp"
 
 namespace speculum {
 

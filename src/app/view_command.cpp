@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "frame/setting_fields.hpp"
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

@@ -6,7 +6,8 @@
 #include <stdexcept>
 
 #include "core/device.hpp"
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
+#include "platform/process.hpp"
 #include "platform/window.hpp"
 
 namespace speculum {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

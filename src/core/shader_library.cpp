@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "platform/process.hpp"
+
 namespace speculum {
 
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/device.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 

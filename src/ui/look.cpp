@@ -5,7 +5,8 @@
 
 #include <string_view>
 
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

@@ -6,7 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 

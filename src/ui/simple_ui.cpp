@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "platform/platform.hpp"
+#include "platform/folders.hpp"
 #include "ui/glfw_input.hpp"
 #include "ui/panels.hpp"
 

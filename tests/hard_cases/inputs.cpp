@@ -6,7 +6,7 @@
 #include "geometry/affine.hpp"
 #include "geometry/polygon.hpp"
 #include "naive_arithmetic.hpp"
-#include "platform/platform.hpp"
+#include "platform/process.hpp"
 #include "scene_support.hpp"
 #include "scene_text.hpp"
 #include "test_paths.hpp"

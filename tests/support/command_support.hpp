@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/platform.hpp"
+#include "platform/process.hpp"
 #include "test_paths.hpp"
 
 // The program called as scripts call it.

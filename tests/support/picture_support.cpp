@@ -9,7 +9,7 @@
 
 #include "core/device.hpp"
 #include "core/instance.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
 #include "test_paths.hpp"
 
 namespace speculum::testing_support {

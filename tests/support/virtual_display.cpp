@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
 #include "test_paths.hpp"
 
 extern char** environ;
