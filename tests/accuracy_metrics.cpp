@@ -6,6 +6,7 @@
 #include <random>
 
 #include "accuracy/image_metrics.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "accuracy/heat_map.hpp"
 #include "accuracy/picture_agreement.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 namespace {

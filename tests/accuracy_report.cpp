@@ -8,6 +8,7 @@
 
 #include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"
+#include "image/picture_files.hpp"
 #include "report_example.hpp"
 #include "temporary_folder.hpp"
 

@@ -8,6 +8,7 @@
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/pareto.hpp"
 #include "accuracy/sweep.hpp"
+#include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"

@@ -5,7 +5,10 @@
 #include <map>
 
 #include "command_support.hpp"
+#include "image/color.hpp"
+#include "image/exr.hpp"
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "test_paths.hpp"
 

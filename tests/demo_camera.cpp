@@ -3,6 +3,7 @@
 
 #include "app/screenshot.hpp"
 #include "demo_window_support.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum {
 namespace {

@@ -2,6 +2,7 @@
 #include "app/screenshot.hpp"
 #include "demo_window_support.hpp"
 #include "frame/settings.hpp"
+#include "image/picture_files.hpp"
 #include "scene/scene_loader.hpp"
 #include "test_paths.hpp"
 

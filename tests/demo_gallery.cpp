@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "demo_window_support.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum {
 namespace {

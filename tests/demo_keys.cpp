@@ -5,6 +5,7 @@
 
 #include "app/screenshot.hpp"
 #include "demo_window_support.hpp"
+#include "image/picture_files.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {

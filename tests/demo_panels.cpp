@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "demo_window_support.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "core/handle.hpp"
 #include "demo_window_support.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "edit_support.hpp"
 #include "frame/setting_fields.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 namespace {

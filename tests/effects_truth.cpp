@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "accuracy/image_metrics.hpp"
+#include "image/color.hpp"
+#include "image/picture_files.hpp"
 #include "truth_support.hpp"
 
 namespace speculum {

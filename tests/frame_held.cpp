@@ -10,6 +10,7 @@
 #include "frame/memory_fit.hpp"
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 namespace {

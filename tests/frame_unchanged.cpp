@@ -9,6 +9,7 @@
 #include "frame/image_reuse.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame_support.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 namespace {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "image/picture_files.hpp"
 #include "picture_support.hpp"
 
 namespace speculum {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "image/color.hpp"
 #include "image/image.hpp"
 
 namespace speculum {

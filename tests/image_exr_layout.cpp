@@ -5,6 +5,7 @@
 #include <climits>
 #include <random>
 
+#include "image/exr.hpp"
 #include "image/image.hpp"
 #include "platform/files.hpp"
 #include "temporary_folder.hpp"

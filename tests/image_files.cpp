@@ -5,7 +5,9 @@
 #include <limits>
 #include <string>
 
+#include "image/exr.hpp"
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "temporary_folder.hpp"
 

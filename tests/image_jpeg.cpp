@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "temporary_folder.hpp"
 
 namespace speculum {

@@ -4,7 +4,9 @@
 
 #include <chrono>
 
+#include "image/color.hpp"
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "obj_support.hpp"
 
 namespace speculum {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "scene/scene_state.hpp"
 #include "scene_support.hpp"
 

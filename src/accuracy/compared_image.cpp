@@ -5,6 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "image/color.hpp"
+#include "image/exr.hpp"
+#include "image/picture_files.hpp"
+
 namespace speculum {
 
 namespace {

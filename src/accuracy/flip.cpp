@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "image/color.hpp"
+
 namespace speculum {
 
 namespace {

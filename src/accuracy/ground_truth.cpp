@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
 
 namespace speculum {

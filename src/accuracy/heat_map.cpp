@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "image/color.hpp"
+
 namespace speculum {
 
 namespace {

@@ -6,6 +6,7 @@
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 

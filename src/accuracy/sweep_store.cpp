@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "image/exr.hpp"
+#include "image/picture_files.hpp"
 #include "platform/files.hpp"
 
 namespace speculum {

@@ -5,6 +5,7 @@
 
 #include "accuracy/heat_map.hpp"
 #include "app/quality.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 

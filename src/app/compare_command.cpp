@@ -6,6 +6,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "app/commands.hpp"
 #include "app/stats.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum {
 

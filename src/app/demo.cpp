@@ -8,6 +8,7 @@
 #include "app/pass_outlines.hpp"
 #include "app/screenshot.hpp"
 #include "frame/scene_names.hpp"
+#include "image/picture_files.hpp"
 #include "platform/process.hpp"
 #include "ui/panels.hpp"
 

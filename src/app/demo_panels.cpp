@@ -5,6 +5,7 @@
 
 #include "app/demo.hpp"
 #include "edit/outline.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum {
 

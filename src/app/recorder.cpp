@@ -4,6 +4,7 @@
 
 #include "app/screenshot.hpp"
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum {
 

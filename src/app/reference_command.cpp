@@ -3,6 +3,9 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/session.hpp"
+#include "image/color.hpp"
+#include "image/exr.hpp"
+#include "image/picture_files.hpp"
 #include "platform/process.hpp"
 #include "reference/ray_tracer.hpp"
 

@@ -11,6 +11,8 @@
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "app/stats.hpp"
+#include "image/exr.hpp"
+#include "image/picture_files.hpp"
 #include "platform/process.hpp"
 #include "reference/throughput.hpp"
 

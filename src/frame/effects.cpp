@@ -4,6 +4,7 @@
 #include <set>
 
 #include "frame/scene_names.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 

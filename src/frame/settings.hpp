@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "image/image.hpp"
+#include "image/color.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {

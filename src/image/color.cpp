@@ -1,7 +1,7 @@
+#include "image/color.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "image/image.hpp"
 
 namespace speculum {
 

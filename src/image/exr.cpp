@@ -1,3 +1,5 @@
+#include "image/exr.hpp"
+
 #include <tinyexr.h>
 
 #include <array>
@@ -6,7 +8,6 @@
 #include <stdexcept>
 
 #include "image/exr_layout.hpp"
-#include "image/image.hpp"
 #include "platform/files.hpp"
 
 namespace speculum {

@@ -32,23 +32,4 @@ struct Image8 {
   const uint8_t* at(int x, int y) const { return &rgba[(static_cast<size_t>(y) * width + x) * 4]; }
 };
 
-enum class ToneMap { clamp, aces };
-
-// IEC 61966-2-1. Both take and return [0, 1].
-double srgbEncode(double linear);
-double srgbDecode(double encoded);
-
-// exposure, tone curve, sRGB curve, 8 bit rounded (to nearest); the shader display.frag does the same.
-Image8 toDisplay(const LinearImage& image, double exposure, ToneMap toneMap);
-
-// Baseline JPEG without alpha; quality 1 .. 100, chroma at half the resolution up to 90. Throws std::runtime_error for
-// a picture without pixels, one of more than 65535 in a direction, and another quality.
-std::vector<uint8_t> encodeJpeg(const Image8& image, int quality);
-
-// All throw std::runtime_error with the file's name, what is wrong and what would be right.
-Image8 readImage8(const std::filesystem::path& file);  // PNG, JPEG, of at most 2^26 pixels
-void writePng(const std::filesystem::path& file, const Image8& image);
-LinearImage readExr(const std::filesystem::path& file);
-void writeExr(const std::filesystem::path& file, const LinearImage& image);  // float RGB
-
 }  // namespace speculum

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <sstream>
 
+#include "image/color.hpp"
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "scene/input_error.hpp"
 #include "scene/text_lines.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
 
+#include "image/color.hpp"
 #include "shaders/gpu_data.h"
 
 namespace speculum {

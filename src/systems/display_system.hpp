@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "image/color.hpp"
 #include "image/image.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"

@@ -7,6 +7,7 @@
 #include "frame/memory_fit.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
+#include "image/color.hpp"
 
 namespace speculum {
 

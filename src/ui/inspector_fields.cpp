@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "image/image.hpp"
+#include "image/color.hpp"
 #include "scene/scene_loader.hpp"
 #include "ui/inspector_parts.hpp"
 #include "ui/panels.hpp"

@@ -6,7 +6,7 @@
 #include <array>
 #include <bit>
 
-#include "image/image.hpp"
+#include "image/color.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

@@ -1,5 +1,6 @@
 #include "fuzz_support.hpp"
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum::fuzz {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "platform/files.hpp"
 
 namespace speculum {

@@ -9,6 +9,7 @@
 
 #include "core/device.hpp"
 #include "core/instance.hpp"
+#include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "test_paths.hpp"
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "image/color.hpp"
+
 namespace speculum::testing_support {
 
 namespace {

@@ -1,11 +1,14 @@
+#include "image/picture_files.hpp"
+
 #include <stb_image.h>
 #include <stb_image_write.h>
 
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <stdexcept>
+#include <string>
 
-#include "image/image.hpp"
 #include "platform/files.hpp"
 
 namespace speculum {
@@ -74,6 +77,23 @@ void writePng(const std::filesystem::path& file, const Image8& image) {
     throw FileError(file, "cannot be encoded as PNG", "is there memory left?");
   }
   replaceFile(file, bytes);
+}
+
+std::vector<uint8_t> encodeJpeg(const Image8& image, int quality) {
+  constexpr int largestSide = 65535;  // the format counts in 16 bits
+  if (image.width < 1 || image.height < 1 || image.width > largestSide || image.height > largestSide) {
+    throw std::runtime_error("a picture of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                             " cannot be a JPEG (1 to 65535 pixels in either direction can)");
+  }
+  if (quality < 1 || quality > 100) {
+    throw std::runtime_error("JPEG quality " + std::to_string(quality) + " is out of range (1 .. 100)");
+  }
+  std::vector<uint8_t> bytes;
+  if (!stbi_write_jpg_to_func(&appendBytes, &bytes, image.width, image.height, 4, image.rgba.data(), quality)) {
+    throw std::runtime_error("a picture of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                             " could not be encoded as JPEG (is there memory left?)");
+  }
+  return bytes;
 }
 
 }  // namespace speculum

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "image/image.hpp"
+
+namespace speculum {
+
+// Reads a PNG or JPEG file of at most 2^26 pixels. Throws FileError.
+Image8 readImage8(const std::filesystem::path& file);
+// Throws FileError.
+void writePng(const std::filesystem::path& file, const Image8& image);
+
+// Baseline JPEG without alpha; quality 1 .. 100, chroma at half the resolution up to 90. Throws std::runtime_error for
+// a picture without pixels, one of more than 65535 in a direction, and another quality.
+std::vector<uint8_t> encodeJpeg(const Image8& image, int quality);
+
+}  // namespace speculum
