@@ -13,7 +13,7 @@ constexpr glm::dvec2 picture(640, 360);
 const Projection projection(glm::radians(60.0), picture.x / picture.y, 0.001);
 constexpr double distance = 50.0;  // metres
 
-// Of a mirror met at 45 degrees, as the reflected eye sees it from `h` behind.
+// Plane of a mirror met at 45 degrees, seen by a reflected eye `h` behind it.
 glm::dvec4 mirrorPlane(double h) {
   return {std::sqrt(0.5), 0.0, -std::sqrt(0.5), -h};
 }
@@ -35,14 +35,14 @@ void expectBetween(const std::optional<double>& value, double low, double high) 
   EXPECT_LE(*value, high);
 }
 
-// The gap that a renderer kept in order 50 m away, which no bound may be far from.
-TEST(DepthResolution, ReversedDepthIsAsMeasured) {
+// Gaps that a renderer kept in order 50 m away, near which each bound must lie.
+TEST(DepthResolution, ReversedDepthMatchesMeasurement) {
   constexpr double measured = 7.5e-6;  // metres
   expectBetween(common(0.0, 1.0).storage, measured / 2, measured * 2);
   expectBetween(common(0.0, 1.0).rounded, measured, measured * 4);
 }
 
-TEST(DepthResolution, ObliqueDepthIsAsMeasured) {
+TEST(DepthResolution, ObliqueDepthMatchesMeasurement) {
   constexpr std::array<std::pair<double, double>, 4> measured = {{{1, 3e-4}, {0.1, 3e-3}, {0.01, 3e-2}, {1e-4, 4}}};
   for (const auto& [h, gap] : measured) {
     SCOPED_TRACE(h);
@@ -57,7 +57,7 @@ TEST(DepthResolution, ObliqueDepthIsAsMeasured) {
   EXPECT_FALSE(oblique(1e-6).snapped);
 }
 
-TEST(DepthResolution, GrazingSurfacesAreAsMeasured) {
+TEST(DepthResolution, GrazingSurfacesMatchMeasurement) {
   constexpr std::array<std::pair<double, double>, 3> measured = {{{60, 1e-6}, {89, 1e-5}, {89.9, 1e-4}}};
   for (const auto& [angle, relative] : measured) {
     SCOPED_TRACE(angle);
@@ -66,7 +66,7 @@ TEST(DepthResolution, GrazingSurfacesAreAsMeasured) {
   }
 }
 
-TEST(DepthResolution, RelativeResolutionIsThatOfAFloatAtEveryDistance) {
+TEST(DepthResolution, ResolutionIsRelativeToDistance) {
   for (double t = 0.01; t < 1e7; t *= 1.7) {
     const DepthResolution resolution = common(0.0, 0.0, t);
     expectBetween(resolution.storage, std::ldexp(t, -24), std::ldexp(t, -23) * 1.001);
@@ -90,7 +90,7 @@ TEST(DepthResolution, NothingWithoutAProjectionOrAnEdge) {
   EXPECT_FALSE(depthResolution(view, {{0, 0, -1e-4}, {0, 0, 1}, 0}).snapped) << "clamped";
 }
 
-// A triangle of a mesh, and what a rasteriser with floats and 1/256 pixel makes of its depth at a pixel.
+// A triangle of a mesh.
 struct Triangle {
   glm::dvec3 center;                  // of its mesh
   std::array<glm::dvec3, 3> corners;  // relative to it
@@ -108,6 +108,7 @@ glm::dvec3 turned(const glm::dvec3& normal, double length) {
   return length * (std::cos(angle) * side + std::sin(angle) * glm::cross(normal, side));
 }
 
+// Depth at a pixel by a rasteriser with floats that snaps vertices to 1/256 pixel.
 float pixelDepth(const Triangle& triangle, const glm::dmat4& clipFromView, const glm::dvec2& pixel) {
   glm::dmat4 clipFromMesh = clipFromView;
   clipFromMesh[3] = clipFromView * glm::dvec4(triangle.center, 1.0);
@@ -130,7 +131,7 @@ float pixelDepth(const Triangle& triangle, const glm::dmat4& clipFromView, const
   return static_cast<float>(depth[0] + u * (depth[1] - depth[0]) + v * (depth[2] - depth[0]));
 }
 
-// Around a point of the plane, large or small, in a mesh whose centre is up to `extent` away.
+// A triangle of random size around a point of the plane, in a mesh whose centre is up to `extent` away.
 Triangle triangleAt(const glm::dvec3& point, const glm::dvec3& normal, double extent) {
   const double size = std::pow(10.0, uniform(-2.0, 0.0)) * std::min(extent, -0.3 * point.z);
   const glm::dvec3 first = turned(normal, size);
@@ -172,7 +173,7 @@ struct Trial {
   int outOfOrder = 0;
 };
 
-// Random pairs of surfaces, `part` of the bound apart.
+// Counts random pairs of surfaces, `part` of the bound apart, by the order of their depths.
 Trial trials(bool withPlane, double part) {
   Trial trial;
   for (int i = 0; i < 20000; ++i) {

@@ -6,39 +6,23 @@
 
 #include "geometry/convex_faces.hpp"
 #include "geometry/polygon.hpp"
+#include "triangles.hpp"
 
 namespace speculum {
 namespace {
 
-struct Triangles {
-  std::vector<glm::dvec3> positions;
-  std::vector<uint32_t> indices;
+std::vector<std::vector<glm::dvec3>> facesOf(const Triangles& triangles, size_t most = 32,
+                                             size_t mostTriangles = 1000) {
+  return convexFaces(triangles.positions, triangles.indices, most, mostTriangles);
+}
 
-  void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
-    const auto first = static_cast<uint32_t>(positions.size());
-    positions.insert(positions.end(), {a, b, c, d});
-    for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) {
-      indices.push_back(first + i);
-    }
-  }
-  std::vector<std::vector<glm::dvec3>> faces(size_t most = 32, size_t mostTriangles = 1000) const {
-    return convexFaces(positions, indices, most, mostTriangles);
-  }
-};
-
-Triangles box() {
-  const auto p = [](int i) { return glm::dvec3(i & 1 ? 2 : -2, i & 2 ? 1 : -1, i & 4 ? 0.1 : -0.1); };
+Triangles slab() {
   Triangles t;
-  t.quad(p(4), p(5), p(7), p(6));
-  t.quad(p(1), p(0), p(2), p(3));
-  t.quad(p(0), p(4), p(6), p(2));
-  t.quad(p(5), p(1), p(3), p(7));
-  t.quad(p(6), p(7), p(3), p(2));
-  t.quad(p(0), p(1), p(5), p(4));
+  t.box({-2, -1, -0.1}, {2, 1, 0.1});
   return t;
 }
 
-// Squares of one metre where `filled` says so.
+// Squares of one metre where `filled` is true.
 template <typename Filled>
 Triangles tiles(int side, const Filled& filled) {
   Triangles t;
@@ -58,7 +42,7 @@ double totalArea(const std::vector<std::vector<glm::dvec3>>& faces) {
 }
 
 TEST(ConvexFaces, BoxHasSixTheLargestFirst) {
-  const auto faces = box().faces();
+  const auto faces = facesOf(slab());
   ASSERT_EQ(faces.size(), 6u);
   EXPECT_DOUBLE_EQ(polygonArea(faces[0]), 8.0);
   EXPECT_DOUBLE_EQ(polygonArea(faces[1]), 8.0);
@@ -67,14 +51,14 @@ TEST(ConvexFaces, BoxHasSixTheLargestFirst) {
 }
 
 TEST(ConvexFaces, SubdividedWallIsOneFace) {
-  const auto faces = tiles(5, [](int, int) { return true; }).faces();
+  const auto faces = facesOf(tiles(5, [](int, int) { return true; }));
   ASSERT_EQ(faces.size(), 1u);
   EXPECT_NEAR(polygonArea(faces[0]), 25.0, 1e-12);
   EXPECT_FALSE(polygonDefect(faces[0]));
 }
 
-TEST(ConvexFaces, WallWithAWindowFallsIntoPartsThatLeaveItOpen) {
-  const auto faces = tiles(5, [](int x, int y) { return x != 2 || y != 2; }).faces();
+TEST(ConvexFaces, FacesLeaveAWindowOpen) {
+  const auto faces = facesOf(tiles(5, [](int x, int y) { return x != 2 || y != 2; }));
   EXPECT_GT(faces.size(), 1u);
   EXPECT_NEAR(totalArea(faces), 24.0, 1e-12);
   for (const auto& face : faces) {
@@ -88,15 +72,15 @@ TEST(ConvexFaces, WallWithAWindowFallsIntoPartsThatLeaveItOpen) {
   }
 }
 
-TEST(ConvexFaces, BentAndBackToBackAreNotJoined) {
+TEST(ConvexFaces, BentAndOpposedFacesStayApart) {
   Triangles bent;
   bent.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
   bent.quad({1, 0, 0}, {2, 0, 0.01}, {2, 1, 0.01}, {1, 1, 0});
-  EXPECT_EQ(bent.faces().size(), 2u);
+  EXPECT_EQ(facesOf(bent).size(), 2u);
   Triangles folded;
   folded.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
   folded.quad({0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 0});
-  EXPECT_EQ(folded.faces().size(), 2u);
+  EXPECT_EQ(facesOf(folded).size(), 2u);
 }
 
 TEST(ConvexFaces, ACrackOfOneBitKeepsFacesApart) {
@@ -104,7 +88,7 @@ TEST(ConvexFaces, ACrackOfOneBitKeepsFacesApart) {
   t.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
   const double next = std::nextafter(1.0, 2.0);
   t.quad({next, 0, 0}, {2, 0, 0}, {2, 1, 0}, {next, 1, 0});
-  EXPECT_EQ(t.faces().size(), 2u);
+  EXPECT_EQ(facesOf(t).size(), 2u);
 }
 
 TEST(ConvexFaces, LargeDiscsAreJoinedQuickly) {
@@ -118,16 +102,16 @@ TEST(ConvexFaces, LargeDiscsAreJoinedQuickly) {
     disc.indices.insert(disc.indices.end(), {0, i, i + 1});
   }
   const auto start = std::chrono::steady_clock::now();
-  const auto faces = disc.faces(32, 4096);
+  const auto faces = facesOf(disc, 32, 4096);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1)) << "in cubic time it takes ten";
   ASSERT_EQ(faces.size(), 1u);
   EXPECT_EQ(faces[0].size(), size_t{sides});
 }
 
 TEST(ConvexFaces, LimitsAreKept) {
-  EXPECT_EQ(box().faces(2).size(), 2u);
-  EXPECT_TRUE(box().faces(32, 11).empty());
-  EXPECT_TRUE(Triangles().faces().empty());
+  EXPECT_EQ(facesOf(slab(), 2).size(), 2u);
+  EXPECT_TRUE(facesOf(slab(), 32, 11).empty());
+  EXPECT_TRUE(facesOf({}).empty());
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(ScreenRect, RoundsOutwardsAndPads) {
   EXPECT_DOUBLE_EQ(screenArea(clip, 100, 100), 2500.0);
 }
 
-TEST(ScreenRect, IsEverythingWhenAVertexIsInTheEyesPlane) {
+TEST(ScreenRect, IsEverythingForVerticesInTheEyesPlane) {
   const std::vector<glm::dvec4> clip = {{0, 0, 0, 1}, {1e-14, 0, 0, 1e-13}, {0, 0.5, 0, 1}};
   EXPECT_EQ(screenRect(clip, 64, 32, {0, 0, 64, 32}), (PixelRect{0, 0, 64, 32}));
 }
@@ -72,7 +72,7 @@ TEST(ScreenRect, IsEmptyWithoutVertices) {
   EXPECT_EQ(screenArea({}, 64, 32), 0.0);
 }
 
-// In pixels, from the line through two of a polygon's corners; positive on the side of `inside`.
+// Distance in pixels from the line through two corners of a polygon; positive on the side of `inside`.
 double distanceFromEdge(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& inside) {
   const glm::dvec2 across = glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
   return glm::dot(across, p - a) * (glm::dot(across, inside - a) < 0.0 ? -1.0 : 1.0);
@@ -119,7 +119,7 @@ TEST(Grown, AcuteCornersAndRepeatedOnesStayNear) {
   EXPECT_GT(moved[1].y, needle[1].y);
 }
 
-TEST(Grown, IsAsItWasInTheEyesPlane) {
+TEST(Grown, LeavesPolygonsInTheEyesPlane) {
   const std::vector<glm::dvec4> clip = {{0, 0, 0, 1}, {1e-14, 0, 0, 1e-13}, {0, 0.5, 0, 1}};
   EXPECT_EQ(grown(clip, 64, 32, 1.0), clip);
 }

@@ -36,7 +36,7 @@ void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
 }
 
 // A glowing sphere of 1 cm is seen exactly where its image in the two mirrors lies.
-TEST(ReferenceMirrors, ShowAPointInTwoMirrorsAtAnAngle) {
+TEST(ReferenceMirrors, TwoMirrorsShowAPointsImages) {
   const double angle = 50.0 * pi / 180.0;
   const glm::dvec3 inPlane(std::cos(angle), 0.0, std::sin(angle));
   Scene scene = emptyScene({0, 0, 0});
@@ -95,7 +95,7 @@ TEST(ReferenceMirrors, CutRecursionByThroughput) {
   expectNear(look(scene, {0, 0, 1}, {0, 0.01, -1}, exact), glm::dvec3(0.125), 1e-15);
 }
 
-TEST(ReferenceMirrors, CutMirrorsShowTheSkyOfTheReflectedDirection) {
+TEST(ReferenceMirrors, CutMirrorsShowTheReflectedSky) {
   Scene scene = emptyScene({9, 9, 9});
   scene.environment.sky = Sky{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   scene.mirrors = {mirrorOf(wallFacingZ, 0.5)};
@@ -114,7 +114,7 @@ TEST(ReferenceMirrors, BackSidesAreSurfacesUnlessTwoSided) {
   expectNear(look(scene, {0, 0, -1}, {0, 0, 1}), glm::dvec3(0.25), 1e-15);
 }
 
-TEST(ReferenceMirrors, TheLayerUnderneathGetsTheRest) {
+TEST(ReferenceMirrors, LayerUnderneathGetsTheRest) {
   Scene scene = emptyScene({1, 1, 1});
   scene.environment.ambient = glm::dvec3(0.5);
   scene.mirrors = {mirrorOf(wallFacingZ, 0.25)};
@@ -133,7 +133,7 @@ TEST(ReferenceMirrors, SchlickAtNormalAndGrazing) {
   EXPECT_GT(look(scene, {0, 0, 1}, {1, 0, -1e-3}).r, 0.99);
 }
 
-TEST(ReferenceMirrors, HideWhatIsBehindAndIgnoreWhatIsBelowThem) {
+TEST(ReferenceMirrors, HideObjectsBehindThem) {
   Scene scene = emptyScene({0, 0, 0});
   scene.mirrors = {mirrorOf(wallFacingZ)};
   Material red;
@@ -145,7 +145,7 @@ TEST(ReferenceMirrors, HideWhatIsBehindAndIgnoreWhatIsBelowThem) {
   expectNear(look(scene, {0, 0, 1}, {0, 0, -1}), {1, 0, 0}, 1e-15);
 }
 
-TEST(ReferenceMirrors, LightReachesAPointByWayOfAMirror) {
+TEST(ReferenceMirrors, MirrorsReflectLight) {
   Scene scene = emptyScene({0, 0, 0});
   scene.mirrors = {mirrorOf({{-9, 0, -9}, {-9, 0, 9}, {9, 0, 9}, {9, 0, -9}}, 0.5)};
   scene.lights.push_back({.position = {0, 1, 0}, .intensity = 10.0, .radius = 0.01, .glow = 0.0, .castsShadow = true});
@@ -166,7 +166,7 @@ TEST(ReferenceMirrors, LightReachesAPointByWayOfAMirror) {
 }
 
 // The mean over GGX normals of a sky that is linear in the direction is known: alpha = r^2 -> the mean of m about n.
-TEST(ReferenceMirrors, RoughReflectionsConvergeToTheSmoothOnes) {
+TEST(ReferenceMirrors, SlightRoughnessConvergesToSmooth) {
   Scene scene = emptyScene({0, 0, 0});
   scene.environment.sky = Sky{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}};
   scene.mirrors = {mirrorOf({{-9, 0, -9}, {-9, 0, 9}, {9, 0, 9}, {9, 0, -9}})};

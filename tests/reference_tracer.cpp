@@ -20,7 +20,14 @@ Material diffuse(const glm::dvec3& color) {
 
 const std::vector<glm::dvec3> floorCorners = {{-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}};
 
-// A room's worth of everything: floor, bumpy object, a light with shadows, two mirrors, one of them rough.
+Scene floorScene(const Material& material) {
+  Scene scene;
+  scene.camera = testing::cameraAt({0, 1, 3}, {0, 0, 0});
+  testing::addObject(scene, testing::polygonMesh(floorCorners, material));
+  return scene;
+}
+
+// A floor, bumpy object, a light with shadows, two mirrors, one of them rough.
 Scene mixedScene() {
   Scene scene;
   scene.environment.ambient = glm::dvec3(0.05);
@@ -39,7 +46,7 @@ Scene mixedScene() {
   return scene;
 }
 
-TEST(ReferenceTracer, WritesTheSameBitsWhateverTheNumberOfThreads) {
+TEST(ReferenceTracer, NumberOfThreadsChangesNoBit) {
   const Scene scene = mixedScene();
   const SceneState state = evaluate(scene, 0.0);
   const RayTracer tracer(scene, state);
@@ -57,7 +64,7 @@ TEST(ReferenceTracer, WritesTheSameBitsWhateverTheNumberOfThreads) {
   EXPECT_EQ(glm::vec3(pixel), results[0].image.at(20, 30));
 }
 
-TEST(ReferenceTracer, SaysWhatThePixelCentresMeet) {
+TEST(ReferenceTracer, MasksSayWhatPixelCentresMeet) {
   const Scene scene = mixedScene();
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   const TraceResult result = *tracer.render({.width = 64, .height = 48, .samples = 1, .roughSamples = 1});
@@ -94,7 +101,7 @@ TEST(ReferenceTracer, ProgressRisesToOneAndCancels) {
   EXPECT_EQ(calls, 3);
 }
 
-TEST(ReferenceTracer, RefusesSampleCountsThatAreNoSquare) {
+TEST(ReferenceTracer, RefusesImpossibleOptions) {
   const Scene scene = mixedScene();
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   EXPECT_THROW(tracer.render({.samples = 8}), std::invalid_argument);
@@ -102,8 +109,8 @@ TEST(ReferenceTracer, RefusesSampleCountsThatAreNoSquare) {
   EXPECT_THROW(tracer.render({.samples = 4, .roughSamples = 0}), std::invalid_argument);
 }
 
-// Far from the origin the picture stays what it is: its error there is that of the positions, 1e-9 m.
-TEST(ReferenceTracer, ASceneFarFromTheOriginLooksTheSame) {
+// The error of positions there is 1e-9 m.
+TEST(ReferenceTracer, FarFromTheOriginPicturesStay) {
   const Scene scene = mixedScene();
   SceneState state = evaluate(scene, 0.0);
   const TraceOptions options{.width = 64, .height = 48, .samples = 1, .roughSamples = 4};
@@ -129,10 +136,8 @@ TEST(ReferenceTracer, ASceneFarFromTheOriginLooksTheSame) {
   }
 }
 
-TEST(ReferenceTracer, ALightGivesItsIrradianceToAPlane) {
-  Scene scene;
-  scene.camera = testing::cameraAt({0, 1, 3}, {0, 0, 0});
-  testing::addObject(scene, testing::polygonMesh(floorCorners, diffuse(glm::dvec3(0.5))));
+TEST(ReferenceTracer, LightGivesItsIrradianceToAPlane) {
+  Scene scene = floorScene(diffuse(glm::dvec3(0.5)));
   scene.lights.push_back({.position = {0, 2, 0}, .color = {1, 0.5, 0.25}, .intensity = 8.0, .glow = 0.0});
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   const glm::dvec3 eye(0.5, 3, 0.3);
@@ -148,12 +153,10 @@ TEST(ReferenceTracer, ALightGivesItsIrradianceToAPlane) {
 }
 
 TEST(ReferenceTracer, HighlightsFollowPhongBlinn) {
-  Scene scene;
-  scene.camera = testing::cameraAt({0, 1, 3}, {0, 0, 0});
   Material material = diffuse(glm::dvec3(0.0));
   material.specular = glm::dvec3(0.3);
   material.shininess = 50.0;
-  testing::addObject(scene, testing::polygonMesh(floorCorners, material));
+  Scene scene = floorScene(material);
   scene.lights.push_back({.position = {1, 2, 0}, .intensity = 3.0, .glow = 0.0});
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   const glm::dvec3 eye(-1.2, 1.5, 0.2);
@@ -164,19 +167,15 @@ TEST(ReferenceTracer, HighlightsFollowPhongBlinn) {
   EXPECT_GT(expected, 0.05);
 }
 
-TEST(ReferenceTracer, TheInverseSquareStopsAtTheRadius) {
-  Scene scene;
-  scene.camera = testing::cameraAt({0, 1, 3}, {0, 0, 0});
-  testing::addObject(scene, testing::polygonMesh(floorCorners, diffuse(glm::dvec3(1.0))));
+TEST(ReferenceTracer, InverseSquareStopsAtTheRadius) {
+  Scene scene = floorScene(diffuse(glm::dvec3(1.0)));
   scene.lights.push_back({.position = {0, 0.1, 0}, .intensity = 1.0, .radius = 0.5, .glow = 0.0});
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   EXPECT_NEAR(tracer.radiance({}, {1, 3, 1}, {-1, -3, -1}).r, 1.0 / 0.25 / pi, 1e-13);
 }
 
-TEST(ReferenceTracer, ObjectsAndMirrorsCastShadowsGlyphsDoNot) {
-  Scene scene;
-  scene.camera = testing::cameraAt({0, 1, 3}, {0, 0, 0});
-  testing::addObject(scene, testing::polygonMesh(floorCorners, diffuse(glm::dvec3(1.0))));
+TEST(ReferenceTracer, ObjectsAndMirrorsCastShadows) {
+  Scene scene = floorScene(diffuse(glm::dvec3(1.0)));
   scene.lights.push_back({.position = {0, 2, 0}, .glow = 1.0});
   scene.lights.push_back({.position = {0, 1.5, 0}, .intensity = 0.0, .radius = 0.1, .glow = 1.0});
   const auto lit = [&] {
@@ -213,7 +212,7 @@ TEST(ReferenceTracer, GlyphsAreSpheresFromOutsideAndInside) {
   EXPECT_NEAR(tracer.pick({0, 0, 5}, {0, 0, -1}).distance, 4.5, 1e-14);
 }
 
-TEST(ReferenceTracer, TheSilhouetteOfASphereIsTheTangentCone) {
+TEST(ReferenceTracer, SphereSilhouetteIsTheTangentCone) {
   Scene scene;
   scene.camera = testing::cameraAt({0, 0, 3}, {0, 0, 0}, 60.0);
   scene.environment.background = glm::dvec3(1.0);
@@ -230,7 +229,7 @@ TEST(ReferenceTracer, TheSilhouetteOfASphereIsTheTangentCone) {
   EXPECT_NEAR(covered / (pi * radius * radius), 1.0, 1e-3);
 }
 
-TEST(ReferenceTracer, TheSkyIsAsDefinedAndTheClearColourReplacesIt) {
+TEST(ReferenceTracer, ClearColourReplacesTheSky) {
   Scene scene;
   scene.camera = testing::cameraAt({0, 0, 3}, {0, 0, 0});
   scene.environment.background = glm::dvec3(7.0);
@@ -270,7 +269,7 @@ TEST(ReferenceTracer, TexturesAreBilinearRepeatedAndUpright) {
 }
 
 // The shading normal is on the viewer's side by the winding in the file, whatever the sign of the scale.
-TEST(ReferenceTracer, NegativeScaleDoesNotTurnASurfaceInsideOut) {
+TEST(ReferenceTracer, NegativeScaleKeepsTheOutsideOutside) {
   Scene scene;
   scene.camera = testing::cameraAt({0, 1, 3}, {0, 0, 0});
   testing::addObject(scene, testing::sphereMesh(64, diffuse(glm::dvec3(1.0))));
@@ -303,7 +302,7 @@ TEST(ReferenceTracer, ExtremeScalesStayFinite) {
 }
 
 // One camera ray per pixel, at its centre: right-handed, y up, vertical field of view.
-TEST(ReferenceTracer, TheCameraIsRightHandedWithAVerticalFieldOfView) {
+TEST(ReferenceTracer, CameraIsRightHandedWithVerticalField) {
   Scene scene;
   scene.camera = testing::cameraAt({0, 0, 0}, {0, 0, -1}, 90.0);
   scene.lights.push_back({.position = {1, 0.5, -1}, .radius = 0.01, .glow = 1.0});

@@ -87,7 +87,7 @@ TEST(Evaluate, CopiesMoveInWorldSpace) {
   }
 }
 
-TEST(Evaluate, InstancesAreSortedByMeshObjectCopy) {
+TEST(Evaluate, InstancesAreSorted) {
   Scene scene = sceneWithCamera();
   scene.meshes = {boxMesh(glm::dvec3(0.0), glm::dvec3(1.0)), boxMesh(glm::dvec3(0.0), glm::dvec3(1.0))};
   scene.objects = {{.mesh = 1, .copies = {.count = 2}}, {.mesh = 0}, {.mesh = 1}, {.mesh = 0, .copies = {.count = 2}}};
@@ -161,7 +161,7 @@ TEST(Evaluate, MirrorSpins) {
   }
 }
 
-TEST(Evaluate, PolygonMirrorHasItsFirstVertexAndEdgeAsFrame) {
+TEST(Evaluate, PolygonMirrorFrameIsItsFirstEdge) {
   Scene scene = sceneWithCamera();
   // In the plane x = 5, the last vertex 1e-5 off it.
   scene.mirrors.push_back({.polygon = {{5, 1, 0}, {5, 3, 0}, {5, 3, 2}, {5 + 1e-5, 1, 2}}});
@@ -185,7 +185,7 @@ TEST(Evaluate, RepeatedVerticesLeaveTheFrameWhole) {
   EXPECT_EQ(mirror.axisY, glm::dvec3(0, 1, 0));
 }
 
-TEST(Evaluate, FarFromTheOriginNothingIsLost) {
+TEST(Evaluate, FarFromTheOriginIsExact) {
   const glm::dvec3 far(1e7, -2e7, 3e7);
   Scene scene = sceneWithObject({.position = far});
   scene.meshes[0].center = glm::dvec3(0.0);
@@ -210,7 +210,7 @@ TEST(LookAt, RowsAreRightUpBack) {
   expectNear(pose.worldToView * glm::dvec3(0, 0, -1), {0, 0, -1}, 1e-15);
 }
 
-TEST(LookAt, RefusesWhatHasNoDirection) {
+TEST(LookAt, RefusesMissingDirections) {
   EXPECT_THROW(lookAt({1, 2, 3}, {1, 2, 3}, {0, 1, 0}, 60, 0.1), std::invalid_argument);
   EXPECT_THROW(lookAt({0, 0, 0}, {0, -3, 0}, {0, 1, 0}, 60, 0.1), std::invalid_argument);
   EXPECT_THROW(lookAt({0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 60, 0.1), std::invalid_argument);

@@ -1,4 +1,3 @@
-// Meshes with fewer triangles lie as near to the mesh as they say.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -44,7 +43,7 @@ std::vector<glm::dvec3> cornersOf(const std::vector<Vertex>& vertices, const std
   return corners;
 }
 
-TEST(SurfaceDistance, OfOneTriangle) {
+TEST(SurfaceDistance, ToOneTriangle) {
   const SurfaceDistance surface({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}});
   EXPECT_DOUBLE_EQ(surface.to({0.5, 0.5, -3}), 3.0) << "above it";
   EXPECT_DOUBLE_EQ(surface.to({1, -2, 0}), 2.0) << "beside an edge";
@@ -84,7 +83,7 @@ TEST(SurfaceDistance, IsTheLeastOverAllTriangles) {
 
 class Levels : public testing::TestWithParam<const char*> {};
 
-TEST_P(Levels, HaveFewerTrianglesOfTheSameParts) {
+TEST_P(Levels, HaveFewerTrianglesInEachPart) {
   const Mesh mesh = model(GetParam());
   const MeshLevels levels = simplified(mesh);
   ASSERT_FALSE(levels.levels.empty());
@@ -108,7 +107,6 @@ TEST_P(Levels, HaveFewerTrianglesOfTheSameParts) {
   EXPECT_EQ(next, levels.indices.size());
 }
 
-// All between a level's least and greatest index, and no other level's.
 TEST_P(Levels, HaveVerticesOfTheirOwn) {
   const MeshLevels levels = simplified(model(GetParam()));
   uint32_t first = 0;
@@ -124,8 +122,8 @@ TEST_P(Levels, HaveVerticesOfTheirOwn) {
   EXPECT_EQ(first, levels.vertices.size());
 }
 
-// At random points between those that the error was measured at, in both directions.
-TEST_P(Levels, LieAsNearAsTheySay) {
+// Measures in both directions at random points between those that the error was measured at.
+TEST_P(Levels, ErrorBoundsTheDistance) {
   constexpr double between = 1.25;
   const Mesh mesh = model(GetParam());
   const MeshLevels levels = simplified(mesh);
@@ -206,7 +204,7 @@ TEST(MeshLevels, PartsStayJoined) {
   }
 }
 
-// As of a file without normals: each triangle has vertices of its own.
+// A mesh like that of a file without normals: each triangle has vertices of its own.
 TEST(MeshLevels, FacetsOfASmoothBodyAreJoined) {
   const Mesh smooth = model("sphere");
   Mesh mesh{.halfExtent = smooth.halfExtent, .radius = smooth.radius};
@@ -266,7 +264,7 @@ TEST(MeshLevels, AreMadeOnceForAllThreads) {
   }
 }
 
-TEST(Models, OnlyThoseThatAreConvexHideAsAWhole) {
+TEST(Models, OnlyConvexModelsHideAsAWhole) {
   for (const char* name : {"sphere", "gem", "box", "block"}) {
     EXPECT_GE(model(name).convexVertices.size(), 8u) << name;
   }

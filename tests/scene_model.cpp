@@ -1,4 +1,3 @@
-// A model that is shown by itself, and what is told while models are read.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,7 +63,7 @@ TEST(ModelScene, StandsOverItsMirrorWithinThePicture) {
   }
 }
 
-TEST(ModelScene, IsWhatLoadingAModelGives) {
+TEST(ModelScene, LoadingAModelGivesIt) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("Grüße \"x\".obj", box(1.0));
   const Scene scene = loadScene(file);
@@ -76,7 +75,7 @@ TEST(ModelScene, IsWhatLoadingAModelGives) {
   EXPECT_TRUE(saved.mirrors == scene.mirrors && saved.camera == scene.camera && saved.lights == scene.lights);
 }
 
-TEST(ModelScene, TellsWhatCannotBeShown) {
+TEST(ModelScene, RefusesImpossibleModels) {
   const TemporaryFolder folder;
   const fs::path tiny = folder.write("tiny.obj", box(1e-12));
   const std::string message = inputErrorOf([&] { loadScene(tiny); });
@@ -115,7 +114,7 @@ TEST(LoadProgress, RisesFileByFile) {
   EXPECT_GT(told.back().second, 0.99) << "the large one is nearly all";
 }
 
-TEST(LoadProgress, WhatItThrowsEndsTheLoading) {
+TEST(LoadProgress, ExceptionsEndTheLoading) {
   struct Stop {};
   const TemporaryFolder folder;
   const fs::path file = twoModels(folder);
@@ -131,7 +130,7 @@ TEST(LoadProgress, WhatItThrowsEndsTheLoading) {
   EXPECT_GT(calls, 2);
 }
 
-TEST(AddModel, LoadsAFileOnceAndLeavesTheSceneAsItWasOnAnError) {
+TEST(AddModel, LoadsAFileOnce) {
   const TemporaryFolder folder;
   const fs::path own = folder.write("box.obj", box(1.0));
   Scene scene = modelScene(own);
