@@ -1,7 +1,6 @@
 #include "accuracy/fingerprint.hpp"
 
 #include "platform/files.hpp"
-#include "platform/fnv1a.hpp"
 
 namespace speculum {
 

@@ -124,8 +124,6 @@ class FaceJoiner {
     if (before + after < 1 || before + after >= std::min(n, m)) {
       return std::nullopt;
     }
-    const size_t ofA = n - before - after;
-    const size_t ofB = m - before - after;
     Ring added;
     for (size_t i = 0; i < m - before - after; ++i) {
       added.push_back(b.ring[(end + before + i) % m]);
