@@ -73,7 +73,8 @@ void rebase(Mesh& mesh) {
   }
 }
 
-// Meshes that hide a whole mirror, such as walls, doors and cupboards, have few triangles or few large ones.
+// Finds what may hide mirrors. Meshes that do, such as walls, doors and cupboards, have few triangles or few large
+// ones.
 void findOccluders(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;

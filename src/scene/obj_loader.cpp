@@ -19,7 +19,8 @@ constexpr size_t kMostCorners = 1000;
 // Share of the time that reading the text of a large model takes; the rest sorts its triangles.
 constexpr double kReadShare = 0.65;
 
-// An index of a face, which counts from 1, or backwards from -1, into `count` lines of `kind` above; from 0.
+// Converts an index of a face to one from 0. It counts from 1, or backwards from -1, among the `count` lines of `kind`
+// read so far.
 int indexOf(const LineReader& line, std::string_view token, const char* kind, size_t count) {
   long long index = 0;
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), index);

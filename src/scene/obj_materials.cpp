@@ -66,7 +66,7 @@ int textureIndex(const fs::path& file, std::vector<Texture>& textures) {
   return static_cast<int>(textures.size()) - 1;
 }
 
-// Words that an option of a texture takes behind it; up to 3 numbers for -o, -s and -t. -1: no option.
+// Number of words after an option of a texture, at most 3 for -o, -s and -t; -1 if the word is no option.
 int wordsOf(std::string_view option) {
   constexpr std::array<std::string_view, 10> one{"-blendu", "-blendv", "-cc",      "-clamp", "-boost",
                                                  "-bm",     "-texres", "-imfchan", "-type",  "-colorspace"};
@@ -76,7 +76,7 @@ int wordsOf(std::string_view option) {
   return option == "-mm" ? 2 : std::find(one.begin(), one.end(), option) != one.end() ? 1 : -1;
 }
 
-// The file name, which may hold blanks, behind the options, none of which is used.
+// File name after the options, which are skipped. The name may hold blanks.
 std::string_view textureName(const LineReader& line) {
   const std::vector<std::string_view>& tokens = line.tokens();
   size_t i = 1;

@@ -9,8 +9,8 @@
 
 namespace speculum {
 
-// Everything that moves, at one time, in world space and double. Planner, renderer and reference tracer all read this,
-// so that they cannot disagree on positions.
+// Everything that moves, at one time, in world space and double. Planner, renderer and reference tracer all read it, so
+// that they cannot disagree on positions.
 
 struct CameraPose {
   glm::dvec3 eye{0.0};
@@ -28,7 +28,7 @@ struct InstanceState {
   int copy = 0;
   int mesh = 0;            // index into Scene::meshes
   Affine worldFromMesh;    // takes Vertex::position (already relative to Mesh::center) to world
-  glm::dvec3 center{0.0};  // world, of the bounding sphere
+  glm::dvec3 center{0.0};  // world; of the bounding sphere
   double radius = 0.0;     // metres
 };
 

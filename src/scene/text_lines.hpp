@@ -14,8 +14,9 @@ std::string_view trimmed(std::string_view text);
 // The number that the whole of `token` spells. Infinite or NaN values, spelled or overflown, are numbers.
 std::optional<double> parseNumber(std::string_view token);
 
-// Splits the text of an OBJ or MTL file into lines of tokens. Lines end as on any system; a byte order mark, comments
-// and lines without a token are passed over. `file` is only named in errors; it and the text must outlive the reader.
+// Splits the text of an OBJ or MTL file into lines of tokens. Lines end with LF, CR LF or CR. A byte order mark,
+// comments and lines without a token are skipped. `file` is only named in errors; it and the text must outlive the
+// reader.
 class LineReader {
  public:
   // A backslash at the end of a line joins the next line to it, in OBJ but not in MTL files.
@@ -23,7 +24,7 @@ class LineReader {
 
   LineReader(const std::filesystem::path& file, std::string_view text, Continuation continuation);
 
-  // Goes on to the next line with a token; false at the end. Throws InputError for a line that holds a zero byte.
+  // Advances to the next line with a token; false at the end. Throws InputError for a line that holds a zero byte.
   bool next();
 
   const std::vector<std::string_view>& tokens() const { return tokens_; }
