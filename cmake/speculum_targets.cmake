@@ -17,7 +17,7 @@ if(SPECULUM_SANITIZE)
 endif()
 
 # speculum_precompiled(NAME LIBRARIES lib... HEADERS header... [LIGHT]): headers that many sources include, compiled once.
-# Targets take them with target_precompile_headers(TARGET REUSE_FROM NAME), and need the same optimisation as NAME.
+# Targets take them with use_precompiled(TARGET NAME), and need the same optimisation as NAME.
 function(speculum_precompiled name)
   cmake_parse_arguments(ARG "LIGHT" "" "LIBRARIES;HEADERS" ${ARGN})
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
@@ -26,6 +26,15 @@ function(speculum_precompiled name)
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
   if(ARG_LIGHT)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+endfunction()
+
+# GCC 12 takes string copies of a precompiled header for code of this project and warns of sizes that none has. Builds
+# without precompiled headers, such as that of the sanitizers, keep these warnings.
+function(use_precompiled target name)
+  target_precompile_headers(${target} REUSE_FROM ${name})
+  if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
   endif()
 endfunction()
 
@@ -44,14 +53,9 @@ function(speculum_library name)
     target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} speculum_flags)
     if(ARG_LIGHT)
       target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-      target_precompile_headers(${name} REUSE_FROM light_headers)
+      use_precompiled(${name} light_headers)
     else()
-      target_precompile_headers(${name} REUSE_FROM fast_headers)
-      # GCC 12 takes string copies of a precompiled header for code of this project and warns of sizes that none has.
-      # Builds without precompiled headers, such as that of the sanitizers, keep the warnings.
-      if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-        target_compile_options(${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow>")
-      endif()
+      use_precompiled(${name} fast_headers)
     endif()
   else()
     add_library(${name} INTERFACE)

@@ -8,6 +8,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
+#include "scene_text.hpp"
 #include "truth_support.hpp"
 
 namespace speculum {
