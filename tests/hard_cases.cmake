@@ -1,24 +1,20 @@
-function(hard_case_test name)
-  speculum_test(${name} ${ARGN})
-  target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-endfunction()
 set(hard ${CMAKE_CURRENT_LIST_DIR}/hard_cases)
 
-hard_case_test(hard_cases_transforms SOURCES ${hard}/transforms.cpp ${hard}/planes.cpp ${hard}/time_steps.cpp
-               ${hard}/transform_support.cpp
-               LIBRARIES systems LABELS hard_cases)
-hard_case_test(hard_cases_depth SOURCES ${hard}/depth_pictures.cpp LIBRARIES picture_support LABELS hard_cases pictures)
-hard_case_test(hard_cases_readout SOURCES ${hard}/depth_readout_pictures.cpp
-               LIBRARIES picture_support LABELS hard_cases pictures)
-hard_case_test(hard_cases_scenes SOURCES ${hard}/scene_pictures.cpp
-               LIBRARIES picture_support LABELS hard_cases pictures)
-hard_case_test(hard_cases_inputs SOURCES ${hard}/inputs.cpp LIBRARIES picture_support ext::spdlog LABELS hard_cases)
+speculum_test(hard_cases_transforms SOURCES ${hard}/transforms.cpp ${hard}/planes.cpp ${hard}/time_steps.cpp
+              ${hard}/transform_support.cpp
+              LIBRARIES systems LABELS hard_cases)
+speculum_test(hard_cases_depth SOURCES ${hard}/depth_pictures.cpp LIBRARIES picture_support LABELS hard_cases pictures)
+speculum_test(hard_cases_readout SOURCES ${hard}/depth_readout_pictures.cpp
+              LIBRARIES picture_support LABELS hard_cases pictures)
+speculum_test(hard_cases_scenes SOURCES ${hard}/scene_pictures.cpp
+              LIBRARIES picture_support LABELS hard_cases pictures)
+speculum_test(hard_cases_inputs SOURCES ${hard}/inputs.cpp LIBRARIES picture_support ext::spdlog LABELS hard_cases)
 add_dependencies(hard_cases_inputs speculum)
-hard_case_test(hard_cases_finite SOURCES ${hard}/finite_pictures.cpp
-               LIBRARIES picture_support display_support LABELS hard_cases pictures window)
-hard_case_test(hard_cases_properties SOURCES ${hard}/properties.cpp ${hard}/transform_support.cpp
-               LIBRARIES systems ext::rapidcheck LABELS hard_cases)
-hard_case_test(hard_cases_random SOURCES ${hard}/random_scenes.cpp LIBRARIES picture_support LABELS hard_cases pictures)
+speculum_test(hard_cases_finite SOURCES ${hard}/finite_pictures.cpp
+              LIBRARIES picture_support display_support LABELS hard_cases pictures window)
+speculum_test(hard_cases_properties SOURCES ${hard}/properties.cpp ${hard}/transform_support.cpp
+              LIBRARIES systems ext::rapidcheck LABELS hard_cases)
+speculum_test(hard_cases_random SOURCES ${hard}/random_scenes.cpp LIBRARIES picture_support LABELS hard_cases pictures)
 
 # The patches that scripts/check-hard-cases tries must keep up with the sources.
 add_test(NAME hard_case_mutations_apply COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-hard-cases --applies)

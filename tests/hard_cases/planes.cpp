@@ -14,13 +14,6 @@ using namespace hard_cases;
 constexpr int width = 48;
 constexpr int height = 27;
 
-FramePlan planOf(const Scene& scene, int maxDepth = 1) {
-  Settings settings;
-  settings.reflection.maxDepth = maxDepth;
-  settings.reflection.minPixels = 0.0;
-  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
-}
-
 // I - 2 n n^T, right only for a normal of unit length.
 glm::dmat3 naiveReflection(const glm::dvec3& n) {
   return glm::dmat3(1.0) - 2.0 * glm::outerProduct(n, n);
@@ -124,17 +117,17 @@ TEST(EyeOnOrBehindTheMirrorPlane, PassIsSkippedAndTheBackDrawn) {
   for (int i = 0; i < 2000; ++i) {
     for (const double far : {0.0, 1e3, 1e7}) {
       const glm::dvec3 offset = far * random.direction();
-      const FramePlan on = planOf(eyeAtHeight(random, 0.0, offset));
+      const FramePlan on = planOf(eyeAtHeight(random, 0.0, offset), width, height);
       ASSERT_TRUE(on.passes.empty()) << "in the plane, case " << i << ", " << far << " m out";
       ASSERT_TRUE(on.main.mirrors.empty()) << "in the plane, case " << i << ", " << far << " m out";
       const double back = -std::pow(10.0, random.uniform(far > 1e6 ? -6 : -9, 0));
       const Scene behind = eyeAtHeight(random, back, offset);
-      const FramePlan plan = planOf(behind);
+      const FramePlan plan = planOf(behind, width, height);
       ASSERT_TRUE(plan.passes.empty()) << "behind the plane, case " << i;
       for (const MirrorDraw& draw : plan.main.mirrors) {
         ASSERT_TRUE(draw.back) << "behind the plane, case " << i;
       }
-      const FramePlan front = planOf(eyeAtHeight(random, -back, offset));
+      const FramePlan front = planOf(eyeAtHeight(random, -back, offset), width, height);
       ASSERT_EQ(front.passes.size(), 1u) << "before the plane, case " << i << ", height " << -back;
     }
   }
@@ -222,7 +215,7 @@ TEST(MirrorCrossesTheEyePlane, RectangleHoldsEveryHitPixel) {
   while (views < 1500) {
     const Scene scene = acrossTheEyePlane(random);
     const SceneState state = evaluate(scene, 0.0);
-    const FramePlan plan = planOf(scene);
+    const FramePlan plan = planOf(scene, width, height);
     const std::vector<glm::ivec2> hits = hitPixels(state, plan.projection);
     const std::vector<glm::dvec4> clip = toClip(plan.main.view, plan.projection, state.mirrors[0].polygon);
     const bool crosses = std::any_of(clip.begin(), clip.end(), [](const glm::dvec4& v) { return v.w <= 0.0; });
@@ -265,7 +258,7 @@ TEST(MirrorOutsideTheView, HasNoPassAtAll) {
     Scene scene = acrossTheEyePlane(random);
     moveOutside(random, scene);
     const SceneState state = evaluate(scene, 0.0);
-    const FramePlan plan = planOf(scene);
+    const FramePlan plan = planOf(scene, width, height);
     ASSERT_TRUE(plan.passes.empty()) << "view " << i;
     ASSERT_EQ(plan.skipped.size(), 1u);
     naivePasses += !naiveRectangle(state, plan).empty();

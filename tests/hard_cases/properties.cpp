@@ -107,13 +107,6 @@ Scene lookingAtAMirror() {
   return scene;
 }
 
-FramePlan planOf(const Scene& scene) {
-  Settings settings;
-  settings.reflection.maxDepth = 1;
-  settings.reflection.minPixels = 0.0;
-  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
-}
-
 double reachOf(const Scene& scene) {
   double reach = std::max(largest(scene.camera.position), largest(scene.camera.target));
   for (const glm::dvec3& p : scene.mirrors[0].polygon) {
@@ -195,8 +188,8 @@ TEST(Invariants, DepthFallsStrictlyWithDistance) {
 
 void checkTranslation(const Scene& scene, const glm::dvec3& offset) {
   const Scene far = moved(scene, offset);
-  const FramePlan a = planOf(scene);
-  const FramePlan b = planOf(far);
+  const FramePlan a = planOf(scene, width, height);
+  const FramePlan b = planOf(far, width, height);
   const double reach = reachOf(scene) + reachOf(far);
   const auto clipsOf = [](const FramePlan& plan, const View& view, const Scene& s) {
     return toClip(view, plan.projection, s.mirrors[0].polygon);
@@ -230,7 +223,7 @@ int checkRectangle(const Scene& scene) {
     return 0;
   }
   int inView = 0;
-  const FramePlan plan = planOf(scene);
+  const FramePlan plan = planOf(scene, width, height);
   const LongMat3 worldToView = longWorldToView(scene.camera);
   const std::vector<glm::dvec3>& p = scene.mirrors[0].polygon;
   for (int i = 0; i < 40; ++i) {
@@ -264,7 +257,7 @@ TEST(Invariants, MirrorImageShowsTheMirroredScene) {
   expectProperty("seen in the mirror = mirrored and seen", [&] {
     const Scene scene = lookingAtAMirror();
     const glm::dvec3 p = point();
-    const FramePlan plan = planOf(scene);
+    const FramePlan plan = planOf(scene, width, height);
     if (plan.passes.empty()) {
       return;
     }

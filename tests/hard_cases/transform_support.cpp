@@ -16,6 +16,15 @@ Mesh pointCloud(int count, unsigned seed) {
   return mesh;
 }
 
+FramePlan planOf(const Scene& scene, int width, int height, int maxDepth) {
+  Settings settings;
+  settings.reflection.maxDepth = maxDepth;
+  settings.reflection.maxPasses = 1000;
+  settings.reflection.minPixels = 0.0;
+  settings.reflection.minThroughput = 0.0;
+  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
+}
+
 glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex) {
   return data.clipFromMesh * glm::vec4(glm::vec3(vertex.position), 1.0f);
 }

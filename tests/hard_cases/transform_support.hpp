@@ -18,6 +18,9 @@ using testing_support::Random;
 // Points in the box [-1, 1]^3, as a mesh of which nothing but its vertices matters.
 Mesh pointCloud(int count, unsigned seed);
 
+// The plan of a frame at time 0 whose passes only the recursion depth limits.
+FramePlan planOf(const Scene& scene, int width, int height, int maxDepth = 1);
+
 // scene.vert's gl_Position, in float.
 glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex);
 

@@ -39,15 +39,6 @@ Scene corridor(unsigned seed = 0) {
   return scene;
 }
 
-FramePlan planOf(const Scene& scene, const SceneState& state, int maxDepth) {
-  Settings settings;
-  settings.reflection.maxDepth = maxDepth;
-  settings.reflection.maxPasses = 1000;
-  settings.reflection.minPixels = 0.0;
-  settings.reflection.minThroughput = 0.0;
-  return planFrame(scene, state, settings, width, height);
-}
-
 bool inPicture(const glm::dvec2& pixel) {
   return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x <= width && pixel.y <= height;
 }
@@ -85,7 +76,7 @@ LongVec3 worldPoint(const Object& object, const Vertex& vertex) {
 // Of every vertex in every pass of that many mirrors, in pixels. `truth` is the scene at the origin.
 Errors doublePathErrors(const Scene& scene, const Scene& truth, int maxDepth, size_t pathLength) {
   const SceneState state = evaluate(scene, 0.0);
-  const FramePlan plan = planOf(scene, state, maxDepth);
+  const FramePlan plan = planOf(scene, width, height, maxDepth);
   const LongMat3 worldToView = longWorldToView(truth.camera);
   std::vector<double> errors;
   const auto addPass = [&](const View& view) {
@@ -136,7 +127,7 @@ glm::mat4 floatView(const Scene& scene) {
 
 Errors floatPathErrors(const Scene& scene, const Scene& truth, const std::vector<int>& path) {
   const SceneState state = evaluate(scene, 0.0);
-  const FramePlan plan = planOf(scene, state, 0);
+  const FramePlan plan = planOf(scene, width, height, 0);
   const LongMat3 worldToView = longWorldToView(truth.camera);
   glm::mat4 clipFromWorld = glm::mat4(plan.projection.matrix()) * floatView(scene);
   for (const int mirror : path) {
@@ -231,7 +222,7 @@ Windings windingsOf(const glm::dvec3& scale, size_t depth) {
   Scene scene = corridor();
   scene.objects[0].scale = scale;
   const SceneState state = evaluate(scene, 0.0);
-  const FramePlan plan = planOf(scene, state, 4);
+  const FramePlan plan = planOf(scene, width, height, 4);
   const InstanceState& instance = state.instances[0];
   const std::vector<Vertex>& vertices = scene.meshes[0].vertices;
   Windings windings;
@@ -350,7 +341,7 @@ CutErrors cutErrors(double offset) {
   const Scene origin = corridor();
   const Scene scene = moved(origin, offset * glm::dvec3(1.0, -0.7, 0.9));
   const SceneState state = evaluate(scene, 0.0);
-  const FramePlan plan = planOf(scene, state, 1);
+  const FramePlan plan = planOf(scene, width, height, 1);
   CutErrors errors;
   for (const PlannedPass& pass : plan.passes) {
     const gpu::InstanceData data = dataIn(plan, pass.view, state.instances[0]);
@@ -387,7 +378,7 @@ TEST(ObjectAcrossTheMirrorPlane, CutIsWithin1e6OfTheDistance) {
 TEST(NestedMirrors, PassesAreCutAtTheirMirrors) {
   const Scene scene = corridor();
   const SceneState state = evaluate(scene, 0.0);
-  const FramePlan plan = planOf(scene, state, 4);
+  const FramePlan plan = planOf(scene, width, height, 4);
   const View& first = plan.passes.front().view;
   int wrong = 0;
   int stale = 0;
