@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "accuracy/heat_map.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum::testing_support {
 

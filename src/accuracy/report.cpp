@@ -8,6 +8,7 @@
 
 #include "accuracy/pareto.hpp"
 #include "frame/settings.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum {
 
