@@ -39,6 +39,18 @@ vec4 valueAt(ivec2 texel) { return texelMean(reflection, texel); }
 
 vec2 valuePosition() { return vec2(0.5); }
 
+// At `position` in texels, half a texel or more inside the part of the image that is used. Reads no neighbour of weight 0:
+// beside that part nothing was ever written, and 0 x NaN is NaN. A sampler's own filter does read it.
+vec4 bilinear(vec2 position) {
+  vec2 corner = floor(position - 0.5);
+  vec2 weight = position - 0.5 - corner;
+  ivec2 low = ivec2(corner);
+  ivec2 high = ivec2(ceil(position - 0.5));
+  vec4 top = mix(texelMean(reflection, low), texelMean(reflection, ivec2(high.x, low.y)), weight.x);
+  vec4 bottom = mix(texelMean(reflection, ivec2(low.x, high.y)), texelMean(reflection, high), weight.x);
+  return mix(top, bottom, weight.y);
+}
+
 vec4 boxFiltered(vec2 low, vec2 high, ivec2 last) {
   vec4 sum = vec4(0.0);
   float area = 0.0;
@@ -60,7 +72,7 @@ vec4 reflected(MirrorData mirror) {
     return texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), last));
   }
   if (lookup == lookupBilinear) {
-    return bilinearMean(reflection, clamp(texel, vec2(0.5), vec2(mirror.imageSize) - 0.5));
+    return bilinear(clamp(texel, vec2(0.5), vec2(mirror.imageSize) - 0.5));
   }
   vec2 low = floor(gl_FragCoord.xy) * mirror.lookupScale + mirror.lookupOffset;
   return boxFiltered(low, low + mirror.lookupScale, last);

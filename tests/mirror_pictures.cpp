@@ -1,6 +1,7 @@
 // Images of several mirrors in one frame: overlapping, nested, many; their seams; what they cost in memory; what guards
 // them.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <fstream>
@@ -167,6 +168,44 @@ double shareAlike(const Image8& a, const Image8& b) {
     alike += std::abs(a.rgba[i] - b.rgba[i]) <= 3 ? 1 : 0;
   }
   return static_cast<double>(alike) / static_cast<double>(a.rgba.size());
+}
+
+using SettingList = std::vector<std::pair<std::string, std::string>>;
+
+// Two pictures, the second a moment later, with all new memory (lavapipe's images are in it) filled with one byte.
+std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string& scene, const SettingList& settings) {
+  ::mallopt(M_PERTURB, fill);
+  Options options = headless(sourceFile("scenes/" + scene + ".toml"), size);
+  set(options, settings);
+  std::vector<std::vector<uint8_t>> pictures;
+  {
+    Session session(options);
+    for (const double time : {0.0, 0.05}) {
+      session.draw(time, true);
+      pictures.push_back(session.picture().rgba);
+    }
+    expectQuiet(session);
+  }
+  ::mallopt(M_PERTURB, 0);
+  return pictures;
+}
+
+TEST(MirrorPictures, DoNotDependOnUnwrittenMemory) {
+  const SettingList small = {{"reflection.samples", "1"}, {"reflection.scale", "0.53"}};
+  std::vector<std::pair<std::string, SettingList>> cases;
+  for (const std::string scene : {"single_plane", "mirror_maze", "outdoors", "gallery"}) {
+    cases.emplace_back(scene, small);
+  }
+  cases.push_back({"single_plane", {{"reflection.samples", "1"}, {"reflection.scale", "1.7"}}});
+  cases.push_back({"gallery", {{"reflection.samples", "4"}, {"reflection.scale", "0.53"}}});
+  cases.push_back({"gallery", {{"reflection.update_interval", "3"}, {"reflection.scale", "0.7"}}});
+  cases.push_back({"rough", {{"effects.rough_lookup", "image"}, {"reflection.scale", "0.7"}}});
+  cases.push_back({"mirror_ball", {{"effects.curved_lookup", "environment"}}});
+  for (const auto& [scene, settings] : cases) {
+    const auto dark = picturesInMemoryOf(1, scene, settings);
+    const auto bright = picturesInMemoryOf(255, scene, settings);
+    EXPECT_TRUE(dark == bright) << scene << ", " << settings[0].first << " = " << settings[0].second;
+  }
 }
 
 TEST(MirrorPictures, DebugViewShowsTheMeanOfAnImagesSamples) {
