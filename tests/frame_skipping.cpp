@@ -12,6 +12,7 @@
 namespace speculum {
 namespace {
 
+using testing_support::meshOf;
 using testing_support::wall;
 
 constexpr int width = 640;
@@ -23,9 +24,7 @@ Scene sceneWith(std::vector<Mirror> mirrors, const std::vector<Object>& objects)
   scene.camera.target = {0, 0, -1};
   scene.mirrors = std::move(mirrors);
   scene.objects = objects;
-  Mesh mesh{.halfExtent = {1, 1, 0}, .radius = std::sqrt(2.0)};
-  mesh.faces = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
-  scene.meshes = {mesh};
+  scene.meshes = {meshOf({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {0, 1, 2, 0, 2, 3})};
   return scene;
 }
 
@@ -181,14 +180,27 @@ TEST(Hidden, TheOneThatCoversAllOfItIsNamedAlone) {
   EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'door'");
 }
 
-// A box of 2 m that is known to be convex and has no faces to hide anything by itself.
-Scene sceneWithBoxes(std::vector<Mirror> mirrors, const std::vector<Object>& objects) {
+// Boxes of 2 m, each side cut into 2 n^2 triangles. Has no faces to hide anything by themselves.
+Scene sceneWithBoxes(std::vector<Mirror> mirrors, const std::vector<Object>& objects, int n = 1) {
   Scene scene = sceneWith(std::move(mirrors), objects);
-  Mesh& mesh = scene.meshes[0];
-  mesh = Mesh{.halfExtent = {1, 1, 1}, .radius = std::sqrt(3.0)};
-  for (int i = 0; i < 8; ++i) {
-    mesh.convexVertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  std::vector<glm::dvec3> positions;
+  std::vector<uint32_t> indices;
+  for (int side = 0; side < 6; ++side) {
+    for (int cell = 0; cell < n * n; ++cell) {
+      for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) {
+        indices.push_back(static_cast<uint32_t>(positions.size()) + i);
+      }
+      for (const glm::ivec2 corner : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(1, 1), glm::ivec2(0, 1)}) {
+        glm::dvec3 p;
+        p[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
+        p[(side / 2 + 1) % 3] = 2.0 * (cell % n + corner.x) / n - 1.0;
+        p[(side / 2 + 2) % 3] = 2.0 * (cell / n + corner.y) / n - 1.0;
+        positions.push_back(p);
+      }
+    }
   }
+  scene.meshes = {meshOf(positions, indices)};
+  scene.meshes[0].faces.clear();
   return scene;
 }
 
@@ -238,13 +250,20 @@ TEST(Hidden, NothingBehindWhatIsSeenEdgeOn) {
   }
 }
 
-TEST(Hidden, ABodyThatALevelMayStandForHidesNothingInAMirror) {
-  Object post = square({0, 0, 2}, {3, 3, 0.5});
+TEST(Hidden, BehindWhatIsSimplifiedNothingInMirrors) {
+  const Object post = square({0, 0, 2}, {3, 3, 0.5});
   const std::vector<Mirror> facing = {wall({0, 0, -4}, 0, {3, 3}), wall({0, 0, 6}, 180, {2, 2})};
+  Scene fine = sceneWithBoxes(facing, {post}, 2);
   Settings settings;
-  EXPECT_TRUE(isHidden(plan(sceneWithBoxes(facing, {post}), settings), {0, 1}));
-  settings.reflection.meshError = 0.5;
-  EXPECT_FALSE(isHidden(plan(sceneWithBoxes(facing, {post}), settings), {0, 1}));
+  for (const double meshError : {0.0, 0.5}) {
+    settings.reflection.meshError = meshError;
+    EXPECT_TRUE(isHidden(plan(sceneWithBoxes(facing, {post}), settings), {0, 1})) << "12 triangles have no levels";
+    EXPECT_EQ(isHidden(plan(fine, settings), {0, 1}), meshError == 0.0);
+    fine.meshes[0].faces = {{{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+    fine.meshes[0].convex = {};
+    EXPECT_EQ(isHidden(plan(fine, settings), {0, 1}), meshError == 0.0) << "by a face";
+    fine = sceneWithBoxes(facing, {post}, 2);
+  }
 }
 
 // Every line of sight to what several bodies are said to hide together meets one of them.

@@ -45,6 +45,33 @@ TEST(Polygon, PentagramIsNotConvex) {
   EXPECT_EQ(polygonDefect(star), "is not convex");
 }
 
+// A square whose upper side is cut into `edges` along an arc that bulges by `height` in its middle.
+Polygon squareWithArc(int edges, double height) {
+  const double r = height == 0.0 ? 0.0 : (0.25 + height * height) / (2.0 * height);
+  Polygon polygon{{0, 0, 0}, {1, 0, 0}};
+  for (int i = 0; i <= edges; ++i) {
+    const double x = 0.5 - static_cast<double>(i) / edges;
+    const double y =
+        r == 0.0 ? 0.0 : height - x * x / (std::abs(r) + std::sqrt(r * r - x * x)) * (r < 0.0 ? -1.0 : 1.0);
+    polygon.emplace_back(0.5 + x, 1.0 + y, 0.0);
+  }
+  const glm::dmat3 turn = rotationFromDegrees({10, 20, 30});
+  for (glm::dvec3& p : polygon) {
+    p = turn * p + glm::dvec3(100, 200, 300);
+  }
+  return polygon;
+}
+
+TEST(Polygon, HollowsAreFoundHoweverFinelyCut) {
+  for (const int edges : {2, 10, 100, 400, 998}) {
+    for (const double depth : {1e-4, 1e-3, 0.01, 0.1, 0.4}) {
+      EXPECT_EQ(polygonDefect(squareWithArc(edges, -depth)), "is not convex") << edges << " edges, " << depth;
+      EXPECT_FALSE(polygonDefect(squareWithArc(edges, depth))) << edges << " edges, " << depth;
+    }
+    EXPECT_FALSE(polygonDefect(squareWithArc(edges, 0.0))) << edges << " edges, straight";
+  }
+}
+
 TEST(Polygon, ClippingKeepsThePositiveSide) {
   const Polygon half = clipPolygon(unitSquare, Plane{{0.25, 0, 0}, {1, 0, 0}});
   EXPECT_NEAR(polygonArea(half), 0.75, 1e-15);

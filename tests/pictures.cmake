@@ -2,7 +2,7 @@ speculum_test(golden_tests SOURCES golden_tests.cpp LIBRARIES picture_support LA
 speculum_test(finite_watch_tests SOURCES finite_watch.cpp LIBRARIES picture_support ext::spdlog LABELS pictures)
 speculum_test(mirror_tests SOURCES mirror_image.cpp mirror_pictures.cpp target_views.cpp
               LIBRARIES picture_support LABELS pictures)
-speculum_test(skipping_tests SOURCES skipping_pictures.cpp LIBRARIES picture_support LABELS pictures)
+speculum_test(skipping_tests SOURCES skipping_pictures.cpp occluder_shapes.cpp LIBRARIES picture_support LABELS pictures)
 speculum_test(demo_window_tests SOURCES demo_window.cpp demo_gallery.cpp demo_settings.cpp demo_performance.cpp
               demo_panels.cpp demo_accuracy.cpp demo_idle.cpp demo_keys.cpp demo_camera.cpp demo_random_input.cpp
               demo_copy.cpp demo_look.cpp demo_open.cpp

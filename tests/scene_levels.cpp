@@ -266,10 +266,10 @@ TEST(MeshLevels, AreMadeOnceForAllThreads) {
 
 TEST(Models, OnlyConvexModelsHideAsAWhole) {
   for (const char* name : {"sphere", "gem", "box", "block"}) {
-    EXPECT_GE(model(name).convexVertices.size(), 8u) << name;
+    EXPECT_GE(model(name).convex.points.size(), 8u) << name;
   }
   for (const char* name : {"torus_knot", "queen", "post", "frame", "room", "tile", "moebius"}) {
-    EXPECT_TRUE(model(name).convexVertices.empty()) << name;
+    EXPECT_TRUE(model(name).convex.points.empty()) << name;
   }
 }
 

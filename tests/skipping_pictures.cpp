@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "app/stats.hpp"
+#include "occluder_shapes.hpp"
 #include "picture_support.hpp"
 
 namespace speculum {
@@ -160,6 +161,62 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   EXPECT_LT(passes, passesOfAll);
   std::printf("%d cuts, %d hidden mirrors, %zu passes for %zu; parts of objects: %d pixels differ, by up to %d\n", cuts,
               hidden, passes, passesOfAll, parts.pixels, parts.most);
+}
+
+// Arches, stairs, stars, bent sheets, tapered bodies and balls between two rows of mirrors that face each other.
+std::filesystem::path shapesScene(std::mt19937& engine) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  std::ostringstream toml;
+  toml << "[environment]\nambient = [0.4, 0.4, 0.4]\n[settings]\n\"reflection.max_passes\" = 4000\n";
+  for (int i = 0; i < 14; ++i) {
+    const std::string file = "shape" + std::to_string(i) + ".obj";
+    std::ofstream(sceneDirectory() / file) << randomShape(engine).obj();
+    toml << "[[object]]\nmodel = \"" << file << "\"\nposition = [" << 2.2 * (i % 7 - 3) << ", " << 2.2 * (i / 7) - 1.1
+         << ", " << uniform(-0.5, 0.5) << "]\nrotation = [" << uniform(-40, 40) << ", " << uniform(-40, 40) << ", "
+         << uniform(-180, 180) << "]\ncolor = [" << uniform(0, 1) << ", " << uniform(0, 1) << ", " << uniform(0, 1)
+         << "]\n";
+  }
+  for (int i = 0; i < 60; ++i) {
+    const bool far = i % 2 == 0;
+    toml << "[[mirror]]\nposition = [" << uniform(-8, 8) << ", " << uniform(-2, 2) << ", " << (far ? -2.5 : 5.0)
+         << "]\nrotation = [" << uniform(-10, 10) << ", " << uniform(-10, 10) + (far ? 0 : 180) << ", 0]\nsize = ["
+         << uniform(0.05, 0.7) << ", " << uniform(0.05, 0.7) << "]\nbase_color = [" << uniform(0, 1) << ", 0.5, 0]\n"
+         << "reflectance = [0.5, 0.5, 0.5]\n";
+  }
+  return writeScene("shapes", toml.str());
+}
+
+TEST(Skipping, ShapesHideNothingThatIsSeen) {
+  std::mt19937 engine(23);
+  int hidden = 0;
+  int hiddenInMirrors = 0;
+  for (int scene = 0; scene < 3; ++scene) {
+    Session session(headless(shapesScene(engine), size));
+    const auto uniform = [&](double low, double high) {
+      return std::uniform_real_distribution<double>(low, high)(engine);
+    };
+    for (int cut = 0; cut < 12; ++cut) {
+      const glm::dvec3 eye(uniform(-7, 7), uniform(-2, 2), uniform(1.5, 4.5));
+      const glm::dvec3 target(eye.x + uniform(-2, 2), uniform(-1.5, 1.5), 0.0);
+      session.setCamera(lookAt(eye, target, {0, 1, 0}, uniform(30, 90), 0.001));
+      Settings settings = session.settings();
+      settings.reflection.maxDepth = 2;
+      settings.reflection.meshError = cut % 2 == 0 ? 0.0 : 2.0;
+      settings.debug.skipHidden = true;
+      const Image8 skipping = pictureWith(session, settings);
+      for (const SkippedMirror& skipped : session.lastFrame().plan.skipped) {
+        hidden += skipped.reason == SkipReason::hidden;
+        hiddenInMirrors += skipped.reason == SkipReason::hidden && skipped.depth > 0;
+      }
+      settings.debug.skipHidden = false;
+      EXPECT_EQ(skipping.rgba, pictureWith(session, settings).rgba) << "scene " << scene << ", cut " << cut;
+    }
+    expectQuiet(session);
+  }
+  EXPECT_GT(hidden, 200);
+  EXPECT_GT(hiddenInMirrors, 100);
 }
 
 // 12 mirrors that each show a part of a knot or two, of 2 496 triangles each.

@@ -23,17 +23,17 @@ struct Axis {
   double pixel;
 };
 
-// Adds what lies within the edge from a to b of an occluder around `inside` (all from the eye) by `margin`, measured
-// across the view at unit depth. The unit normal of the plane through the eye and the edge, inwards; nothing if the
-// occluder is too thin to say on which side of the edge it lies.
+// Adds what lies on the left of the edge from a to b, seen from the eye, by `margin` measured across the view at unit
+// depth. The unit normal of the plane through the eye and the edge; nothing if the edge points at the eye or `inside`
+// is not on its left (all from the eye).
 std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, const glm::dvec3& b,
                                   const glm::dvec3& inside, double margin, const Axis& axis) {
-  glm::dvec3 normal = glm::cross(a, b);
+  glm::dvec3 normal = glm::cross(b, a);
   const double length = glm::length(normal);
   if (!(length > 1e-9 * glm::length(a) * glm::length(b))) {
     return std::nullopt;
   }
-  normal *= (glm::dot(normal, inside) < 0.0 ? -1.0 : 1.0) / length;
+  normal /= length;
   region.push_back({normal - margin * axis.forward, 0.0});
   return region.back().at(inside) > 0.0 ? std::optional(normal) : std::nullopt;
 }
@@ -52,36 +52,23 @@ std::vector<glm::dvec3> distinctVertices(const std::vector<glm::dvec3>& polygon,
   return kept;
 }
 
-// Andrew's monotone chain (1979): those of the points, in order around them, that no others surround.
-std::vector<size_t> outline(const std::vector<glm::dvec2>& points) {
-  std::vector<size_t> order(points.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
+// Directed edges of the outline of what faces the eye, by points. An edge belongs to it if just one of its triangles
+// faces the eye.
+std::vector<std::pair<uint32_t, uint32_t>> outline(const BodyOccluder& body, const glm::dvec3& eye) {
+  std::vector<int> facing;  // 1 if the triangle runs counter-clockwise from the eye, -1 if clockwise
+  facing.reserve(body.normals.size());
+  for (size_t i = 0; i < body.normals.size(); ++i) {
+    const glm::dvec3& corner = body.points[body.mesh->triangles[i][0]];
+    facing.push_back(glm::dot(body.normals[i], eye - corner) > 0.0 ? 1 : -1);
   }
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return points[a].x != points[b].x ? points[a].x < points[b].x : points[a].y < points[b].y;
-  });
-  std::vector<size_t> chain;
-  const auto extend = [&](size_t i, size_t least) {
-    const auto turnsLeft = [&] {
-      const glm::dvec2 a = points[chain.back()] - points[chain[chain.size() - 2]];
-      const glm::dvec2 b = points[i] - points[chain.back()];
-      return a.x * b.y - a.y * b.x > 0.0;
-    };
-    while (chain.size() >= least && !turnsLeft()) {
-      chain.pop_back();
+  std::vector<std::pair<uint32_t, uint32_t>> outline;
+  for (const ConvexMesh::Edge& edge : body.mesh->edges) {
+    const int along = facing[edge.triangles[0]] + (edge.sameDirection ? 1 : -1) * facing[edge.triangles[1]];
+    if (along != 0) {
+      outline.push_back(along > 0 ? std::pair(edge.from, edge.to) : std::pair(edge.to, edge.from));
     }
-    chain.push_back(i);
-  };
-  for (const size_t i : order) {
-    extend(i, 2);
   }
-  const size_t lower = chain.size();
-  for (size_t i = order.size() - 1; i-- > 0;) {
-    extend(order[i], lower + 1);
-  }
-  chain.pop_back();
-  return chain;
+  return outline;
 }
 
 }  // namespace
@@ -109,6 +96,9 @@ std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const V
                            {eye * axis.forward - (1.0 + depthPart) * projection.near * toPlane, 0.0}};
   region.reserve(region.size() + 2 * drawn.size());
   const glm::dvec3 inside = vertexMean(drawn) - view.eye;
+  if (height < 0.0) {
+    std::reverse(drawn.begin(), drawn.end());
+  }
   for (size_t i = 0; i < drawn.size(); ++i) {
     const auto normal = addEdge(region, drawn[i] - view.eye, drawn[(i + 1) % drawn.size()] - view.eye, inside,
                                 marginPixels * axis.pixel, axis);
@@ -120,47 +110,39 @@ std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const V
   return region;
 }
 
-std::optional<OccludedRegion> hiddenByBody(std::span<const glm::dvec3> vertices, double slack,
-                                           const FlatOccluder& target, const View& view, const Projection& projection) {
+std::optional<OccludedRegion> hiddenByBody(const BodyOccluder& body, const FlatOccluder& target, const View& view,
+                                           const Projection& projection) {
   const Axis axis(view, projection);
   const double eye = target.plane.distance(view.eye);
   double nearest = std::numeric_limits<double>::infinity();
   double farthest = 0.0;
   double aboveTarget = std::numeric_limits<double>::infinity();
-  std::vector<glm::dvec3> fromEye;
-  std::vector<glm::dvec2> projected;
-  for (const glm::dvec3& p : vertices) {
-    if (view.clip && view.clip->distance(p) < slack) {
+  for (const glm::dvec3& p : body.points) {
+    if (view.clip && view.clip->distance(p) < body.slack) {
       return std::nullopt;
     }
-    fromEye.push_back(p - view.eye);
-    const double depth = axis.depth(fromEye.back());
+    const double depth = axis.depth(p - view.eye);
     nearest = std::min(nearest, depth);
     farthest = std::max(farthest, depth);
     aboveTarget = std::min(aboveTarget, (eye > 0.0 ? 1.0 : -1.0) * target.plane.distance(p));
-    const glm::dvec3 inView = view.worldToView * fromEye.back();
-    projected.emplace_back(glm::dvec2(inView) / depth);
   }
-  if (!(nearest > (1.0 + depthPart) * projection.near + slack)) {
+  if (!(nearest > (1.0 + depthPart) * projection.near + body.slack)) {
     return std::nullopt;
   }
   OccludedRegion region;
-  if (!(aboveTarget > depthPart * std::abs(eye) + slack + target.slack)) {
-    region.push_back({axis.forward, -(1.0 + depthPart) * farthest - slack});
+  if (!(aboveTarget > depthPart * std::abs(eye) + body.slack + target.slack)) {
+    region.push_back({axis.forward, -(1.0 + depthPart) * farthest - body.slack});
   }
-  const glm::dvec3 inside = vertexMean(fromEye);
-  const std::vector<size_t> around = outline(projected);
-  if (around.size() < 3) {
-    return std::nullopt;
-  }
+  const glm::dvec3 inside = vertexMean(body.points) - view.eye;
+  const auto edges = outline(body, view.eye);
   // What is at least `nearest` deep is at least `slack` within the outline there.
-  const double margin = marginPixels * axis.pixel + slack / nearest;
-  for (size_t i = 0; i < around.size(); ++i) {
-    if (!addEdge(region, fromEye[around[i]], fromEye[around[(i + 1) % around.size()]], inside, margin, axis)) {
+  const double margin = marginPixels * axis.pixel + body.slack / nearest;
+  for (const auto& [from, to] : edges) {
+    if (!addEdge(region, body.points[from] - view.eye, body.points[to] - view.eye, inside, margin, axis)) {
       return std::nullopt;
     }
   }
-  return region;
+  return edges.empty() ? std::nullopt : std::optional(region);
 }
 
 std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,

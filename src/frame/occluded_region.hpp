@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/view.hpp"
+#include "geometry/convex_mesh.hpp"
 
 namespace speculum {
 
@@ -16,11 +17,16 @@ struct HalfSpace {
   double at(const glm::dvec3& fromEye) const { return glm::dot(gradient, fromEye) + constant; }
 };
 
-// The points that an occluder certainly hides from a view's eye, as the intersection of half spaces: within its outline
-// by more than the edges of pixels and rounding on the GPU can undo, and farther than the depth test can confuse.
+// The points that an occluder certainly hides from a view's eye, as the intersection of half spaces: farther than the
+// depth test can confuse, and within the occluder's outline by more than a pixel and the rounding of floats.
+//
+// Each half space is bounded by the plane through the eye and an edge of the outline, moved inwards by that margin. The
+// triangles that face the eye cover a point of the picture as often as their common outline winds around it. The
+// outline runs counter-clockwise; a point on the left of all its edges is wound around at least once, and so is
+// covered, whatever the occluder's shape. One that is not convex hides only what all of its edges agree on.
 using OccludedRegion = std::vector<HalfSpace>;
 
-// A flat convex polygon, world space, and the plane through it.
+// A flat polygon, world space, and the plane through it, from whose normal the polygon runs counter-clockwise.
 struct FlatOccluder {
   std::vector<glm::dvec3> polygon;
   Plane plane;
@@ -33,10 +39,18 @@ struct FlatOccluder {
 std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const View& view,
                                            const Projection& projection);
 
-// Behind a closed convex body with these vertices (world space): of points on `target`, if the whole body is nearer
-// than its plane, else of whatever is deeper in the view than all of it. Nothing if a part of the body is clipped away.
-std::optional<OccludedRegion> hiddenByBody(std::span<const glm::dvec3> vertices, double slack,
-                                           const FlatOccluder& target, const View& view, const Projection& projection);
+// A closed mesh that is about convex, world space.
+struct BodyOccluder {
+  const ConvexMesh* mesh = nullptr;  // null: nothing hides
+  std::vector<glm::dvec3> points;    // of the mesh's
+  std::vector<glm::dvec3> normals;   // of its triangles, of any length
+  double slack = 0.0;                // metres by which the points may stand elsewhere on the GPU
+};
+
+// Hides points on `target` if the whole body is nearer than its plane, else whatever is deeper in the view than all of
+// it. Nothing if a part of the body is clipped away.
+std::optional<OccludedRegion> hiddenByBody(const BodyOccluder& body, const FlatOccluder& target, const View& view,
+                                           const Projection& projection);
 
 // What of convex polygons (world space) lies outside a region, in convex pieces.
 std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,

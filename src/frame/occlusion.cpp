@@ -1,10 +1,11 @@
 #include "frame/occlusion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "frame/scene_names.hpp"
-#include "geometry/convex_mesh.hpp"
+#include "geometry/mesh_levels.hpp"
 
 namespace speculum {
 
@@ -97,15 +98,25 @@ FlatOccluder Occlusion::occluder(std::vector<glm::dvec3> polygon, double size) {
   return made;
 }
 
+BodyOccluder Occlusion::wholeOf(const ConvexMesh& mesh, const InstanceState& state) {
+  BodyOccluder whole{.mesh = &mesh, .slack = roundingPart * state.radius};
+  for (const glm::dvec3& p : mesh.points) {
+    whole.points.push_back(state.worldFromMesh.point(p));
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    whole.normals.push_back(newellVector(std::array{whole.points[a], whole.points[b], whole.points[c]}));
+  }
+  return whole;
+}
+
 const Occlusion::Body& Occlusion::bodyOf(int instance) {
   std::optional<Body>& body = bodies_[static_cast<size_t>(instance)];
   if (!body) {
     body.emplace();
     const InstanceState& state = state_.instances[static_cast<size_t>(instance)];
     const Mesh& mesh = scene_.meshes[state.mesh];
-    body->slack = (roundingPart + 4.0 * convexTolerance) * state.radius;  // the box's side is at most two radii
-    for (const glm::dvec3& p : mesh.convexVertices) {
-      body->convexVertices.push_back(state.worldFromMesh.point(p));
+    if (!mesh.convex.triangles.empty()) {
+      body->whole = wholeOf(mesh.convex, state);
     }
     for (const std::vector<glm::dvec3>& face : mesh.faces) {
       std::vector<glm::dvec3> polygon;
@@ -160,22 +171,20 @@ Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> insta
       return found;
     }
   }
-  // The levels of a mesh keep its corners, but not the outline of what is round.
-  const bool simplified = settings_.reflection.meshError > 0.0 && !view.path.empty();
+  const bool simplifies = settings_.reflection.meshError > 0.0 && !view.path.empty();
   for (const int i : instances) {
     const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const double nearest = glm::length(instance.center - view.eye) - instance.radius;
-    const double widest =
-        mesh.convexVertices.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
-    if (!prospects.looksLarge(widest, nearest) || !prospects.include(instance.center, instance.radius)) {
+    const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
+    // Levels of a mesh have other outlines.
+    if ((simplifies && mayHaveLevels(mesh)) || !prospects.looksLarge(widest, nearest) ||
+        !prospects.include(instance.center, instance.radius)) {
       continue;
     }
     const Body& body = bodyOf(i);
-    if (!body.convexVertices.empty() && !simplified &&
-        found.add(
-            hiddenByBody(body.convexVertices, body.slack, mirrors_[static_cast<size_t>(mirror)], view, projection_),
-            {.index = i}, view.eye, polygon)) {
+    if (body.whole.mesh && found.add(hiddenByBody(body.whole, mirrors_[static_cast<size_t>(mirror)], view, projection_),
+                                     {.index = i}, view.eye, polygon)) {
       return found;
     }
     if (std::any_of(body.faces.begin(), body.faces.end(), [&](const FlatOccluder& face) {

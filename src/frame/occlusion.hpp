@@ -27,8 +27,7 @@ class Occlusion {
  private:
   struct Body {
     std::vector<FlatOccluder> faces;
-    std::vector<glm::dvec3> convexVertices;  // world; none unless the whole instance is convex
-    double slack = 0.0;                      // metres by which they may stand elsewhere on the GPU
+    BodyOccluder whole;
   };
   struct Hider {
     OccludedRegion region;
@@ -42,6 +41,7 @@ class Occlusion {
     std::vector<Hider> parts;
   };
   static FlatOccluder occluder(std::vector<glm::dvec3> polygon, double size);
+  static BodyOccluder wholeOf(const ConvexMesh& mesh, const InstanceState& state);
   const Body& bodyOf(int instance);
   Hiders hiders(const View& view, std::span<const int> instances, int mirror, std::span<const glm::dvec3> polygon);
   std::string nameOfHider(const Hider& hider) const;

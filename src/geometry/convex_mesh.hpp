@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -11,10 +12,22 @@ namespace speculum {
 // longest side of the mesh's bounding box. Models are written with four decimals: a ball of 1 m is off by 6e-5.
 constexpr double convexTolerance = 1e-4;
 
-// The places of the vertices of a triangle mesh that is closed (each edge, by position, has two triangles) and convex:
-// whatever lies within their outline is covered by it, from everywhere outside. Empty for any other mesh, and for one
-// of more than `mostTriangles`.
-std::vector<glm::dvec3> convexVertices(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices,
-                                       size_t mostTriangles);
+// A closed triangle mesh (each edge has two triangles) that is convex but for the tolerance. That says little about its
+// outline: seen from aside, a thin star is as concave as a star can be.
+struct ConvexMesh {
+  using Triangle = std::array<uint32_t, 3>;
+  struct Edge {
+    uint32_t from = 0;  // as the first of its triangles runs along it
+    uint32_t to = 0;
+    std::array<uint32_t, 2> triangles{};
+    bool sameDirection = false;  // of both triangles along the edge: one of them is turned inside out
+  };
+  std::vector<glm::dvec3> points;  // each once
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;
+};
+
+// Empty for any other mesh, and for one of more than `mostTriangles`. Vertices at equal positions are one point.
+ConvexMesh convexMesh(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices, size_t mostTriangles);
 
 }  // namespace speculum

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/convex_mesh.hpp"
+
 namespace speculum {
 
 // Texels decoded to linear RGB, row 0 at the top of the picture (v = 1).
@@ -68,7 +70,7 @@ struct Mesh {
   std::vector<MeshPart> parts;
   std::vector<MeshCluster> clusters;             // see clustersOf()
   std::vector<std::vector<glm::dvec3>> faces;    // relative to `center`, see convexFaces()
-  std::vector<glm::dvec3> convexVertices;        // relative to `center`, see convexVertices()
+  ConvexMesh convex;                             // relative to `center`, see convexMesh()
   mutable std::shared_ptr<LevelsOfMesh> levels;  // owned by levelsOf(), which makes them when they are first asked for
 };
 

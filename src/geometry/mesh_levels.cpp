@@ -266,9 +266,13 @@ struct LevelsOfMesh {
   MeshLevels levels;
 };
 
+bool mayHaveLevels(const Mesh& mesh) {
+  return mesh.indices.size() >= 3 * fewestTriangles;
+}
+
 MeshLevels simplified(const Mesh& mesh) {
   MeshLevels levels;
-  if (mesh.indices.size() < 3 * fewestTriangles) {
+  if (!mayHaveLevels(mesh)) {
     return levels;
   }
   std::vector<SimplifiedPart> parts;

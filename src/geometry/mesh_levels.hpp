@@ -32,6 +32,9 @@ struct MeshLevels {
 // in place. A mesh with few triangles, or one that cannot be simplified, such as a box, has no levels.
 MeshLevels simplified(const Mesh& mesh);
 
+// Says whether simplified() could have levels of a mesh, without making them.
+bool mayHaveLevels(const Mesh& mesh);
+
 // The levels of a mesh, made by the first call and kept in the mesh. May be called from any thread.
 const MeshLevels& levelsOf(const Mesh& mesh);
 

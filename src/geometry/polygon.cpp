@@ -17,17 +17,36 @@ double diameter(std::span<const glm::dvec3> polygon) {
   return largest;
 }
 
-bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, double scale) {
+// Vertices that are apart; one within rounding of the vertex before it would give its edge any direction.
+std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, double least) {
+  std::vector<glm::dvec3> distinct;
+  for (const glm::dvec3& p : polygon) {
+    if (distinct.empty() || glm::length(p - distinct.back()) > least) {
+      distinct.push_back(p);
+    }
+  }
+  while (distinct.size() > 1 && glm::length(distinct.front() - distinct.back()) <= least) {
+    distinct.pop_back();
+  }
+  return distinct;
+}
+
+// Whether no vertex lies farther than `tolerance` outside the line of any edge. Looking at the turn from one edge to
+// the next is not enough: many small turns to the wrong side add up to a hollow.
+bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, double tolerance) {
   const size_t n = polygon.size();
   double turning = 0.0;
   for (size_t i = 0; i < n; ++i) {
-    const glm::dvec3 a = polygon[(i + 1) % n] - polygon[i];
-    const glm::dvec3 b = polygon[(i + 2) % n] - polygon[(i + 1) % n];
-    const double turn = glm::dot(normal, glm::cross(a, b));
-    if (turn < -1e-9 * scale * scale) {
-      return false;
+    const glm::dvec3 edge = polygon[(i + 1) % n] - polygon[i];
+    const glm::dvec3 inwards = glm::cross(normal, edge);
+    const double most = tolerance * glm::length(inwards);
+    for (const glm::dvec3& p : polygon) {
+      if (glm::dot(inwards, p - polygon[i]) < -most) {
+        return false;
+      }
     }
-    turning += std::atan2(turn, glm::dot(a, b));
+    const glm::dvec3 next = polygon[(i + 2) % n] - polygon[(i + 1) % n];
+    turning += std::atan2(glm::dot(normal, glm::cross(edge, next)), glm::dot(edge, next));
   }
   // A convex outline turns once; a pentagram turns left at every vertex as well, but twice around.
   return turning < 3.0 * 3.14159265358979323846;
@@ -74,7 +93,7 @@ std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {
       return "is not planar";
     }
   }
-  if (!isConvex(polygon, plane.normal, scale)) {
+  if (!isConvex(distinctVertices(polygon, 1e-9 * scale), plane.normal, 1e-5 * scale)) {
     return "is not convex";
   }
   return std::nullopt;

@@ -84,7 +84,7 @@ void findOccluders(Mesh& mesh) {
     positions.push_back(vertex.position);
   }
   mesh.faces = convexFaces(positions, mesh.indices, mostFaces, mostTriangles);
-  mesh.convexVertices = convexVertices(positions, mesh.indices, mostTriangles);
+  mesh.convex = convexMesh(positions, mesh.indices, mostTriangles);
 }
 
 }  // namespace

@@ -1,0 +1,145 @@
+// Mirrors that the plan says are hidden, against rays from the eye to them.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "frame/frame_plan.hpp"
+#include "frame_support.hpp"
+#include "geometry/affine.hpp"
+#include "occluder_shapes.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return glm::dot(a, glm::cross(b, c));
+}
+
+// Whether the segment from `eye` to `point` meets the triangle, its border included.
+bool meets(const glm::dvec3& eye, const glm::dvec3& point, const std::array<glm::dvec3, 3>& triangle) {
+  const glm::dvec3 ray = point - eye;
+  const glm::dvec3 a = triangle[0] - eye;
+  const glm::dvec3 b = triangle[1] - eye;
+  const glm::dvec3 c = triangle[2] - eye;
+  const std::array parts{volume(ray, b, c), volume(a, ray, c), volume(a, b, ray)};
+  const double rounding = 1e-12 * glm::length(ray) * glm::length(a) * glm::length(b);
+  const bool left = std::all_of(parts.begin(), parts.end(), [&](double part) { return part >= -rounding; });
+  const bool right = std::all_of(parts.begin(), parts.end(), [&](double part) { return part <= rounding; });
+  const double sum = parts[0] + parts[1] + parts[2];
+  const double whole = volume(a, b, c);
+  return (left || right) && sum != 0.0 && whole / sum > 0.0 && whole / sum < 1.0;
+}
+
+bool isCovered(const Scene& scene, const SceneState& state, const glm::dvec3& eye, const glm::dvec3& point,
+               int mirror) {
+  for (const InstanceState& instance : state.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const auto corner = [&](size_t i) { return instance.worldFromMesh.point(mesh.vertices[mesh.indices[i]].position); };
+    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+      if (meets(eye, point, {corner(i), corner(i + 1), corner(i + 2)})) {
+        return true;
+      }
+    }
+  }
+  for (size_t m = 0; m < state.mirrors.size(); ++m) {
+    const std::vector<glm::dvec3>& polygon = state.mirrors[m].polygon;
+    for (size_t i = 1; static_cast<int>(m) != mirror && i + 1 < polygon.size(); ++i) {
+      if (meets(eye, point, {polygon[0], polygon[i], polygon[i + 1]})) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+class Occluders : public ::testing::Test {
+ protected:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+
+  Object place(int mesh) {
+    Object object;
+    object.mesh = mesh;
+    object.position = {uniform(-1, 1), uniform(-1, 1), uniform(-5, -1)};
+    object.rotation = {uniform(-180, 180), uniform(-180, 180), uniform(-180, 180)};
+    object.scale = {uniform(0.5, 2), uniform(0.5, 2), uniform(0.5, 2)};
+    return object;
+  }
+
+  // Somewhere beyond an occluder, towards a point of its surface or beside it.
+  Mirror mirrorBehind(const Scene& scene, const SceneState& state) {
+    const InstanceState& instance = state.instances[engine_() % state.instances.size()];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const glm::dvec3 a = mesh.vertices[engine_() % mesh.vertices.size()].position;
+    const glm::dvec3 b = mesh.vertices[engine_() % mesh.vertices.size()].position;
+    const glm::dvec3 target = instance.worldFromMesh.point(glm::mix(a, b, uniform(0, 1)) * uniform(0.2, 1.1));
+    const double size = std::exp(uniform(std::log(0.005), std::log(1.0)));
+    return wall(target * uniform(1.3, 3.0), uniform(-50, 50), {size, size * uniform(0.3, 1)});
+  }
+
+  // Random points of the part of a mirror that the view shows, its corners first.
+  std::vector<glm::dvec3> pointsOf(const std::vector<glm::dvec3>& polygon) {
+    std::vector<glm::dvec3> points = polygon;
+    for (int i = 0; i < 40; ++i) {
+      glm::dvec3 point(0.0);
+      double weights = 0.0;
+      for (const glm::dvec3& corner : polygon) {
+        const double weight = -std::log(uniform(1e-9, 1));
+        point += weight * corner;
+        weights += weight;
+      }
+      points.push_back(point / weights);
+    }
+    return points;
+  }
+
+  // Plans a scene and checks all that is hidden in the main view; how many mirrors are.
+  int check(const Scene& scene, const std::string& what) {
+    const SceneState state = evaluate(scene, 0.0);
+    const FramePlan plan = planFrame(scene, state, {}, 640, 360);
+    int hidden = 0;
+    for (const SkippedMirror& skipped : plan.skipped) {
+      if (skipped.reason != SkipReason::hidden || skipped.depth > 0) {
+        continue;
+      }
+      ++hidden;
+      const glm::dvec3& eye = plan.main.view.eye;
+      for (const glm::dvec3& p : pointsOf(visiblePart(plan.main.view, state.mirrors[skipped.mirror].polygon))) {
+        if (!isCovered(scene, state, eye, p, skipped.mirror)) {
+          ADD_FAILURE() << what << " hides a mirror that is seen";
+          break;
+        }
+      }
+    }
+    return hidden;
+  }
+
+  std::mt19937 engine_{17};
+};
+
+TEST_F(Occluders, RandomShapesHideNothingVisible) {
+  std::map<std::string, int> hidden;
+  for (int round = 0; round < 2500; ++round) {
+    Scene scene;
+    scene.camera.target = {0, 0, -1};
+    const OccluderShape shape = randomShape(engine_);
+    scene.meshes = {meshOf(shape.positions, shape.indices)};
+    scene.objects = {place(0)};
+    if (round % 3 == 0) {
+      scene.objects.push_back(place(0));
+    }
+    const SceneState objects = evaluate(scene, 0.0);
+    for (int i = 0; i < 6; ++i) {
+      scene.mirrors.push_back(mirrorBehind(scene, objects));
+    }
+    hidden[shape.name] += check(scene, shape.name + ", round " + std::to_string(round));
+  }
+  for (const auto& [name, count] : hidden) {
+    RecordProperty("hidden_behind_" + name, count);
+    EXPECT_GT(count, 20) << name;
+  }
+}
+
+}  // namespace
+}  // namespace speculum
