@@ -231,10 +231,10 @@ INSTANTIATE_TEST_SUITE_P(Values, BrokenPass,
 
 using WatchedFrames = Watch;
 
-// An image that is held is found when it is rendered, not again in each frame that shows it.
-TEST_F(WatchedFrames, HeldImagesAreCheckedWhenTheyAreFresh) {
+// A cached image is checked when it is rendered, not again in each frame that reuses it.
+TEST_F(WatchedFrames, CachedImagesAreCheckedWhenRendered) {
   const BrokenSky sky(0, 5, 3, 0, "-1.0");
-  Options options = watched(wall, "held", sky, RenderPath::automatic, 1);
+  Options options = watched(wall, "cached", sky, RenderPath::automatic, 1);
   set(options, {{"reflection.update_interval", "3"}, {"reflection.skip_unchanged", "false"}});
   Session session(options);
   int rendered = 0;

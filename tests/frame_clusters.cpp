@@ -1,4 +1,4 @@
-// Of objects seen in part only that part is drawn, and never less than is seen.
+// Objects seen in part are drawn in part, and never less than is seen.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ double meanDiagonal(const Mesh& mesh) {
   return sum / static_cast<double>(mesh.clusters.size());
 }
 
-TEST(Clusters, SortingKeepsEveryTriangleOfEveryPartAndItsWinding) {
+TEST(Clusters, SortingKeepsAllTrianglesAndTheirWinding) {
   const Mesh before = sheet();
   Mesh sorted = before;
   sortIntoClusters(sorted);
@@ -107,7 +107,7 @@ TEST(Clusters, SortingKeepsEveryTriangleOfEveryPartAndItsWinding) {
   }
 }
 
-TEST(Clusters, SortingMakesThemSmallAndVerticesRunInOrder) {
+TEST(Clusters, SortingMakesThemSmallInVertexOrder) {
   const Mesh before = sheet();  // rows of 64 triangles, 2 m long
   Mesh sorted = before;
   sortIntoClusters(sorted);
@@ -138,7 +138,7 @@ TEST(Clusters, SmallMeshesHaveNone) {
   EXPECT_TRUE(clustersOf(mesh).empty());
 }
 
-TEST(Clusters, WhatIsWhollyInThePictureIsDrawnWhole) {
+TEST(Clusters, ObjectsInsideThePictureAreDrawnWhole) {
   Object object;
   object.position = {0, 0, -5};
   const Scene scene = sceneOf(object);
@@ -147,7 +147,7 @@ TEST(Clusters, WhatIsWhollyInThePictureIsDrawnWhole) {
   EXPECT_TRUE(plan.main.partial.empty());
 }
 
-TEST(Clusters, OfWhatLeavesThePictureAPartIsDrawn) {
+TEST(Clusters, ObjectsCutByThePictureAreDrawnPartly) {
   Object object;
   object.position = {0, 1.2, -1.5};  // the picture ends 0.87 m above the middle there
   const Scene scene = sceneOf(object);
@@ -164,7 +164,7 @@ TEST(Clusters, OfWhatLeavesThePictureAPartIsDrawn) {
   EXPECT_TRUE(planFrame(scene, evaluate(scene, 0.0), settings, 640, 360).main.partial.empty());
 }
 
-TEST(Clusters, ObjectsOfWhichOnlyTheBoxIsSeenAreNotDrawn) {
+TEST(Clusters, ObjectsSeenByBoxOnlyAreDropped) {
   // A corner of the box, where the mesh has nothing: an L of clusters.
   Scene scene = sceneOf({});
   Mesh& mesh = scene.meshes[0];
@@ -176,7 +176,7 @@ TEST(Clusters, ObjectsOfWhichOnlyTheBoxIsSeenAreNotDrawn) {
 }
 
 // Against every triangle itself, from random places, in mirrors too.
-TEST(Clusters, NeverLeaveOutWhatIsSeen) {
+TEST(Clusters, NeverLeaveOutVisibleTriangles) {
   std::mt19937 engine(7);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine);

@@ -55,7 +55,7 @@ TEST(DepthReadout, DistanceIsThatOfTheReflectedPath) {
   EXPECT_NEAR(readout->distance, 2 + 2 + 10 + 0.25, 1e-9);
 }
 
-TEST(DepthReadout, BodiesCountAsFarAsTheyReachIntoTheView) {
+TEST(DepthReadout, BodiesCountWhereTheyReachTheView) {
   Scene scene = mirrorScene();
   SceneState state = evaluate(scene, 0.0);
   addBody(scene, state, {40, 0, 10}, 35.0);
@@ -115,7 +115,7 @@ std::optional<DepthReadout> nearMirrorReadout(double h, double degrees) {
   return readoutOf(scene, state);
 }
 
-TEST(DepthReadout, ObliqueDiesWithTheEyesDistanceFromTheMirror) {
+TEST(DepthReadout, ObliqueDegradesWithTheEyesDistance) {
   double before = 0.0;
   for (const double h : {2.0, 0.2, 0.02}) {
     const auto readout = nearMirrorReadout(h, 45.0);

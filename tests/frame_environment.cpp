@@ -8,6 +8,7 @@
 #include "frame/environment_map.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame/traced_effects.hpp"
+#include "frame_support.hpp"
 
 namespace speculum {
 namespace {
@@ -16,13 +17,7 @@ constexpr int width = 320;
 constexpr int height = 180;
 
 Mesh cube() {
-  Mesh mesh;
-  mesh.halfExtent = glm::dvec3(0.5);
-  mesh.radius = 0.9;
-  mesh.parts.resize(1);
-  mesh.indices = {0, 0, 0};
-  mesh.vertices.resize(1);
-  return mesh;
+  return {.halfExtent = glm::dvec3(0.5), .radius = 0.9, .vertices = {Vertex{}}, .indices = {0, 0, 0}, .parts = {{}}};
 }
 
 Object at(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1.0)) {
@@ -51,26 +46,18 @@ Scene room() {
   return scene;
 }
 
-class Frames {
+class Frames : public testing_support::PlanSequence {
  public:
-  explicit Frames(Scene s) : scene(std::move(s)) { settings.effects.curvedLookup = CurvedLookup::environment; }
-  const FramePlan& next() {
-    plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, {.held = plan.held, .maps = plan.maps});
-    return plan;
-  }
-  // In the next frame.
+  explicit Frames(Scene s) : PlanSequence(std::move(s)) { settings.effects.curvedLookup = CurvedLookup::environment; }
+  // Maps that the next frame renders.
   int rendered() {
     next();
     return static_cast<int>(
-        std::count_if(plan.maps.begin(), plan.maps.end(), [](const EnvironmentMap& m) { return m.earlier < 0; }));
+        std::count_if(plan.maps.begin(), plan.maps.end(), [](const EnvironmentMap& m) { return m.cacheIndex < 0; }));
   }
-
-  Scene scene;
-  Settings settings;
-  FramePlan plan;
 };
 
-TEST(EnvironmentMap, IsCalledForWhereACurvedMirrorIsDrawn) {
+TEST(EnvironmentMap, ExistsWhereACurvedMirrorIsDrawn) {
   Frames frames(room());
   ASSERT_EQ(frames.next().maps.size(), 1u);
   EXPECT_EQ(frames.plan.maps[0].name, "object 'ball'");
@@ -83,11 +70,7 @@ TEST(EnvironmentMap, IsCalledForWhereACurvedMirrorIsDrawn) {
   frames.settings.effects.curved = true;
   frames.scene.camera.target = {0, 0, 1};
   EXPECT_TRUE(frames.next().maps.empty()) << "out of sight";
-  Mirror mirror;
-  mirror.position = {0, 0, 3};
-  mirror.rotation = {0, 180, 0};
-  mirror.size = {4, 4};
-  frames.scene.mirrors = {mirror};
+  frames.scene.mirrors = {testing_support::wall({0, 0, 3}, 180, {4, 4})};
   EXPECT_EQ(frames.next().maps.size(), 1u) << "seen in a mirror";
 }
 
@@ -132,7 +115,7 @@ TEST(EnvironmentMap, FacesCoverAllDirections) {
   EXPECT_GT(clip.w, 0.0);
 }
 
-TEST(EnvironmentMap, TheBoxReachesToTheNearFacesOfWhatIsFarthest) {
+TEST(EnvironmentMap, BoxReachesTheNearestFacesAround) {
   Frames frames(room());
   const EnvironmentMap& map = frames.next().maps.at(0);
   EXPECT_NEAR(map.high.x, 3.5, 1e-12) << "the wall's near face";
@@ -144,7 +127,7 @@ TEST(EnvironmentMap, TheBoxReachesToTheNearFacesOfWhatIsFarthest) {
   EXPECT_EQ(frames.plan.maps.at(0).high, glm::dvec3(15, 10, 20));
 }
 
-TEST(EnvironmentMap, IsRenderedWhenWhatItShowsChanged) {
+TEST(EnvironmentMap, IsRenderedWhenItsContentChanged) {
   Frames frames(room());
   EXPECT_EQ(frames.rendered(), 1);
   EXPECT_EQ(frames.rendered(), 0);
@@ -185,13 +168,10 @@ TEST(EnvironmentMap, TakesTurnsWithAnInterval) {
 }
 
 // An image that shows a map is as old as the map.
-TEST(EnvironmentMap, AnImageThatShowsItIsRenderedWithIt) {
+TEST(EnvironmentMap, ImagesThatShowItAreRenderedToo) {
   Scene scene = room();
-  Mirror mirror;
-  mirror.position = {0, -2, -4};
-  mirror.rotation = {-90, 0, 0};
-  mirror.size = {6, 6};
-  scene.mirrors = {mirror};
+  scene.mirrors = {testing_support::wall({0, -2, -4}, 0, {6, 6})};
+  scene.mirrors[0].rotation = {-90, 0, 0};
   Frames frames(scene);
   frames.settings.effects.environmentInterval = 3;
   frames.next();
@@ -205,7 +185,7 @@ TEST(EnvironmentMap, AnImageThatShowsItIsRenderedWithIt) {
   }
 }
 
-TEST(EnvironmentMap, OnlySoManyHaveOne) {
+TEST(EnvironmentMap, OnlyTheWidestMirrorsHaveOne) {
   Scene scene = room();
   scene.objects[ball].copies = {.count = 50, .step = {0, 0, -0.3}};
   Frames frames(scene);
@@ -215,7 +195,7 @@ TEST(EnvironmentMap, OnlySoManyHaveOne) {
   }
 }
 
-TEST(EnvironmentMap, MemoryCountsItAndLowersIt) {
+TEST(EnvironmentMap, MemoryIncludesItAndLowersIt) {
   Frames frames(room());
   frames.next();
   FramePlan without = frames.plan;

@@ -44,11 +44,8 @@ Mesh ball() {
 
 // A mirror 10 m before the camera, and balls behind it at these distances from the mirror.
 Scene sceneOf(const std::vector<double>& distances, double scale = 0.5) {
-  Scene scene;
+  Scene scene = testing_support::sceneWith({wall({0, 0, -10}, 0, {8, 8})});
   scene.meshes = {ball()};
-  scene.camera.position = {0, 0, 0};
-  scene.camera.target = {0, 0, -1};
-  scene.mirrors = {wall({0, 0, -10}, 0, {8, 8})};
   for (const double distance : distances) {
     Object object;
     object.mesh = 0;
@@ -80,7 +77,7 @@ TEST(MeshError, ZeroDrawsAllTriangles) {
   EXPECT_TRUE(meshesWithLevels(plan, evaluate(sceneOf({12, 60}), 0.0)).empty());
 }
 
-TEST(MeshError, LevelsGrowWithDistanceAndWithTheError) {
+TEST(MeshError, LevelsGrowWithDistanceAndError) {
   const Scene scene = sceneOf({12, 25, 50, 100, 200});
   std::vector<int> before(5, -1);
   for (const double error : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}) {
@@ -127,7 +124,7 @@ TEST(MeshError, FinerImagesShowMore) {
   EXPECT_GT(level("1"), level("4"));
 }
 
-TEST(MeshError, WhereRaysAreTracedAllTrianglesAreDrawn) {
+TEST(MeshError, TracedRaysKeepAllTriangles) {
   Scene scene = sceneOf({30, 60});
   EXPECT_FALSE(planOf(scene, 2.0).passes[0].simplified.empty());
   scene.lights[0].castsShadow = true;
@@ -147,12 +144,12 @@ TEST(MeshError, WhereRaysAreTracedAllTrianglesAreDrawn) {
   }
 }
 
-TEST(MeshError, WhatReachesTheEyeIsExact) {
+TEST(MeshError, ObjectsAtTheEyeAreExact) {
   Scene scene = sceneOf({11}, 30.0);
   EXPECT_TRUE(planOf(scene, 0.5).passes[0].simplified.empty());
 }
 
-TEST(MeshError, OfBallsSeenInPartOnlyThatPartIsDrawn) {
+TEST(MeshError, PartlySeenBallsAreDrawnInPart) {
   Scene scene = sceneOf({30}, 6.0);
   scene.mirrors[0].size = {0.5, 0.5};
   const FramePlan plan = planOf(scene, 1.0);
@@ -218,7 +215,7 @@ TEST(MeshError, TheBoundHoldsForAnyTwoPoints) {
   EXPECT_GT(tightest, 0.7) << "far too careful";
 }
 
-TEST(MeshError, IsPartOfWhatAnImageDependsOn) {
+TEST(MeshError, ChangesMirrorImages) {
   Settings exact;
   Settings simplified;
   simplified.reflection.meshError = 1.0;

@@ -29,7 +29,7 @@ TEST(MemoryFit, CountsMainViewImagesAndDepth) {
   EXPECT_EQ(fitted.settings.reflection.samples, 4);
 }
 
-TEST(MemoryFit, LowersMirrorSamplesThenViewSamplesThenScale) {
+TEST(MemoryFit, LowersMirrorSamplesViewSamplesScale) {
   EXPECT_EQ(fit(90'000'000).settings.reflection.samples, 2);
   EXPECT_EQ(fit(90'000'000).settings.view.samples, 4);
   const FittedPlan less = fit(50'000'000);
@@ -55,7 +55,7 @@ TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
 }
 
 // Then a mirror with ripples is a plane again, with a pass.
-TEST(MemoryFit, EffectsThatTraceRaysAreLeftOutWhereTheDeviceCannot) {
+TEST(MemoryFit, TracedEffectsNeedADeviceThatCan) {
   Scene scene = wallScene();
   scene.mirrors[0].ripple = Ripple{.amplitude = 0.01};
   const SceneState state = evaluate(scene, 0.0);
@@ -71,7 +71,7 @@ TEST(MemoryFit, EffectsThatTraceRaysAreLeftOutWhereTheDeviceCannot) {
   EXPECT_EQ(without.plan.passes.size(), 1u);
 }
 
-TEST(MemoryFit, PlansAsItIsWhenNothingIsLeftToLower) {
+TEST(MemoryFit, PlansUnchangedWithNothingLeftToLower) {
   const FittedPlan least = fit(1);
   EXPECT_EQ(least.settings.reflection.scale, 0.125);
   EXPECT_EQ(least.plan.passes.size(), 1u);

@@ -97,13 +97,14 @@ class Occluders : public ::testing::Test {
   // Plans a scene and checks all that is hidden in the main view; how many mirrors are.
   int check(const Scene& scene, const std::string& what) {
     const SceneState state = evaluate(scene, 0.0);
-    const FramePlan plan = planFrame(scene, state, {}, 640, 360);
+    const FramePlan plan = planOf(scene);
     int hidden = 0;
     for (const SkippedMirror& skipped : plan.skipped) {
       if (skipped.reason != SkipReason::hidden || skipped.depth > 0) {
         continue;
       }
       ++hidden;
+      together_ += skipped.detail.find(" and ") != std::string::npos;
       const glm::dvec3& eye = plan.main.view.eye;
       for (const glm::dvec3& p : pointsOf(visiblePart(plan.main.view, state.mirrors[skipped.mirror].polygon))) {
         if (!isCovered(scene, state, eye, p, skipped.mirror)) {
@@ -116,13 +117,13 @@ class Occluders : public ::testing::Test {
   }
 
   std::mt19937 engine_{17};
+  int together_ = 0;  // mirrors that several objects hide
 };
 
 TEST_F(Occluders, RandomShapesHideNothingVisible) {
   std::map<std::string, int> hidden;
   for (int round = 0; round < 2500; ++round) {
-    Scene scene;
-    scene.camera.target = {0, 0, -1};
+    Scene scene = sceneWith({});
     const OccluderShape shape = randomShape(engine_);
     scene.meshes = {meshOf(shape.positions, shape.indices)};
     scene.objects = {place(0)};
@@ -139,6 +140,24 @@ TEST_F(Occluders, RandomShapesHideNothingVisible) {
     RecordProperty("hidden_behind_" + name, count);
     EXPECT_GT(count, 20) << name;
   }
+}
+
+TEST_F(Occluders, BoxesAndPanesHideNothingVisibleTogether) {
+  int hidden = 0;
+  for (int round = 0; round < 3000; ++round) {
+    Scene scene = sceneWith({wall({uniform(-1, 1), uniform(-1, 1), uniform(-8, -2)}, uniform(-60, 60), {1.5, 1})});
+    const OccluderShape shape = box();
+    scene.meshes = {meshOf(shape.positions, shape.indices)};
+    for (int i = 0; i < 3; ++i) {
+      scene.objects.push_back(place(0));
+      scene.objects.back().name = std::to_string(i);
+      const double thickness = round % 4 == 0 ? 1e-9 : uniform(0.05, 0.5);
+      scene.objects.back().scale = {uniform(0.1, 1.2), uniform(0.1, 1.2), thickness};
+    }
+    hidden += check(scene, "round " + std::to_string(round));
+  }
+  EXPECT_GT(hidden, 200);
+  EXPECT_GT(together_, 20);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ void expectWhole(const FramePlan& plan, const std::vector<PassRange>& ranges) {
   EXPECT_EQ(next, plan.passes.size());
 }
 
-TEST(PassRange, MirrorsSideBySideAreOneRangeTheLargestWithTheFirstDepth) {
+TEST(PassRange, MirrorsSideBySideShareOneRange) {
   const FramePlan plan =
       planOf({wall({-2, 0, -5}, 0, {1, 1}), wall({0, 0, -5}, 0, {2, 2}), wall({2, 0, -5}, 0, {1.5, 1})}, 1);
   ASSERT_EQ(plan.passes.size(), 3u);
@@ -41,7 +41,7 @@ TEST(PassRange, MirrorsSideBySideAreOneRangeTheLargestWithTheFirstDepth) {
   }
 }
 
-TEST(PassRange, NoRangeHoldsAPassAndWhatItShows) {
+TEST(PassRange, RangesHoldNoPassWithItsImages) {
   const FramePlan plan =
       planOf({wall({-1, 0, -2}, 70, {3, 2}), wall({1, 0, -2}, -70, {3, 2}), wall({0, 0, -5}, 0, {1, 2})}, 4);
   ASSERT_GT(plan.passes.size(), 6u);
@@ -57,7 +57,7 @@ TEST(PassRange, NoRangeHoldsAPassAndWhatItShows) {
   }
 }
 
-TEST(PassRange, ARangeCoversNoMoreThanAPicture) {
+TEST(PassRange, RangesCoverAtMostOnePicture) {
   // Each covers more than half of the picture, the second beside and behind the first.
   const FramePlan plan = planOf({wall({-1, 0, -3}, 0, {6, 4}), wall({3, 0, -5}, 0, {8, 8})}, 1);
   ASSERT_EQ(plan.passes.size(), 2u);
@@ -65,7 +65,7 @@ TEST(PassRange, ARangeCoversNoMoreThanAPicture) {
   EXPECT_EQ(independentPasses(plan).size(), 2u);
 }
 
-TEST(PassRange, MemoryCountsTheDepthOfEachPassOfTheLargestRange) {
+TEST(PassRange, MemoryIncludesDepthOfTheLargestRange) {
   Settings settings;
   settings.reflection.samples = 1;
   settings.view.samples = 1;

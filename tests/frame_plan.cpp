@@ -9,32 +9,16 @@
 namespace speculum {
 namespace {
 
-using testing_support::wall;
-
-constexpr int width = 640;
-constexpr int height = 360;
-
-// The camera stands at the origin and looks along -z.
-Scene sceneWith(std::vector<Mirror> mirrors) {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
-  scene.mirrors = std::move(mirrors);
-  return scene;
-}
-
-FramePlan plan(const Scene& scene, const Settings& settings = {}) {
-  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
-}
+using namespace testing_support;
 
 void expectSkipped(const FramePlan& plan, int mirror, SkipReason reason) {
-  const auto it = std::find_if(plan.skipped.begin(), plan.skipped.end(),
-                               [&](const SkippedMirror& skip) { return skip.path == std::vector<int>{mirror}; });
-  ASSERT_NE(it, plan.skipped.end());
-  EXPECT_EQ(skipReasonName(it->reason), skipReasonName(reason));
+  const SkippedMirror* skip = skipOf(plan, {mirror});
+  ASSERT_NE(skip, nullptr);
+  EXPECT_EQ(skipReasonName(skip->reason), skipReasonName(reason));
 }
 
-TEST(FramePlan, FacingMirrorGetsOnePassOverItsRectangle) {
-  const FramePlan p = plan(sceneWith({wall({0, 0, -5}, 0)}));
+TEST(FramePlan, FacingMirrorNeedsOnePass) {
+  const FramePlan p = planOf(sceneWith({wall({0, 0, -5}, 0)}));
   ASSERT_EQ(p.passes.size(), 1u);
   const PlannedPass& pass = p.passes[0];
   EXPECT_EQ(pass.depth, 0);
@@ -51,22 +35,22 @@ TEST(FramePlan, FacingMirrorGetsOnePassOverItsRectangle) {
 }
 
 TEST(FramePlan, ReasonsAtTheFirstLevel) {
-  expectSkipped(plan(sceneWith({wall({0, 0, 5}, 180)})), 0, SkipReason::behind);
-  expectSkipped(plan(sceneWith({wall({0, 0, -5}, 180)})), 0, SkipReason::backface);
-  expectSkipped(plan(sceneWith({wall({50, 0, -5}, 0)})), 0, SkipReason::outside);
-  expectSkipped(plan(sceneWith({wall({0, 0, -5}, 0, {1e-4, 1e-4})})), 0, SkipReason::minPixels);
+  expectSkipped(planOf(sceneWith({wall({0, 0, 5}, 180)})), 0, SkipReason::behind);
+  expectSkipped(planOf(sceneWith({wall({0, 0, -5}, 180)})), 0, SkipReason::backface);
+  expectSkipped(planOf(sceneWith({wall({50, 0, -5}, 0)})), 0, SkipReason::outside);
+  expectSkipped(planOf(sceneWith({wall({0, 0, -5}, 0, {1e-4, 1e-4})})), 0, SkipReason::minPixels);
 
   Settings settings;
   settings.reflection.maxDepth = 0;
-  expectSkipped(plan(sceneWith({wall({0, 0, -5}, 0)}), settings), 0, SkipReason::maxDepth);
+  expectSkipped(planOf(sceneWith({wall({0, 0, -5}, 0)}), settings), 0, SkipReason::maxDepth);
 
   Scene dark = sceneWith({wall({0, 0, -5}, 0)});
   dark.mirrors[0].reflectance = glm::dvec3(1e-5);
-  expectSkipped(plan(dark), 0, SkipReason::minThroughput);
+  expectSkipped(planOf(dark), 0, SkipReason::minThroughput);
 }
 
-TEST(FramePlan, EyeInTheMirrorsPlaneGetsNoPassAndNoDraw) {
-  const FramePlan p = plan(sceneWith({wall({0, 0, -5}, 90, {20, 20})}));
+TEST(FramePlan, EyesInTheMirrorsPlaneSeeNothing) {
+  const FramePlan p = planOf(sceneWith({wall({0, 0, -5}, 90, {20, 20})}));
   EXPECT_TRUE(p.passes.empty());
   EXPECT_TRUE(p.main.mirrors.empty());
   expectSkipped(p, 0, SkipReason::backface);
@@ -74,13 +58,13 @@ TEST(FramePlan, EyeInTheMirrorsPlaneGetsNoPassAndNoDraw) {
 
 TEST(FramePlan, BackIsDrawnUnlessTwoSided) {
   Scene scene = sceneWith({wall({0, 0, -5}, 180)});
-  FramePlan p = plan(scene);
+  FramePlan p = planOf(scene);
   ASSERT_EQ(p.main.mirrors.size(), 1u);
   EXPECT_TRUE(p.main.mirrors[0].back);
   EXPECT_TRUE(p.passes.empty());
 
   scene.mirrors[0].twoSided = true;
-  p = plan(scene);
+  p = planOf(scene);
   ASSERT_EQ(p.passes.size(), 1u);
   EXPECT_FALSE(p.main.mirrors[0].back);
   EXPECT_GT(p.main.mirrors[0].plane.normal.z, 0.99);
@@ -91,24 +75,17 @@ TEST(FramePlan, BudgetGoesToTheBestFirst) {
   scene.mirrors[2].reflectance = glm::dvec3(0.01);
   Settings settings;
   settings.reflection.maxPasses = 1;
-  const FramePlan p = plan(scene, settings);
+  const FramePlan p = planOf(scene, settings);
   ASSERT_EQ(p.passes.size(), 1u);
   EXPECT_EQ(p.passes[0].view.path, std::vector<int>{1});
   expectSkipped(p, 0, SkipReason::maxPasses);
   expectSkipped(p, 2, SkipReason::maxPasses);
 }
 
-Scene corridor() {
-  Scene scene = sceneWith({wall({0, 0, -5}, 0, {4, 4}), wall({0, 0, 5}, 180, {4, 4})});
-  scene.camera.position = {0.3, 0.2, 0};
-  scene.camera.target = {0.3, 0.2, -1};
-  return scene;
-}
-
-TEST(FramePlan, FacingMirrorsRecurseToMaxDepthDeepestFirst) {
+TEST(FramePlan, FacingMirrorsRecurseDeepestFirst) {
   Settings settings;
   settings.reflection.maxDepth = 6;
-  const FramePlan p = plan(corridor(), settings);
+  const FramePlan p = planOf(corridor(), settings);
   ASSERT_EQ(p.passes.size(), 6u);
   for (size_t i = 0; i < p.passes.size(); ++i) {
     EXPECT_EQ(p.passes[i].depth, 5 - static_cast<int>(i));
@@ -128,34 +105,34 @@ TEST(FramePlan, ThroughputIsTheProductOfReflectances) {
   Scene scene = corridor();
   scene.mirrors[0].reflectance = {0.5, 0.1, 0.1};
   scene.mirrors[1].reflectance = {0.1, 0.4, 0.1};
-  const FramePlan p = plan(scene);
+  const FramePlan p = planOf(scene);
   const auto second = std::find_if(p.passes.begin(), p.passes.end(), [](const auto& pass) { return pass.depth == 1; });
   ASSERT_NE(second, p.passes.end());
   EXPECT_NEAR(second->throughput, 0.05, 1e-15);
 }
 
-TEST(FramePlan, SchlickBoundIsThatOfTheFarthestVisiblePoint) {
+TEST(FramePlan, SchlickBoundUsesTheFarthestPoint) {
   Scene scene = sceneWith({wall({0, 0, -5}, 0, {2, 2})});
   scene.mirrors[0].reflectance = glm::dvec3(0.04);
   scene.mirrors[0].fresnel = Fresnel::schlick;
-  const FramePlan p = plan(scene);
+  const FramePlan p = planOf(scene);
   ASSERT_EQ(p.passes.size(), 1u);
   const double cosine = 5.0 / std::sqrt(27.0);
   EXPECT_NEAR(p.passes[0].throughput, 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0), 1e-12);
 }
 
-TEST(FramePlan, CoplanarNeighbourIsNotSeenInAMirror) {
-  const FramePlan p = plan(sceneWith({wall({-1.5, 0, -5}, 0), wall({1.5, 0, -5}, 0)}));
+TEST(FramePlan, CoplanarNeighboursDoNotReflectEachOther) {
+  const FramePlan p = planOf(sceneWith({wall({-1.5, 0, -5}, 0), wall({1.5, 0, -5}, 0)}));
   EXPECT_EQ(p.passes.size(), 2u);
   for (const PlannedPass& pass : p.passes) {
     EXPECT_TRUE(pass.mirrors.empty());
   }
 }
 
-TEST(FramePlan, ScaleChangesTheResolutionOfMirrorImagesOnly) {
+TEST(FramePlan, ScaleChangesMirrorImagesOnly) {
   Settings settings;
   settings.reflection.scale = 0.5;
-  const FramePlan p = plan(corridor(), settings);
+  const FramePlan p = planOf(corridor(), settings);
   EXPECT_EQ(p.main.view.rect, (PixelRect{0, 0, width, height}));
   for (const PlannedPass& pass : p.passes) {
     EXPECT_EQ(pass.view.pictureSize, glm::dvec2(width / 2, height / 2));
@@ -165,14 +142,14 @@ TEST(FramePlan, ScaleChangesTheResolutionOfMirrorImagesOnly) {
 
 TEST(FramePlan, IsTheSameFarFromTheOrigin) {
   Scene scene = corridor();
-  const FramePlan near = plan(scene);
+  const FramePlan near = planOf(scene);
   const glm::dvec3 far(1e7, -1e7, 1e7);
   scene.camera.position += far;
   scene.camera.target += far;
   for (Mirror& mirror : scene.mirrors) {
     mirror.position += far;
   }
-  const FramePlan moved = plan(scene);
+  const FramePlan moved = planOf(scene);
   ASSERT_EQ(moved.passes.size(), near.passes.size());
   for (size_t i = 0; i < near.passes.size(); ++i) {
     EXPECT_EQ(moved.passes[i].view.path, near.passes[i].view.path);
@@ -180,7 +157,7 @@ TEST(FramePlan, IsTheSameFarFromTheOrigin) {
   }
 }
 
-TEST(FramePlan, OnePixelPicture) {
+TEST(FramePlan, OnePixelPicturesCanBePlanned) {
   const Scene scene = corridor();
   const FramePlan p = planFrame(scene, evaluate(scene, 0.0), {}, 1, 1);
   for (const PlannedPass& pass : p.passes) {

@@ -1,9 +1,16 @@
 #pragma once
 
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "frame/frame_plan.hpp"
 #include "geometry/convex_faces.hpp"
-#include "scene/scene.hpp"
 
 namespace speculum::testing_support {
+
+constexpr int width = 640;
+constexpr int height = 360;
 
 // A mirror that faces +z, turned by `yaw` degrees.
 inline Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size = {2, 2}) {
@@ -14,7 +21,23 @@ inline Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& siz
   return mirror;
 }
 
-// With all that hides something found in it.
+// The camera stands at the origin and looks along -z.
+inline Scene sceneWith(std::vector<Mirror> mirrors) {
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  scene.mirrors = std::move(mirrors);
+  return scene;
+}
+
+// Two walls that face each other, the camera between them.
+inline Scene corridor() {
+  Scene scene = sceneWith({wall({0, 0, -5}, 0, {4, 4}), wall({0, 0, 5}, 180, {4, 4})});
+  scene.camera.position = {0.3, 0.2, 0};
+  scene.camera.target = {0.3, 0.2, -1};
+  return scene;
+}
+
+// With all occluders found.
 inline Mesh meshOf(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& indices) {
   Mesh mesh{.indices = indices, .parts = {{.indexCount = static_cast<uint32_t>(indices.size())}}};
   for (const glm::dvec3& p : positions) {
@@ -26,5 +49,62 @@ inline Mesh meshOf(const std::vector<glm::dvec3>& positions, const std::vector<u
   mesh.convex = convexMesh(positions, indices, 4096);
   return mesh;
 }
+
+inline FramePlan planOf(const Scene& scene, const Settings& settings = {}) {
+  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
+}
+
+inline const SkippedMirror* skipOf(const FramePlan& plan, const std::vector<int>& path) {
+  const auto it = std::find_if(plan.skipped.begin(), plan.skipped.end(),
+                               [&](const SkippedMirror& skip) { return skip.path == path; });
+  return it == plan.skipped.end() ? nullptr : &*it;
+}
+
+inline int count(const FramePlan& plan, SkipReason reason) {
+  return static_cast<int>(
+      std::count_if(plan.skipped.begin(), plan.skipped.end(), [&](const auto& s) { return s.reason == reason; }));
+}
+
+// Plans frame after frame, each with the cache that the one before left.
+class PlanSequence {
+ public:
+  explicit PlanSequence(Scene s, int interval = 1, bool skipUnchanged = true) : scene(std::move(s)) {
+    settings.reflection.updateInterval = interval;
+    settings.reflection.skipUnchanged = skipUnchanged;
+  }
+
+  const FramePlan& next(double time = 0.0) {
+    plan = planFrame(scene, evaluate(scene, time), settings, width, height,
+                     {.images = plan.cached, .maps = plan.maps, .main = main.content.empty() ? nullptr : &main});
+    main = {settings, plan.mainContent};
+    return plan;
+  }
+  void moveCamera(const glm::dvec3& by) {
+    scene.camera.position += by;
+    scene.camera.target += by;
+  }
+  // Mirrors seen directly that have a pass, or a cached image that is reused.
+  std::set<int> rendered() const {
+    std::set<int> mirrors;
+    for (const PlannedPass& pass : plan.passes) {
+      mirrors.insert(pass.view.path.front());
+    }
+    return mirrors;
+  }
+  std::set<int> unchanged() const {
+    std::set<int> mirrors;
+    for (const SkippedMirror& skip : plan.skipped) {
+      if (skip.reason == SkipReason::unchanged) {
+        mirrors.insert(skip.mirror);
+      }
+    }
+    return mirrors;
+  }
+
+  Scene scene;
+  Settings settings;
+  FramePlan plan;
+  MainImage main;
+};
 
 }  // namespace speculum::testing_support

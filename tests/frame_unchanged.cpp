@@ -1,4 +1,4 @@
-// reflection.skip_unchanged: which images are shown again, by the planner alone, frame after frame.
+// reflection.skip_unchanged: which images are reused, by the planner alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,19 +14,10 @@
 namespace speculum {
 namespace {
 
-using testing_support::wall;
-
-constexpr int width = 640;
-constexpr int height = 360;
+using namespace testing_support;
 
 Mesh ball() {
-  Mesh mesh;
-  mesh.halfExtent = glm::dvec3(0.2);
-  mesh.radius = 0.2;
-  mesh.parts.resize(1);
-  mesh.indices = {0, 0, 0};
-  mesh.vertices.resize(1);
-  return mesh;
+  return {.halfExtent = glm::dvec3(0.2), .radius = 0.2, .vertices = {Vertex{}}, .indices = {0, 0, 0}, .parts = {{}}};
 }
 
 Object at(const glm::dvec3& position) {
@@ -42,9 +33,8 @@ enum { seenLeft, seenRight, unseen, seenTwice };  // objects
 // Two mirrors side by side before the camera, which looks along -z; what they show stands before them. A third mirror
 // behind the camera is seen in the right one only, and with it an object that stands between the two.
 Scene room() {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
-  scene.mirrors = {wall({-1.5, 0, -3}, -30, {1, 1}), wall({1.5, 0, -3}, 0, {1, 1}), wall({4.5, 0, 3}, 180, {3, 3})};
+  Scene scene =
+      sceneWith({wall({-1.5, 0, -3}, -30, {1, 1}), wall({1.5, 0, -3}, 0, {1, 1}), wall({4.5, 0, 3}, 180, {3, 3})});
   scene.meshes = {ball()};
   scene.objects = {at({-2.5, 0, -2.9}), at({1.6, 0.3, -2}), at({0, 30, 0}), at({3.2, 0, 1})};
   PointLight light;
@@ -54,82 +44,48 @@ Scene room() {
   return scene;
 }
 
-class Frames {
- public:
-  explicit Frames(Scene s) : scene(std::move(s)) {}
-  const FramePlan& next(double time = 0.0) {
-    plan = planFrame(scene, evaluate(scene, time), settings, width, height,
-                     {.held = plan.held, .main = main.content.empty() ? nullptr : &main});
-    main = {settings, plan.mainContent};
-    return plan;
-  }
-  // Mirrors seen directly that are rendered, and those that are not for being unchanged.
-  std::set<int> rendered() const {
-    std::set<int> mirrors;
-    for (const PlannedPass& pass : plan.passes) {
-      mirrors.insert(pass.view.path.front());
-    }
-    return mirrors;
-  }
-  std::set<int> unchanged() const {
-    std::set<int> mirrors;
-    for (const SkippedMirror& skip : plan.skipped) {
-      if (skip.reason == SkipReason::unchanged) {
-        EXPECT_EQ(skip.depth, 0);
-        mirrors.insert(skip.mirror);
-      }
-    }
-    return mirrors;
-  }
-
-  Scene scene;
-  Settings settings;
-  FramePlan plan;
-  MainImage main;
-};
-
 using Mirrors = std::set<int>;
 const Mirrors both{left, right};
 
-TEST(Unchanged, AStillSceneIsRenderedOnce) {
-  Frames frames(room());
+TEST(Unchanged, StillSceneIsRenderedOnce) {
+  PlanSequence frames(room());
   frames.next();
   const size_t passes = frames.plan.passes.size();
   ASSERT_GE(passes, 3u) << "there is a mirror in a mirror";
   EXPECT_EQ(frames.rendered(), both);
-  EXPECT_TRUE(frames.plan.shown.empty());
+  EXPECT_TRUE(frames.plan.reused.empty());
   for (int frame = 1; frame < 5; ++frame) {
     frames.next();
     EXPECT_TRUE(frames.plan.passes.empty());
     EXPECT_EQ(frames.unchanged(), both);
-    EXPECT_EQ(frames.plan.shown.size(), passes);
-    EXPECT_EQ(frames.plan.held.size(), 2u) << "mirrors in mirrors are not held";
+    EXPECT_EQ(frames.plan.reused.size(), passes);
+    EXPECT_EQ(frames.plan.cached.size(), 2u) << "mirrors in mirrors have none";
     const std::string detail = frames.plan.skipped.back().detail;
     EXPECT_EQ(detail, frame == 1 ? "image of the last frame" : "image of " + std::to_string(frame) + " frames ago");
     for (const MirrorDraw& draw : frames.plan.main.mirrors) {
-      ASSERT_TRUE(draw.held);
-      EXPECT_FALSE(draw.held->moved);
+      ASSERT_TRUE(draw.cached);
+      EXPECT_FALSE(draw.cached->moved);
     }
   }
 }
 
-TEST(Unchanged, SwitchedOffEveryImageIsRendered) {
-  Frames frames(room());
+TEST(Unchanged, SwitchedOffRendersEveryImage) {
+  PlanSequence frames(room());
   frames.settings.reflection.skipUnchanged = false;
   for (int frame = 0; frame < 3; ++frame) {
     EXPECT_EQ(frames.next().passes.size(), 3u);
-    EXPECT_TRUE(frames.plan.held.empty());
+    EXPECT_TRUE(frames.plan.cached.empty());
   }
   frames.settings.reflection.skipUnchanged = true;
-  EXPECT_EQ(frames.next().passes.size(), 3u) << "nothing was held";
+  EXPECT_EQ(frames.next().passes.size(), 3u) << "nothing was cached";
   EXPECT_TRUE(frames.next().passes.empty());
   frames.settings.reflection.skipUnchanged = false;
   EXPECT_EQ(frames.next().passes.size(), 3u);
 }
 
-// What is rendered in the frame after `change`; the one after that renders nothing.
-Mirrors renderedAfter(const std::function<void(Frames&)>& change, Scene scene = room(), double time = 0.0) {
-  Frames frames(std::move(scene));
+// The mirrors rendered in the frame after `change`; the one after that renders nothing.
+Mirrors renderedAfter(const std::function<void(PlanSequence&)>& change, Scene scene = room(), double time = 0.0) {
+  PlanSequence frames(std::move(scene));
   frames.next();
   frames.next();
   EXPECT_TRUE(frames.plan.passes.empty());
@@ -141,40 +97,42 @@ Mirrors renderedAfter(const std::function<void(Frames&)>& change, Scene scene = 
   return rendered;
 }
 
-TEST(Unchanged, OnlyWhatShowsTheChangeIsRendered) {
+TEST(Unchanged, OnlyMirrorsShowingAChangeAreRendered) {
   const auto moving = [](int object) {
-    return [object](Frames& f) { f.scene.objects[static_cast<size_t>(object)].position.y += 1e-9; };
+    return [object](PlanSequence& f) { f.scene.objects[static_cast<size_t>(object)].position.y += 1e-9; };
   };
   EXPECT_EQ(renderedAfter(moving(seenLeft)), Mirrors{left});
   EXPECT_EQ(renderedAfter(moving(seenRight)), Mirrors{right});
   EXPECT_EQ(renderedAfter(moving(unseen)), Mirrors{});
   EXPECT_EQ(renderedAfter(moving(seenTwice)), Mirrors{right}) << "seen in the mirror behind the camera";
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.mirrors[left].position.z -= 1e-9; }), Mirrors{left});
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.mirrors[behind].position.z += 1e-9; }), Mirrors{right});
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.lights[0].position.x += 1e-9; }), both);
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.camera.position.x += 1e-9; }), both);
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.camera.verticalFov += 1e-9; }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.mirrors[left].position.z -= 1e-9; }), Mirrors{left});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.mirrors[behind].position.z += 1e-9; }), Mirrors{right});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.lights[0].position.x += 1e-9; }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.camera.position.x += 1e-9; }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.camera.verticalFov += 1e-9; }), both);
 }
 
-TEST(Unchanged, WhatAnEditorChangesShows) {
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.objects[seenLeft].color = glm::dvec3(0.1); }), Mirrors{left});
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.objects[seenRight].shininess = 3.0; }), Mirrors{right});
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.objects[seenRight].specular = glm::dvec3(0.1); }), Mirrors{right});
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.objects.push_back(at({-2.5, 0.1, -2.9})); }), Mirrors{left});
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.objects.erase(f.scene.objects.begin()); }), both)
+TEST(Unchanged, EditsRenderTheMirrorsThatShowThem) {
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects[seenLeft].color = glm::dvec3(0.1); }), Mirrors{left});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects[seenRight].shininess = 3.0; }), Mirrors{right});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects[seenRight].specular = glm::dvec3(0.1); }),
+            Mirrors{right});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects.push_back(at({-2.5, 0.1, -2.9})); }), Mirrors{left});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects.erase(f.scene.objects.begin()); }), both)
       << "others have another index then";
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.mirrors[behind].reflectance *= 0.5; }), Mirrors{right});
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.mirrors[behind].baseColor = glm::dvec3(0.5); }), Mirrors{right});
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.lights[0].intensity *= 2.0; }), both);
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.lights[0].glow = 1.0; }), both);
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.lights.push_back({}); }), both);
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.environment.background.x += 0.1; }), both);
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.environment.ambient.x += 0.1; }), both);
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.environment.sky.emplace(); }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.mirrors[behind].reflectance *= 0.5; }), Mirrors{right});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.mirrors[behind].baseColor = glm::dvec3(0.5); }),
+            Mirrors{right});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.lights[0].intensity *= 2.0; }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.lights[0].glow = 1.0; }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.lights.push_back({}); }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.environment.background.x += 0.1; }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.environment.ambient.x += 0.1; }), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.environment.sky.emplace(); }), both);
 }
 
-TEST(Unchanged, SettingsThatImagesShowMakeThemAnew) {
-  const auto after = [](auto change) { return renderedAfter([&](Frames& f) { change(f.settings); }); };
+TEST(Unchanged, SettingsThatImagesShowRenderThemAnew) {
+  const auto after = [](auto change) { return renderedAfter([&](PlanSequence& f) { change(f.settings); }); };
   EXPECT_EQ(after([](Settings& s) { s.view.exposure = 2.0; }), Mirrors{});
   EXPECT_EQ(after([](Settings& s) { s.view.samples = 1; }), Mirrors{});
   EXPECT_EQ(after([](Settings& s) { s.view.continuous = true; }), Mirrors{});
@@ -188,8 +146,8 @@ TEST(Unchanged, SettingsThatImagesShowMakeThemAnew) {
   EXPECT_EQ(after([](Settings& s) { s.debug.maskPasses = false; }), both);
 }
 
-TEST(Unchanged, TimeCountsOnlyWhereSomethingDependsOnIt) {
-  const auto nothing = [](Frames&) {};
+TEST(Unchanged, TimeCountsWhereSomethingDependsOnIt) {
+  const auto nothing = [](PlanSequence&) {};
   EXPECT_EQ(renderedAfter(nothing, room(), 7.0), Mirrors{});
   Scene scene = room();
   scene.objects[seenLeft].spin = {0, 10, 0};
@@ -197,25 +155,25 @@ TEST(Unchanged, TimeCountsOnlyWhereSomethingDependsOnIt) {
   scene = room();
   scene.mirrors[behind].ripple = Ripple{.amplitude = 0.01};
   EXPECT_EQ(renderedAfter(nothing, scene, 7.0), both) << "rays may meet the waves anywhere";
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.objects[unseen].position.y += 1.0; }, scene), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects[unseen].position.y += 1.0; }, scene), both);
   scene.mirrors[behind].ripple->speed = 0.0;
   EXPECT_EQ(renderedAfter(nothing, scene, 7.0), Mirrors{});
   scene.mirrors[behind].ripple->speed = 0.2;
-  Frames still(scene);
+  PlanSequence still(scene);
   still.settings.effects.ripple = false;
   still.next();
   EXPECT_TRUE(still.next(7.0).passes.empty());
 }
 
-TEST(Unchanged, ShadowsMayComeFromAnywhere) {
+TEST(Unchanged, ShadowsDependOnTheWholeScene) {
   Scene scene = room();
   scene.lights[0].castsShadow = true;
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.objects[unseen].position.y += 1e-9; }, scene), both);
-  EXPECT_EQ(renderedAfter([](Frames& f) { f.scene.camera.position.x += 0.0; }, scene), Mirrors{});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects[unseen].position.y += 1e-9; }, scene), both);
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.camera.position.x += 0.0; }, scene), Mirrors{});
 }
 
-TEST(Unchanged, WhatIsShownAgainCallsForItsEffects) {
-  Frames frames(room());
+TEST(Unchanged, ReusedImagesCallForTheirEffects) {
+  PlanSequence frames(room());
   frames.scene.objects[seenTwice].mirror.emplace();
   frames.scene.objects[seenTwice].position = {3.2, 0, 1.5};
   const auto why = [&] {
@@ -233,9 +191,9 @@ TEST(Unchanged, WhatIsShownAgainCallsForItsEffects) {
   EXPECT_EQ(fresh, "object 3");
 }
 
-// What is saved is not spent on deeper reflections, which would come and go.
-TEST(Unchanged, ABudgetOfPassesIsSpentAsIfAllWereRendered) {
-  Frames frames(room());
+// Passes saved are not spent on deeper reflections, which would come and go.
+TEST(Unchanged, BudgetIgnoresReuse) {
+  PlanSequence frames(room());
   frames.scene.mirrors[left].rotation.y = 30.0;  // the third mirror is seen in both
   ASSERT_EQ(frames.next().passes.size(), 4u);
   frames.settings.reflection.maxPasses = 3;
@@ -250,12 +208,12 @@ TEST(Unchanged, ABudgetOfPassesIsSpentAsIfAllWereRendered) {
     for (const PlannedPass& pass : frames.plan.passes) {
       EXPECT_TRUE(paths.count(pass.view.path));
     }
-    EXPECT_EQ(frames.plan.passes.size() + frames.plan.shown.size(), 3u);
+    EXPECT_EQ(frames.plan.passes.size() + frames.plan.reused.size(), 3u);
   }
 }
 
-TEST(Unchanged, WithAnIntervalNothingIsRenderedInItsTurnUnlessItChanged) {
-  Frames frames(room());
+TEST(Unchanged, IntervalRendersOnlyWhatChanged) {
+  PlanSequence frames(room());
   frames.settings.reflection.updateInterval = 3;
   frames.next();
   for (int frame = 1; frame < 9; ++frame) {
@@ -273,75 +231,75 @@ TEST(Unchanged, WithAnIntervalNothingIsRenderedInItsTurnUnlessItChanged) {
   EXPECT_EQ(seen, both);
 }
 
-// Images of earlier frames are there from the start, when one of this frame needs the most.
-TEST(Unchanged, WhereMemoryIsShortImagesAreRenderedAnewRatherThanWorse) {
+// Cached images take memory from the start of a frame, when its own images need the most.
+TEST(Unchanged, ShortMemoryRendersAnewRatherThanWorse) {
   Scene scene = room();
   scene.mirrors[left] = wall({-2.5, 0, -5}, 0, {4.9, 5});
   scene.mirrors[right] = wall({2.5, 0, -5}, 0, {3, 3});
   scene.mirrors[behind] = wall({0, 0, 3}, 180, {12, 6});
   scene.objects[seenLeft].position = {-2.4, 0, -4};
-  const auto fit = [&](uint64_t budget, std::span<const HeldImage> held) {
+  const auto fit = [&](uint64_t budget, std::span<const CachedImage> cached) {
     return planWithin({.budgetBytes = budget, .largestSide = 4096}, scene, evaluate(scene, 0.0), {}, width, height,
-                      {.held = held});
+                      {.images = cached});
   };
   const FittedPlan first = fit(1ull << 40, {});
   const uint64_t needed = targetBytes(first.plan, first.settings);
   scene.objects[seenLeft].color = glm::dvec3(0.5);
-  const FittedPlan mixed = fit(1ull << 40, first.plan.held);
+  const FittedPlan mixed = fit(1ull << 40, first.plan.cached);
   ASSERT_LT(mixed.plan.passes.size(), first.plan.passes.size());
   ASSERT_FALSE(mixed.plan.passes.empty());
   const uint64_t more = targetBytes(mixed.plan, mixed.settings);
   ASSERT_GT(more, needed) << "the case is not met";
-  const FittedPlan fitted = fit(needed, first.plan.held);
+  const FittedPlan fitted = fit(needed, first.plan.cached);
   EXPECT_EQ(fitted.plan.passes.size(), first.plan.passes.size());
   EXPECT_EQ(fitted.settings.reflection, first.settings.reflection);
   EXPECT_TRUE(fitted.message.empty()) << fitted.message;
 }
 
-// The frame that renders the mirrors cannot tell; the one after it draws the main view with what is there.
-TEST(UnchangedMain, IsDrawnOnceMoreThanItsMirrors) {
-  Frames frames(room());
-  EXPECT_FALSE(frames.next().mainUnchanged);
+// The frame that renders the mirrors cannot reuse the main view; nor can the one after it, which shows new images.
+TEST(MainView, IsReusedOneFrameAfterItsMirrors) {
+  PlanSequence frames(room());
+  EXPECT_FALSE(frames.next().mainReused);
   EXPECT_TRUE(frames.plan.mainContent.empty());
-  EXPECT_FALSE(frames.next().mainUnchanged);
+  EXPECT_FALSE(frames.next().mainReused);
   for (int frame = 2; frame < 5; ++frame) {
-    EXPECT_TRUE(frames.next().mainUnchanged) << "frame " << frame;
+    EXPECT_TRUE(frames.next().mainReused) << "frame " << frame;
   }
   frames.scene.mirrors.clear();
-  EXPECT_FALSE(frames.next().mainUnchanged);
-  EXPECT_TRUE(frames.next().mainUnchanged);
+  EXPECT_FALSE(frames.next().mainReused);
+  EXPECT_TRUE(frames.next().mainReused);
 }
 
 // Whether the main view is drawn in the frame after `change` to a scene that stood still.
-bool drawnAfter(const std::function<void(Frames&)>& change, Scene scene = room(), double time = 0.0) {
-  Frames frames(std::move(scene));
+bool drawnAfter(const std::function<void(PlanSequence&)>& change, Scene scene = room(), double time = 0.0) {
+  PlanSequence frames(std::move(scene));
   for (int frame = 0; frame < 3; ++frame) {
     frames.next();
   }
-  EXPECT_TRUE(frames.plan.mainUnchanged);
+  EXPECT_TRUE(frames.plan.mainReused);
   change(frames);
-  return !frames.next(time).mainUnchanged;
+  return !frames.next(time).mainReused;
 }
 
-TEST(UnchangedMain, EveryChangeThatItShowsDrawsIt) {
+TEST(MainView, VisibleChangesDrawIt) {
   Scene scene = room();
   scene.objects.push_back(at({0, 0, -4}));  // before the camera, in no mirror
   const auto after = [&](auto change) { return drawnAfter(change, scene); };
-  EXPECT_TRUE(after([](Frames& f) { f.scene.objects.back().position.y += 1e-9; }));
-  EXPECT_TRUE(after([](Frames& f) { f.scene.objects.back().color = glm::dvec3(0.1); }));
-  EXPECT_TRUE(after([](Frames& f) { f.scene.objects.pop_back(); }));
-  EXPECT_TRUE(after([](Frames& f) { f.scene.objects[seenLeft].position.y += 1e-9; })) << "in a mirror";
-  EXPECT_TRUE(after([](Frames& f) { f.scene.mirrors[left].reflectance *= 0.5; }));
-  EXPECT_TRUE(after([](Frames& f) { f.scene.lights[0].intensity *= 2.0; }));
-  EXPECT_TRUE(after([](Frames& f) { f.scene.environment.background.x += 0.1; }));
-  EXPECT_TRUE(after([](Frames& f) { f.scene.camera.position.x += 1e-9; }));
-  EXPECT_FALSE(after([](Frames& f) { f.scene.objects[unseen].position.y += 1.0; }));
-  EXPECT_TRUE(drawnAfter([](Frames& f) { f.scene.objects.back().spin = {0, 10, 0}; }, scene, 7.0));
-  EXPECT_FALSE(drawnAfter([](Frames&) {}, scene, 7.0));
+  EXPECT_TRUE(after([](PlanSequence& f) { f.scene.objects.back().position.y += 1e-9; }));
+  EXPECT_TRUE(after([](PlanSequence& f) { f.scene.objects.back().color = glm::dvec3(0.1); }));
+  EXPECT_TRUE(after([](PlanSequence& f) { f.scene.objects.pop_back(); }));
+  EXPECT_TRUE(after([](PlanSequence& f) { f.scene.objects[seenLeft].position.y += 1e-9; })) << "in a mirror";
+  EXPECT_TRUE(after([](PlanSequence& f) { f.scene.mirrors[left].reflectance *= 0.5; }));
+  EXPECT_TRUE(after([](PlanSequence& f) { f.scene.lights[0].intensity *= 2.0; }));
+  EXPECT_TRUE(after([](PlanSequence& f) { f.scene.environment.background.x += 0.1; }));
+  EXPECT_TRUE(after([](PlanSequence& f) { f.scene.camera.position.x += 1e-9; }));
+  EXPECT_FALSE(after([](PlanSequence& f) { f.scene.objects[unseen].position.y += 1.0; }));
+  EXPECT_TRUE(drawnAfter([](PlanSequence& f) { f.scene.objects.back().spin = {0, 10, 0}; }, scene, 7.0));
+  EXPECT_FALSE(drawnAfter([](PlanSequence&) {}, scene, 7.0));
 }
 
-TEST(UnchangedMain, SettingsOfTheDisplayPassAloneDoNotDrawIt) {
-  const auto after = [](auto change) { return drawnAfter([&](Frames& f) { change(f.settings); }); };
+TEST(MainView, DisplaySettingsAloneReuseIt) {
+  const auto after = [](auto change) { return drawnAfter([&](PlanSequence& f) { change(f.settings); }); };
   EXPECT_FALSE(after([](Settings& s) { s.view.exposure = 2.0; }));
   EXPECT_FALSE(after([](Settings& s) { s.view.toneMap = ToneMap::aces; }));
   EXPECT_TRUE(after([](Settings& s) { s.view.samples = 1; }));
@@ -353,30 +311,30 @@ TEST(UnchangedMain, SettingsOfTheDisplayPassAloneDoNotDrawIt) {
   EXPECT_TRUE(after([](Settings& s) { s.debug.cullClusters = false; }));
 }
 
-TEST(UnchangedMain, ReprojectedImagesAreNotTheSameTwice) {
-  Frames frames(room());
+TEST(MainView, ReprojectedImagesDrawIt) {
+  PlanSequence frames(room());
   frames.settings.reflection.updateInterval = 100;
   for (int frame = 0; frame < 6; ++frame) {
     frames.scene.camera.position.x += 1e-4;
     frames.next();
-    EXPECT_FALSE(frames.plan.mainUnchanged);
+    EXPECT_FALSE(frames.plan.mainReused);
   }
 }
 
-// As where a budget of passes is spent on others.
-TEST(UnchangedMain, AMirrorThatLosesItsImageDrawsIt) {
-  Frames frames(room());
+// A budget of passes that is spent on others takes it away.
+TEST(MainView, MirrorsThatLoseTheirImageDrawIt) {
+  PlanSequence frames(room());
   frames.next();
   frames.next();
-  ASSERT_TRUE(frames.plan.main.mirrors[0].held);
+  ASSERT_TRUE(frames.plan.main.mirrors[0].cached);
   const SceneState state = evaluate(frames.scene, 0.0);
   FramePlan plan = frames.plan;
   const ImageSurroundings around{frames.scene, state, frames.settings, plan.projection, plan.effects, {}};
-  keepMain(plan, &frames.main, around);
-  EXPECT_TRUE(plan.mainUnchanged);
-  plan.main.mirrors[0].held.reset();
-  keepMain(plan, &frames.main, around);
-  EXPECT_FALSE(plan.mainUnchanged);
+  reuseMain(plan, &frames.main, around);
+  EXPECT_TRUE(plan.mainReused);
+  plan.main.mirrors[0].cached.reset();
+  reuseMain(plan, &frames.main, around);
+  EXPECT_FALSE(plan.mainReused);
 }
 
 }  // namespace

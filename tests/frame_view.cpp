@@ -65,7 +65,7 @@ int hitMirror(const SceneState& state, const FramePlan& plan, double px, double 
   return best;
 }
 
-TEST(View, RectangleHoldsEveryPixelWhoseRayHitsTheMirror) {
+TEST(View, RectangleHoldsEveryPixelOfTheMirror) {
   EXPECT_TRUE(rc::check("rectangle is conservative", [] {
     const Scene scene = randomScene();
     const SceneState state = evaluate(scene, 0.0);
@@ -89,7 +89,7 @@ TEST(View, RectangleHoldsEveryPixelWhoseRayHitsTheMirror) {
   }));
 }
 
-TEST(View, MirrorsPointProjectsAlikeInTheMirroredView) {
+TEST(View, MirrorPointsProjectAlikeInBothViews) {
   EXPECT_TRUE(rc::check("same pixel in both views", [] {
     const Scene scene = randomScene();
     const SceneState state = evaluate(scene, 0.0);

@@ -80,7 +80,7 @@ Drawn drawn(const Options& options) {
   return result;
 }
 
-TEST(LevelPictures, TrianglesFallAndTheErrorGrowsWithTheSetting) {
+TEST(LevelPictures, SettingTradesTrianglesForError) {
   const std::filesystem::path file = objectsScene();
   const Drawn exact = drawn(optionsFor(file, "0"));
   EXPECT_EQ(drawn(headless(file, size)).picture.rgba, exact.picture.rgba) << "0 is the default";
@@ -145,7 +145,7 @@ TEST(LevelPictures, SkippingWhatIsUnchangedChangesNoByte) {
   expectQuiet(rendering);
 }
 
-TEST(LevelPictures, HeldImagesOfSimplifiedObjectsAreQuiet) {
+TEST(LevelPictures, CachedImagesOfSimplifiedObjectsAreQuiet) {
   Session session(optionsFor(objectsScene(), "2", {{"reflection.update_interval", "3"}}));
   for (int frame = 0; frame < 8; ++frame) {
     session.draw(1.0 + 0.02 * frame, false);
@@ -154,7 +154,7 @@ TEST(LevelPictures, HeldImagesOfSimplifiedObjectsAreQuiet) {
   expectQuiet(session);
 }
 
-TEST(LevelPictures, MemoryComesWithTheSettingAndGoesWithIt) {
+TEST(LevelPictures, MemoryFollowsTheSetting) {
   Options options = optionsFor(objectsScene(), "0", {{"debug.check_finite", "false"}});
   options.size = {32, 18};
   Session session(options);

@@ -92,6 +92,16 @@ std::string OccluderShape::obj() const {
   return text.str();
 }
 
+OccluderShape box() {
+  Builder box("box");
+  for (const double side : {-1.0, 1.0}) {
+    box.quad({side, -1, -1}, {side, 1, -1}, {side, 1, 1}, {side, -1, 1});
+    box.quad({-1, side, -1}, {1, side, -1}, {1, side, 1}, {-1, side, 1});
+    box.quad({-1, -1, side}, {1, -1, side}, {1, 1, side}, {-1, 1, side});
+  }
+  return box.shape();
+}
+
 OccluderShape wallWithArch(std::mt19937& engine) {
   Builder wall("arch");
   const int cuts = uniformInt(engine, 2, 900);

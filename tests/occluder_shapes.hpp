@@ -17,6 +17,8 @@ struct OccluderShape {
   std::string obj() const;
 };
 
+OccluderShape box();
+
 // Another shape of the same kind for each state of the engine.
 OccluderShape wallWithArch(std::mt19937& engine);  // one opening, cut coarsely or finely
 OccluderShape stairs(std::mt19937& engine);

@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"outdoors", {{"reflection.clip", "oblique"}}}),
     [](const auto& info) { return std::string(info.param.scene) + "_" + std::to_string(info.index); });
 
-// A scene that is edited between frames, as a person does in the window.
+// A scene that is edited between frames, as a user does in the window.
 class Studio {
  public:
   Studio(const Options& options, const Scene& scene)
@@ -95,7 +95,7 @@ class Studio {
     renderer_.reloadShaders();
     Frame frame = renderer_.beginFrame().value();
     const SceneState state = evaluate(scene_, 0.0);
-    const FramePlan plan = planFrame(scene_, state, settings_, size.width, size.height, sceneRenderer_.earlier());
+    const FramePlan plan = planFrame(scene_, state, settings_, size.width, size.height, sceneRenderer_.cache());
     frame.capture = true;
     sceneRenderer_.record(frame, state, settings_, plan);
     renderer_.endFrame(frame);
@@ -189,7 +189,7 @@ TEST(UnchangedPictures, EditsShowInTheFrameAfterThem) {
   EXPECT_EQ(skipping.device().validationMessages(), 0);
 }
 
-TEST(UnchangedPictures, AStillSecondFrameRecordsNoMirrorPassAndSaysWhy) {
+TEST(UnchangedPictures, StillSecondFrameRecordsNoMirrorPass) {
   Session session(optionsFor(editedScene(), true, {}));
   session.draw(0.0, false);
   session.finish();
@@ -240,7 +240,7 @@ TEST(UnchangedPictures, MemoryComesBackWhenReflectionsGo) {
   const uint64_t none = bytesAfter(0, 60);
   const uint64_t rendered = bytesAfter(4, 1);
   EXPECT_GT(rendered, none);
-  EXPECT_LE(bytesAfter(4, 3), rendered) << "what is held would have been needed anyway";
+  EXPECT_LE(bytesAfter(4, 3), rendered) << "cached images would have been needed anyway";
   EXPECT_LT(bytesAfter(4, 60), rendered) << "images of mirrors in mirrors go";
   EXPECT_EQ(bytesAfter(0, 60), none);
   expectQuiet(session);
@@ -254,7 +254,7 @@ void replaceShader(const std::filesystem::path& file, const std::string& code) {
   std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(5));
 }
 
-TEST(UnchangedPictures, ANewShaderShowsInMirrors) {
+TEST(UnchangedPictures, ReloadedShadersShowInMirrors) {
   const std::filesystem::path shaders = sceneDirectory() / "shaders";
   std::filesystem::remove_all(shaders);
   std::filesystem::create_directories(shaders);
@@ -281,8 +281,8 @@ TEST(UnchangedPictures, ANewShaderShowsInMirrors) {
   expectQuiet(session);
 }
 
-// A scene in which only a mirror shows what calls for rays: its pipelines stay while its image is shown.
-TEST(UnchangedPictures, PipelinesOfShownImagesStay) {
+// A scene in which only a mirror shows what calls for rays: its pipelines stay while its image is reused.
+TEST(UnchangedPictures, PipelinesOfReusedImagesStay) {
   Session session(optionsFor(writeScene("only_in_the_mirror", R"(
 [environment]
 background = [0.3, 0.4, 0.5]

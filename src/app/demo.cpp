@@ -142,17 +142,17 @@ void Demo::drawFrame(double seconds) {
   accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, *sceneRenderer_);
 }
 
-// With images that are held, the passes of as many frames as it takes to render each, and those whose images are shown:
-// a list that changed from frame to frame could not be read.
+// Lists the passes of as many frames as it takes to render each image, and those that cached images replace: a list
+// that changed from frame to frame could not be read.
 void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval) {
   const FrameTimings& timings = renderer_.timings();
   const auto isShown = [&](const UiPass& row) {
-    return (plan.mainUnchanged && row.kind == PassKind::main) ||
-           std::any_of(plan.shown.begin(), plan.shown.end(),
+    return (plan.mainReused && row.kind == PassKind::main) ||
+           std::any_of(plan.reused.begin(), plan.reused.end(),
                        [&](const PlannedPass& p) { return p.view.path == row.path; });
   };
   std::vector<UiPass> rows;
-  if (updateInterval > 1 || !plan.shown.empty() || plan.mainUnchanged) {
+  if (updateInterval > 1 || !plan.reused.empty() || plan.mainReused) {
     rows = std::move(model_.passes);
   }
   for (UiPass& row : rows) {

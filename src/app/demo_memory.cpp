@@ -15,12 +15,12 @@ FittedPlan Demo::planAndUpload(Frame& frame, const SceneState& state, Settings s
   }
   const auto plan = [&] {
     settings.effects.textures = settings.effects.textures && !texturesRefused_;
-    EarlierImages earlier = sceneRenderer_->earlier();
+    FrameCache cache = sceneRenderer_->cache();
     if (watched_ && watched_->empty()) {
-      earlier.main = nullptr;  // the main view is there to be shown, with its depth
+      cache.main = nullptr;  // the main view is there to be shown, with its depth
     }
     return planner_.plan(loaded_->scene, state, settings, static_cast<int>(frame.extent.width),
-                         static_cast<int>(frame.extent.height), earlier);
+                         static_cast<int>(frame.extent.height), cache);
   };
   FittedPlan fitted = plan();
   try {

@@ -136,14 +136,14 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
-                               int height, const EarlierImages& earlier) {
+                               int height, const FrameCache& cache) {
   if (std::max(width, height) > limits_.largestSide) {
     throw UsageError("--size: " + std::to_string(width) + "x" + std::to_string(height) +
                      " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
                      " pixels a side)");
   }
   limits_.tracesRays = tracesRays_ && largestTraceBuffer(scene, state.instances.size()) <= largestBuffer_;
-  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, earlier);
+  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, cache);
   if (!fitted.message.empty() && message_.empty()) {
     spdlog::warn("{}", fitted.message);
   }
@@ -169,9 +169,9 @@ const DrawnFrame& Session::draw(double time, bool capture) {
   const Clock::time_point recording = Clock::now();
   frame_.state = evaluate(loaded_.scene, time);
   frame_.state.camera = camera_.value_or(frame_.state.camera);
-  EarlierImages earlier = sceneRenderer_.earlier();
-  earlier.main = nullptr;  // the pass of the main view is always among those that are reported
-  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, earlier);
+  FrameCache cache = sceneRenderer_.cache();
+  cache.main = nullptr;  // the pass of the main view is always among those that are reported
+  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, cache);
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
   frame.capture = capture;

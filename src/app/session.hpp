@@ -45,7 +45,7 @@ class BudgetPlanner {
  public:
   explicit BudgetPlanner(const Device& device);
   FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                  const EarlierImages& earlier);
+                  const FrameCache& cache);
   const std::string& message() const { return message_; }  // of the last plan; empty if nothing was lowered
 
  private:

@@ -10,7 +10,7 @@ namespace speculum {
 
 namespace {
 
-// What at least one pass of the plan draws, or one whose image of an earlier frame is shown.
+// Collects what at least one pass of the plan draws, or one that a cached image replaces.
 struct Visible {
   std::set<int> instances;
   std::set<int> lights;
@@ -29,7 +29,7 @@ Visible visibleIn(const FramePlan& plan) {
     }
   };
   std::for_each(plan.passes.begin(), plan.passes.end(), add);
-  std::for_each(plan.shown.begin(), plan.shown.end(), add);
+  std::for_each(plan.reused.begin(), plan.reused.end(), add);
   for (const EnvironmentMap& map : plan.maps) {
     std::for_each(map.faces.begin(), map.faces.end(), add);
   }
@@ -53,8 +53,8 @@ Effect fresnel(const Scene& scene, const SceneState& state, const Settings& sett
   return {"fresnel", false, "no visible mirror asks for it"};
 }
 
-Effect tracedEffect(const std::string& name, const std::string& caller, const std::string& otherwise) {
-  return {name, !caller.empty(), caller.empty() ? otherwise : caller};
+Effect tracedEffect(const std::string& name, const std::optional<std::string>& caller, const std::string& otherwise) {
+  return {name, caller.has_value(), caller.value_or(otherwise)};
 }
 
 Effect textures(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
@@ -84,7 +84,7 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
   if (settings.view.samples > 1) {
     return {"msaa", true, "view.samples = " + std::to_string(settings.view.samples)};
   }
-  if (settings.reflection.samples > 1 && (!plan.passes.empty() || !plan.held.empty())) {
+  if (settings.reflection.samples > 1 && (!plan.passes.empty() || !plan.cached.empty())) {
     return {"msaa", true, "reflection.samples = " + std::to_string(settings.reflection.samples)};
   }
   return {"msaa", false, "one sample a pixel"};

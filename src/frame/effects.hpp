@@ -33,7 +33,7 @@ struct Effect {
 // Settings (key, value) that leave an effect out of the picture.
 std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effect);
 
-// Whether something with a texture is drawn, or was in the image of an earlier frame that is shown.
+// Says whether something with a texture is drawn, or seen in an image that is reused.
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);
 
 // All effects, in the order of EffectKind.

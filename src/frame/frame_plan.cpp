@@ -19,20 +19,20 @@ namespace {
 
 constexpr double largestNear = 0.001;  // metres
 
-// A pass before its place in the order of recording is known.
+// A pass before its index in the order of recording is known.
 struct Node {
   PlannedPass pass;
-  std::vector<int> children;      // nodes
-  std::optional<HeldImage> held;  // its image, if it is to be held; rendered by the pass if `earlier` is -1
-  bool moved = false;             // since the earlier image
+  size_t draw = 0;  // index of its mirror among the parent's draws
+  std::vector<int> children;
+  std::optional<ImageChoice> choice;  // set for mirrors seen directly whose images are cached
 };
 
 // A mirror that deserves a pass, if the budget reaches it.
 struct Candidate {
   double priority = 0.0;
-  int parent = 0;   // node
-  size_t draw = 0;  // index into the parent's mirrors
-  std::vector<glm::dvec3> visible;
+  int parent = 0;                   // node
+  size_t draw = 0;                  // index into the parent's mirrors
+  std::vector<glm::dvec3> visible;  // world; visible region
   double areaPx = 0.0;
   glm::dvec3 throughput{1.0};
   int order = 0;  // of discovery; settles ties so that plans are reproducible
@@ -56,10 +56,10 @@ std::string number(double value) {
 class Planner {
  public:
   Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-          const EarlierImages& earlier)
-      : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), earlier_(earlier) {
-    // Everything in front of `near` is clamped to one depth and would lose its order; a larger one gains nothing,
-    // because depth is near / distance in a float.
+          const FrameCache& cache)
+      : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), cache_(cache) {
+    // A larger `near` gains nothing, because depth is near / distance in a float, and loses the order of all that is
+    // nearer, which is clamped to one depth.
     const double near = std::min(state.camera.near, largestNear);
     plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, near);
     plan_.width = width;
@@ -79,11 +79,11 @@ class Planner {
     }
     findEffects();
     simplify();
-    keepUnchanged();
+    reuseUnchanged();
     record(0);
-    forgetHeldSubtrees();
+    dropSkipsInReused();
     if (settings_.skipUnchanged && !allSettings_.view.continuous) {
-      keepMain(plan_, earlier_.main, surroundings());
+      reuseMain(plan_, cache_.main, surroundings());
     }
     return std::move(plan_);
   }
@@ -95,24 +95,23 @@ class Planner {
   void propose(int node, Sight sight);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
-  void hold(Node& node, const Candidate& candidate, int interval) const;
   View readable(const View& view) const;
   void findEffects();
   ImageSurroundings surroundings() const;
   void simplify();
-  void keepUnchanged();
+  void reuseUnchanged();
   void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
-  void showHeld(MirrorDraw& draw, const Node& node);
-  void leaveOut(int node);
-  void forgetHeldSubtrees();
+  void reuseImage(MirrorDraw& draw, const Node& node);
+  void recordReused(int node);
+  void dropSkipsInReused();
   bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
   const SceneState& state_;
   const Settings& allSettings_;
   const ReflectionSettings& settings_;
-  const EarlierImages& earlier_;
+  const FrameCache& cache_;
   FramePlan plan_;
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> candidates_;
@@ -134,19 +133,19 @@ void Planner::addInstance(PlannedPass& pass, const View& readable, int i) {
   }
 }
 
-// A mirror image is read a little beyond the edge of what is seen of it. As far as a held one in any case, so that what
-// is drawn, and in which order, is the same with every update interval.
+// The view with what is read of its image beyond the visible region. Cached images are read farthest; all views get
+// their margin, so that what is drawn, and in which order, is the same with every update interval.
 View Planner::readable(const View& view) const {
   View readable = view;
   if (!view.path.empty()) {
-    Settings held = allSettings_;
-    held.reflection.updateInterval = std::max(held.reflection.updateInterval, 2);
-    widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(held, false))) + 1);
+    Settings caching = allSettings_;
+    caching.reflection.updateInterval = std::max(caching.reflection.updateInterval, 2);
+    widen(readable, plan_.projection, static_cast<int>(std::ceil(1.5 * lookupReach(caching, false))) + 1);
   }
   return readable;
 }
 
-// What is drawn in a node's view, and which of its mirrors are candidates for passes.
+// Finds what is drawn in a node's view, and which of its mirrors are candidates for passes.
 void Planner::fill(int node) {
   const View view = nodes_[node].pass.view;
   const View readable = this->readable(view);
@@ -208,7 +207,7 @@ void Planner::consider(int node, int mirror, const View& readable) {
   propose(node, std::move(sight));
 }
 
-// Draws a mirror that is seen, and makes it a candidate unless it is not worth a pass.
+// Adds a visible mirror to what is drawn, and makes it a candidate if it is worth a pass.
 void Planner::propose(int node, Sight sight) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
@@ -262,11 +261,16 @@ void Planner::expand(const Candidate& candidate) {
   node.pass.areaPx = candidate.areaPx;
   node.pass.throughput = largest(candidate.throughput);
   node.pass.channels = candidate.throughput;
-  node.pass.parent = static_cast<int>(candidate.draw);  // until record() knows the order
-  // What is looked up beside a rough mirror's own pixels cannot be reprojected.
+  node.draw = candidate.draw;
+  // Rough mirrors look up beside their own pixels, where nothing can be reprojected.
   const int interval = draw.blurs ? 1 : settings_.updateInterval;
   if (node.pass.depth == 0 && (interval > 1 || settings_.skipUnchanged)) {
-    hold(node, candidate, interval);
+    const ReuseRequest request{node.pass.view, plan_.projection, candidate.visible,
+                               allSettings_,   interval,         candidate.order};
+    node.choice = chooseImage(cache_.images, request);
+    if (node.choice->image.cacheIndex < 0) {
+      node.pass.view = node.choice->image.view;
+    }
   }
   const int index = static_cast<int>(nodes_.size());
   nodes_[candidate.parent].children.push_back(index);
@@ -274,17 +278,7 @@ void Planner::expand(const Candidate& candidate) {
   fill(index);
 }
 
-void Planner::hold(Node& node, const Candidate& candidate, int interval) const {
-  HeldChoice choice = chooseHeld(
-      earlier_.held, {node.pass.view, plan_.projection, candidate.visible, allSettings_, interval, candidate.order});
-  if (choice.image.earlier < 0) {
-    node.pass.view = choice.image.view;
-  }
-  node.moved = choice.moved;
-  node.held = std::move(choice.image);
-}
-
-// Environment maps, and what they and all passes call for: what earlier frames rendered shows the same effects.
+// Finds the environment maps, and the effects that they and all passes call for, of reused images too.
 void Planner::findEffects() {
   std::vector<const PlannedPass*> passes;
   collect(0, passes);
@@ -299,8 +293,9 @@ void Planner::findEffects() {
   plan_.effects = tracedEffects(scene_, state_, allSettings_, passes);
 }
 
-// Rays start on the surfaces that are drawn and meet the meshes themselves, which would shadow their simplified selves.
-// Without clipping, what is drawn may be nearer than the mirror.
+// Chooses mesh levels. There are none where rays are traced: rays start on what is drawn and meet the full meshes,
+// which would shadow their own levels. There are none without clipping either: what is drawn may then be nearer than
+// the mirror, which the level's error is measured from.
 void Planner::simplify() {
   if (settings_.meshError <= 0.0 || settings_.clip == ClipMethod::none || plan_.effects.traces()) {
     return;
@@ -319,25 +314,25 @@ ImageSurroundings Planner::surroundings() const {
   return around;
 }
 
-// Of the images that would be rendered, those that would be what they were are not.
-void Planner::keepUnchanged() {
+// Finds the images, of those that would be rendered, that would come out as they were.
+void Planner::reuseUnchanged() {
   const View& main = nodes_[0].pass.view;
-  keepMaps(plan_.maps, earlier_.maps, {scene_, state_, allSettings_, plan_.projection, plan_.effects, {}}, main);
+  reuseMaps(plan_.maps, cache_.maps, {scene_, state_, allSettings_, plan_.projection, plan_.effects, {}}, main);
   if (!settings_.skipUnchanged) {
     return;
   }
   const ImageSurroundings around = surroundings();
   for (const int child : nodes_[0].children) {
-    std::optional<HeldImage>& held = nodes_[child].held;
-    if (held && held->earlier < 0) {
+    std::optional<ImageChoice>& choice = nodes_[child].choice;
+    if (choice && choice->image.cacheIndex < 0) {
       std::vector<const PlannedPass*> passes;
       collect(child, passes);
-      keepIfUnchanged(*held, earlier_.held, around, main, passes);
+      reuseIfUnchanged(choice->image, cache_.images, around, main, passes);
     }
   }
 }
 
-// The pass of a node and those of all that is seen in it.
+// Adds the passes of all that is seen in a node, then its own.
 void Planner::collect(int node, std::vector<const PlannedPass*>& passes) const {
   for (const int child : nodes_[node].children) {
     collect(child, passes);
@@ -345,22 +340,24 @@ void Planner::collect(int node, std::vector<const PlannedPass*>& passes) const {
   passes.push_back(&nodes_[node].pass);
 }
 
-// Depth first, so that an image lives no longer than until its parent is drawn. Returns the pass's index, -1 for main.
+// Records depth first, so that an image lives no longer than until its parent is drawn. Returns the pass's index, -1
+// for the main view.
 int Planner::record(int node) {
   std::vector<int> childPasses;
   for (const int child : nodes_[node].children) {
-    MirrorDraw& draw = nodes_[node].pass.mirrors[static_cast<size_t>(nodes_[child].pass.parent)];
-    if (nodes_[child].held && nodes_[child].held->earlier >= 0) {
-      showHeld(draw, nodes_[child]);
-      leaveOut(child);
+    Node& seen = nodes_[child];
+    MirrorDraw& draw = nodes_[node].pass.mirrors[seen.draw];
+    if (seen.choice && seen.choice->image.cacheIndex >= 0) {
+      reuseImage(draw, seen);
+      recordReused(child);
       continue;
     }
-    std::optional<HeldImage> held = std::move(nodes_[child].held);
+    std::optional<ImageChoice> choice = std::move(seen.choice);
     draw.pass = record(child);
     childPasses.push_back(draw.pass);
-    if (held) {
-      held->pass = draw.pass;
-      plan_.held.push_back(std::move(*held));
+    if (choice) {
+      choice->image.pass = draw.pass;
+      plan_.cached.push_back(std::move(choice->image));
     }
   }
   const int index = node == 0 ? -1 : static_cast<int>(plan_.passes.size());
@@ -375,30 +372,31 @@ int Planner::record(int node) {
   return index;
 }
 
-void Planner::leaveOut(int node) {
+// Lists the passes that a reused image replaces.
+void Planner::recordReused(int node) {
   for (const int child : nodes_[node].children) {
-    leaveOut(child);
+    recordReused(child);
   }
-  plan_.shown.push_back(std::move(nodes_[node].pass));
+  plan_.reused.push_back(std::move(nodes_[node].pass));
 }
 
-void Planner::showHeld(MirrorDraw& draw, const Node& node) {
-  const HeldImage& image = *node.held;
+void Planner::reuseImage(MirrorDraw& draw, const Node& node) {
+  const auto& [image, moved] = *node.choice;
   const View& parent = nodes_[0].pass.view;
-  draw.held = node.moved ? heldLookup(image, parent, node.pass.view, plan_.projection) : HeldLookup{};
-  draw.held->image = static_cast<int>(plan_.held.size());
-  const int frames = image.kept + image.age - 1;
+  draw.cached = moved ? cachedLookup(image, parent, node.pass.view, plan_.projection) : CachedLookup{};
+  draw.cached->image = static_cast<int>(plan_.cached.size());
+  const int frames = image.unchangedFor + image.age - 1;
   skip(parent, image.mirror, SkipReason::unchanged,
        "image of " + (frames == 1 ? std::string("the last frame") : std::to_string(frames) + " frames ago") +
-           (node.moved ? ", reprojected" : ""));
-  plan_.held.push_back(image);
+           (moved ? ", reprojected" : ""));
+  plan_.cached.push_back(image);
 }
 
-// What is seen in a held image is not looked at.
-void Planner::forgetHeldSubtrees() {
+// Drops what was found out about mirrors that are seen in reused images only.
+void Planner::dropSkipsInReused() {
   std::erase_if(plan_.skipped, [&](const SkippedMirror& skipped) {
-    return skipped.depth > 0 && std::any_of(plan_.held.begin(), plan_.held.end(), [&](const HeldImage& image) {
-             return image.earlier >= 0 && image.mirror == skipped.path.front();
+    return skipped.depth > 0 && std::any_of(plan_.cached.begin(), plan_.cached.end(), [&](const CachedImage& image) {
+             return image.cacheIndex >= 0 && image.mirror == skipped.path.front();
            });
   });
 }
@@ -413,8 +411,8 @@ std::string_view skipReasonName(SkipReason reason) {
 }
 
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    const EarlierImages& earlier) {
-  return Planner(scene, state, settings, width, height, earlier).plan();
+                    const FrameCache& cache) {
+  return Planner(scene, state, settings, width, height, cache).plan();
 }
 
 }  // namespace speculum

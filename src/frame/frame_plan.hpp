@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "frame/held_image.hpp"
+#include "frame/cached_image.hpp"
 #include "frame/partial_instances.hpp"
 #include "frame/settings.hpp"
 #include "frame/traced_effects.hpp"
@@ -21,59 +21,59 @@ enum class SkipReason {
   minThroughput,  // lets less through than reflection.min_throughput
   maxDepth,       // reflection.max_depth
   maxPasses,      // reflection.max_passes was spent on better ones
-  unchanged,      // an image of an earlier frame serves
+  unchanged,      // its cached image is reused
 };
 std::string_view skipReasonName(SkipReason reason);
 
 // A mirror drawn in some view.
 struct MirrorDraw {
-  int mirror = 0;                   // index into Scene::mirrors
-  bool back = false;                // its painted back is seen
-  bool scatters = false;            // rippled or rough: rays are traced, an image of its plane would not show it
-  bool blurs = false;               // rough: the image of its plane is blurred
-  int pass = -1;                    // index into FramePlan::passes of its image; -1: it has none of this frame
-  std::optional<HeldLookup> held;   // of its image of an earlier frame; with neither it shows the background
-  std::vector<glm::dvec3> polygon;  // world, cut to what the view shows, counter-clockwise for the view's eye
-  Plane plane;                      // world; facing the view's eye
+  int mirror = 0;                      // index into Scene::mirrors
+  bool back = false;                   // its painted back is seen
+  bool scatters = false;               // rippled or rough: rays are traced, since an image of its plane lacks that
+  bool blurs = false;                  // rough: the image of its plane is blurred
+  int pass = -1;                       // index into FramePlan::passes of the pass that renders its image; -1: none
+  std::optional<CachedLookup> cached;  // set if it reuses a cached image; with neither it shows the background
+  std::vector<glm::dvec3> polygon;     // world, cut to what the view shows, counter-clockwise for the view's eye
+  Plane plane;                         // world; facing the view's eye
 };
 
 // One pass: a view and what is drawn in it.
 struct PlannedPass {
   View view;
   int parent = -1;             // index into FramePlan::passes; -1: the main view
-  int depth = -1;              // of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
-  double areaPx = 0.0;         // of the mirror's visible part, in screen pixels
-  double throughput = 1.0;     // upper bound over that part, largest channel, with this mirror's own reflectance
+  int depth = -1;              // depth level of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
+  double areaPx = 0.0;         // area of the mirror's visible region, in screen pixels
+  double throughput = 1.0;     // upper bound over that region, largest channel, with this mirror's own reflectance
   glm::dvec3 channels{1.0};    // the same for each channel
-  std::vector<int> instances;  // visible, indices into SceneState::instances, ascending
-  std::vector<PartialInstance> partial;        // those of them that are seen in part, ascending
-  std::vector<SimplifiedInstance> simplified;  // those of them that are drawn with fewer triangles, ascending
-  std::vector<int> lights;                     // whose glyphs are visible, indices into Scene::lights
+  std::vector<int> instances;  // visible ones, indices into SceneState::instances, ascending
+  std::vector<PartialInstance> partial;        // instances that are seen in part, ascending
+  std::vector<SimplifiedInstance> simplified;  // instances that are drawn with fewer triangles, ascending
+  std::vector<int> lights;                     // lights whose glyphs are visible, indices into Scene::lights
   std::vector<MirrorDraw> mirrors;             // in the order of Scene::mirrors
 };
 
-// What a curved mirror reflects with effects.curved_lookup = environment: six images about its centre, side by side in
-// one target, three to a row. docs/effects.md: Environment maps.
+// Six images about a curved mirror's centre, side by side in one target, three to a row: effects.curved_lookup =
+// environment. docs/effects.md: Environment maps.
 struct EnvironmentMap {
   int object = 0;    // index into Scene::objects
   int copy = 0;      // of the object
   int instance = 0;  // index into SceneState::instances
-  std::string name;  // of the object and copy, for people
+  std::string name;  // of the object and copy, for users
   int size = 0;      // texels of each side of a face
   Projection projection;
   std::vector<PlannedPass> faces;  // towards +x, -x, +y, -y, +z, -z; without the object, mirrors without an image
   glm::dvec3 center{0.0};          // world, of the object when they were rendered
   glm::dvec3 low{0.0};             // world, box of what surrounds it in the present frame
   glm::dvec3 high{0.0};
-  Settings settings;              // that they were rendered under
-  std::vector<uint64_t> content;  // as HeldImage::content
-  int serial = 0;                 // another one for each time that any map is rendered
-  int age = 1;                    // frames since its last turn, in the next frame
+  Settings settings;              // when they were rendered
+  std::vector<uint64_t> content;  // as CachedImage::content
+  int serial = 0;                 // changes each time that any map is rendered
+  int age = 1;                    // frames since it was rendered or last found unchanged, in the next frame
   int due = 1;                    // age at which it is rendered anew
-  int earlier = -1;               // index among the maps before this frame; -1: this frame renders it
+  int cacheIndex = -1;            // index into FrameCache::maps of the map that is reused; -1: this frame renders it
 };
 
-// What a pass that was recorded draws.
+// Kinds of recorded passes.
 enum class PassKind { mirror, environment, main, display, debugView };
 
 struct SkippedMirror {
@@ -84,15 +84,15 @@ struct SkippedMirror {
   std::string detail;
 };
 
-// The main view as an earlier frame drew it.
+// The main view that the frame before drew.
 struct MainImage {
   Settings settings;
   std::vector<uint64_t> content;  // FramePlan::mainContent
 };
 
-// What the frame before left that this one can be planned with.
-struct EarlierImages {
-  std::span<const HeldImage> held;
+// Images of the frame before that this frame may reuse.
+struct FrameCache {
+  std::span<const CachedImage> images;  // FramePlan::cached of that frame
   std::span<const EnvironmentMap> maps;
   const MainImage* main = nullptr;  // null: the main view is drawn in any case
 };
@@ -103,29 +103,27 @@ struct FramePlan {
   int height = 0;
   std::vector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
   PlannedPass main;
-  bool mainUnchanged = false;  // the frame before drew it: it is shown again
-  // imageContent() of the main view, where it shows images of the frame before only; else empty.
-  std::vector<uint64_t> mainContent;
+  bool mainReused = false;            // the frame before drew the same main view, which is shown again
+  std::vector<uint64_t> mainContent;  // imageContent() of the main view if it shows cached images only; else empty
   std::vector<SkippedMirror> skipped;
-  std::vector<HeldImage> held;  // after this frame; what the next one may be planned with
-  // That would be rendered if images of earlier frames did not serve, in no particular order: what they show is on the
-  // screen all the same, and calls for effects.
-  std::vector<PlannedPass> shown;
+  std::vector<CachedImage> cached;  // reused or rendered by this frame; the next one may reuse them
+  // Passes that cached images replace, in no particular order: what they show is on the screen and calls for effects.
+  std::vector<PlannedPass> reused;
   std::vector<EnvironmentMap> maps;  // of the curved mirrors that are drawn; `instance` ascending
   TracedEffects effects;             // that all of these passes call for
 };
 
-// Which passes a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. Recursion is
-// spent best first, by visible pixels times throughput.
+// Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
+// budget of passes goes to the best first, by visible pixels times throughput.
 //
-// With reflection.skip_unchanged, a mirror seen directly shows its image in `earlier.held` again if everything that it
-// depends on is exactly as it was. With reflection.update_interval above 1, it also does if the image is younger than
-// its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as if every
-// image were rendered, so that an image does not depend on which others are; the passes of held ones are then left out.
+// With reflection.skip_unchanged, a mirror seen directly reuses its image in `cache.images` if everything that the
+// image depends on is exactly as it was. With reflection.update_interval above 1, it also does so while the image is
+// younger than its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as
+// if every image were rendered, so that no image depends on which others are reused.
 //
-// `earlier.maps` serve like images, by reflection.skip_unchanged and effects.environment_interval. With the former and
-// without view.continuous, so does the main view if it too is exactly as it was.
+// `cache.maps` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With the former and
+// without view.continuous, so is the main view if it too is exactly as it was.
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    const EarlierImages& earlier = {});
+                    const FrameCache& cache = {});
 
 }  // namespace speculum

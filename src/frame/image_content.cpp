@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// A list of numbers. Bits are compared, not values: zero has two signs, and they may be drawn differently.
+// A list of numbers that is compared bit by bit: zero has two signs, which may be drawn differently.
 class Numbers {
  public:
   void add(double value) { numbers_.push_back(std::bit_cast<uint64_t>(value)); }
@@ -46,9 +46,9 @@ class Numbers {
     addAll(view.eye, view.worldToView, view.clip, view.cone, view.rect, view.pictureSize, view.path);
   }
   void add(const SimplifiedInstance& simplified) { addAll(simplified.instance, simplified.level); }
-  // An image that is held is its own content; without one the background is seen.
+  // A cached image is compared by itself; a mirror without an image shows the background.
   void add(const MirrorDraw& draw) {
-    addAll(draw.held.has_value(), draw.mirror, draw.back, draw.scatters, draw.blurs, draw.polygon, draw.plane);
+    addAll(draw.cached.has_value(), draw.mirror, draw.back, draw.scatters, draw.blurs, draw.polygon, draw.plane);
   }
 
   std::vector<uint64_t> take() { return std::move(numbers_); }
@@ -83,12 +83,12 @@ void addLights(const ImageSurroundings& around, Numbers& numbers) {
 
 void addEffects(const ImageSurroundings& around, const View& main, Numbers& numbers) {
   const TracedEffects& effects = around.effects;
-  numbers.addAll(effects.any(), effects.traces(), !effects.shadows.empty(), !effects.castsLight.empty(),
+  numbers.addAll(effects.any(), effects.traces(), effects.shadows.has_value(), effects.castsLight.has_value(),
                  static_cast<double>(effects.mirroredLights.size()));
   if (!effects.any()) {
     return;
   }
-  numbers.add(main.eye);  // trace space is relative to it
+  numbers.add(main.eye);  // origin of the space that rays are traced in
   for (const MirroredLight& mirrored : effects.mirroredLights) {
     numbers.addAll(mirrored.light, mirrored.mirror);
   }
@@ -98,7 +98,7 @@ void addEffects(const ImageSurroundings& around, const View& main, Numbers& numb
   numbers.add(waves ? around.state.time : 0.0);
 }
 
-// Of which the picture shows something, or all of them.
+// All indices below `count`, or none.
 std::set<int> indices(bool all, size_t count) {
   std::set<int> found;
   for (size_t i = 0; all && i < count; ++i) {

@@ -6,14 +6,14 @@ namespace speculum {
 
 namespace {
 
-bool serves(const HeldImage& image, const HeldRequest& request) {
+bool serves(const CachedImage& image, const ReuseRequest& request) {
   return sameMirrorImages(image.settings, request.settings) && image.view.pictureSize == request.view.pictureSize &&
          (unmoved(image, request.view, request.projection, request.visible) ||
           covers(image, request.view, request.visible));
 }
 
-// Pixels on each side that an image needs to serve until it is due, if things go on moving as they did since `image`.
-int marginFor(const HeldImage& image, const HeldRequest& request, int due) {
+// The margin, pixels on each side, with which a new image serves until it is due, if the motion since `image` goes on.
+int marginFor(const CachedImage& image, const ReuseRequest& request, int due) {
   constexpr double reserve = 1.25;  // motion is not quite even
   constexpr double least = 2.0;     // pixels
   if (image.view.pictureSize != request.view.pictureSize) {
@@ -28,18 +28,18 @@ int marginFor(const HeldImage& image, const HeldRequest& request, int due) {
   return static_cast<int>(std::min(most, reserve * perFrame * (due - 1) + least));
 }
 
-auto imageOf(std::span<const HeldImage> images, int mirror) {
-  return std::find_if(images.begin(), images.end(), [&](const HeldImage& image) { return image.mirror == mirror; });
+auto imageOf(std::span<const CachedImage> images, int mirror) {
+  return std::find_if(images.begin(), images.end(), [&](const CachedImage& image) { return image.mirror == mirror; });
 }
 
-// debug.* is no part of sameMirrorImages, but what is the same bit for bit was drawn the same way.
+// Includes debug.*, which sameMirrorImages leaves out: images that are the same bit for bit were drawn the same way.
 bool sameDrawing(const Settings& a, const Settings& b) {
   return sameMirrorImages(a, b) && a.debug == b.debug;
 }
 
-// Whether a map of the frame before serves; the map is then that one.
-bool keepMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const ImageSurroundings& around,
-             const View& main) {
+// Turns a map into that of the frame before if that serves, and says whether it does.
+bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const ImageSurroundings& around,
+              const View& main) {
   const int interval = around.settings.effects.environmentInterval;
   const bool skipUnchanged = around.settings.reflection.skipUnchanged;
   if (skipUnchanged) {
@@ -62,7 +62,7 @@ bool keepMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const Im
   if (!sameDrawing(before->settings, around.settings) || !(unchanged || young)) {
     return false;
   }
-  map.earlier = static_cast<int>(before - maps.begin());
+  map.cacheIndex = static_cast<int>(before - maps.begin());
   map.serial = before->serial;
   map.center = before->center;
   if (!unchanged) {
@@ -75,66 +75,67 @@ bool keepMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const Im
 
 }  // namespace
 
-HeldChoice chooseHeld(std::span<const HeldImage> images, const HeldRequest& request) {
+ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest& request) {
   const auto before = imageOf(images, request.view.path.back());
   const bool exists = before != images.end();
   const int left = exists ? std::min(before->due, request.interval) - before->age : 0;  // frames
   if (left > 0 && serves(*before, request)) {
-    HeldChoice kept{.image = *before};
-    ++kept.image.age;
-    kept.image.pass = -1;
-    kept.image.earlier = static_cast<int>(before - images.begin());
-    kept.moved = !unmoved(*before, request.view, request.projection, request.visible);
-    return kept;
+    ImageChoice cached{.image = *before};
+    ++cached.image.age;
+    cached.image.pass = -1;
+    cached.image.cacheIndex = static_cast<int>(before - images.begin());
+    cached.moved = !unmoved(*before, request.view, request.projection, request.visible);
+    return cached;
   }
-  // New images, such as all of the first frame, take turns from then on; what is rendered out of turn keeps its own.
+  // New images, such as all of the first frame, become due in turn; an image rendered out of turn keeps its own.
   const int due = left > 0 ? left : exists ? request.interval : request.interval - request.order % request.interval;
-  HeldChoice fresh{.image = {.mirror = request.view.path.back(),
-                             .view = request.view,
-                             .projection = request.projection,
-                             .visible = {request.visible.begin(), request.visible.end()},
-                             .settings = request.settings,
-                             .due = due}};
+  ImageChoice fresh{.image = {.mirror = request.view.path.back(),
+                              .view = request.view,
+                              .projection = request.projection,
+                              .visible = {request.visible.begin(), request.visible.end()},
+                              .settings = request.settings,
+                              .due = due}};
   if (const int pixels = exists ? marginFor(*before, request, due) : 0; pixels > 0) {
     widen(fresh.image.view, request.projection, pixels);
   }
   return fresh;
 }
 
-void keepIfUnchanged(HeldImage& image, std::span<const HeldImage> images, const ImageSurroundings& around,
-                     const View& main, std::span<const PlannedPass* const> passes) {
+void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, const ImageSurroundings& around,
+                      const View& main, std::span<const PlannedPass* const> passes) {
   image.content = imageContent(around, main, passes);
   const auto before = imageOf(images, image.mirror);
   if (before != images.end() && before->content == image.content && sameDrawing(before->settings, around.settings)) {
-    image.kept = before->kept + before->age;
-    image.earlier = static_cast<int>(before - images.begin());
+    image.unchangedFor = before->unchangedFor + before->age;
+    image.cacheIndex = static_cast<int>(before - images.begin());
   }
 }
 
-void keepMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
-              const ImageSurroundings& around, const View& main) {
+void reuseMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
+               const ImageSurroundings& around, const View& main) {
   int serial = 0;
   for (const EnvironmentMap& map : before) {
     serial = std::max(serial, map.serial);
   }
   for (EnvironmentMap& map : maps) {
-    if (!keepMap(map, before, around, main)) {
+    if (!reuseMap(map, before, around, main)) {
       map.serial = ++serial;
     }
   }
 }
 
-void keepMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around) {
-  const bool renders = !plan.passes.empty() || std::any_of(plan.maps.begin(), plan.maps.end(),
-                                                           [](const EnvironmentMap& map) { return map.earlier < 0; });
+void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around) {
+  const bool renders =
+      !plan.passes.empty() ||
+      std::any_of(plan.maps.begin(), plan.maps.end(), [](const EnvironmentMap& map) { return map.cacheIndex < 0; });
   const bool reprojects = std::any_of(plan.main.mirrors.begin(), plan.main.mirrors.end(),
-                                      [](const MirrorDraw& draw) { return draw.held && draw.held->moved; });
+                                      [](const MirrorDraw& draw) { return draw.cached && draw.cached->moved; });
   if (renders || reprojects) {
     return;
   }
   const PlannedPass* main = &plan.main;
   plan.mainContent = imageContent(around, plan.main.view, {&main, 1});
-  plan.mainUnchanged = before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
+  plan.mainReused = before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
 }
 
 }  // namespace speculum

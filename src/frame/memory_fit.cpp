@@ -20,18 +20,18 @@ uint64_t pixels(const PixelRect& rect) {
   return static_cast<uint64_t>(rect.area());
 }
 
-// Of images of earlier frames that are shown.
-uint64_t heldPixels(const FramePlan& plan) {
+// Pixels of the images that are reused.
+uint64_t cachedPixels(const FramePlan& plan) {
   uint64_t sum = 0;
-  for (const HeldImage& image : plan.held) {
-    sum += image.earlier >= 0 ? pixels(image.view.rect) : 0;
+  for (const CachedImage& image : plan.cached) {
+    sum += image.cacheIndex >= 0 ? pixels(image.view.rect) : 0;
   }
   return sum;
 }
 
 // Most pixels of mirror images that are alive together: each from its own range of passes to its parent's.
 uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
-  uint64_t alive = heldPixels(plan);
+  uint64_t alive = cachedPixels(plan);
   uint64_t peak = alive;
   for (const PassRange& range : ranges) {
     for (size_t i = range.first; i < range.end; ++i) {
@@ -108,7 +108,7 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height, EarlierImages earlier) {
+                      int width, int height, FrameCache cache) {
   FittedPlan fitted{{}, settings, {}};
   ReflectionSettings& reflection = fitted.settings.reflection;
   const double margins = reflection.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
@@ -119,7 +119,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " times the picture's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
-  fitted.plan = planFrame(scene, state, fitted.settings, width, height, earlier);
+  fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);
   if (!limits.tracesRays && fitted.plan.effects.any()) {
     EffectSettings& effects = fitted.settings.effects;
     effects.shadows = effects.roughness = effects.ripple = effects.castsLight = false;
@@ -128,11 +128,11 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
         (fitted.message.empty() ? "" : "; ") + std::string(
                                                    "effects.* that trace rays are left out: the device lacks "
                                                    "geometryShader, storage buffers, or room in them for the scene");
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, earlier);
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);
   }
   if (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && reflection.updateInterval == 1) {
-    earlier.held = {};
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, earlier);
+    cache.images = {};
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);
   }
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
@@ -140,7 +140,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes &&
          lower(fitted.settings, !fitted.plan.maps.empty(), what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, earlier);
+    fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);
   }
   if (!lowered.empty()) {
     fitted.message += (fitted.message.empty() ? "" : "; ") + ("targets of " + mebibytes(wanted)) +

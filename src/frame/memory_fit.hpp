@@ -8,8 +8,8 @@
 
 namespace speculum {
 
-// Device memory of a plan's render targets: the main view, environment maps, the mirror images of earlier frames that
-// it shows, and those alive at one time with their depth.
+// Device memory of a plan's render targets: the main view, environment maps, the cached images that it reuses, and the
+// most mirror images that are alive at one time, with their depth.
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 
 struct TargetLimits {
@@ -29,7 +29,7 @@ struct FittedPlan {
 // main view, resolution of mirror images and environment maps. A plan that still does not fit is returned as it is.
 // Traced effects are left out where the device cannot trace.
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height, EarlierImages earlier = {});
+                      int width, int height, FrameCache cache = {});
 
 // Device memory of the environment maps' targets and of the depth that they share.
 uint64_t environmentBytes(const FramePlan& plan);

@@ -106,7 +106,7 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
     }
   };
   std::for_each(plan.passes.begin(), plan.passes.end(), add);
-  std::for_each(plan.shown.begin(), plan.shown.end(), add);
+  std::for_each(plan.reused.begin(), plan.reused.end(), add);
   return {meshes.begin(), meshes.end()};
 }
 

@@ -22,14 +22,14 @@ bool asksForRays(const Scene& scene) {
                      [](const Mirror& m) { return m.roughness > 0.0 || m.ripple || m.castsLight; });
 }
 
-// Surfaces in the passes that light falls on.
+// What light falls on among all that the passes draw.
 struct Lit {
   std::vector<bool> instances;  // by index into SceneState::instances
-  bool any = false;             // any instance at all
-  bool mirrors = false;         // a layer under a reflection, or a back
+  bool anyInstance = false;
+  bool mirrors = false;  // a layer under a reflection, or a back
 };
 
-// Collects, pass by pass, what calls for effects and what is lit.
+// Collects the effects that passes call for, and what is lit in them.
 class Collector {
  public:
   Collector(const Scene& scene, const SceneState& state, const EffectSettings& settings)
@@ -40,9 +40,9 @@ class Collector {
   void add(const PlannedPass& pass) {
     for (const int i : pass.instances) {
       lit_.instances[static_cast<size_t>(i)] = true;
-      lit_.any = true;
+      lit_.anyInstance = true;
       const int object = state_.instances[i].object;
-      if (settings_.curved && scene_.objects[object].mirror && effects_.curved.empty()) {
+      if (settings_.curved && scene_.objects[object].mirror && !effects_.curved) {
         effects_.curvedRays = settings_.curvedLookup == CurvedLookup::traced;
         effects_.curved = nameOf("object", scene_.objects[object].name, object);
       }
@@ -65,17 +65,17 @@ class Collector {
     const std::string name = nameOf("mirror", mirror.name, draw.mirror);
     const bool rough = settings_.roughness && mirror.roughness > 0.0 && (draw.scatters || draw.blurs);
     effects_.roughRays = effects_.roughRays || (rough && draw.scatters);
-    if (rough && effects_.roughness.empty()) {
+    if (rough && !effects_.roughness) {
       effects_.roughness = name;
     }
-    if (draw.scatters && settings_.ripple && mirror.ripple && effects_.ripple.empty()) {
+    if (draw.scatters && settings_.ripple && mirror.ripple && !effects_.ripple) {
       effects_.ripple = name;
     }
   }
 
   // Reflected rays may meet anything in the scene.
-  bool reflectsRays() const { return effects_.roughRays || effects_.curvedRays || !effects_.ripple.empty(); }
-  bool anythingLit() const { return lit_.mirrors || lit_.any || reflectsRays(); }
+  bool reflectsRays() const { return effects_.roughRays || effects_.curvedRays || effects_.ripple; }
+  bool anythingLit() const { return lit_.mirrors || lit_.anyInstance || reflectsRays(); }
 
   void addShadows() {
     for (size_t i = 0; settings_.shadows && anythingLit() && i < scene_.lights.size(); ++i) {
@@ -115,7 +115,7 @@ class Collector {
 
   bool twoSided(const MirroredLight& path) const { return scene_.mirrors[path.mirror].twoSided; }
 
-  // The light's image shines through the mirror's polygon as through a window: only what its cone meets is lit.
+  // The light's image shines through the mirror's polygon as through a window: only objects that meet its cone are lit.
   bool reachesSomething(const MirroredLight& path) const {
     if (lit_.mirrors || reflectsRays()) {
       return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,23 +18,23 @@ struct MirroredLight {
   int mirror = 0;  // index into Scene::mirrors
 };
 
-// The effects that images of planes cannot show, each with what calls for it; empty if nothing that is drawn does.
+// The effects that images of planes cannot show. Each names the first node that calls for it, if anything drawn does.
 struct TracedEffects {
-  std::string shadows;
-  std::string roughness;
+  std::optional<std::string> shadows;
+  std::optional<std::string> roughness;
   bool roughRays = false;  // roughness is traced, not looked up in images
-  std::string ripple;
-  std::string castsLight;
-  std::string curved;
+  std::optional<std::string> ripple;
+  std::optional<std::string> castsLight;
+  std::optional<std::string> curved;
   bool curvedRays = false;  // curved mirrors are traced, not looked up in environment maps
   std::vector<MirroredLight> mirroredLights;
 
-  // Whether any ray is traced through the scene's triangles.
-  bool traces() const { return roughRays || curvedRays || !(shadows.empty() && ripple.empty()); }
-  bool any() const { return traces() || !castsLight.empty(); }
+  // Says whether any ray is traced through the scene's triangles.
+  bool traces() const { return roughRays || curvedRays || shadows || ripple; }
+  bool any() const { return traces() || castsLight; }
 };
 
-// What these passes call for, under settings.effects; the first of them that does is named. Pure.
+// Finds the effects that these passes call for, under settings.effects. Pure.
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
                             std::span<const PlannedPass* const> passes);
 

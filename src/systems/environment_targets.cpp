@@ -7,7 +7,7 @@ namespace speculum {
 EnvironmentTargets::EnvironmentTargets(Device& device) : device_(device) {}
 
 void EnvironmentTargets::restart() {
-  held_.clear();
+  cached_.clear();
   targets_.clear();
   restart_ = true;
 }
@@ -24,8 +24,8 @@ void EnvironmentTargets::release(RetireQueue& retired) {
 void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
   std::vector<OffScreen*> targets(plan.maps.size(), nullptr);
   for (size_t i = 0; i < plan.maps.size(); ++i) {
-    if (plan.maps[i].earlier >= 0) {
-      targets[i] = std::exchange(targets_[static_cast<size_t>(plan.maps[i].earlier)], nullptr);
+    if (plan.maps[i].cacheIndex >= 0) {
+      targets[i] = std::exchange(targets_[static_cast<size_t>(plan.maps[i].cacheIndex)], nullptr);
     }
   }
   for (const OffScreen* unused : targets_) {
@@ -51,7 +51,7 @@ void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
 }
 
 void EnvironmentTargets::endFrame(const FramePlan& plan, RetireQueue& retired) {
-  held_ = plan.maps;
+  cached_ = plan.maps;
   if (pool_) {
     pool_->endFrame(retired);
     if (pool_->empty()) {

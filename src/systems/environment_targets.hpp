@@ -10,8 +10,8 @@ class EnvironmentTargets {
  public:
   explicit EnvironmentTargets(Device& device);
 
-  // The maps that the next frame can be planned with; see SceneRenderer::heldImages.
-  std::span<const EnvironmentMap> held() const { return held_; }
+  // The maps that the next frame can be planned with; see SceneRenderer::cache.
+  std::span<const EnvironmentMap> cached() const { return cached_; }
   void restart();  // forgets them
 
   // Takes the targets of the plan's maps, at the start of its frame; those of other maps become free.
@@ -26,8 +26,8 @@ class EnvironmentTargets {
   Device& device_;
   std::unique_ptr<SharedDepth> depth_;
   std::unique_ptr<ImagePool> pool_;
-  std::vector<OffScreen*> targets_;  // of held_ between frames, of the plan's maps in one
-  std::vector<EnvironmentMap> held_;
+  std::vector<OffScreen*> targets_;  // of cached_ between frames, of the plan's maps in one
+  std::vector<EnvironmentMap> cached_;
   bool restart_ = false;
 };
 

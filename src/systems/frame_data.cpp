@@ -87,7 +87,7 @@ Lookup lookupFor(const glm::dvec2& ratio) {
 
 // The view that the image was rendered with, or null.
 const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
-  return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.held ? &plan.held[draw.held->image].view : nullptr;
+  return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.cached ? &plan.cached[draw.cached->image].view : nullptr;
 }
 
 gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const EffectSettings& effects,
@@ -105,9 +105,9 @@ gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const E
     data.lookupOffset = glm::vec2(glm::dvec2(view.rect.x, view.rect.y) * ratio - glm::dvec2(rect.x, rect.y));
     data.imageSize = {rect.width, rect.height};
   }
-  if (draw.held && draw.held->moved) {
+  if (draw.cached && draw.cached->moved) {
     for (int r = 0; r < 3; ++r) {
-      data.texelFromPixel[r] = row(draw.held->texelFromPixel, r, draw.held->texelFromDisparity[r]);
+      data.texelFromPixel[r] = row(draw.cached->texelFromPixel, r, draw.cached->texelFromDisparity[r]);
     }
   }
   if (draw.blurs) {
@@ -160,7 +160,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   }
   addPass(source, plan.main, plan.projection, {0, 0});
   for (const EnvironmentMap& map : plan.maps) {
-    for (size_t face = 0; map.earlier < 0 && face < map.faces.size(); ++face) {
+    for (size_t face = 0; map.cacheIndex < 0 && face < map.faces.size(); ++face) {
       addPass(source, map.faces[face], map.projection, faceCorner(map, face));
     }
   }
@@ -334,8 +334,8 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
     MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
                       .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
                       .pass = draw.pass,
-                      .held = draw.held ? draw.held->image : -1,
-                      .reprojected = draw.held && draw.held->moved,
+                      .cached = draw.cached ? draw.cached->image : -1,
+                      .reprojected = draw.cached && draw.cached->moved,
                       .blurs = draw.blurs,
                       .scatters = draw.scatters,
                       .rippled = draw.scatters && effects.ripple && mirror.ripple,

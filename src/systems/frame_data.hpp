@@ -40,8 +40,8 @@ struct MirrorRange {
   uint32_t mirror = 0;  // index into the mirror buffer
   uint32_t firstVertex = 0;
   uint32_t vertexCount = 0;
-  int pass = -1;  // of its image; -1: none of this frame
-  int held = -1;  // index into FramePlan::held of its image of an earlier frame; -1: none
+  int pass = -1;    // of its image; -1: none of this frame
+  int cached = -1;  // index into FramePlan::cached; -1: none
   bool reprojected = false;
   MirrorShows shows = MirrorShows::background;
   Lookup lookup = Lookup::fetch;  // of its image

@@ -19,9 +19,9 @@ struct FrameInfo {
   const SceneResources& resources;
   const FrameData& data;
   const TraceFrame& trace;
-  EffectLedger& ledger;                   // systems enter their draws
-  std::span<const MirrorImage> images;    // of plan.passes, by index; valid while their parent is recorded
-  std::span<const MirrorImage> held;      // of plan.held, by index; set where the image is of an earlier frame
+  EffectLedger& ledger;                 // systems enter their draws
+  std::span<const MirrorImage> images;  // of plan.passes, by index; valid while their parent is recorded
+  std::span<const MirrorImage> cached;  // parallel to FramePlan::cached; set where an earlier frame rendered the image
   std::span<const VkDescriptorSet> maps;  // of plan.maps, by index; in the place of an object's texture
 };
 

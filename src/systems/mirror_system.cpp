@@ -5,7 +5,7 @@ namespace speculum {
 namespace {
 
 const MirrorImage* imageOf(const MirrorRange& mirror, const FrameInfo& info) {
-  return mirror.pass >= 0 ? &info.images[mirror.pass] : mirror.held >= 0 ? &info.held[mirror.held] : nullptr;
+  return mirror.pass >= 0 ? &info.images[mirror.pass] : mirror.cached >= 0 ? &info.cached[mirror.cached] : nullptr;
 }
 
 }  // namespace

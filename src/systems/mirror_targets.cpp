@@ -20,35 +20,35 @@ uint64_t area(VkExtent2D extent) {
 MirrorTargets::MirrorTargets(Device& device) : device_(device) {}
 
 void MirrorTargets::restart() {
-  heldPlans_.clear();
-  heldTargets_.clear();
+  cachedImages_.clear();
+  cachedTargets_.clear();
   restart_ = true;
 }
 
 // Gives back what the plan shows no more: its targets serve passes of this frame. Nothing to wait for, barriers order
 // frames as they do passes.
-void MirrorTargets::takeHeld(const FramePlan& plan) {
-  std::vector<OffScreen*> targets(plan.held.size(), nullptr);
-  heldImages_.assign(plan.held.size(), {});
-  for (size_t i = 0; i < plan.held.size(); ++i) {
-    if (plan.held[i].earlier >= 0) {
-      targets[i] = std::exchange(heldTargets_[static_cast<size_t>(plan.held[i].earlier)], nullptr);
-      heldImages_[i] = {targets[i]->descriptor(), targets[i]->samples()};
+void MirrorTargets::takeCached(const FramePlan& plan) {
+  std::vector<OffScreen*> targets(plan.cached.size(), nullptr);
+  cachedDescriptors_.assign(plan.cached.size(), {});
+  for (size_t i = 0; i < plan.cached.size(); ++i) {
+    if (plan.cached[i].cacheIndex >= 0) {
+      targets[i] = std::exchange(cachedTargets_[static_cast<size_t>(plan.cached[i].cacheIndex)], nullptr);
+      cachedDescriptors_[i] = {targets[i]->descriptor(), targets[i]->samples()};
     }
   }
-  for (const OffScreen* unused : heldTargets_) {
+  for (const OffScreen* unused : cachedTargets_) {
     if (unused) {
       pool_->release(*unused);
     }
   }
-  heldTargets_ = std::move(targets);
+  cachedTargets_ = std::move(targets);
 }
 
 void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> kept,
                           RetireQueue& retired) {
   kept_ = kept;
-  takeHeld(plan);
-  const bool needless = plan.passes.empty() && plan.held.empty();
+  takeCached(plan);
+  const bool needless = plan.passes.empty() && plan.cached.empty();
   if (pool_ && (restart_ || depths_.front().image->samples() != samples || needless)) {
     pool_->clear(retired);
     pool_.reset();
@@ -89,8 +89,8 @@ std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const Pas
 
 // For the debug view until the frame ends, for the next frames.
 bool MirrorTargets::isKept(const FramePlan& plan, int pass) const {
-  return pass == kept_ ||
-         std::any_of(plan.held.begin(), plan.held.end(), [&](const HeldImage& image) { return image.pass == pass; });
+  return pass == kept_ || std::any_of(plan.cached.begin(), plan.cached.end(),
+                                      [&](const CachedImage& image) { return image.pass == pass; });
 }
 
 void MirrorTargets::releaseShown(const FramePlan& plan, const PlannedPass& pass) {
@@ -109,15 +109,15 @@ void MirrorTargets::dropDepth(size_t from, RetireQueue& retired) {
 }
 
 void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
-  for (size_t i = 0; i < plan.held.size(); ++i) {
-    if (plan.held[i].pass >= 0) {
-      heldTargets_[i] = targets_[static_cast<size_t>(plan.held[i].pass)];
+  for (size_t i = 0; i < plan.cached.size(); ++i) {
+    if (plan.cached[i].pass >= 0) {
+      cachedTargets_[i] = targets_[static_cast<size_t>(plan.cached[i].pass)];
     }
   }
-  if (kept_ && std::find(heldTargets_.begin(), heldTargets_.end(), targets_[*kept_]) == heldTargets_.end()) {
+  if (kept_ && std::find(cachedTargets_.begin(), cachedTargets_.end(), targets_[*kept_]) == cachedTargets_.end()) {
     pool_->release(*targets_[*kept_]);
   }
-  heldPlans_ = plan.held;
+  cachedImages_ = plan.cached;
   if (!pool_) {
     return;
   }

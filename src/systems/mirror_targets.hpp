@@ -8,14 +8,14 @@
 
 namespace speculum {
 
-// The targets of mirror passes: of those of a frame while their images are needed, and of the images that are held for
-// the next one. Nothing exists while no frame has a mirror image.
+// The targets of mirror passes: a frame's while their images are needed, and those of cached images until the next
+// frame. Nothing exists while no frame has a mirror image.
 class MirrorTargets {
  public:
   explicit MirrorTargets(Device& device);
 
   // The images that the next frame can be planned with.
-  const std::vector<HeldImage>& heldPlans() const { return heldPlans_; }
+  const std::vector<CachedImage>& cachedImages() const { return cachedImages_; }
   void restart();  // forgets them and, in the next frame, every target
 
   // At the start of the plan's frame: takes over the images that it shows again. `kept` is a pass whose image is not
@@ -29,9 +29,8 @@ class MirrorTargets {
 
   OffScreen& operator[](size_t pass) { return *targets_[pass]; }
   std::span<const MirrorImage> images() const { return images_; }  // of plan.passes, by index; set once acquired
-  std::span<const MirrorImage> held() const {
-    return heldImages_;
-  }  // of plan.held, by index, where of an earlier frame
+  // Parallel to FramePlan::cached; set where an earlier frame rendered the image.
+  std::span<const MirrorImage> cached() const { return cachedDescriptors_; }
 
  private:
   // Depth that the passes of one place in their ranges use in turn.
@@ -41,7 +40,7 @@ class MirrorTargets {
     VkExtent2D needed{0, 0};  // since it was last made to fit
     int frames = 0;           // since then
   };
-  void takeHeld(const FramePlan& plan);
+  void takeCached(const FramePlan& plan);
   bool isKept(const FramePlan& plan, int pass) const;
   SharedDepth& depth(size_t place, VkExtent2D needed);
   void fitDepth(RetireQueue& retired);
@@ -52,9 +51,9 @@ class MirrorTargets {
   std::unique_ptr<ImagePool> pool_;
   std::vector<OffScreen*> targets_;
   std::vector<MirrorImage> images_;
-  std::vector<HeldImage> heldPlans_;
-  std::vector<OffScreen*> heldTargets_;  // of heldPlans_ between frames, of the plan's in one
-  std::vector<MirrorImage> heldImages_;
+  std::vector<CachedImage> cachedImages_;
+  std::vector<OffScreen*> cachedTargets_;  // of cachedImages_ between frames, of the plan's in one
+  std::vector<MirrorImage> cachedDescriptors_;
   std::optional<int> kept_;
   bool restart_ = false;
 };

@@ -87,7 +87,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   const Environment environment = effectiveEnvironment(scene_, settings);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
-  if (!plan.mainUnchanged) {
+  if (!plan.mainReused) {
     ledger_ = {};
   }
   recorded_.clear();
@@ -101,7 +101,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                        trace_,
                        ledger_,
                        mirrorTargets_.images(),
-                       mirrorTargets_.held(),
+                       mirrorTargets_.cached(),
                        mapSets_};
   recordPasses(frame, info);
   recorded_.push_back(display_.record(frame, {.descriptor = main_->descriptor()}, settings));
@@ -122,7 +122,7 @@ void SceneRenderer::recordPasses(Frame& frame, const FrameInfo& info) {
   }
   size_t facePass = plan.passes.size() + 1;
   for (size_t i = 0; i < plan.maps.size(); ++i) {
-    if (plan.maps[i].earlier < 0) {
+    if (plan.maps[i].cacheIndex < 0) {
       recordMap(frame, info, i, facePass);
       facePass += plan.maps[i].faces.size();
     }
@@ -130,7 +130,7 @@ void SceneRenderer::recordPasses(Frame& frame, const FrameInfo& info) {
   for (const PassRange& range : independentPasses(plan)) {
     recordMirrorPasses(frame, info, range);
   }
-  if (!plan.mainUnchanged) {
+  if (!plan.mainReused) {
     recordMainPass(frame, info);
   }
   if (info.settings.debug.checkFinite) {
@@ -140,18 +140,18 @@ void SceneRenderer::recordPasses(Frame& frame, const FrameInfo& info) {
 
 // Gives back what no frame needed for a while.
 void SceneRenderer::endRecord(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
-  const bool imagesShown = !plan.shown.empty() || plan.mainUnchanged;
-  renderSystem_.endFrame(trace_.variant(), imagesShown, !plan.effects.curved.empty());
+  const bool imagesShown = !plan.reused.empty() || plan.mainReused;
+  renderSystem_.endFrame(trace_.variant(), imagesShown, plan.effects.curved.has_value());
   mirrorSystem_.endFrame(trace_.variant(), imagesShown);
   pointLightSystem_.endFrame(
-      (plan.mainUnchanged && !plan.main.lights.empty()) ||
-      std::any_of(plan.shown.begin(), plan.shown.end(), [](const auto& p) { return !p.lights.empty(); }));
-  if (!plan.mainUnchanged) {
+      (plan.mainReused && !plan.main.lights.empty()) ||
+      std::any_of(plan.reused.begin(), plan.reused.end(), [](const auto& p) { return !p.lights.empty(); }));
+  if (!plan.mainReused) {
     finishLedger(settings, plan);
   }
   mainImage_ = {settings, plan.mainContent};
   mirrorTargets_.end(plan, retired);
-  heldRevision_ = renderer_.pipelines().revision();
+  cacheRevision_ = renderer_.pipelines().revision();
   environmentTargets_.endFrame(plan, retired);
 }
 
@@ -188,7 +188,7 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
        {std::pair(EffectKind::shadows, &effects.shadows), std::pair(EffectKind::roughness, &effects.roughness),
         std::pair(EffectKind::ripple, &effects.ripple), std::pair(EffectKind::castsLight, &effects.castsLight),
         std::pair(EffectKind::curved, &effects.curved)}) {
-    const bool traces = !caller->empty() && (kind != EffectKind::roughness || effects.roughRays) &&
+    const bool traces = *caller && (kind != EffectKind::roughness || effects.roughRays) &&
                         (kind != EffectKind::curved || effects.curvedRays);
     ledger_[kind].bytes = traces ? trace_.bytes() : 0;
   }
@@ -199,12 +199,12 @@ void SceneRenderer::finishLedger(const Settings& settings, const FramePlan& plan
   mirrorSystem_.countPipelines(ledger_);
 }
 
-EarlierImages SceneRenderer::earlier() const {
-  if (heldRevision_ != renderer_.pipelines().revision()) {
+FrameCache SceneRenderer::cache() const {
+  if (cacheRevision_ != renderer_.pipelines().revision()) {
     return {};
   }
-  return {.held = mirrorTargets_.heldPlans(),
-          .maps = environmentTargets_.held(),
+  return {.images = mirrorTargets_.cachedImages(),
+          .maps = environmentTargets_.cached(),
           .main = mainImage_.content.empty() ? nullptr : &mainImage_};
 }
 

@@ -29,14 +29,14 @@ class SceneRenderer {
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
   // The images that this frame can be planned with: of the plan recorded last; none if a shader is new since then.
-  EarlierImages earlier() const;
+  FrameCache cache() const;
   // Forgets them and every target of mirror images, so that what is drawn from now on does not depend on what was.
   void restart();
 
   // What of record() takes memory for the scene's textures and materials, before anything is recorded: after an
   // OutOfMemoryError the frame can be planned again without effects.textures.
   void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
-  // Records everything up to and with the display pass. `plan` was made with earlier().
+  // Records everything up to and with the display pass. `plan` was made with cache().
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt);
 
@@ -89,8 +89,8 @@ class SceneRenderer {
   TexelProbe probe_;
   std::unique_ptr<OffScreen> main_;
   MirrorTargets mirrorTargets_;
-  uint64_t heldRevision_ = 0;  // of the pipelines that rendered the images held
-  MainImage mainImage_;        // its content is empty if it is not to be shown again
+  uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
+  MainImage mainImage_;         // its content is empty if it is not to be shown again
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
   std::vector<RecordedPass> recorded_;

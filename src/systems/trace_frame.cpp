@@ -120,9 +120,9 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
     create();
   }
   prepareScene(frame, effects.traces());
-  variant_ = {.traced = !effects.shadows.empty() || !effects.castsLight.empty(),
-              .shadows = !effects.shadows.empty(),
-              .castsLight = !effects.castsLight.empty(),
+  variant_ = {.traced = effects.shadows || effects.castsLight,
+              .shadows = effects.shadows.has_value(),
+              .castsLight = effects.castsLight.has_value(),
               .perSample = settings.effects.perSample && effects.traces()};
   addMirrors(state, settings);
   addInstances(state, settings, effects.traces());

@@ -82,14 +82,14 @@ void useScene(Scene scene, Settings settings) {
             "copies are at finite places");
   }
   shorten(scene, settings);
-  std::vector<HeldImage> held;
+  std::vector<CachedImage> cached;
   for (const double time : {0.0, 1.0 / 60.0, 3600.0, 1e6, -1e6, -0.25}) {
     const SceneState state = evaluate(scene, time);
     checkTransforms(state);
     checkMirrors(state);
-    const FramePlan plan = planFrame(scene, state, settings, kWidth, kHeight, {.held = held});
+    const FramePlan plan = planFrame(scene, state, settings, kWidth, kHeight, {.images = cached});
     checkPlan(plan, settings, scene.mirrors.size());
-    held = plan.held;
+    cached = plan.cached;
   }
 }
 

@@ -55,7 +55,7 @@ reflectance = [0.9, 0.9, 0.9]
 
 // A mirror with a layer of its own, a mirror in it, and one that turns.
 std::filesystem::path roomScene() {
-  return writeScene("held_room", R"(
+  return writeScene("cached_room", R"(
 [environment]
 background = [0.3, 0.4, 0.5]
 ambient = [0.2, 0.2, 0.2]
@@ -92,7 +92,7 @@ two_sided = true
 )");
 }
 
-Options held(const std::filesystem::path& scene, int interval, PictureSize pictureSize = size) {
+Options withInterval(const std::filesystem::path& scene, int interval, PictureSize pictureSize = size) {
   Options options = headless(scene, pictureSize);
   set(options, {{"reflection.update_interval", std::to_string(interval)}, {"reflection.skip_unchanged", "false"}});
   return options;
@@ -129,9 +129,9 @@ int mirrorPasses(Session& session) {
 
 class StillScene : public testing::TestWithParam<std::tuple<std::string, int, std::string>> {};
 
-TEST_P(StillScene, IsTheSameByteForByteWithAnyInterval) {
+TEST_P(StillScene, IntervalChangesNoByte) {
   const auto& [name, interval, scale] = GetParam();
-  Options options = held(sourceFile("scenes/" + name + ".toml"), 1, {160, 90});
+  Options options = withInterval(sourceFile("scenes/" + name + ".toml"), 1, {160, 90});
   options.settings.emplace_back("reflection.scale", scale);
   const Image8 expected = draw(options, 1.0);
   set(options, {{"reflection.update_interval", std::to_string(interval)}});
@@ -175,7 +175,7 @@ class MovingCamera : public testing::TestWithParam<Lookup> {
 // Measured with lavapipe: 0.25 of the stale picture's error (own sample, layers), 0.27 (average, double), 0.33
 // (single), 0.40 (half), over all frames. Right after a fresh image it is more, because then little has moved, and
 // filtering the image once more costs as much as ever.
-TEST_P(MovingCamera, ReprojectedImagesAreMuchCloserToFreshOnesThanStaleOnes) {
+TEST_P(MovingCamera, ReprojectionIsCloserThanStaleImages) {
   Options options = headless(wallScene(std::string("moving_") + GetParam().name, GetParam().mirror), size);
   set(options, settings(4));
   Session session(options);
@@ -212,12 +212,12 @@ INSTANTIATE_TEST_SUITE_P(Lookups, MovingCamera,
                                          Lookup{"layers", "4", "4", "1", "base_color = [0.2, 0.1, 0.1]"}),
                          [](const auto& info) { return info.param.name; });
 
-TEST(HeldPictures, ACutShowsNothingOld) {
-  Session session(held(roomScene(), 8));
+TEST(CachedPictures, CutsShowNothingOld) {
+  Session session(withInterval(roomScene(), 8));
   for (int frame = 0; frame < 3; ++frame) {
     session.draw(frame * frameSeconds, false);
   }
-  EXPECT_EQ(picture(session, 20.0).rgba, draw(held(roomScene(), 1), 20.0).rgba);
+  EXPECT_EQ(picture(session, 20.0).rgba, draw(withInterval(roomScene(), 1), 20.0).rgba);
   expectQuiet(session);
 }
 
@@ -228,9 +228,9 @@ int directPasses(Session& session) {
 }
 
 // What is seen within them may differ by what margins show of it.
-TEST(HeldPictures, TwelveFramesHaveAQuarterOfThePassesAndTheFirst) {
+TEST(CachedPictures, IntervalFourRendersAQuarterEachFrame) {
   for (const double step : {0.0, 0.002}) {
-    Session session(held(sourceFile("scenes/many_mirrors.toml"), 4, {160, 90}));
+    Session session(withInterval(sourceFile("scenes/many_mirrors.toml"), 4, {160, 90}));
     session.draw(0.0, false);
     const int all = directPasses(session);
     ASSERT_GE(all, 12);
@@ -263,9 +263,9 @@ void expectSame(const std::vector<Image8>& a, const std::vector<Image8>& b) {
   }
 }
 
-TEST(HeldPictures, ARestartedSequenceIsTheSameByteForByte) {
+TEST(CachedPictures, RestartedSequencesHaveTheSameBytes) {
   for (const char* scale : {"1", "0.5"}) {
-    Options options = held(roomScene(), 3);
+    Options options = withInterval(roomScene(), 3);
     options.settings.emplace_back("reflection.scale", scale);
     Session session(options);
     const Settings settings = session.settings();
@@ -285,8 +285,8 @@ TEST(HeldPictures, ARestartedSequenceIsTheSameByteForByte) {
   }
 }
 
-TEST(HeldPictures, BothRenderPathsDrawTheSameBytes) {
-  Options options = held(roomScene(), 3);
+TEST(CachedPictures, BothRenderPathsDrawTheSameBytes) {
+  Options options = withInterval(roomScene(), 3);
   Session dynamic(options);
   options.renderPath = RenderPath::renderPass;
   Session passes(options);
@@ -296,8 +296,8 @@ TEST(HeldPictures, BothRenderPathsDrawTheSameBytes) {
   expectQuiet(passes);
 }
 
-TEST(HeldPictures, ChangedSettingsShowAtOnce) {
-  Session session(held(roomScene(), 50));
+TEST(CachedPictures, ChangedSettingsShowAtOnce) {
+  Session session(withInterval(roomScene(), 50));
   for (int frame = 0; frame < 3; ++frame) {
     session.draw(0.0, false);
   }
@@ -306,7 +306,7 @@ TEST(HeldPictures, ChangedSettingsShowAtOnce) {
     ASSERT_FALSE(setSetting(settings, key, value));
     session.setSettings(settings);
     const Image8 drawn = picture(session, 0.0);
-    Session other(held(roomScene(), 1));
+    Session other(withInterval(roomScene(), 1));
     settings.reflection.updateInterval = 1;
     other.setSettings(settings);
     EXPECT_EQ(drawn.rgba, picture(other, 0.0).rgba) << key;
@@ -325,9 +325,9 @@ TEST(HeldPictures, ChangedSettingsShowAtOnce) {
   expectQuiet(session);
 }
 
-TEST(HeldPictures, TimeMayPauseAndRunBackwards) {
-  Session session(held(roomScene(), 4));
-  Session fresh(held(roomScene(), 1));
+TEST(CachedPictures, TimeMayPauseAndRunBackwards) {
+  Session session(withInterval(roomScene(), 4));
+  Session fresh(withInterval(roomScene(), 1));
   for (const int frame : {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -1, 0, 1}) {
     const LinearImage drawn = radiance(session, frame * frameSeconds);
     EXPECT_LT(rmse(drawn, radiance(fresh, frame * frameSeconds)), 0.02) << "at frame " << frame;
@@ -336,8 +336,8 @@ TEST(HeldPictures, TimeMayPauseAndRunBackwards) {
   expectQuiet(fresh);
 }
 
-TEST(HeldPictures, StatsNameHeldMirrorsAndMergeThePassesThatRan) {
-  Session session(held(roomScene(), 4));
+TEST(CachedPictures, StatsListReusedMirrorsAndMergePasses) {
+  Session session(withInterval(roomScene(), 4));
   std::vector<nlohmann::ordered_json> frames;
   size_t ran = 0;
   for (int frame = 0; frame < 8; ++frame) {

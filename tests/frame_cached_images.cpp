@@ -1,4 +1,4 @@
-// What is held, and when it is rendered anew: the planner alone, frame after frame.
+// reflection.update_interval: when mirror images are rendered anew, by the planner alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,54 +15,20 @@
 namespace speculum {
 namespace {
 
-using testing_support::wall;
-
-constexpr int width = 640;
-constexpr int height = 360;
+using namespace testing_support;
 
 // Six mirrors in a row before the camera, which stands at the origin and looks along -z.
 Scene row() {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
+  Scene scene = sceneWith({});
   for (int i = 0; i < 6; ++i) {
     scene.mirrors.push_back(wall({i - 2.5, 0, -5}, 0, {0.8, 1.5}));
   }
   return scene;
 }
 
-// Two walls that face each other, the camera between them.
-Scene corridor() {
-  Scene scene;
-  scene.camera.position = {0.3, 0.2, 0};
-  scene.camera.target = {0.3, 0.2, -1};
-  scene.mirrors = {wall({0, 0, -5}, 0, {4, 4}), wall({0, 0, 5}, 180, {4, 4})};
-  return scene;
-}
-
-// Plans frame after frame, each with what the one before held.
-class Sequence {
- public:
-  explicit Sequence(Scene scene, int interval) : scene(std::move(scene)) {
-    settings.reflection.updateInterval = interval;
-    settings.reflection.skipUnchanged = false;
-  }
-  const FramePlan& next() {
-    plan = planFrame(scene, evaluate(scene, 0.0), settings, width, height, {.held = plan.held});
-    return plan;
-  }
-  void moveCamera(const glm::dvec3& by) {
-    scene.camera.position += by;
-    scene.camera.target += by;
-  }
-
-  Scene scene;
-  Settings settings;
-  FramePlan plan;
-};
-
-int count(const FramePlan& plan, SkipReason reason) {
-  return static_cast<int>(
-      std::count_if(plan.skipped.begin(), plan.skipped.end(), [&](const auto& s) { return s.reason == reason; }));
+// Plans frame after frame with an interval, whether or not anything changes.
+PlanSequence withInterval(Scene scene, int interval) {
+  return PlanSequence(std::move(scene), interval, false);
 }
 
 std::string firstUnchanged(const FramePlan& plan) {
@@ -71,22 +37,22 @@ std::string firstUnchanged(const FramePlan& plan) {
   return it == plan.skipped.end() ? "" : it->detail;
 }
 
-TEST(HeldImages, IntervalOneHoldsNothing) {
-  Sequence sequence(row(), 1);
+TEST(CachedImages, IntervalOneCachesNothing) {
+  PlanSequence sequence = withInterval(row(), 1);
   for (int frame = 0; frame < 3; ++frame) {
     EXPECT_EQ(sequence.next().passes.size(), 6u);
-    EXPECT_TRUE(sequence.plan.held.empty());
+    EXPECT_TRUE(sequence.plan.cached.empty());
     EXPECT_EQ(count(sequence.plan, SkipReason::unchanged), 0);
   }
 }
 
-TEST(HeldImages, FirstFrameIsFreshThenEachMirrorEveryNthAndTheLoadIsSpread) {
+TEST(CachedImages, MirrorsTakeTurnsAfterTheFirstFrame) {
   for (const double step : {0.0, 0.002}) {
-    Sequence sequence(row(), 3);
+    PlanSequence sequence = withInterval(row(), 3);
     std::map<int, std::vector<int>> frames;  // of each mirror's passes
     for (int frame = 0; frame < 15; ++frame) {
       sequence.next();
-      ASSERT_EQ(sequence.plan.held.size(), 6u);
+      ASSERT_EQ(sequence.plan.cached.size(), 6u);
       EXPECT_EQ(sequence.plan.passes.size() + count(sequence.plan, SkipReason::unchanged), 6u);
       if (frame == 0) {
         EXPECT_EQ(sequence.plan.passes.size(), 6u);
@@ -108,15 +74,15 @@ TEST(HeldImages, FirstFrameIsFreshThenEachMirrorEveryNthAndTheLoadIsSpread) {
   }
 }
 
-TEST(HeldImages, AHeldMirrorIsSkippedWithItsAgeAndSaysHowItIsShown) {
-  Sequence sequence(row(), 4);
+TEST(CachedImages, ReusedImagesAreListedWithTheirAge) {
+  PlanSequence sequence = withInterval(row(), 4);
   sequence.next();
   sequence.next();
   ASSERT_EQ(count(sequence.plan, SkipReason::unchanged), 5) << "the fourth mirror comes due after one frame";
   EXPECT_EQ(firstUnchanged(sequence.plan), "image of the last frame");
   for (const MirrorDraw& draw : sequence.plan.main.mirrors) {
-    EXPECT_NE(draw.held.has_value(), draw.pass >= 0);
-    EXPECT_FALSE(draw.held && draw.held->moved) << "nothing moved";
+    EXPECT_NE(draw.cached.has_value(), draw.pass >= 0);
+    EXPECT_FALSE(draw.cached && draw.cached->moved) << "nothing moved";
   }
   sequence.moveCamera({0.001, 0, 0});
   sequence.next();  // nothing had a margin
@@ -126,18 +92,18 @@ TEST(HeldImages, AHeldMirrorIsSkippedWithItsAgeAndSaysHowItIsShown) {
   ASSERT_GT(count(sequence.plan, SkipReason::unchanged), 0);
   EXPECT_EQ(firstUnchanged(sequence.plan), "image of the last frame, reprojected");
   for (const MirrorDraw& draw : sequence.plan.main.mirrors) {
-    if (draw.held) {
-      EXPECT_TRUE(draw.held->moved);
-      EXPECT_EQ(sequence.plan.held[static_cast<size_t>(draw.held->image)].mirror, draw.mirror);
+    if (draw.cached) {
+      EXPECT_TRUE(draw.cached->moved);
+      EXPECT_EQ(sequence.plan.cached[static_cast<size_t>(draw.cached->image)].mirror, draw.mirror);
     }
   }
 }
 
-TEST(HeldImages, ASubtreeIsRenderedAndHeldWithItsMirror) {
-  Sequence sequence(corridor(), 3);
+TEST(CachedImages, NestedMirrorsAreRenderedWithTheirParent) {
+  PlanSequence sequence = withInterval(corridor(), 3);
   const size_t whole = sequence.next().passes.size();
   EXPECT_EQ(whole, 4u);
-  EXPECT_EQ(sequence.plan.held.size(), 1u) << "mirrors in mirrors are not held";
+  EXPECT_EQ(sequence.plan.cached.size(), 1u) << "mirrors in mirrors have none";
   const int deeper = count(sequence.plan, SkipReason::maxDepth);
   EXPECT_GT(deeper, 0);
   for (int frame = 1; frame < 7; ++frame) {
@@ -145,14 +111,14 @@ TEST(HeldImages, ASubtreeIsRenderedAndHeldWithItsMirror) {
     EXPECT_EQ(sequence.plan.passes.size(), frame % 3 == 0 ? whole : 0u) << "frame " << frame;
     EXPECT_EQ(count(sequence.plan, SkipReason::unchanged), frame % 3 == 0 ? 0 : 1);
     EXPECT_EQ(count(sequence.plan, SkipReason::maxDepth), frame % 3 == 0 ? deeper : 0)
-        << "what is seen in a held image is not listed";
+        << "nothing seen in a reused image is listed";
   }
 }
 
-TEST(HeldImages, TheBudgetIsSharedAsIfAllWereFresh) {
+TEST(CachedImages, BudgetIgnoresReuse) {
   Scene scene = corridor();
   scene.mirrors.push_back(wall({1.9, 0, -2}, -90, {3, 3}));
-  Sequence sequence(scene, 2);
+  PlanSequence sequence = withInterval(scene, 2);
   sequence.settings.reflection.maxPasses = 5;
   std::map<std::vector<int>, int> inFirst;
   for (const PlannedPass& pass : sequence.next().passes) {
@@ -166,9 +132,9 @@ TEST(HeldImages, TheBudgetIsSharedAsIfAllWereFresh) {
   }
 }
 
-TEST(HeldImages, ChangedSettingsAndSizesMakeFresh) {
+TEST(CachedImages, ChangedSettingsAndSizesRenderAnew) {
   const auto freshAfter = [](auto change) {
-    Sequence sequence(row(), 100);
+    PlanSequence sequence = withInterval(row(), 100);
     sequence.next();
     change(sequence.settings);
     return sequence.next().passes.size();
@@ -185,51 +151,51 @@ TEST(HeldImages, ChangedSettingsAndSizesMakeFresh) {
   EXPECT_EQ(freshAfter([](Settings& s) { s.view.wireframe = true; }), 6u);
   EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.updateInterval = 1; }), 6u);
 
-  Sequence sequence(row(), 100);
+  PlanSequence sequence = withInterval(row(), 100);
   sequence.next();
   const FramePlan larger = planFrame(sequence.scene, evaluate(sequence.scene, 0.0), sequence.settings, width + 1,
-                                     height, {.held = sequence.plan.held});
+                                     height, {.images = sequence.plan.cached});
   EXPECT_EQ(larger.passes.size(), 6u);
 }
 
-TEST(HeldImages, ACutMakesFreshAndAMirrorOutOfSightIsForgotten) {
-  Sequence sequence(row(), 100);
+TEST(CachedImages, CutsRenderAnewAndForgetUnseenMirrors) {
+  PlanSequence sequence = withInterval(row(), 100);
   sequence.next();
   sequence.next();
   sequence.moveCamera({0.5, 0, 0});
   sequence.next();
   EXPECT_EQ(count(sequence.plan, SkipReason::unchanged), 0);
   sequence.moveCamera({50, 0, 0});
-  EXPECT_TRUE(sequence.next().held.empty());
+  EXPECT_TRUE(sequence.next().cached.empty());
   sequence.moveCamera({-50, 0, 0});
   sequence.next();
   EXPECT_EQ(sequence.plan.passes.size(), 6u);
-  EXPECT_EQ(sequence.plan.held.size(), 6u);
+  EXPECT_EQ(sequence.plan.cached.size(), 6u);
 }
 
-// Follows the definition: a shown image has rendered, for every ray through the mirror, whatever may be on it.
-TEST(HeldImages, WhatIsShownWasRendered) {
+// A reused image has rendered, for every ray through the mirror, whatever may be on it.
+TEST(CachedImages, ReusedImagesCoverTheVisibleRegion) {
   int reprojected = 0;
   for (int seed = 0; seed < 40; ++seed) {
-    Sequence sequence(row(), 5);
+    PlanSequence sequence = withInterval(row(), 5);
     for (int frame = 0; frame < 12; ++frame) {
       const double t = 0.01 * frame * (1 + seed % 7);
       sequence.scene.camera.position = {std::sin(seed + t), 0.3 * std::sin(2.0 * seed + t), -t};
       sequence.scene.camera.target = sequence.scene.camera.position + glm::dvec3(0.3 * std::sin(t), 0, -1);
       const FramePlan& plan = sequence.next();
       for (const MirrorDraw& draw : plan.main.mirrors) {
-        ASSERT_TRUE(draw.held || draw.pass >= 0 || count(plan, SkipReason::minPixels) > 0);
-        if (!draw.held || !draw.held->moved) {
+        ASSERT_TRUE(draw.cached || draw.pass >= 0 || count(plan, SkipReason::minPixels) > 0);
+        if (!draw.cached || !draw.cached->moved) {
           continue;
         }
         ++reprojected;
-        const HeldImage& image = plan.held[static_cast<size_t>(draw.held->image)];
+        const CachedImage& image = plan.cached[static_cast<size_t>(draw.cached->image)];
         for (const glm::dvec3& corner : visiblePart(plan.main.view, draw.polygon)) {
           const glm::dvec4 clip = plan.projection.clip(plan.main.view.worldToView * (corner - plan.main.view.eye));
           const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * plan.main.view.pictureSize;
           for (const double part : {0.0, 0.01, 0.1, 0.5, 1.0}) {
-            const glm::dvec3 texel =
-                draw.held->texelFromPixel * glm::dvec3(pixel, 1.0) + draw.held->texelFromDisparity * (part / clip.w);
+            const glm::dvec3 texel = draw.cached->texelFromPixel * glm::dvec3(pixel, 1.0) +
+                                     draw.cached->texelFromDisparity * (part / clip.w);
             ASSERT_GT(texel.z, 0.0);
             const glm::dvec2 place = glm::dvec2(texel) / texel.z;
             EXPECT_GE(std::min(place.x, place.y), 0.4999);
@@ -244,7 +210,7 @@ TEST(HeldImages, WhatIsShownWasRendered) {
 }
 
 // A point is where the lookup says it is, whatever moved: camera, mirror, both.
-TEST(HeldImages, LookupFindsThePointInTheEarlierView) {
+TEST(CachedImages, LookupFindsThePointInTheImage) {
   const Projection projection(1.0, 1.5, 0.001);
   const auto mirrorView = [&](const glm::dvec3& eye, const glm::dvec3& target, double yaw, View& parent) {
     parent = mainView(lookAt(eye, target, {0, 1, 0}, 57.3, 0.001), projection, 600, 400);
@@ -255,7 +221,7 @@ TEST(HeldImages, LookupFindsThePointInTheEarlierView) {
   View parentNow;
   const View then = mirrorView({1e6, 1, 2}, {1e6, 0, -3}, 5.0, parentThen);
   const View now = mirrorView({1e6 + 0.1, 1.05, 2.1}, {1e6 + 0.2, 0, -3}, 6.0, parentNow);
-  const HeldLookup lookup = heldLookup({.view = then, .projection = projection}, parentNow, now, projection);
+  const CachedLookup lookup = cachedLookup({.view = then, .projection = projection}, parentNow, now, projection);
   for (const glm::dvec3& point : {glm::dvec3(1e6, 0.5, 4), glm::dvec3(1e6 + 2, 1, 0), glm::dvec3(1e6 - 50, 9, 200)}) {
     const glm::dvec4 clipNow = projection.clip(now.worldToView * (point - now.eye));
     const glm::dvec4 clipThen = projection.clip(then.worldToView * (point - then.eye));
@@ -270,8 +236,8 @@ TEST(HeldImages, LookupFindsThePointInTheEarlierView) {
   }
 }
 
-TEST(HeldImages, MarginIsAsWideAsTheMotionAndNoneWhenStill) {
-  Sequence sequence(corridor(), 6);
+TEST(CachedImages, MarginFollowsTheMotion) {
+  PlanSequence sequence = withInterval(corridor(), 6);
   const PixelRect plain = sequence.next().passes.back().view.rect;
   sequence.moveCamera({0.01, 0, 0});
   const PixelRect slow = sequence.next().passes.back().view.rect;
@@ -281,33 +247,33 @@ TEST(HeldImages, MarginIsAsWideAsTheMotionAndNoneWhenStill) {
   for (int frame = 0; frame < 12; ++frame) {
     sequence.next();
   }
-  EXPECT_EQ(sequence.plan.held[0].view.rect.height, plain.height) << "two turns after the motion there is none";
+  EXPECT_EQ(sequence.plan.cached[0].view.rect.height, plain.height) << "two turns after the motion there is none";
 }
 
-TEST(HeldImages, MemoryCountsThem) {
-  Sequence sequence(corridor(), 3);
+TEST(CachedImages, MemoryIncludesReusedImages) {
+  PlanSequence sequence = withInterval(corridor(), 3);
   sequence.next();
-  const uint64_t image = static_cast<uint64_t>(sequence.plan.held[0].view.rect.area()) * 4 * 8;
-  const FramePlan held = sequence.next();
-  ASSERT_TRUE(held.passes.empty());
-  FramePlan without = held;
-  without.held.clear();
-  EXPECT_EQ(targetBytes(held, sequence.settings), targetBytes(without, sequence.settings) + image);
+  const uint64_t image = static_cast<uint64_t>(sequence.plan.cached[0].view.rect.area()) * 4 * 8;
+  const FramePlan reused = sequence.next();
+  ASSERT_TRUE(reused.passes.empty());
+  FramePlan without = reused;
+  without.cached.clear();
+  EXPECT_EQ(targetBytes(reused, sequence.settings), targetBytes(without, sequence.settings) + image);
 }
 
-TEST(HeldImages, MarginsStayWithinTheLargestSide) {
+TEST(CachedImages, MarginsStayWithinTheLargestSide) {
   Scene scene = corridor();
   Settings settings;
   settings.reflection.updateInterval = 4;
-  std::vector<HeldImage> held;
+  std::vector<CachedImage> cached;
   for (int frame = 0; frame < 8; ++frame) {
     const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = width}, scene, evaluate(scene, 0.0),
-                                         settings, width, height, {.held = held});
+                                         settings, width, height, {.images = cached});
     for (const PlannedPass& pass : fitted.plan.passes) {
       EXPECT_LE((overscan(pass.view) * pass.view.pictureSize).x, width);
       EXPECT_LE(pass.view.rect.width, width);
     }
-    held = fitted.plan.held;
+    cached = fitted.plan.cached;
     scene.camera.position.z -= 0.3;
   }
 }

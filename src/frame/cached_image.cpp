@@ -1,4 +1,4 @@
-#include "frame/held_image.hpp"
+#include "frame/cached_image.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,39 +49,39 @@ std::optional<glm::dvec2> texelOf(const View& view, const Projection& projection
   return glm::dvec2(texel) / texel.z;
 }
 
-bool shows(const HeldImage& held, const glm::dvec3& relative) {
-  const std::optional<glm::dvec2> texel = texelOf(held.view, held.projection, relative);
+bool shows(const CachedImage& cached, const glm::dvec3& relative) {
+  const std::optional<glm::dvec2> texel = texelOf(cached.view, cached.projection, relative);
   return texel && texel->x >= filterReach && texel->y >= filterReach &&
-         texel->x <= held.view.rect.width - filterReach && texel->y <= held.view.rect.height - filterReach &&
-         std::all_of(held.view.cone.begin(), held.view.cone.end(),
+         texel->x <= cached.view.rect.width - filterReach && texel->y <= cached.view.rect.height - filterReach &&
+         std::all_of(cached.view.cone.begin(), cached.view.cone.end(),
                      [&](const glm::dvec3& normal) { return glm::dot(normal, relative) >= 0.0; });
 }
 
 }  // namespace
 
-bool unmoved(const HeldImage& held, const View& now, const Projection& projection,
+bool unmoved(const CachedImage& cached, const View& now, const Projection& projection,
              std::span<const glm::dvec3> visible) {
-  return held.view.eye == now.eye && held.view.worldToView == now.worldToView &&
-         held.view.pictureSize == now.pictureSize && held.projection == projection &&
-         std::equal(held.visible.begin(), held.visible.end(), visible.begin(), visible.end());
+  return cached.view.eye == now.eye && cached.view.worldToView == now.worldToView &&
+         cached.view.pictureSize == now.pictureSize && cached.projection == projection &&
+         std::equal(cached.visible.begin(), cached.visible.end(), visible.begin(), visible.end());
 }
 
-bool covers(const HeldImage& held, const View& now, std::span<const glm::dvec3> visible) {
+bool covers(const CachedImage& cached, const View& now, std::span<const glm::dvec3> visible) {
   return std::all_of(visible.begin(), visible.end(), [&](const glm::dvec3& corner) {
-    return shows(held, corner - held.view.eye) && shows(held, corner - now.eye);
+    return shows(cached, corner - cached.view.eye) && shows(cached, corner - now.eye);
   });
 }
 
-double largestShift(const HeldImage& held, const View& now, const Projection& projection,
+double largestShift(const CachedImage& cached, const View& now, const Projection& projection,
                     std::span<const glm::dvec3> visible) {
   // In the image's own pixels, whatever rectangle the present view has.
   View present = now;
-  present.rect = held.view.rect;
+  present.rect = cached.view.rect;
   double largest = 0.0;
   for (const glm::dvec3& corner : visible) {
     const std::optional<glm::dvec2> here = texelOf(present, projection, corner - now.eye);
-    for (const glm::dvec3& relative : {corner - held.view.eye, corner - now.eye}) {
-      const std::optional<glm::dvec2> there = texelOf(held.view, held.projection, relative);
+    for (const glm::dvec3& relative : {corner - cached.view.eye, corner - now.eye}) {
+      const std::optional<glm::dvec2> there = texelOf(cached.view, cached.projection, relative);
       if (!here || !there) {
         return std::numeric_limits<double>::infinity();
       }
@@ -91,13 +91,14 @@ double largestShift(const HeldImage& held, const View& now, const Projection& pr
   return largest;
 }
 
-HeldLookup heldLookup(const HeldImage& held, const View& parent, const View& now, const Projection& projection) {
-  const glm::dmat3 thenFromNow = held.view.worldToView * glm::transpose(now.worldToView);
-  const glm::dmat3 texelFromView = pixelFromDevice(held.view) * clipFromView(held.projection);
+CachedLookup cachedLookup(const CachedImage& cached, const View& parent, const View& now,
+                          const Projection& projection) {
+  const glm::dmat3 thenFromNow = cached.view.worldToView * glm::transpose(now.worldToView);
+  const glm::dmat3 texelFromView = pixelFromDevice(cached.view) * clipFromView(cached.projection);
   return {
       .moved = true,
       .texelFromPixel = texelFromView * thenFromNow * glm::inverse(clipFromView(projection)) * deviceFromPixel(parent),
-      .texelFromDisparity = texelFromView * (held.view.worldToView * (now.eye - held.view.eye))};
+      .texelFromDisparity = texelFromView * (cached.view.worldToView * (now.eye - cached.view.eye))};
 }
 
 }  // namespace speculum
