@@ -79,7 +79,7 @@ vec4 reflected(MirrorData mirror) {
 }
 #endif
 
-// What this fragment sees, from where an image of an earlier frame shows it. docs/architecture.md: Held images.
+// What this fragment sees, as a cached image shows it. docs/architecture.md: When is an image used again?
 struct Reprojection {
   vec3 direction;  // homogeneous texel of what is infinitely far
   vec3 parallax;   // added to it per disparity

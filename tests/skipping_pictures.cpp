@@ -1,7 +1,6 @@
 // Pictures do not show what was left out of them: hidden mirrors, and parts of mirror images that nobody looks up.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
@@ -9,6 +8,7 @@
 #include "app/stats.hpp"
 #include "occluder_shapes.hpp"
 #include "picture_support.hpp"
+#include "sampling.hpp"
 
 namespace speculum {
 namespace {
@@ -96,12 +96,6 @@ int hiddenIn(const FramePlan& plan) {
                                         [](const SkippedMirror& s) { return s.reason == SkipReason::hidden; }));
 }
 
-// SPECULUM_FULL_TESTS=1 in the environment asks for all of them.
-int cutCount() {
-  const char* full = std::getenv("SPECULUM_FULL_TESTS");
-  return full && std::string_view(full) == "1" ? 1000 : 60;
-}
-
 // Pixels of pictures that differ from others.
 struct Differences {
   void add(const Image8& a, const Image8& b) {
@@ -124,7 +118,7 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine);
   };
-  const int cuts = cutCount();
+  const int cuts = fullTests() ? 1000 : 60;
   int hidden = 0;
   size_t passes = 0;
   size_t passesOfAll = 0;
