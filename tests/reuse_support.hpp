@@ -1,0 +1,77 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/stats.hpp"
+#include "picture_support.hpp"
+
+namespace speculum::testing_support {
+
+// A mirror with a layer of its own, a mirror in it, and, if `turning`, one that turns while the camera orbits.
+inline std::filesystem::path roomScene(bool turning = true) {
+  const std::string room = R"(
+[environment]
+background = [0.3, 0.4, 0.5]
+ambient = [0.2, 0.2, 0.2]
+[[object]]
+model = "MODELS/torus_knot.obj"
+position = [0, 0.7, 0.5]
+[[object]]
+model = "MODELS/queen.obj"
+position = [1.2, 0, -0.6]
+[[light]]
+position = [1, 3, 3]
+intensity = 20
+[[mirror]]
+name = "floor"
+polygon = [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]]
+reflectance = [0.4, 0.4, 0.4]
+base_color = [0.3, 0.2, 0.1]
+fresnel = "schlick"
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [3, 2]
+)";
+  const std::string camera = "[camera]\nposition = [0.5, 1.4, 4]\ntarget = [0, 0.8, 0]\n";
+  const std::string side =
+      "[[mirror]]\nname = \"side\"\nposition = [-2, 1, 0]\nrotation = [0, 70, 0]\nspin = [0, 8, 0]\n"
+      "size = [1.5, 1.5]\ntwo_sided = true\n";
+  return writeScene("room", turning ? camera + "orbit_speed = 5\n" + room + side : camera + room);
+}
+
+inline Image8 picture(Session& session, double time) {
+  session.draw(time, true);
+  session.finish();
+  return session.picture();
+}
+
+inline int mirrorPasses(const SceneRenderer& renderer) {
+  const std::vector<RecordedPass>& passes = renderer.passes();
+  return static_cast<int>(
+      std::count_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.depth >= 0; }));
+}
+
+inline int unchangedMirrors(const nlohmann::ordered_json& stats) {
+  return static_cast<int>(std::count_if(stats["skipped"].begin(), stats["skipped"].end(),
+                                        [](const auto& skip) { return skip["reason"] == "unchanged"; }));
+}
+
+// Draws the same frames on both render paths and expects the same bytes.
+inline void expectSameOnBothPaths(Options options, const std::vector<double>& times) {
+  Session dynamic(options);
+  options.renderPath = RenderPath::renderPass;
+  Session passes(options);
+  ASSERT_NE(dynamic.device().renderPath(), passes.device().renderPath());
+  for (const double time : times) {
+    EXPECT_EQ(picture(dynamic, time).rgba, picture(passes, time).rgba) << "at " << time;
+  }
+  expectQuiet(dynamic);
+  expectQuiet(passes);
+}
+
+}  // namespace speculum::testing_support
