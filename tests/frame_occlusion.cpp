@@ -1,6 +1,7 @@
 // Mirrors that the plan says are hidden, against rays from the eye to them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 
 #include "frame/frame_plan.hpp"
