@@ -244,23 +244,21 @@ reflectance = [1, 1, 1]
 }
 
 // Pixels that hold some of the background.
-int darkPixels(unsigned seed, const std::string& samples, const std::string& imageSamples) {
-  Options options = headless(seamScene(seed), {640, 360});
+int darkPixels(const std::filesystem::path& scene, const std::string& samples, const std::string& imageSamples) {
+  Options options = headless(scene, {640, 360});
   set(options, {{"view.samples", samples}, {"reflection.samples", imageSamples}});
   Session session(options);
   session.draw(0.0, true);
-  int dark = 0;
-  for (const glm::vec3& pixel : session.radiance().pixels) {
-    dark += pixel.r < 0.999f;
-  }
+  const LinearImage radiance = session.radiance();
   expectQuiet(session);
-  return dark;
+  return static_cast<int>(std::count_if(radiance.pixels.begin(), radiance.pixels.end(),
+                                        [](const glm::vec3& pixel) { return pixel.r < 0.999f; }));
 }
 
 TEST(SeamsOfMirrorsAndBodies, NoPixelShowsTheBackground) {
   for (unsigned view = 0; view < 5; ++view) {
     for (const char* samples : {"1", "4"}) {
-      EXPECT_EQ(darkPixels(view, samples, samples), 0) << samples << " samples, view " << view;
+      EXPECT_EQ(darkPixels(seamScene(view), samples, samples), 0) << samples << " samples, view " << view;
     }
   }
 }
@@ -268,34 +266,14 @@ TEST(SeamsOfMirrorsAndBodies, NoPixelShowsTheBackground) {
 // Two mirrors in one plane, so far apart, a metre from the eye; they show a white wall behind it.
 int darkPixelsBetween(double gapMetres) {
   writeQuad();
-  const std::string half = text(0.5 * gapMetres);
-  Options options = headless(writeScene("gap", "[environment]\nambient = [1, 1, 1]\n" + std::string(R"([camera]
-position = [0, 0, 1]
-target = [0, 0, 0]
-up = [0.2718, 1, 0]
-[[object]]
-model = "quad.obj"
-position = [0, 0, 2]
-rotation = [0, 180, 0]
-scale = 50
-color = [1, 1, 1]
-[[mirror]]
-reflectance = [1, 1, 1]
-polygon = [[-5, -5, 0], [-)") + half + ", -5, 0], [-" +
-                                                   half +
-                                                   R"(, 5, 0], [-5, 5, 0]]
-[[mirror]]
-reflectance = [1, 1, 1]
-polygon = [[)" + half + ", -5, 0], [5, -5, 0], [5, 5, 0], [" +
-                                                   half + ", 5, 0]]\n"),
-                             {640, 360});
-  Session session(options);
-  session.draw(0.0, true);
-  const LinearImage radiance = session.radiance();
-  const auto dark = std::count_if(radiance.pixels.begin(), radiance.pixels.end(),
-                                  [](const glm::vec3& pixel) { return pixel.r < 0.999f; });
-  expectQuiet(session);
-  return static_cast<int>(dark);
+  const double h = 0.5 * gapMetres;
+  const std::string mirror = "[[mirror]]\nreflectance = [1, 1, 1]\n";
+  return darkPixels(
+      writeScene("gap", "[environment]\nambient = [1, 1, 1]\n" + cameraText({0, 0, 1}, {0, 0, 0}, {0.2718, 1, 0}) +
+                            objectText("quad.obj", {0, 0, 2}, {0, 180, 0}, 50, {1, 1, 1}) + mirror +
+                            polygonText({{-5, -5, 0}, {-h, -5, 0}, {-h, 5, 0}, {-5, 5, 0}}) + mirror +
+                            polygonText({{h, -5, 0}, {5, -5, 0}, {5, 5, 0}, {h, 5, 0}})),
+      "4", "4");
 }
 
 TEST(SeamsOfMirrorsAndBodies, OnlyRoundingGapsAreClosed) {
@@ -305,7 +283,7 @@ TEST(SeamsOfMirrorsAndBodies, OnlyRoundingGapsAreClosed) {
 }
 
 TEST(SeamsOfMirrorsAndBodies, AveragedImagesShowTheBackground) {
-  const int dark = darkPixels(0, "4", "1");
+  const int dark = darkPixels(seamScene(0), "4", "1");
   EXPECT_GT(dark, 20) << "the naive way, samples that have no counterpart, should fail";
   std::printf("%d pixels\n", dark);
 }
