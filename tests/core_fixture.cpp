@@ -1,7 +1,9 @@
 #include "core_fixture.hpp"
-#include "test_paths.hpp"
 
 #include <array>
+
+#include "driver.hpp"
+#include "test_paths.hpp"
 
 namespace speculum::test {
 
@@ -34,6 +36,7 @@ GraphicsPipelineDesc displayCopy(VkDescriptorSetLayout layout, VkFormat format) 
 }  // namespace
 
 DeviceOptions validated(RenderPath path) {
+  testing_support::keepDriverLoaded();
   return {.validation = true, .renderPath = path};
 }
 

@@ -7,8 +7,7 @@
 #include <fstream>
 #include <utility>
 
-#include "core/device.hpp"
-#include "core/instance.hpp"
+#include "driver.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "test_paths.hpp"
@@ -29,11 +28,6 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
   writePng(directory / (name + "-expected.png"), expected);
   writePng(directory / (name + "-difference.png"), shown);
   std::printf("see %s/%s-{actual,expected,difference}.png\n", directory.c_str(), name.c_str());
-}
-
-// Some drivers can be loaded only some 30 times by one process; while an instance stays they are not unloaded.
-void keepDriverLoaded() {
-  static const Instance kept{DeviceOptions{}};
 }
 
 }  // namespace
