@@ -71,7 +71,7 @@ TEST(Device, CountsItsMemory) {
   Device device(validated());
   const uint64_t before = device.allocatedBytes();
   {
-    const Buffer buffer(device, 100000, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host, "test");
+    const Buffer buffer(device, 100000, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host, "test");
     EXPECT_GE(device.allocatedBytes(), before + 100000);
   }
   EXPECT_EQ(device.allocatedBytes(), before);
@@ -80,7 +80,7 @@ TEST(Device, CountsItsMemory) {
 
 TEST(Device, BufferRefusesAWritePastItsEnd) {
   Device device({});
-  const Buffer buffer(device, 16, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::host, "test");
+  const Buffer buffer(device, 16, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferMemory::host, "test");
   const std::array<std::byte, 16> data{};
   buffer.write(data);
   EXPECT_THROW(buffer.write(data, 1), std::out_of_range);

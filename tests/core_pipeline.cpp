@@ -130,7 +130,7 @@ TEST_F(HotReload, EditedShaderChangesThePictureAndLeaksNothing) {
 // What fill.comp writes.
 std::vector<uint32_t> filled(Renderer& renderer, const Pipeline& pipeline, VkDescriptorSetLayout layout) {
   constexpr uint32_t offset = 7;
-  const Buffer buffer(renderer.device(), 8 * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
+  const Buffer buffer(renderer.device(), 8 * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
                       "filled");
   Frame frame = renderer.beginFrame().value();
   const VkDescriptorSet set = frame.descriptors->allocate(layout);

@@ -5,24 +5,23 @@
 
 namespace speculum {
 
-Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferPlace place, const std::string& name)
+Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferMemory memory,
+               const std::string& name)
     : bytes_(std::max<VkDeviceSize>(bytes, 4)) {
-  const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                .size = bytes_,
-                                .usage = usage,
-                                .sharingMode = VK_SHARING_MODE_EXCLUSIVE};
-  VkBuffer buffer = VK_NULL_HANDLE;
-  check(vkCreateBuffer(device.get(), &info, nullptr, &buffer), "create buffer " + name);
-  buffer_ = {device.get(), buffer};
-  device.setName(buffer, name);
+  buffer_ = device.create(vkCreateBuffer,
+                          {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                           .size = bytes_,
+                           .usage = usage,
+                           .sharingMode = VK_SHARING_MODE_EXCLUSIVE},
+                          name);
   VkMemoryRequirements requirements{};
-  vkGetBufferMemoryRequirements(device.get(), buffer, &requirements);
+  vkGetBufferMemoryRequirements(device.get(), buffer_.get(), &requirements);
   const VkMemoryPropertyFlags properties =
-      place == BufferPlace::host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
-                                 : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-  memory_ = device.allocate(requirements, properties, name);
-  check(vkBindBufferMemory(device.get(), buffer, memory_.get(), 0), "bind the memory of " + name);
-  if (place == BufferPlace::host) {
+      memory == BufferMemory::host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+                                  : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+  memory_ = Memory(device, requirements, properties, name);
+  check(vkBindBufferMemory(device.get(), buffer_.get(), memory_.get(), 0), "bind the memory of " + name);
+  if (memory == BufferMemory::host) {
     void* data = nullptr;
     check(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &data), "map the memory of " + name);
     mapped_ = static_cast<std::byte*>(data);

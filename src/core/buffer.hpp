@@ -2,13 +2,12 @@
 
 #include <cstring>
 #include <span>
-#include <string>
 
-#include "core/device.hpp"
+#include "core/memory.hpp"
 
 namespace speculum {
 
-enum class BufferPlace {
+enum class BufferMemory {
   host,    // mapped and coherent, written by the CPU every frame
   device,  // filled once through Uploader
 };
@@ -17,12 +16,12 @@ enum class BufferPlace {
 class Buffer {
  public:
   Buffer() = default;
-  Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferPlace place, const std::string& name);
+  Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferMemory memory, const std::string& name);
 
   VkBuffer get() const { return buffer_.get(); }
   VkDeviceSize bytes() const { return bytes_; }
   explicit operator bool() const { return static_cast<bool>(buffer_); }
-  std::byte* mapped() const { return mapped_; }  // null in BufferPlace::device
+  std::byte* mapped() const { return mapped_; }  // null in BufferMemory::device
   VkDescriptorBufferInfo descriptor() const { return {buffer_.get(), 0, VK_WHOLE_SIZE}; }
 
   // Into a host buffer; throws std::out_of_range past its end.

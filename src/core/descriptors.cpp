@@ -13,13 +13,11 @@ DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<co
                               .descriptorCount = binding.count,
                               .stageFlags = binding.stages});
   }
-  const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                             .bindingCount = static_cast<uint32_t>(layoutBindings.size()),
-                                             .pBindings = layoutBindings.data()};
-  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  check(vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout), "create descriptor set layout " + name);
-  device.setName(layout, name);
-  return {device.get(), layout};
+  return device.create(vkCreateDescriptorSetLayout,
+                       {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                        .bindingCount = static_cast<uint32_t>(layoutBindings.size()),
+                        .pBindings = layoutBindings.data()},
+                       name);
 }
 
 DescriptorPoolHandle DescriptorAllocator::createPool() const {
@@ -31,14 +29,12 @@ DescriptorPoolHandle DescriptorAllocator::createPool() const {
       {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, sets},
       {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16 * sets},
   }};
-  const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                        .maxSets = sets,
-                                        .poolSizeCount = sizes.size(),
-                                        .pPoolSizes = sizes.data()};
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool), "create a descriptor pool");
-  device_->setName(pool, "descriptor sets");
-  return {device_->get(), pool};
+  return device_->create(vkCreateDescriptorPool,
+                         {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                          .maxSets = sets,
+                          .poolSizeCount = sizes.size(),
+                          .pPoolSizes = sizes.data()},
+                         "descriptor sets");
 }
 
 VkDescriptorSet DescriptorAllocator::allocate(VkDescriptorSetLayout layout) {

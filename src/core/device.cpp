@@ -77,7 +77,6 @@ Device::Device(const DeviceOptions& options) : instance_(options) {
   properties_ = chosen.properties;
   info_ = chosen.info;
   caps_ = chosen.caps;
-  vkGetPhysicalDeviceMemoryProperties(physical_, &memoryProperties_);
   choosePath(options.renderPath);
   queueFamily_ = chooseQueueFamily(chosen, surface_.get());
   caps_.timestampValidBits = queueFamilies(physical_)[queueFamily_].timestampValidBits;
@@ -188,6 +187,23 @@ VkSampleCountFlagBits Device::sampleCount(int wanted) {
     spdlog::warn("{} has no {} samples per pixel: {} are used", info_.name, wanted, count);
   }
   return static_cast<VkSampleCountFlagBits>(count);
+}
+
+MemoryBudget Device::memoryBudget() const {
+  VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{.sType =
+                                                       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT};
+  VkPhysicalDeviceMemoryProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
+                                               .pNext = caps_.memoryBudget ? &budget : nullptr};
+  vkGetPhysicalDeviceMemoryProperties2(physical_, &properties);
+  MemoryBudget result{.usedBytes = caps_.memoryBudget ? 0 : allocatedBytes()};
+  for (uint32_t heap = 0; heap < properties.memoryProperties.memoryHeapCount; ++heap) {
+    const VkMemoryHeap& description = properties.memoryProperties.memoryHeaps[heap];
+    if (description.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
+      result.budgetBytes += caps_.memoryBudget ? budget.heapBudget[heap] : description.size;
+      result.usedBytes += caps_.memoryBudget ? budget.heapUsage[heap] : 0;
+    }
+  }
+  return result;
 }
 
 void Device::waitIdle() const {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "core/barriers.hpp"
 #include "core/handle.hpp"
 #include "core/instance.hpp"
+#include "core/vulkan_result.hpp"
 
 namespace speculum {
 
@@ -60,18 +60,6 @@ struct MemoryBudget {
   uint64_t usedBytes = 0;    // by this process
 };
 
-// VK_ERROR_OUT_OF_DEVICE_MEMORY or VK_ERROR_OUT_OF_HOST_MEMORY.
-class OutOfMemoryError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-// Throws std::runtime_error with what is missing, where, and how to mend it; OutOfMemoryError where that is memory.
-[[noreturn]] void throwVulkanError(VkResult result, std::string_view what);
-void check(VkResult result, std::string_view what);
-std::string resultName(VkResult result);
-
-class Memory;
 struct PhysicalDevice;
 
 // Instance, the chosen GPU, logical device and its one queue. Outlives everything made from it.
@@ -111,8 +99,19 @@ class Device {
 
   uint64_t allocatedBytes() const { return allocatedBytes_; }  // live device memory of this process
   MemoryBudget memoryBudget() const;
-  Memory allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted, std::string_view name);
 
+  // Creates an object and names it: create(vkCreateFence, {.sType = ...}, "upload"). Throws as check() does.
+  template <typename Info, typename T>
+  HandleOf<T> create(VkResult (*function)(VkDevice, const Info*, const VkAllocationCallbacks*, T*),
+                     const std::type_identity_t<Info>& info, std::string_view name) const {
+    T object = VK_NULL_HANDLE;
+    const VkResult result = function(get(), &info, nullptr, &object);
+    if (result != VK_SUCCESS) {
+      throwVulkanError(result, "create " + std::string(objectName<T>()) + " " + std::string(name));
+    }
+    setName(object, name);
+    return {get(), object};
+  }
   template <typename T>
   void setName(T object, std::string_view name) const {
     setObjectName(objectType<T>(), reinterpret_cast<uint64_t>(object), name);
@@ -146,7 +145,6 @@ class Device {
   SurfaceHandle surface_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties_{};
-  VkPhysicalDeviceMemoryProperties memoryProperties_{};
   DeviceInfo info_;
   DeviceCaps caps_;
   RenderPath renderPath_ = RenderPath::dynamic;
@@ -170,28 +168,6 @@ class IdleGuard {
 
  private:
   const Device& device_;
-};
-
-// One allocation of device memory, counted in Device::allocatedBytes().
-class Memory {
- public:
-  Memory() = default;
-  Memory(Device& device, MemoryHandle memory, uint64_t bytes, VkMemoryPropertyFlags properties);
-  Memory(Memory&& other) noexcept;
-  Memory& operator=(Memory&& other) noexcept;
-  ~Memory();
-
-  VkDeviceMemory get() const { return memory_.get(); }
-  uint64_t bytes() const { return bytes_; }
-  VkMemoryPropertyFlags properties() const { return properties_; }
-
- private:
-  void release();
-
-  Device* device_ = nullptr;
-  MemoryHandle memory_;
-  uint64_t bytes_ = 0;
-  VkMemoryPropertyFlags properties_ = 0;
 };
 
 }  // namespace speculum

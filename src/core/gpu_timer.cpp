@@ -8,14 +8,12 @@ namespace {
 
 QueryPoolHandle createPool(Device& device, VkQueryType type, uint32_t count, VkQueryPipelineStatisticFlags statistics,
                            const std::string& name) {
-  const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                   .queryType = type,
-                                   .queryCount = count,
-                                   .pipelineStatistics = statistics};
-  VkQueryPool pool = VK_NULL_HANDLE;
-  check(vkCreateQueryPool(device.get(), &info, nullptr, &pool), "create query pool " + name);
-  device.setName(pool, name);
-  return {device.get(), pool};
+  return device.create(vkCreateQueryPool,
+                       {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                        .queryType = type,
+                        .queryCount = count,
+                        .pipelineStatistics = statistics},
+                       name);
 }
 
 }  // namespace
@@ -40,14 +38,11 @@ void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detai
   detail_ = detail;
   stamped_ = 0;
   passes_.clear();
-  if (stamps_) {
-    vkCmdResetQueryPool(commands, stamps_.get(), 0, 2 * maxPasses);
-  }
-  if (statistics_) {
-    vkCmdResetQueryPool(commands, statistics_.get(), 0, maxPasses);
-  }
-  if (samples_) {
-    vkCmdResetQueryPool(commands, samples_.get(), 0, maxPasses);
+  for (const auto& [pool, queries] :
+       {std::pair(&stamps_, 2 * maxPasses), std::pair(&statistics_, maxPasses), std::pair(&samples_, maxPasses)}) {
+    if (*pool) {
+      vkCmdResetQueryPool(commands, pool->get(), 0, queries);
+    }
   }
 }
 

@@ -3,28 +3,10 @@
 namespace speculum {
 
 std::map<std::string, int64_t> liveObjects() {
-  std::map<std::string, int64_t> all = {
-      {"VkCommandPool", liveHandles<VkCommandPool>},
-      {"VkSemaphore", liveHandles<VkSemaphore>},
-      {"VkFence", liveHandles<VkFence>},
-      {"VkDeviceMemory", liveHandles<VkDeviceMemory>},
-      {"VkBuffer", liveHandles<VkBuffer>},
-      {"VkImage", liveHandles<VkImage>},
-      {"VkImageView", liveHandles<VkImageView>},
-      {"VkSampler", liveHandles<VkSampler>},
-      {"VkShaderModule", liveHandles<VkShaderModule>},
-      {"VkPipelineCache", liveHandles<VkPipelineCache>},
-      {"VkPipelineLayout", liveHandles<VkPipelineLayout>},
-      {"VkPipeline", liveHandles<VkPipeline>},
-      {"VkRenderPass", liveHandles<VkRenderPass>},
-      {"VkFramebuffer", liveHandles<VkFramebuffer>},
-      {"VkDescriptorSetLayout", liveHandles<VkDescriptorSetLayout>},
-      {"VkDescriptorPool", liveHandles<VkDescriptorPool>},
-      {"VkQueryPool", liveHandles<VkQueryPool>},
-      {"VkSurfaceKHR", liveHandles<VkSurfaceKHR>},
-      {"VkSwapchainKHR", liveHandles<VkSwapchainKHR>},
-      {"VkDebugUtilsMessengerEXT", liveHandles<VkDebugUtilsMessengerEXT>},
-  };
+  std::map<std::string, int64_t> all = {{"VkDebugUtilsMessengerEXT", liveHandles<VkDebugUtilsMessengerEXT>}};
+#define SPECULUM_COUNT(HANDLE, TYPE, VALUE, DESTROY) all[#TYPE] = liveHandles<TYPE>;
+  SPECULUM_HANDLES(SPECULUM_COUNT)
+#undef SPECULUM_COUNT
   std::erase_if(all, [](const auto& entry) { return entry.second == 0; });
   return all;
 }

@@ -6,55 +6,58 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace speculum {
 
-// Which VkObjectType a handle type has; also the key under which live handles are counted.
+// Every type that a Handle owns: the handle's name, the Vulkan type, its object type and what destroys it.
+#define SPECULUM_HANDLES(X)                                                                          \
+  X(CommandPoolHandle, VkCommandPool, VK_OBJECT_TYPE_COMMAND_POOL, vkDestroyCommandPool)             \
+  X(SemaphoreHandle, VkSemaphore, VK_OBJECT_TYPE_SEMAPHORE, vkDestroySemaphore)                      \
+  X(FenceHandle, VkFence, VK_OBJECT_TYPE_FENCE, vkDestroyFence)                                      \
+  X(MemoryHandle, VkDeviceMemory, VK_OBJECT_TYPE_DEVICE_MEMORY, vkFreeMemory)                        \
+  X(BufferHandle, VkBuffer, VK_OBJECT_TYPE_BUFFER, vkDestroyBuffer)                                  \
+  X(ImageHandle, VkImage, VK_OBJECT_TYPE_IMAGE, vkDestroyImage)                                      \
+  X(ImageViewHandle, VkImageView, VK_OBJECT_TYPE_IMAGE_VIEW, vkDestroyImageView)                     \
+  X(SamplerHandle, VkSampler, VK_OBJECT_TYPE_SAMPLER, vkDestroySampler)                              \
+  X(ShaderModuleHandle, VkShaderModule, VK_OBJECT_TYPE_SHADER_MODULE, vkDestroyShaderModule)         \
+  X(PipelineCacheHandle, VkPipelineCache, VK_OBJECT_TYPE_PIPELINE_CACHE, vkDestroyPipelineCache)     \
+  X(PipelineLayoutHandle, VkPipelineLayout, VK_OBJECT_TYPE_PIPELINE_LAYOUT, vkDestroyPipelineLayout) \
+  X(PipelineHandle, VkPipeline, VK_OBJECT_TYPE_PIPELINE, vkDestroyPipeline)                          \
+  X(RenderPassHandle, VkRenderPass, VK_OBJECT_TYPE_RENDER_PASS, vkDestroyRenderPass)                 \
+  X(FramebufferHandle, VkFramebuffer, VK_OBJECT_TYPE_FRAMEBUFFER, vkDestroyFramebuffer)              \
+  X(DescriptorSetLayoutHandle, VkDescriptorSetLayout, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,          \
+    vkDestroyDescriptorSetLayout)                                                                    \
+  X(DescriptorPoolHandle, VkDescriptorPool, VK_OBJECT_TYPE_DESCRIPTOR_POOL, vkDestroyDescriptorPool) \
+  X(QueryPoolHandle, VkQueryPool, VK_OBJECT_TYPE_QUERY_POOL, vkDestroyQueryPool)                     \
+  X(SurfaceHandle, VkSurfaceKHR, VK_OBJECT_TYPE_SURFACE_KHR, vkDestroySurfaceKHR)                    \
+  X(SwapchainHandle, VkSwapchainKHR, VK_OBJECT_TYPE_SWAPCHAIN_KHR, vkDestroySwapchainKHR)
+
+// VkObjectType of a Vulkan type, for debug names.
 template <typename T>
 constexpr VkObjectType objectType() = delete;
+// Name of a type that a Handle owns, for messages.
+template <typename T>
+constexpr std::string_view objectName() = delete;
 
 #define SPECULUM_OBJECT_TYPE(TYPE, VALUE)     \
   template <>                                 \
   constexpr VkObjectType objectType<TYPE>() { \
     return VALUE;                             \
   }
-SPECULUM_OBJECT_TYPE(VkInstance, VK_OBJECT_TYPE_INSTANCE)
-SPECULUM_OBJECT_TYPE(VkDevice, VK_OBJECT_TYPE_DEVICE)
 SPECULUM_OBJECT_TYPE(VkQueue, VK_OBJECT_TYPE_QUEUE)
 SPECULUM_OBJECT_TYPE(VkCommandBuffer, VK_OBJECT_TYPE_COMMAND_BUFFER)
-SPECULUM_OBJECT_TYPE(VkCommandPool, VK_OBJECT_TYPE_COMMAND_POOL)
-SPECULUM_OBJECT_TYPE(VkSemaphore, VK_OBJECT_TYPE_SEMAPHORE)
-SPECULUM_OBJECT_TYPE(VkFence, VK_OBJECT_TYPE_FENCE)
-SPECULUM_OBJECT_TYPE(VkDeviceMemory, VK_OBJECT_TYPE_DEVICE_MEMORY)
-SPECULUM_OBJECT_TYPE(VkBuffer, VK_OBJECT_TYPE_BUFFER)
-SPECULUM_OBJECT_TYPE(VkImage, VK_OBJECT_TYPE_IMAGE)
-SPECULUM_OBJECT_TYPE(VkImageView, VK_OBJECT_TYPE_IMAGE_VIEW)
-SPECULUM_OBJECT_TYPE(VkSampler, VK_OBJECT_TYPE_SAMPLER)
-SPECULUM_OBJECT_TYPE(VkShaderModule, VK_OBJECT_TYPE_SHADER_MODULE)
-SPECULUM_OBJECT_TYPE(VkPipelineCache, VK_OBJECT_TYPE_PIPELINE_CACHE)
-SPECULUM_OBJECT_TYPE(VkPipelineLayout, VK_OBJECT_TYPE_PIPELINE_LAYOUT)
-SPECULUM_OBJECT_TYPE(VkPipeline, VK_OBJECT_TYPE_PIPELINE)
-SPECULUM_OBJECT_TYPE(VkRenderPass, VK_OBJECT_TYPE_RENDER_PASS)
-SPECULUM_OBJECT_TYPE(VkFramebuffer, VK_OBJECT_TYPE_FRAMEBUFFER)
-SPECULUM_OBJECT_TYPE(VkDescriptorSetLayout, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT)
-SPECULUM_OBJECT_TYPE(VkDescriptorPool, VK_OBJECT_TYPE_DESCRIPTOR_POOL)
-SPECULUM_OBJECT_TYPE(VkDescriptorSet, VK_OBJECT_TYPE_DESCRIPTOR_SET)
-SPECULUM_OBJECT_TYPE(VkQueryPool, VK_OBJECT_TYPE_QUERY_POOL)
-SPECULUM_OBJECT_TYPE(VkSurfaceKHR, VK_OBJECT_TYPE_SURFACE_KHR)
-SPECULUM_OBJECT_TYPE(VkSwapchainKHR, VK_OBJECT_TYPE_SWAPCHAIN_KHR)
-SPECULUM_OBJECT_TYPE(VkDebugUtilsMessengerEXT, VK_OBJECT_TYPE_DEBUG_UTILS_MESSENGER_EXT)
-#undef SPECULUM_OBJECT_TYPE
 
-// Live handles of one type over the whole process, for tests that prove "no growth".
+// Live handles of one type in the whole process, for tests that prove "no growth".
 template <typename T>
 inline std::atomic<int64_t> liveHandles{0};
 
-// Name of the Vulkan type -> live handles, types without any left out.
+// Live handles by the name of the Vulkan type; types without any are left out.
 std::map<std::string, int64_t> liveObjects();
 int64_t liveObjectCount();
 
-// Owns one child of an instance or device and destroys it with `destroy(owner, object, nullptr)`. Move-only.
+// Owns a child of an instance or a device and destroys it with `destroy(owner, object, nullptr)`. Move-only.
 template <typename T, auto destroy>
 class Handle {
   template <typename Owner>
@@ -97,24 +100,25 @@ class Handle {
   T object_ = VK_NULL_HANDLE;
 };
 
-using SemaphoreHandle = Handle<VkSemaphore, vkDestroySemaphore>;
-using FenceHandle = Handle<VkFence, vkDestroyFence>;
-using CommandPoolHandle = Handle<VkCommandPool, vkDestroyCommandPool>;
-using MemoryHandle = Handle<VkDeviceMemory, vkFreeMemory>;
-using BufferHandle = Handle<VkBuffer, vkDestroyBuffer>;
-using ImageHandle = Handle<VkImage, vkDestroyImage>;
-using ImageViewHandle = Handle<VkImageView, vkDestroyImageView>;
-using SamplerHandle = Handle<VkSampler, vkDestroySampler>;
-using ShaderModuleHandle = Handle<VkShaderModule, vkDestroyShaderModule>;
-using PipelineCacheHandle = Handle<VkPipelineCache, vkDestroyPipelineCache>;
-using PipelineLayoutHandle = Handle<VkPipelineLayout, vkDestroyPipelineLayout>;
-using PipelineHandle = Handle<VkPipeline, vkDestroyPipeline>;
-using RenderPassHandle = Handle<VkRenderPass, vkDestroyRenderPass>;
-using FramebufferHandle = Handle<VkFramebuffer, vkDestroyFramebuffer>;
-using DescriptorSetLayoutHandle = Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
-using DescriptorPoolHandle = Handle<VkDescriptorPool, vkDestroyDescriptorPool>;
-using QueryPoolHandle = Handle<VkQueryPool, vkDestroyQueryPool>;
-using SurfaceHandle = Handle<VkSurfaceKHR, vkDestroySurfaceKHR>;
-using SwapchainHandle = Handle<VkSwapchainKHR, vkDestroySwapchainKHR>;
+// The Handle that owns a Vulkan type: HandleOf<VkFence> is FenceHandle.
+template <typename T>
+struct HandleTrait;
+template <typename T>
+using HandleOf = typename HandleTrait<T>::Type;
+
+#define SPECULUM_HANDLE(HANDLE, TYPE, VALUE, DESTROY) \
+  SPECULUM_OBJECT_TYPE(TYPE, VALUE)                   \
+  template <>                                         \
+  constexpr std::string_view objectName<TYPE>() {     \
+    return #TYPE;                                     \
+  }                                                   \
+  using HANDLE = Handle<TYPE, DESTROY>;               \
+  template <>                                         \
+  struct HandleTrait<TYPE> {                          \
+    using Type = HANDLE;                              \
+  };
+SPECULUM_HANDLES(SPECULUM_HANDLE)
+#undef SPECULUM_HANDLE
+#undef SPECULUM_OBJECT_TYPE
 
 }  // namespace speculum

@@ -27,9 +27,8 @@ class Image {
   Image() = default;
   Image(Device& device, const ImageDesc& desc);
   Image(Device& device, VkImage borrowed, const ImageDesc& desc);
-  Image(Image&& other) noexcept;
+  Image(Image&&) noexcept = default;
   Image& operator=(Image&& other) noexcept;
-  ~Image();
 
   VkImage get() const { return image_; }
   VkImageView view() const { return view_.get(); }
@@ -39,8 +38,9 @@ class Image {
   VkSampleCountFlagBits samples() const { return desc_.samples; }
   VkImageAspectFlags aspect() const;
   uint64_t bytes() const { return memory_.bytes(); }
-  uint64_t id() const { return id_; }  // never reused in a process, unlike handles; 0 for an empty image
-  explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
+  // Never reused in a process, unlike handles; 0 for an empty image.
+  uint64_t id() const { return announced_ ? announced_.get_deleter().id : 0; }
+  explicit operator bool() const { return static_cast<bool>(announced_); }
 
   // The layout that recording has reached: commands run in the order of recording on the one queue.
   VkImageLayout layout() const { return layout_; }
@@ -51,17 +51,20 @@ class Image {
   }
 
  private:
-  void createView();
-  void release();
+  // Tells the device when the image dies.
+  struct Announce {
+    uint64_t id;
+    void operator()(Device* device) const { device->imageDestroyed(id); }
+  };
+  void createView(Device& device);
 
-  Device* device_ = nullptr;
   ImageDesc desc_;
-  uint64_t id_ = 0;
   Memory memory_;
   ImageHandle owned_;
   VkImage image_ = VK_NULL_HANDLE;
   ImageViewHandle view_;
   VkImageLayout layout_ = VK_IMAGE_LAYOUT_UNDEFINED;
+  std::unique_ptr<Device, Announce> announced_;  // the last member: what observes the image lets go of the view first
 };
 
 struct SamplerDesc {

@@ -17,19 +17,15 @@ namespace {
 constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
 bool layerPresent() {
-  uint32_t count = 0;
-  check(vkEnumerateInstanceLayerProperties(&count, nullptr), "list Vulkan layers");
-  std::vector<VkLayerProperties> layers(count);
-  check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "list Vulkan layers");
+  const auto layers = enumerate<VkLayerProperties>("list Vulkan layers", vkEnumerateInstanceLayerProperties);
   return std::any_of(layers.begin(), layers.end(),
                      [](const auto& layer) { return std::strcmp(layer.layerName, validationLayer) == 0; });
 }
 
-bool extensionPresent(const char* layer, const char* name) {
-  uint32_t count = 0;
-  check(vkEnumerateInstanceExtensionProperties(layer, &count, nullptr), "list instance extensions");
-  std::vector<VkExtensionProperties> extensions(count);
-  check(vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data()), "list instance extensions");
+bool extensionPresent(const char* name) {
+  const auto extensions = enumerate<VkExtensionProperties>("list instance extensions", [](uint32_t* count, auto* data) {
+    return vkEnumerateInstanceExtensionProperties(nullptr, count, data);
+  });
   return std::any_of(extensions.begin(), extensions.end(),
                      [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
@@ -95,7 +91,7 @@ Instance::Instance(const DeviceOptions& options) {
                                       .apiVersion = usedVersion()};
   separateShaderCaches();
   const std::vector<const char*> layers = chooseLayers(options);
-  debugUtils_ = extensionPresent(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) || options.validation;
+  debugUtils_ = extensionPresent(VK_EXT_DEBUG_UTILS_EXTENSION_NAME) || options.validation;
   std::vector<const char*> extensions;
   if (debugUtils_) {
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

@@ -17,12 +17,11 @@ std::string lower(std::string text) {
 }
 
 std::vector<std::string> extensionsOf(VkPhysicalDevice device) {
-  uint32_t count = 0;
-  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "list device extensions");
-  std::vector<VkExtensionProperties> properties(count);
-  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, properties.data()), "list device extensions");
   std::vector<std::string> names;
-  for (const VkExtensionProperties& property : properties) {
+  for (const VkExtensionProperties& property :
+       enumerate<VkExtensionProperties>("list device extensions", [&](uint32_t*count, auto*data) {
+         return vkEnumerateDeviceExtensionProperties(device, nullptr, count, data);
+       })) {
     names.emplace_back(property.extensionName);
   }
   return names;
@@ -175,12 +174,9 @@ bool PhysicalDevice::hasExtension(std::string_view name) const {
 }
 
 std::vector<PhysicalDevice> physicalDevices(VkInstance instance) {
-  uint32_t count = 0;
-  check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "list GPUs");
-  std::vector<VkPhysicalDevice> handles(count);
-  check(vkEnumeratePhysicalDevices(instance, &count, handles.data()), "list GPUs");
   std::vector<PhysicalDevice> devices;
-  for (VkPhysicalDevice handle : handles) {
+  for (VkPhysicalDevice handle : enumerate<VkPhysicalDevice>(
+           "list GPUs", [&](uint32_t*count, auto*data) { return vkEnumeratePhysicalDevices(instance, count, data); })) {
     devices.push_back(inspect(handle, static_cast<int>(devices.size())));
   }
   return devices;

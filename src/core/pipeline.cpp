@@ -100,15 +100,13 @@ PipelineLayoutHandle createLayout(Device& device, const PipelineDesc& desc) {
   const std::vector<VkDescriptorSetLayout>& sets =
       std::visit([](const auto& d) -> const std::vector<VkDescriptorSetLayout>& { return d.setLayouts; }, desc);
   const VkPushConstantRange range{pushStages(desc), 0, pushBytes};
-  const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                        .setLayoutCount = static_cast<uint32_t>(sets.size()),
-                                        .pSetLayouts = sets.data(),
-                                        .pushConstantRangeCount = pushBytes > 0 ? 1u : 0u,
-                                        .pPushConstantRanges = &range};
-  VkPipelineLayout layout = VK_NULL_HANDLE;
-  check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout), "create the layout of pipeline " + nameOf(desc));
-  device.setName(layout, nameOf(desc));
-  return {device.get(), layout};
+  return device.create(vkCreatePipelineLayout,
+                       {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                        .setLayoutCount = static_cast<uint32_t>(sets.size()),
+                        .pSetLayouts = sets.data(),
+                        .pushConstantRangeCount = pushBytes > 0 ? 1u : 0u,
+                        .pPushConstantRanges = &range},
+                       nameOf(desc));
 }
 
 bool uses(const PipelineDesc& desc, const std::vector<std::string>& shaders) {

@@ -1,8 +1,11 @@
+#include "core/pipeline_cache.hpp"
+
 #include <spdlog/spdlog.h>
 
 #include <cstring>
+#include <optional>
+#include <span>
 
-#include "core/pipeline.hpp"
 #include "platform/files.hpp"
 #include "platform/fnv1a.hpp"
 
@@ -67,13 +70,11 @@ PipelineCache::PipelineCache(Device& device, const std::filesystem::path& direct
       }
     }
   }
-  const VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
-                                       .initialDataSize = data.size(),
-                                       .pInitialData = data.data()};
-  VkPipelineCache cache = VK_NULL_HANDLE;
-  check(vkCreatePipelineCache(device.get(), &info, nullptr, &cache), "create the pipeline cache");
-  cache_ = {device.get(), cache};
-  device.setName(cache, "pipeline cache");
+  cache_ = device.create(vkCreatePipelineCache,
+                         {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                          .initialDataSize = data.size(),
+                          .pInitialData = data.data()},
+                         "pipeline cache");
 }
 
 PipelineCache::~PipelineCache() {

@@ -40,15 +40,13 @@ RenderPassHandle create(Device& device, const RenderPassKey& key) {
                                      .pColorAttachments = &color,
                                      .pResolveAttachments = key.resolve ? &resolve : nullptr,
                                      .pDepthStencilAttachment = key.depth != VK_FORMAT_UNDEFINED ? &depth : nullptr};
-  const VkRenderPassCreateInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                    .attachmentCount = static_cast<uint32_t>(attachments.size()),
-                                    .pAttachments = attachments.data(),
-                                    .subpassCount = 1,
-                                    .pSubpasses = &subpass};
-  VkRenderPass renderPass = VK_NULL_HANDLE;
-  check(vkCreateRenderPass(device.get(), &info, nullptr, &renderPass), "create a render pass");
-  device.setName(renderPass, "render pass, samples " + std::to_string(key.samples));
-  return {device.get(), renderPass};
+  return device.create(vkCreateRenderPass,
+                       {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                        .attachmentCount = static_cast<uint32_t>(attachments.size()),
+                        .pAttachments = attachments.data(),
+                        .subpassCount = 1,
+                        .pSubpasses = &subpass},
+                       "samples " + std::to_string(key.samples));
 }
 
 }  // namespace
@@ -83,17 +81,15 @@ VkFramebuffer RenderPassCache::framebuffer(VkRenderPass renderPass, const std::v
   }
   FramebufferHandle& handle = framebuffers_[key];
   if (!handle) {
-    const VkFramebufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                       .renderPass = renderPass,
-                                       .attachmentCount = static_cast<uint32_t>(views.size()),
-                                       .pAttachments = views.data(),
-                                       .width = extent.width,
-                                       .height = extent.height,
-                                       .layers = 1};
-    VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    check(vkCreateFramebuffer(device_.get(), &info, nullptr, &framebuffer), "create a framebuffer");
-    handle = {device_.get(), framebuffer};
-    device_.setName(framebuffer, images.front()->desc().name);
+    handle = device_.create(vkCreateFramebuffer,
+                            {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                             .renderPass = renderPass,
+                             .attachmentCount = static_cast<uint32_t>(views.size()),
+                             .pAttachments = views.data(),
+                             .width = extent.width,
+                             .height = extent.height,
+                             .layers = 1},
+                            images.front()->desc().name);
   }
   return handle.get();
 }

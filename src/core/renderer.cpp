@@ -17,33 +17,13 @@ std::filesystem::path cacheDir(const RendererOptions& options) {
 
 }  // namespace
 
-Renderer::Slot::Slot(Device& device, uint32_t index)
-    : descriptors(device), timer(device, "frame in flight " + std::to_string(index)) {
-  const std::string name = "frame in flight " + std::to_string(index);
-  const VkCommandPoolCreateInfo poolInfo{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                         .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                         .queueFamilyIndex = device.queueFamily()};
-  VkCommandPool commandPool = VK_NULL_HANDLE;
-  check(vkCreateCommandPool(device.get(), &poolInfo, nullptr, &commandPool), "create a command pool");
-  pool = {device.get(), commandPool};
-  device.setName(commandPool, name);
-  const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                         .commandPool = commandPool,
-                                         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                         .commandBufferCount = 1};
-  check(vkAllocateCommandBuffers(device.get(), &info, &commands), "allocate a command buffer");
-  device.setName(commands, name);
-  const VkSemaphoreCreateInfo semaphoreInfo{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-  VkSemaphore semaphore = VK_NULL_HANDLE;
-  check(vkCreateSemaphore(device.get(), &semaphoreInfo, nullptr, &semaphore), "create a semaphore");
-  acquired = {device.get(), semaphore};
-  device.setName(semaphore, name + " image acquired");
-  const VkFenceCreateInfo fenceInfo{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-  VkFence fence = VK_NULL_HANDLE;
-  check(vkCreateFence(device.get(), &fenceInfo, nullptr, &fence), "create a fence");
-  finished = {device.get(), fence};
-  device.setName(fence, name + " finished");
-}
+Renderer::Slot::Slot(Device& device, const std::string& name)
+    : pool(device, name),
+      acquired(device.create(vkCreateSemaphore, {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO},
+                             name + " image acquired")),
+      finished(device.create(vkCreateFence, {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, name + " finished")),
+      descriptors(device),
+      timer(device, name) {}
 
 Renderer::Renderer(Device& device, const RendererOptions& options)
     : device_(device),
@@ -52,7 +32,7 @@ Renderer::Renderer(Device& device, const RendererOptions& options)
       shaders_(device, options.spirvDir.empty() ? dataDirectory("shaders") : options.spirvDir, options.shaderDir),
       pipelineCache_(device, cacheDir(options)),
       uploader_(device),
-      slots_{Slot(device, 0), Slot(device, 1)},
+      slots_{Slot(device, "frame in flight 0"), Slot(device, "frame in flight 1")},
       pipelines_(device, shaders_, renderPasses_, pipelineCache_, retired_),
       idle_(device) {
   if (window_) {
@@ -134,12 +114,9 @@ std::optional<Frame> Renderer::beginFrame() {
   recording_ = true;
   retired_.setFrame(frameNumber_);
   slot.descriptors.reset();
-  check(vkResetCommandPool(device_.get(), slot.pool.get(), 0), "reset a frame's commands");
-  const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                       .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-  check(vkBeginCommandBuffer(slot.commands, &begin), "begin a frame's commands");
-  slot.timer.reset(slot.commands, frameNumber_, timerDetail_);
-  return Frame{.commands = slot.commands,
+  const VkCommandBuffer commands = slot.pool.begin();
+  slot.timer.reset(commands, frameNumber_, timerDetail_);
+  return Frame{.commands = commands,
                .index = index,
                .imageIndex = *image,
                .number = frameNumber_,
@@ -244,7 +221,7 @@ void Renderer::recordCapture(Slot& slot, const Frame& frame) {
   const VkExtent2D extent = image.extent();
   const VkDeviceSize bytes = VkDeviceSize{4} * extent.width * extent.height;
   if (slot.capture.bytes() != bytes) {
-    slot.capture = Buffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::host, "capture");
+    slot.capture = Buffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host, "capture");
   }
   slot.captureExtent = extent;
   captureSlot_ = frame.index;

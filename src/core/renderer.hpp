@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/command_pool.hpp"
 #include "core/descriptors.hpp"
 #include "core/gpu_timer.hpp"
 #include "core/off_screen.hpp"
@@ -96,9 +97,8 @@ class Renderer {
 
  private:
   struct Slot {
-    Slot(Device& device, uint32_t index);
-    CommandPoolHandle pool;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
+    Slot(Device& device, const std::string& name);
+    CommandPool pool;
     SemaphoreHandle acquired;
     FenceHandle finished;
     DescriptorAllocator descriptors;

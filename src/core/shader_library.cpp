@@ -142,13 +142,10 @@ void ShaderLibrary::collectErrors() {
 void ShaderLibrary::setCode(const std::string& name, Entry& entry, std::vector<uint8_t> code) {
   std::vector<uint32_t> words(code.size() / sizeof(uint32_t));
   std::memcpy(words.data(), code.data(), code.size());
-  const VkShaderModuleCreateInfo info{
-      .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = code.size(), .pCode = words.data()};
-  VkShaderModule module = VK_NULL_HANDLE;
-  check(vkCreateShaderModule(device_.get(), &info, nullptr, &module), "create shader module " + name);
-  entry.module = {device_.get(), module};
+  entry.module = device_.create(
+      vkCreateShaderModule,
+      {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = code.size(), .pCode = words.data()}, name);
   entry.code = std::move(code);
-  device_.setName(module, name);
 }
 
 }  // namespace speculum

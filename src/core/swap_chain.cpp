@@ -57,11 +57,9 @@ SwapChain::SwapChain(Device& device, Window& window, PresentMode mode) : device_
 }
 
 void SwapChain::chooseFormat() {
-  uint32_t count = 0;
-  check(vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physical(), device_.surface(), &count, nullptr), "list formats");
-  std::vector<VkSurfaceFormatKHR> formats(count);
-  check(vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physical(), device_.surface(), &count, formats.data()),
-        "list formats");
+  const auto formats = enumerate<VkSurfaceFormatKHR>("list formats", [&](uint32_t* count, auto* data) {
+    return vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physical(), device_.surface(), count, data);
+  });
   for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}) {
     for (const VkSurfaceFormatKHR& format : formats) {
       if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
@@ -74,12 +72,9 @@ void SwapChain::chooseFormat() {
 }
 
 std::vector<PresentMode> SwapChain::presentModes() const {
-  uint32_t count = 0;
-  check(vkGetPhysicalDeviceSurfacePresentModesKHR(device_.physical(), device_.surface(), &count, nullptr),
-        "list present modes");
-  std::vector<VkPresentModeKHR> modes(count);
-  check(vkGetPhysicalDeviceSurfacePresentModesKHR(device_.physical(), device_.surface(), &count, modes.data()),
-        "list present modes");
+  const auto modes = enumerate<VkPresentModeKHR>("list present modes", [&](uint32_t* count, auto* data) {
+    return vkGetPhysicalDeviceSurfacePresentModesKHR(device_.physical(), device_.surface(), count, data);
+  });
   std::vector<PresentMode> offered;
   for (const PresentMode mode : {PresentMode::fifo, PresentMode::mailbox, PresentMode::immediate}) {
     if (std::find(modes.begin(), modes.end(), vulkanMode(mode)) != modes.end()) {
@@ -125,27 +120,19 @@ bool SwapChain::recreate() {
                                       .presentMode = vulkanMode(mode_),
                                       .clipped = VK_TRUE,
                                       .oldSwapchain = old.get()};
-  VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-  check(vkCreateSwapchainKHR(device_.get(), &info, nullptr, &swapchain), "create the swapchain");
-  swapchain_ = {device_.get(), swapchain};
-  device_.setName(swapchain, "swapchain");
+  swapchain_ = device_.create(vkCreateSwapchainKHR, info, "swapchain");
   createImages();
   return true;
 }
 
 void SwapChain::createImages() {
-  uint32_t count = 0;
-  check(vkGetSwapchainImagesKHR(device_.get(), swapchain_.get(), &count, nullptr), "list swapchain images");
-  std::vector<VkImage> images(count);
-  check(vkGetSwapchainImagesKHR(device_.get(), swapchain_.get(), &count, images.data()), "list swapchain images");
-  for (uint32_t i = 0; i < count; ++i) {
-    const std::string name = "swapchain image " + std::to_string(i);
-    images_.emplace_back(device_, images[i], ImageDesc{.extent = extent_, .format = format_.format, .name = name});
-    const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    check(vkCreateSemaphore(device_.get(), &info, nullptr, &semaphore), "create a semaphore");
-    renderFinished_.emplace_back(device_.get(), semaphore);
-    device_.setName(semaphore, "render finished " + std::to_string(i));
+  for (VkImage image : enumerate<VkImage>("list swapchain images", [&](uint32_t*count, auto*data) {
+         return vkGetSwapchainImagesKHR(device_.get(), swapchain_.get(), count, data);
+       })) {
+    const std::string name = "swapchain image " + std::to_string(images_.size());
+    images_.emplace_back(device_, image, ImageDesc{.extent = extent_, .format = format_.format, .name = name});
+    renderFinished_.push_back(device_.create(vkCreateSemaphore, {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO},
+                                             name + " render finished"));
   }
 }
 

@@ -33,36 +33,17 @@ VkBufferImageCopy wholeLevel0(const Image& image) {
 
 }  // namespace
 
-Uploader::Uploader(Device& device) : device_(device) {
-  const VkCommandPoolCreateInfo poolInfo{
-      .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-      .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT | VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-      .queueFamilyIndex = device.queueFamily()};
-  VkCommandPool pool = VK_NULL_HANDLE;
-  check(vkCreateCommandPool(device.get(), &poolInfo, nullptr, &pool), "create the upload command pool");
-  pool_ = {device.get(), pool};
-  device.setName(pool, "uploads");
-  const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                         .commandPool = pool,
-                                         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                         .commandBufferCount = 1};
-  check(vkAllocateCommandBuffers(device.get(), &info, &commands_), "allocate the upload command buffer");
-  device.setName(commands_, "uploads");
-  const VkFenceCreateInfo fenceInfo{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-  VkFence fence = VK_NULL_HANDLE;
-  check(vkCreateFence(device.get(), &fenceInfo, nullptr, &fence), "create the upload fence");
-  fence_ = {device.get(), fence};
-  device.setName(fence, "uploads");
-}
+Uploader::Uploader(Device& device)
+    : device_(device),
+      pool_(device, "uploads"),
+      fence_(device.create(vkCreateFence, {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, "uploads")) {}
 
 void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
-  const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                       .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-  check(vkBeginCommandBuffer(commands_, &begin), "begin an upload");
-  record(commands_);
-  check(vkEndCommandBuffer(commands_), "end an upload");
+  const VkCommandBuffer commands = pool_.begin();
+  record(commands);
+  check(vkEndCommandBuffer(commands), "end an upload");
   const VkSubmitInfo submit{
-      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands_};
+      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
   check(vkQueueSubmit(device_.queue(), 1, &submit, fence_.get()), "submit an upload");
   const VkFence fence = fence_.get();
   check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for an upload");
@@ -70,11 +51,12 @@ void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
 }
 
 Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name) {
-  Buffer target(device_, data.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::device, name);
+  Buffer target(device_, data.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::device, name);
   if (data.empty()) {
     return target;
   }
-  const Buffer staging(device_, data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::host, "staging of " + name);
+  const Buffer staging(device_, data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferMemory::host,
+                       "staging of " + name);
   staging.write(data);
   run([&](VkCommandBuffer commands) {
     const VkBufferCopy region{.size = data.size()};
@@ -97,7 +79,7 @@ Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFo
                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | sources,
                          .mipLevels = mipmaps ? mipLevelCount(extent) : 1,
                          .name = name});
-  const Buffer staging(device_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::host,
+  const Buffer staging(device_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferMemory::host,
                        "staging of " + name);
   staging.write(texels);
   run([&](VkCommandBuffer commands) {
@@ -135,7 +117,7 @@ void Uploader::generateMipmaps(VkCommandBuffer commands, Image& image) {
 
 std::vector<std::byte> Uploader::read(Image& image) {
   const VkDeviceSize bytes = VkDeviceSize{image.extent().width} * image.extent().height * texelBytes(image.format());
-  const Buffer staging(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::host,
+  const Buffer staging(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host,
                        "read-back of " + image.desc().name);
   run([&](VkCommandBuffer commands) {
     const VkImageLayout layout = image.layout();

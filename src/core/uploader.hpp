@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/command_pool.hpp"
 #include "core/image.hpp"
 
 namespace speculum {
@@ -36,8 +37,7 @@ class Uploader {
   void generateMipmaps(VkCommandBuffer commands, Image& image);
 
   Device& device_;
-  CommandPoolHandle pool_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  CommandPool pool_;
   FenceHandle fence_;
 };
 

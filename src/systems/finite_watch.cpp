@@ -56,7 +56,7 @@ void FiniteWatch::begin(const Frame& frame, size_t targets) {
   }
   Slot& slot = slots_[frame.index];
   if (slot.results.bytes() < targets * targetBytes) {
-    slot.results = Buffer(device_, targets * targetBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
+    slot.results = Buffer(device_, targets * targetBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
                           "check finite " + std::to_string(frame.index));
   }
   for (size_t i = 0; i < targets; ++i) {

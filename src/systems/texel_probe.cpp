@@ -31,7 +31,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
   }
   Slot& slot = slots_[frame.index];
   if (!slot.result) {
-    slot.result = Buffer(device_, sizeof(gpu::ProbedTexel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host,
+    slot.result = Buffer(device_, sizeof(gpu::ProbedTexel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
                          "probe texel " + std::to_string(frame.index));
   }
   slot.asked = {.texel = texel, .depth = image.format() == depthFormat};

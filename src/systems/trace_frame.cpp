@@ -85,7 +85,7 @@ TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
 
 void TraceFrame::create() {
   static_assert(storageBuffers == frameDataBindings + sceneBindings + kindCount);
-  nothing_ = Buffer(device_, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::host, "no trace scene");
+  nothing_ = Buffer(device_, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host, "no trace scene");
   if (layout_) {
     return;
   }

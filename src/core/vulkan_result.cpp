@@ -1,40 +1,27 @@
-#include <stdexcept>
-#include <string>
-
-#include "core/device.hpp"
+#include "core/vulkan_result.hpp"
 
 namespace speculum {
 
 std::string resultName(VkResult result) {
   switch (result) {
-    case VK_SUCCESS:
-      return "VK_SUCCESS";
-    case VK_NOT_READY:
-      return "VK_NOT_READY";
-    case VK_TIMEOUT:
-      return "VK_TIMEOUT";
-    case VK_SUBOPTIMAL_KHR:
-      return "VK_SUBOPTIMAL_KHR";
-    case VK_ERROR_OUT_OF_HOST_MEMORY:
-      return "VK_ERROR_OUT_OF_HOST_MEMORY";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-    case VK_ERROR_INITIALIZATION_FAILED:
-      return "VK_ERROR_INITIALIZATION_FAILED";
-    case VK_ERROR_DEVICE_LOST:
-      return "VK_ERROR_DEVICE_LOST";
-    case VK_ERROR_LAYER_NOT_PRESENT:
-      return "VK_ERROR_LAYER_NOT_PRESENT";
-    case VK_ERROR_EXTENSION_NOT_PRESENT:
-      return "VK_ERROR_EXTENSION_NOT_PRESENT";
-    case VK_ERROR_FEATURE_NOT_PRESENT:
-      return "VK_ERROR_FEATURE_NOT_PRESENT";
-    case VK_ERROR_INCOMPATIBLE_DRIVER:
-      return "VK_ERROR_INCOMPATIBLE_DRIVER";
-    case VK_ERROR_SURFACE_LOST_KHR:
-      return "VK_ERROR_SURFACE_LOST_KHR";
-    case VK_ERROR_OUT_OF_DATE_KHR:
-      return "VK_ERROR_OUT_OF_DATE_KHR";
+#define SPECULUM_NAME(RESULT) \
+  case RESULT:                \
+    return #RESULT;
+    SPECULUM_NAME(VK_SUCCESS)
+    SPECULUM_NAME(VK_NOT_READY)
+    SPECULUM_NAME(VK_TIMEOUT)
+    SPECULUM_NAME(VK_SUBOPTIMAL_KHR)
+    SPECULUM_NAME(VK_ERROR_OUT_OF_HOST_MEMORY)
+    SPECULUM_NAME(VK_ERROR_OUT_OF_DEVICE_MEMORY)
+    SPECULUM_NAME(VK_ERROR_INITIALIZATION_FAILED)
+    SPECULUM_NAME(VK_ERROR_DEVICE_LOST)
+    SPECULUM_NAME(VK_ERROR_LAYER_NOT_PRESENT)
+    SPECULUM_NAME(VK_ERROR_EXTENSION_NOT_PRESENT)
+    SPECULUM_NAME(VK_ERROR_FEATURE_NOT_PRESENT)
+    SPECULUM_NAME(VK_ERROR_INCOMPATIBLE_DRIVER)
+    SPECULUM_NAME(VK_ERROR_SURFACE_LOST_KHR)
+    SPECULUM_NAME(VK_ERROR_OUT_OF_DATE_KHR)
+#undef SPECULUM_NAME
     default:
       return "VkResult " + std::to_string(static_cast<int>(result));
   }

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace speculum {
+
+// VK_ERROR_OUT_OF_DEVICE_MEMORY or VK_ERROR_OUT_OF_HOST_MEMORY.
+class OutOfMemoryError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Throws std::runtime_error that says what failed, why and how to mend it; OutOfMemoryError where memory is missing.
+[[noreturn]] void throwVulkanError(VkResult result, std::string_view what);
+// Throws as above unless `result` is VK_SUCCESS.
+void check(VkResult result, std::string_view what);
+std::string resultName(VkResult result);
+
+// Lists what Vulkan enumerates in two calls: query(&count, nullptr) says how many, query(&count, data) which.
+template <typename T, typename Query>
+std::vector<T> enumerate(std::string_view what, Query query) {
+  uint32_t count = 0;
+  check(query(&count, static_cast<T*>(nullptr)), what);
+  std::vector<T> items(count);
+  check(query(&count, items.data()), what);
+  return items;
+}
+
+}  // namespace speculum
