@@ -111,10 +111,10 @@ TEST(Uploads, FloatsSurviveTheWayToTheGpuAndBack) {
                .name = "test"});
   const Buffer staging = uploader.buffer(std::span(halves), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "test");
   uploader.run([&](VkCommandBuffer commands) {
-    device.barriers().uploadToCopy(commands, image);
+    Barriers::uploadToCopy(commands, image);
     const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {2, 1, 1}};
     vkCmdCopyBufferToImage(commands, staging.get(), image.get(), image.layout(), 1, &region);
-    device.barriers().uploadToRead(commands, image);
+    device.barriers().record(commands, BarrierKind::uploadToRead, image);
   });
   const std::vector<float> expected = {0.0f, 1.0f, -1.0f, 65504.0f, 0.5f, 2.0f, 0.25f, 5.9604645e-8f};
   EXPECT_EQ(uploader.readFloats(image), expected);

@@ -139,7 +139,7 @@ std::vector<uint32_t> filled(Renderer& renderer, const Pipeline& pipeline, VkDes
   pipeline.bindSet(frame.commands, 0, set);
   pipeline.push(frame.commands, offset);
   vkCmdDispatch(frame.commands, 1, 1, 1);
-  renderer.device().barriers().checkToHost(frame.commands);
+  Barriers::computeToHost(frame.commands);
   renderer.endFrame(frame);
   renderer.waitIdle();
   std::vector<uint32_t> values(8);

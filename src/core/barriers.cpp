@@ -1,6 +1,7 @@
 #include "core/barriers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "core/image.hpp"
@@ -9,26 +10,73 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array<std::string_view, barrierKindCount> names = {"offscreenBeforeWrite",
-                                                                  "offscreenSamplesBeforeWrite",
-                                                                  "offscreenDepthBeforeWrite",
-                                                                  "offscreenToSample",
-                                                                  "mainBeforeWrite",
-                                                                  "mainSamplesBeforeWrite",
-                                                                  "mainDepthBeforeWrite",
-                                                                  "mainToSample",
-                                                                  "depthToSample",
-                                                                  "targetToCheck",
-                                                                  "checkToLookUp",
-                                                                  "checkToWrite",
-                                                                  "swapchainBeforeWrite",
-                                                                  "swapchainBeforeOverlay",
-                                                                  "swapchainToPresent",
-                                                                  "readbackToCopy",
-                                                                  "readbackFromCopy",
+struct Scope {
+  VkPipelineStageFlags stages;
+  VkAccessFlags access;
+};
 
-                                                                  "uploadToRead",
-                                                                  "mipmapToBlit"};
+struct Rule {
+  std::string_view name;
+  Scope before;
+  Scope after;
+  VkImageLayout layout;  // VK_IMAGE_LAYOUT_UNDEFINED: the image keeps its own, or the caller says which
+};
+
+constexpr VkPipelineStageFlags colorStage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+constexpr VkPipelineStageFlags depthStages =
+    VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+constexpr VkPipelineStageFlags sampleStage = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+constexpr VkPipelineStageFlags computeStage = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+constexpr VkPipelineStageFlags transferStage = VK_PIPELINE_STAGE_TRANSFER_BIT;
+constexpr VkAccessFlags colorAccess = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+
+constexpr Scope colorWrites{colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr Scope colorUses{colorStage, colorAccess};
+// Shaders that sampled a colour before it was copied or checked are waited for as well.
+constexpr Scope colorWritesAndSamplings{colorStage | sampleStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr Scope depthWrites{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr Scope depthUses{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | depthWrites.access};
+constexpr Scope samplings{sampleStage, VK_ACCESS_SHADER_READ_BIT};
+constexpr Scope computeReads{computeStage, VK_ACCESS_SHADER_READ_BIT};
+constexpr Scope computeWrites{computeStage, VK_ACCESS_SHADER_WRITE_BIT};
+constexpr Scope copyReads{transferStage, VK_ACCESS_TRANSFER_READ_BIT};
+constexpr Scope copyWrites{transferStage, VK_ACCESS_TRANSFER_WRITE_BIT};
+constexpr Scope drawReads{VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | sampleStage,
+                          VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
+                              VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT};
+constexpr Scope nothing{VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
+
+constexpr VkImageLayout attachment = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+constexpr VkImageLayout depthAttachment = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+constexpr VkImageLayout sampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+constexpr VkImageLayout unsaid = VK_IMAGE_LAYOUT_UNDEFINED;
+
+// By kind. What the acquire semaphore of a swapchain image is waited for at, the colour stage, chains it to its
+// barrier.
+constexpr std::array<Rule, barrierKindCount> rules = {{
+    {"offscreenBeforeWrite", colorWrites, colorUses, attachment},
+    {"offscreenSamplesBeforeWrite", colorWrites, colorUses, attachment},
+    {"offscreenDepthBeforeWrite", depthWrites, depthUses, depthAttachment},
+    {"offscreenToSample", colorWrites, samplings, sampled},
+    {"mainBeforeWrite", colorWrites, colorUses, attachment},
+    {"mainSamplesBeforeWrite", colorWrites, colorUses, attachment},
+    {"mainDepthBeforeWrite", depthWrites, depthUses, depthAttachment},
+    {"mainToSample", colorWrites, samplings, sampled},
+    {"depthToSample", depthWrites, samplings, sampled},
+    {"targetToCheck", colorWritesAndSamplings, computeReads, sampled},
+    {"checkToLookUp", computeWrites, computeReads, unsaid},
+    {"checkToWrite", {computeStage, 0}, {colorStage | sampleStage, 0}, unsaid},
+    {"swapchainBeforeWrite", colorWrites, colorUses, attachment},
+    {"swapchainBeforeOverlay", colorWrites, colorUses, overlayLayout},
+    {"swapchainToPresent", colorWrites, {VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0}, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR},
+    {"readbackToCopy", colorWritesAndSamplings, copyReads, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
+    {"readbackFromCopy",
+     {transferStage, 0},
+     {colorStage | sampleStage, colorAccess | VK_ACCESS_SHADER_READ_BIT},
+     unsaid},
+    {"uploadToRead", copyWrites, drawReads, sampled},
+    {"mipmapToBlit", copyWrites, copyReads, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
+}};
 
 constexpr auto kinds = [] {
   std::array<BarrierKind, barrierKindCount> all{};
@@ -38,247 +86,128 @@ constexpr auto kinds = [] {
   return all;
 }();
 
-constexpr VkPipelineStageFlags colorStage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-constexpr VkAccessFlags colorAccess = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
-constexpr VkPipelineStageFlags depthStages =
-    VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-constexpr VkAccessFlags depthAccess =
-    VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-constexpr VkPipelineStageFlags sampleStage = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-constexpr VkPipelineStageFlags checkStage = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-constexpr VkPipelineStageFlags transferStage = VK_PIPELINE_STAGE_TRANSFER_BIT;
-constexpr VkPipelineStageFlags readStages =
-    VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-constexpr VkAccessFlags bufferReads = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT |
-                                      VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT;
-
-BarrierKind kindFor(TargetRole role, BarrierKind offscreen, BarrierKind main) {
-  switch (role) {
-    case TargetRole::offscreen:
-      return offscreen;
-    case TargetRole::main:
-      return main;
-    case TargetRole::swapchain:
-      break;
-  }
-  return BarrierKind::swapchainBeforeWrite;
+const Rule& ruleOf(BarrierKind kind) {
+  return rules[static_cast<size_t>(kind)];
 }
 
-void discardUnless(bool keep, std::span<Image* const> images) {
-  for (Image* image : images) {
-    if (!keep) {
-      image->setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
-    }
-  }
-}
-
-// The stage at which shaders read any of the images before.
-VkPipelineStageFlags readersOf(std::span<Image* const> images) {
-  const bool sampled = std::any_of(images.begin(), images.end(), [](const Image* image) {
+// What an attachment waits for: its earlier writes, and shaders that read it if any can.
+Scope before(const Rule& rule, std::span<Image* const> images) {
+  const bool writes = rule.layout == attachment || rule.layout == depthAttachment;
+  const bool read = std::any_of(images.begin(), images.end(), [](const Image* image) {
     return (image->desc().usage & VK_IMAGE_USAGE_SAMPLED_BIT) != 0;
   });
-  return sampled ? sampleStage : 0;
+  return {rule.before.stages | (writes && read ? sampleStage : 0), rule.before.access};
 }
 
-}  // namespace
-
-std::string_view barrierName(BarrierKind kind) {
-  return names[static_cast<size_t>(kind)];
+VkImageMemoryBarrier imageBarrier(const Image& image, const Scope& before, const Scope& after, VkImageLayout layout) {
+  return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+          .srcAccessMask = before.access,
+          .dstAccessMask = after.access,
+          .oldLayout = image.layout(),
+          .newLayout = layout,
+          .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+          .image = image.get(),
+          .subresourceRange = {image.aspect(), 0, image.desc().mipLevels, 0, 1}};
 }
 
-std::optional<BarrierKind> barrierFromName(std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? std::nullopt : std::optional(kinds[found - names.begin()]);
-}
-
-std::span<const BarrierKind> allBarrierKinds() {
-  return kinds;
-}
-
-void Barriers::record(VkCommandBuffer commands, BarrierKind kind, Image& image, Scope before, Scope after,
-                      VkImageLayout layout) const {
-  Image* const images[] = {&image};
-  record(commands, kind, images, before, after, layout);
-}
-
-void Barriers::record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images, Scope before,
-                      Scope after, VkImageLayout layout) const {
-  const bool omit = omitted_ == kind;
-  if (omit) {
-    before = {VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
-  }
-  std::vector<VkImageMemoryBarrier> barriers;
-  for (Image* image : images) {
-    const VkImageLayout old = image->layout();
-    image->setLayout(layout);
-    if (omit && old == layout) {
-      continue;
-    }
-    barriers.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-                        .srcAccessMask = before.access,
-                        .dstAccessMask = after.access,
-                        .oldLayout = old,
-                        .newLayout = layout,
-                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                        .image = image->get(),
-                        .subresourceRange = {image->aspect(), 0, image->desc().mipLevels, 0, 1}});
-  }
+void recordImages(VkCommandBuffer commands, const Scope& before, const Scope& after,
+                  std::span<const VkImageMemoryBarrier> barriers) {
   if (!barriers.empty()) {
     vkCmdPipelineBarrier(commands, before.stages, after.stages, 0, 0, nullptr, 0, nullptr,
                          static_cast<uint32_t>(barriers.size()), barriers.data());
   }
 }
 
-void Barriers::colorBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images,
-                                bool keep) const {
-  discardUnless(keep, images);
-  // Earlier readers: fragment shaders that sample it and copies of a read-back. The acquire semaphore of a swapchain
-  // image is waited for at the colour stage, which chains it to this barrier.
-  const BarrierKind kind = kindFor(role, BarrierKind::offscreenBeforeWrite, BarrierKind::mainBeforeWrite);
-  const VkPipelineStageFlags readers = role == TargetRole::swapchain ? 0 : sampleStage;
-  record(commands, kind, images, {colorStage | readers, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
-         {colorStage, colorAccess}, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+void recordToHost(VkCommandBuffer commands, const Scope& before) {
+  const VkMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                .srcAccessMask = before.access,
+                                .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
+  vkCmdPipelineBarrier(commands, before.stages, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
-void Barriers::samplesBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images,
-                                  bool keep) const {
-  discardUnless(keep, images);
-  const BarrierKind kind = kindFor(role, BarrierKind::offscreenSamplesBeforeWrite, BarrierKind::mainSamplesBeforeWrite);
-  record(commands, kind, images, {colorStage | readersOf(images), VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
-         {colorStage, colorAccess}, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+}  // namespace
+
+std::string_view barrierName(BarrierKind kind) {
+  return ruleOf(kind).name;
 }
 
-void Barriers::depthBeforeWrite(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images,
-                                bool keep) const {
-  discardUnless(keep, images);
-  const BarrierKind kind = kindFor(role, BarrierKind::offscreenDepthBeforeWrite, BarrierKind::mainDepthBeforeWrite);
-  record(commands, kind, images, {depthStages | readersOf(images), VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
-         {depthStages, depthAccess}, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
+std::optional<BarrierKind> barrierFromName(std::string_view name) {
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](BarrierKind k) { return barrierName(k) == name; });
+  return found == kinds.end() ? std::nullopt : std::optional(*found);
 }
 
-void Barriers::colorToSample(VkCommandBuffer commands, TargetRole role, std::span<Image* const> images) const {
-  const BarrierKind kind = kindFor(role, BarrierKind::offscreenToSample, BarrierKind::mainToSample);
-  record(commands, kind, images, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
-         {sampleStage, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+std::span<const BarrierKind> allBarrierKinds() {
+  return kinds;
 }
 
-void Barriers::depthToSample(VkCommandBuffer commands, Image& image) const {
-  record(commands, BarrierKind::depthToSample, image, {depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
-         {sampleStage, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+void Barriers::record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images) const {
+  const Rule& rule = ruleOf(kind);
+  const bool omit = omitted_ == kind;
+  const Scope waited = omit ? nothing : before(rule, images);
+  std::vector<VkImageMemoryBarrier> barriers;
+  for (Image* image : images) {
+    const VkImageLayout layout = rule.layout == unsaid ? image->layout() : rule.layout;
+    if (!omit || image->layout() != layout) {
+      barriers.push_back(imageBarrier(*image, waited, rule.after, layout));
+    }
+    image->setLayout(layout);
+  }
+  recordImages(commands, waited, rule.after, barriers);
 }
 
-void Barriers::targetToCheck(VkCommandBuffer commands, Image& image) const {
-  // The stage at which colorToSample has left the image, and for samples, which it does not touch, the one that wrote.
-  record(commands, BarrierKind::targetToCheck, image, {colorStage | sampleStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
-         {checkStage, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+void Barriers::record(VkCommandBuffer commands, BarrierKind kind, Image& image) const {
+  Image* const images[] = {&image};
+  record(commands, kind, images);
 }
 
-void Barriers::checkToLookUp(VkCommandBuffer commands, const VkDescriptorBufferInfo& results) const {
-  if (omitted_ == BarrierKind::checkToLookUp) {
+void Barriers::record(VkCommandBuffer commands, BarrierKind kind, Image& image, VkImageLayout layout) const {
+  const Rule& rule = ruleOf(kind);
+  const Scope waited = omitted_ == kind ? nothing : rule.before;
+  const VkImageMemoryBarrier barrier = imageBarrier(image, waited, rule.after, layout);
+  recordImages(commands, waited, rule.after, {&barrier, 1});
+  image.setLayout(layout);
+}
+
+void Barriers::record(VkCommandBuffer commands, BarrierKind kind, const VkDescriptorBufferInfo& buffer) const {
+  if (omitted_ == kind) {
     return;
   }
+  const Rule& rule = ruleOf(kind);
   const VkBufferMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
-                                      .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
-                                      .dstAccessMask = VK_ACCESS_SHADER_READ_BIT,
+                                      .srcAccessMask = rule.before.access,
+                                      .dstAccessMask = rule.after.access,
                                       .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                       .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                      .buffer = results.buffer,
-                                      .offset = results.offset,
-                                      .size = results.range};
-  vkCmdPipelineBarrier(commands, checkStage, checkStage, 0, 0, nullptr, 1, &barrier, 0, nullptr);
+                                      .buffer = buffer.buffer,
+                                      .offset = buffer.offset,
+                                      .size = buffer.range};
+  vkCmdPipelineBarrier(commands, rule.before.stages, rule.after.stages, 0, 0, nullptr, 1, &barrier, 0, nullptr);
 }
 
-void Barriers::checkToWrite(VkCommandBuffer commands, Image& image) const {
-  record(commands, BarrierKind::checkToWrite, image, {checkStage, 0}, {colorStage | sampleStage, 0}, image.layout());
-}
-
-void Barriers::checkToHost(VkCommandBuffer commands) const {
-  const VkMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
-                                .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
-  vkCmdPipelineBarrier(commands, checkStage, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
-}
-
-void Barriers::swapchainBeforeOverlay(VkCommandBuffer commands, Image& image) const {
-  record(commands, BarrierKind::swapchainBeforeOverlay, image, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
-         {colorStage, colorAccess}, overlayLayout);
-}
-
-void Barriers::swapchainToPresent(VkCommandBuffer commands, Image& image) const {
-  record(commands, BarrierKind::swapchainToPresent, image, {colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
-         {VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0}, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-}
-
-void Barriers::readbackToCopy(VkCommandBuffer commands, Image& image) const {
-  record(commands, BarrierKind::readbackToCopy, image, {colorStage | sampleStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT},
-         {transferStage, VK_ACCESS_TRANSFER_READ_BIT}, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-}
-
-void Barriers::readbackFromCopy(VkCommandBuffer commands, Image& image, VkImageLayout layout) const {
-  record(commands, BarrierKind::readbackFromCopy, image, {transferStage, 0},
-         {colorStage | sampleStage, colorAccess | VK_ACCESS_SHADER_READ_BIT}, layout);
-}
-
-void Barriers::readbackToHost(VkCommandBuffer commands) const {
-  const VkMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
-  vkCmdPipelineBarrier(commands, transferStage, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
-}
-
-void Barriers::uploadToCopy(VkCommandBuffer commands, Image& fresh) const {
-  const VkImageMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-                                     .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                     .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
-                                     .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                                     .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                     .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                     .image = fresh.get(),
-                                     .subresourceRange = {fresh.aspect(), 0, fresh.desc().mipLevels, 0, 1}};
-  fresh.setLayout(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, transferStage, 0, 0, nullptr, 0, nullptr, 1,
-                       &barrier);
-}
-
-void Barriers::uploadToRead(VkCommandBuffer commands, Image& image) const {
-  record(commands, BarrierKind::uploadToRead, image, {transferStage, VK_ACCESS_TRANSFER_WRITE_BIT},
-         {readStages, VK_ACCESS_SHADER_READ_BIT}, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-}
-
-void Barriers::uploadToRead(VkCommandBuffer commands, const Buffer& buffer) const {
-  if (omitted_ == BarrierKind::uploadToRead) {
-    return;
-  }
-  const VkBufferMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
-                                      .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                      .dstAccessMask = bufferReads,
-                                      .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                      .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                      .buffer = buffer.get(),
-                                      .offset = 0,
-                                      .size = VK_WHOLE_SIZE};
-  vkCmdPipelineBarrier(commands, transferStage, readStages, 0, 0, nullptr, 1, &barrier, 0, nullptr);
-}
-
-void Barriers::mipmapToBlit(VkCommandBuffer commands, Image& image, uint32_t level) const {
-  const bool omit = omitted_ == BarrierKind::mipmapToBlit;
-  const VkImageMemoryBarrier barrier{
-      .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-      .srcAccessMask = omit ? VkAccessFlags{0} : VkAccessFlags{VK_ACCESS_TRANSFER_WRITE_BIT},
-      .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT,
-      .oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-      .newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-      .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-      .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-      .image = image.get(),
-      .subresourceRange = {image.aspect(), level, 1, 0, 1}};
-  const VkPipelineStageFlags before = omit ? VkPipelineStageFlags{VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT} : transferStage;
-  vkCmdPipelineBarrier(commands, before, transferStage, 0, 0, nullptr, 0, nullptr, 1, &barrier);
-  // All levels are sources once the last one is: the whole image then moves on in one barrier.
+void Barriers::recordLevel(VkCommandBuffer commands, BarrierKind kind, Image& image, uint32_t level) const {
+  const Rule& rule = ruleOf(kind);
+  const Scope waited = omitted_ == kind ? nothing : rule.before;
+  VkImageMemoryBarrier barrier = imageBarrier(image, waited, rule.after, rule.layout);
+  barrier.subresourceRange = {image.aspect(), level, 1, 0, 1};
+  recordImages(commands, waited, rule.after, {&barrier, 1});
   if (level + 1 == image.desc().mipLevels) {
-    image.setLayout(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    image.setLayout(rule.layout);
   }
+}
+
+void Barriers::uploadToCopy(VkCommandBuffer commands, Image& fresh) {
+  const VkImageMemoryBarrier barrier = imageBarrier(fresh, nothing, copyWrites, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  recordImages(commands, nothing, copyWrites, {&barrier, 1});
+  fresh.setLayout(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+}
+
+void Barriers::computeToHost(VkCommandBuffer commands) {
+  recordToHost(commands, computeWrites);
+}
+
+void Barriers::copyToHost(VkCommandBuffer commands) {
+  recordToHost(commands, copyWrites);
 }
 
 }  // namespace speculum

@@ -18,7 +18,7 @@ Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, Buf
   vkGetBufferMemoryRequirements(device.get(), buffer_.get(), &requirements);
   const VkMemoryPropertyFlags properties =
       memory == BufferMemory::host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
-                                  : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+                                   : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
   memory_ = Memory(device, requirements, properties, name);
   check(vkBindBufferMemory(device.get(), buffer_.get(), memory_.get(), 0), "bind the memory of " + name);
   if (memory == BufferMemory::host) {

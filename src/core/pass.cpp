@@ -32,7 +32,46 @@ bool storesColor(const PassDesc& desc) {
   return !desc.targets.resolve || desc.storeSamples;
 }
 
-void recordBarriersBefore(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes) {
+// The barriers that guard a role's targets.
+struct TargetBarriers {
+  BarrierKind color;
+  BarrierKind samples;
+  BarrierKind depth;
+};
+
+TargetBarriers barriersBefore(TargetRole role) {
+  switch (role) {
+    case TargetRole::offscreen:
+      return {BarrierKind::offscreenBeforeWrite, BarrierKind::offscreenSamplesBeforeWrite,
+              BarrierKind::offscreenDepthBeforeWrite};
+    case TargetRole::main:
+      return {BarrierKind::mainBeforeWrite, BarrierKind::mainSamplesBeforeWrite, BarrierKind::mainDepthBeforeWrite};
+    case TargetRole::swapchain:
+      break;
+  }
+  return {BarrierKind::swapchainBeforeWrite, BarrierKind::swapchainBeforeWrite, BarrierKind::swapchainBeforeWrite};
+}
+
+// Makes the images' content undefined, also outside a pass's render area.
+void discard(std::span<Image* const> images) {
+  for (Image* image : images) {
+    image->setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
+  }
+}
+
+}  // namespace
+
+PassDesc fullPass(std::string name, const PassTargets& targets) {
+  const VkExtent2D extent = targets.output().extent();
+  return {.name = std::move(name),
+          .targets = targets,
+          .renderArea = {{0, 0}, extent},
+          .viewport = {0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height)},
+          .scissor = {{0, 0}, extent}};
+}
+
+PassGroup::PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes)
+    : barriers_(barriers), commands_(commands), passes_(passes) {
   std::vector<Image*> samples;
   std::vector<Image*> outputs;
   std::vector<Image*> depths;
@@ -48,57 +87,47 @@ void recordBarriersBefore(const Barriers& barriers, VkCommandBuffer commands, st
     }
   }
   const PassDesc& any = passes.front();
-  const TargetRole role = any.targets.role;
-  barriers.samplesBeforeWrite(commands, role, samples, any.loadColor);
-  barriers.colorBeforeWrite(commands, role, outputs, role != TargetRole::swapchain || any.loadColor);
-  barriers.depthBeforeWrite(commands, role, depths, any.loadDepth);
+  if (!any.loadColor) {
+    discard(samples);
+  }
+  if (!any.loadDepth) {
+    discard(depths);
+  }
+  if (any.targets.role == TargetRole::swapchain && !any.loadColor) {
+    discard(outputs);
+  }
+  const TargetBarriers kinds = barriersBefore(any.targets.role);
+  barriers_.record(commands_, kinds.samples, samples);
+  barriers_.record(commands_, kinds.color, outputs);
+  barriers_.record(commands_, kinds.depth, depths);
 }
 
-void recordBarriersAfter(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes) {
-  const TargetRole role = passes.front().targets.role;
+PassGroup::~PassGroup() {
+  const TargetRole role = passes_.front().targets.role;
   std::vector<Image*> outputs;
-  for (const PassDesc& pass : passes) {
+  for (const PassDesc& pass : passes_) {
     if (pass.sampledAfterwards && role != TargetRole::swapchain) {
       outputs.push_back(&pass.targets.output());
     }
   }
-  barriers.colorToSample(commands, role, outputs);
-}
-
-}  // namespace
-
-PassDesc fullPass(std::string name, const PassTargets& targets) {
-  const VkExtent2D extent = targets.output().extent();
-  return {.name = std::move(name),
-          .targets = targets,
-          .renderArea = {{0, 0}, extent},
-          .viewport = {0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height)},
-          .scissor = {{0, 0}, extent}};
-}
-
-PassGroup::PassGroup(Device& device, VkCommandBuffer commands, std::span<const PassDesc> passes)
-    : device_(device), commands_(commands), passes_(passes) {
-  recordBarriersBefore(device_.barriers(), commands_, passes_);
-}
-
-PassGroup::~PassGroup() {
-  recordBarriersAfter(device_.barriers(), commands_, passes_);
+  barriers_.record(commands_, role == TargetRole::main ? BarrierKind::mainToSample : BarrierKind::offscreenToSample,
+                   outputs);
 }
 
 PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands,
-                     PassDesc desc, Kind kind)
+                     PassDesc desc)
     : device_(device),
       renderPasses_(renderPasses),
       timer_(timer),
       commands_(commands),
       desc_(std::move(desc)),
-      dynamic_(kind == Kind::scene && device.renderPath() == RenderPath::dynamic) {
+      dynamic_(!desc_.overlay && device.renderPath() == RenderPath::dynamic) {
   device_.beginLabel(commands_, desc_.name);
   timerSlot_ = timer_.begin(commands_, desc_.name, desc_.collectStatistics);
-  if (kind == Kind::overlay) {
-    device_.barriers().swapchainBeforeOverlay(commands_, *desc_.targets.color);
+  if (desc_.overlay) {
+    device_.barriers().record(commands_, BarrierKind::swapchainBeforeOverlay, *desc_.targets.color);
   } else if (!desc_.grouped) {
-    recordBarriersBefore(device_.barriers(), commands_, {&desc_, 1});
+    group_.emplace(device_.barriers(), commands_, std::span(&desc_, 1));
   }
   if (dynamic_) {
     beginDynamic();
@@ -125,9 +154,7 @@ PassScope::~PassScope() {
   } else {
     vkCmdEndRenderPass(commands_);
   }
-  if (!desc_.grouped) {
-    recordBarriersAfter(device_.barriers(), commands_, {&desc_, 1});
-  }
+  group_.reset();
   timer_.end(commands_, timerSlot_);
   device_.endLabel(commands_);
 }

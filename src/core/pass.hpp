@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,9 @@ namespace speculum {
 
 class GpuTimer;
 class RenderPassCache;
+
+// What a pass's targets are for; decides which barriers guard them.
+enum class TargetRole { offscreen, main, swapchain };
 
 // With `resolve`, `color` is multisampled and the pass's output is the resolved image; without it the output is `color`
 // with the samples it has. Any extent not below the render area will do.
@@ -52,25 +56,24 @@ struct PassDesc {
   bool sampledAfterwards = true;   // the output becomes readable in fragment shaders; ignored for the swapchain
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
   bool grouped = false;            // its barriers are those of its PassGroup
+  bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path
 };
 
 // The whole of `targets` in one go: area, viewport and scissor cover the output.
 PassDesc fullPass(std::string name, const PassTargets& targets);
 
-// The barriers of several passes that touch none of each other's targets: all before the first and all after the last,
-// so that the device may draw the passes side by side. Their PassDesc::grouped is set; they are alike in role, samples
-// and in what they load. From construction to end. Made by Renderer::beginGroup.
+// Barriers of one pass, or of several that touch none of each other's targets: all before the first and all after the
+// last, so that the device may draw the passes side by side. The passes outlive the group and are alike in role,
+// samples and in what they load. Made by Renderer::beginGroup, for passes whose PassDesc::grouped is set.
 class PassGroup {
  public:
+  PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes);
   PassGroup(const PassGroup&) = delete;
   PassGroup& operator=(const PassGroup&) = delete;
   ~PassGroup();
 
  private:
-  friend class Renderer;
-  PassGroup(Device& device, VkCommandBuffer commands, std::span<const PassDesc> passes);
-
-  Device& device_;
+  const Barriers& barriers_;
   VkCommandBuffer commands_;
   std::span<const PassDesc> passes_;
 };
@@ -93,9 +96,7 @@ class PassScope {
 
  private:
   friend class Renderer;
-  enum class Kind { scene, overlay };
-  PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc,
-            Kind kind);
+  PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc);
   void beginDynamic();
   void beginRenderPass();
 
@@ -104,6 +105,7 @@ class PassScope {
   GpuTimer& timer_;
   VkCommandBuffer commands_;
   PassDesc desc_;
+  std::optional<PassGroup> group_;  // none in a group of several
   bool dynamic_;
   int timerSlot_;
 };

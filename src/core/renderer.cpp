@@ -126,18 +126,18 @@ std::optional<Frame> Renderer::beginFrame() {
 }
 
 PassScope Renderer::beginPass(Frame& frame, const PassDesc& desc) {
-  return PassScope(device_, renderPasses_, slots_[frame.index].timer, frame.commands, desc, PassScope::Kind::scene);
+  return PassScope(device_, renderPasses_, slots_[frame.index].timer, frame.commands, desc);
 }
 
 PassGroup Renderer::beginGroup(Frame& frame, std::span<const PassDesc> passes) {
-  return PassGroup(device_, frame.commands, passes);
+  return PassGroup(device_.barriers(), frame.commands, passes);
 }
 
 PassScope Renderer::beginOverlay(Frame& frame) {
   PassDesc desc = fullPass("overlay", displayTargets(frame));
   desc.loadColor = true;
-  return PassScope(device_, renderPasses_, slots_[frame.index].timer, frame.commands, std::move(desc),
-                   PassScope::Kind::overlay);
+  desc.overlay = true;
+  return beginPass(frame, desc);
 }
 
 void Renderer::endFrame(Frame& frame) {
@@ -147,7 +147,7 @@ void Renderer::endFrame(Frame& frame) {
     recordCapture(slot, frame);
   }
   if (!headless()) {
-    device_.barriers().swapchainToPresent(frame.commands, displayImage(frame.imageIndex));
+    device_.barriers().record(frame.commands, BarrierKind::swapchainToPresent, displayImage(frame.imageIndex));
   }
   check(vkEndCommandBuffer(frame.commands), "end a frame's commands");
   submit(slot, frame);
@@ -225,12 +225,13 @@ void Renderer::recordCapture(Slot& slot, const Frame& frame) {
   }
   slot.captureExtent = extent;
   captureSlot_ = frame.index;
-  device_.barriers().readbackToCopy(frame.commands, image);
+  device_.barriers().record(frame.commands, BarrierKind::readbackToCopy, image);
   const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                  .imageExtent = {extent.width, extent.height, 1}};
   vkCmdCopyImageToBuffer(frame.commands, image.get(), image.layout(), slot.capture.get(), 1, &region);
-  device_.barriers().readbackFromCopy(frame.commands, image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-  device_.barriers().readbackToHost(frame.commands);
+  device_.barriers().record(frame.commands, BarrierKind::readbackFromCopy, image,
+                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  Barriers::copyToHost(frame.commands);
 }
 
 Pixels Renderer::readback() {

@@ -61,7 +61,7 @@ Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usag
   run([&](VkCommandBuffer commands) {
     const VkBufferCopy region{.size = data.size()};
     vkCmdCopyBuffer(commands, staging.get(), target.get(), 1, &region);
-    device_.barriers().uploadToRead(commands, target);
+    device_.barriers().record(commands, BarrierKind::uploadToRead, target.descriptor());
   });
   return target;
 }
@@ -83,13 +83,13 @@ Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFo
                        "staging of " + name);
   staging.write(texels);
   run([&](VkCommandBuffer commands) {
-    device_.barriers().uploadToCopy(commands, target);
+    Barriers::uploadToCopy(commands, target);
     const VkBufferImageCopy region = wholeLevel0(target);
     vkCmdCopyBufferToImage(commands, staging.get(), target.get(), target.layout(), 1, &region);
     if (mipmaps) {
       generateMipmaps(commands, target);
     }
-    device_.barriers().uploadToRead(commands, target);
+    device_.barriers().record(commands, BarrierKind::uploadToRead, target);
   });
   return target;
 }
@@ -98,7 +98,7 @@ void Uploader::generateMipmaps(VkCommandBuffer commands, Image& image) {
   auto width = static_cast<int32_t>(image.extent().width);
   auto height = static_cast<int32_t>(image.extent().height);
   for (uint32_t level = 0; level < image.desc().mipLevels; ++level) {
-    device_.barriers().mipmapToBlit(commands, image, level);
+    device_.barriers().recordLevel(commands, BarrierKind::mipmapToBlit, image, level);
     if (level + 1 == image.desc().mipLevels) {
       break;
     }
@@ -121,11 +121,11 @@ std::vector<std::byte> Uploader::read(Image& image) {
                        "read-back of " + image.desc().name);
   run([&](VkCommandBuffer commands) {
     const VkImageLayout layout = image.layout();
-    device_.barriers().readbackToCopy(commands, image);
+    device_.barriers().record(commands, BarrierKind::readbackToCopy, image);
     const VkBufferImageCopy region = wholeLevel0(image);
     vkCmdCopyImageToBuffer(commands, image.get(), image.layout(), staging.get(), 1, &region);
-    device_.barriers().readbackFromCopy(commands, image, layout);
-    device_.barriers().readbackToHost(commands);
+    device_.barriers().record(commands, BarrierKind::readbackFromCopy, image, layout);
+    Barriers::copyToHost(commands);
   });
   return {staging.mapped(), staging.mapped() + bytes};
 }

@@ -49,7 +49,7 @@ PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
 
 }  // namespace
 
-DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer) {
+DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {
   const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
   layout_ = createDescriptorSetLayout(renderer.device(), {&binding, 1}, "display");
@@ -59,22 +59,16 @@ const Pipeline& DisplaySystem::pipelineFor(const MirrorImage& radiance, const Se
   const Variant variant{.toneMap = settings.view.toneMap,
                         .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
                         .format = renderer_.displayFormat()};
-  std::unique_ptr<Pipeline>& pipeline = pipelines_[variant];
-  if (!pipeline) {
-    GraphicsPipelineDesc desc{.name = "display", .vert = "full_screen.vert", .frag = "display.frag"};
-    if (variant.multisampled) {
-      desc.frag = "display_average.frag";
-    }
-    desc.fragConstants = {variant.toneMap == ToneMap::aces};
-    desc.setLayouts = {layout_.get()};
-    desc.pushConstantBytes = sizeof(gpu::DisplayConstants);
-    desc.color = variant.format;
-    desc.depth = VK_FORMAT_UNDEFINED;
-    desc.depthTest = false;
-    desc.depthWrite = false;
-    pipeline = std::make_unique<Pipeline>(renderer_.pipelines(), std::move(desc));
-  }
-  return *pipeline;
+  return pipelines_.get(variant, [&] {
+    return GraphicsPipelineDesc{.name = "display",
+                                .vert = "full_screen.vert",
+                                .frag = variant.multisampled ? "display_average.frag" : "display.frag",
+                                .fragConstants = {variant.toneMap == ToneMap::aces},
+                                .setLayouts = {layout_.get()},
+                                .pushConstantBytes = sizeof(gpu::DisplayConstants),
+                                .color = variant.format,
+                                .depth = VK_FORMAT_UNDEFINED};
+  });
 }
 
 RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, const Pipeline& pipeline,
@@ -126,13 +120,12 @@ std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const Frame
 }
 
 void DisplaySystem::releaseView() {
-  std::erase_if(pipelines_, [](const auto& entry) { return entry.first.multisampled; });
+  pipelines_.dropIf([](const Variant& variant) { return variant.multisampled; });
 }
 
 void DisplaySystem::countPipelines(EffectLedger& ledger) const {
-  for (const auto& [variant, pipeline] : pipelines_) {
-    ledger.pipeline(EffectKind::toneMap, variant.toneMap == ToneMap::aces);
-  }
+  pipelines_.forEach(
+      [&](const Variant& variant) { ledger.pipeline(EffectKind::toneMap, variant.toneMap == ToneMap::aces); });
 }
 
 void DisplaySystem::setCover(const Image8& picture) {

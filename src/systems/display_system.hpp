@@ -1,7 +1,5 @@
 #pragma once
 
-#include <map>
-#include <memory>
 #include <optional>
 
 #include "image/color.hpp"
@@ -9,6 +7,7 @@
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/kept_depth.hpp"
+#include "systems/pipeline_variants.hpp"
 #include "systems/recorded_pass.hpp"
 
 namespace speculum {
@@ -64,7 +63,7 @@ class DisplaySystem {
 
   Renderer& renderer_;
   DescriptorSetLayoutHandle layout_;
-  std::map<Variant, std::unique_ptr<Pipeline>> pipelines_;
+  PipelineVariants<Variant> pipelines_;
   SamplerHandle coverSampler_;
   Image cover_;  // empty: none
 };

@@ -43,7 +43,8 @@ std::string describe(const NonFinite& found) {
       found.count);
 }
 
-FiniteWatch::FiniteWatch(Renderer& renderer) : renderer_(renderer), device_(renderer.device()) {}
+FiniteWatch::FiniteWatch(Renderer& renderer)
+    : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
 
 void FiniteWatch::begin(const Frame& frame, size_t targets) {
   collect();
@@ -66,25 +67,14 @@ void FiniteWatch::begin(const Frame& frame, size_t targets) {
   slot.frame = frame.number;
 }
 
-const FiniteWatch::Pipelines& FiniteWatch::pipelines(bool multisampled) {
-  Pipelines& pipelines = multisampled ? multisampled_ : single_;
-  if (!pipelines.search) {
-    const std::string ending = multisampled ? "_samples.comp" : ".comp";
-    const auto make = [&](const std::string& name, const std::string& shader) {
-      return std::make_unique<Pipeline>(renderer_.pipelines(),
-                                        ComputePipelineDesc{.name = name,
-                                                            .comp = shader + ending,
-                                                            .setLayouts = {layout_.get()},
-                                                            .pushConstantBytes = sizeof(gpu::CheckConstants)});
-    };
-    pipelines.search = make("check finite", "check_finite");
-    pipelines.lookUp = make("look up what is not finite", "check_finite_look_up");
-  }
-  return pipelines;
-}
-
-size_t FiniteWatch::pipelineCount() const {
-  return (single_.search ? 2u : 0u) + (multisampled_.search ? 2u : 0u);
+const Pipeline& FiniteWatch::pipeline(const Variant& variant) {
+  return pipelines_.get(variant, [&] {
+    return ComputePipelineDesc{.name = variant.looksUp ? "look up what is not finite" : "check finite",
+                               .comp = std::string(variant.looksUp ? "check_finite_look_up" : "check_finite") +
+                                       (variant.multisampled ? "_samples.comp" : ".comp"),
+                               .setLayouts = {layout_.get()},
+                               .pushConstantBytes = sizeof(gpu::CheckConstants)};
+  });
 }
 
 void FiniteWatch::check(Frame& frame, const std::string& pass, const std::vector<int>& path, Image& image,
@@ -99,24 +89,25 @@ void FiniteWatch::check(Frame& frame, const std::string& pass, const std::vector
       .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, search)
       .buffer(2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, found)
       .update(device_, set);
-  const auto dispatch = [&](const Pipeline& pipeline, uint32_t x, uint32_t y) {
+  const bool multisampled = image.samples() != VK_SAMPLE_COUNT_1_BIT;
+  const auto dispatch = [&](bool looksUp, uint32_t x, uint32_t y) {
+    const Pipeline& pipeline = this->pipeline({multisampled, looksUp});
     pipeline.bind(frame.commands);
     pipeline.bindSet(frame.commands, 0, set);
     pipeline.push(frame.commands, gpu::CheckConstants{{used.width, used.height}});
     vkCmdDispatch(frame.commands, x, y, 1);
   };
-  const Pipelines& with = pipelines(image.samples() != VK_SAMPLE_COUNT_1_BIT);
   device_.beginLabel(frame.commands, "check " + pass);
-  device_.barriers().targetToCheck(frame.commands, image);
-  dispatch(*with.search, groups(used.width, groupWidth), groups(used.height, groupHeight));
-  device_.barriers().checkToLookUp(frame.commands, search);
-  dispatch(*with.lookUp, 1, 1);
-  device_.barriers().checkToWrite(frame.commands, image);
+  device_.barriers().record(frame.commands, BarrierKind::targetToCheck, image);
+  dispatch(false, groups(used.width, groupWidth), groups(used.height, groupHeight));
+  device_.barriers().record(frame.commands, BarrierKind::checkToLookUp, search);
+  dispatch(true, 1, 1);
+  device_.barriers().record(frame.commands, BarrierKind::checkToWrite, image);
   device_.endLabel(frame.commands);
 }
 
 void FiniteWatch::end(Frame& frame) {
-  device_.barriers().checkToHost(frame.commands);
+  Barriers::computeToHost(frame.commands);
 }
 
 void FiniteWatch::release() {
@@ -126,8 +117,7 @@ void FiniteWatch::release() {
       return;
     }
   }
-  single_ = {};
-  multisampled_ = {};
+  pipelines_.clear();
   layout_.reset();
   slots_ = {};
 }

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/renderer.hpp"
 #include "shaders/gpu_data.h"
+#include "systems/pipeline_variants.hpp"
 
 namespace speculum {
 
@@ -45,7 +45,7 @@ class FiniteWatch {
   const std::vector<NonFinite>& findings() const { return findings_; }
   uint64_t findingsFrame() const { return findingsFrame_; }  // its number; 0: nothing was ever found
   uint64_t count() const { return count_; }                  // samples found since the start
-  size_t pipelineCount() const;
+  size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   struct Target {
@@ -58,19 +58,18 @@ class FiniteWatch {
     std::vector<Target> targets;
     uint64_t frame = 0;  // number of the frame that is watched; 0: none
   };
-  // One searches, one looks up what was found.
-  struct Pipelines {
-    std::unique_ptr<Pipeline> search;
-    std::unique_ptr<Pipeline> lookUp;
+  struct Variant {
+    bool multisampled;
+    bool looksUp;  // reads the value that the search has found
+    auto operator<=>(const Variant&) const = default;
   };
-  const Pipelines& pipelines(bool multisampled);
+  const Pipeline& pipeline(const Variant& variant);
   void read(Slot& slot);
 
   Renderer& renderer_;
   Device& device_;
   DescriptorSetLayoutHandle layout_;
-  Pipelines single_;
-  Pipelines multisampled_;
+  PipelineVariants<Variant> pipelines_;
   std::array<Slot, framesInFlight> slots_;
   std::vector<NonFinite> findings_;
   uint64_t findingsFrame_ = 0;

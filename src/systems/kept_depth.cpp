@@ -8,7 +8,7 @@
 namespace speculum {
 
 KeptDepth::KeptDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout)
-    : renderer_(renderer), displayLayout_(displayLayout) {}
+    : renderer_(renderer), displayLayout_(displayLayout), pipelines_(renderer.pipelines()) {}
 
 void KeptDepth::prepare(PassDesc& pass, RetireQueue& retired) {
   Device& device = renderer_.device();
@@ -17,12 +17,8 @@ void KeptDepth::prepare(PassDesc& pass, RetireQueue& retired) {
   const VkExtent2D has = image_.extent();
   const VkSampleCountFlagBits samples = pass.targets.samples();
   if (!image_ || image_.samples() != samples || has.width < wanted.width || has.height < wanted.height) {
-    const bool other = image_ && image_.samples() != samples;
     if (image_) {
       retired.retire(std::exchange(image_, Image()));
-    }
-    if (other) {
-      pipeline_.reset();
     }
     image_ = Image(device, {.extent = wanted,
                             .format = depthFormat,
@@ -40,32 +36,28 @@ void KeptDepth::prepare(PassDesc& pass, RetireQueue& retired) {
 }
 
 void KeptDepth::finish(VkCommandBuffer commands) {
-  renderer_.device().barriers().depthToSample(commands, image_);
+  renderer_.device().barriers().record(commands, BarrierKind::depthToSample, image_);
 }
 
 void KeptDepth::release(RetireQueue& retired) {
   if (image_) {
     retired.retire(std::exchange(image_, Image()));
     retired.retire(std::exchange(sampler_, SamplerHandle()));
-    pipeline_.reset();
+    pipelines_.clear();
   }
 }
 
 const Pipeline& KeptDepth::pipeline() {
-  if (!pipeline_) {
-    const bool several = image_.samples() != VK_SAMPLE_COUNT_1_BIT;
-    GraphicsPipelineDesc desc{.name = "display depth",
-                              .vert = "full_screen.vert",
-                              .frag = several ? "display_depth_samples.frag" : "display_depth.frag"};
-    desc.setLayouts = {displayLayout_};
-    desc.pushConstantBytes = sizeof(gpu::DepthViewConstants);
-    desc.color = renderer_.displayFormat();
-    desc.depth = VK_FORMAT_UNDEFINED;
-    desc.depthTest = false;
-    desc.depthWrite = false;
-    pipeline_ = std::make_unique<Pipeline>(renderer_.pipelines(), std::move(desc));
-  }
-  return *pipeline_;
+  const bool several = image_.samples() != VK_SAMPLE_COUNT_1_BIT;
+  return pipelines_.get(several, [&] {
+    return GraphicsPipelineDesc{.name = "display depth",
+                                .vert = "full_screen.vert",
+                                .frag = several ? "display_depth_samples.frag" : "display_depth.frag",
+                                .setLayouts = {displayLayout_},
+                                .pushConstantBytes = sizeof(gpu::DepthViewConstants),
+                                .color = renderer_.displayFormat(),
+                                .depth = VK_FORMAT_UNDEFINED};
+  });
 }
 
 }  // namespace speculum

@@ -4,6 +4,7 @@
 #include "core/pass.hpp"
 #include "core/pipeline.hpp"
 #include "core/renderer.hpp"
+#include "systems/pipeline_variants.hpp"
 
 namespace speculum {
 
@@ -24,14 +25,14 @@ class KeptDepth {
   VkDescriptorImageInfo descriptor() const { return image_.descriptor(sampler_.get()); }
   // Draws it with display_depth.glsl.
   const Pipeline& pipeline();
-  size_t pipelineCount() const { return pipeline_ ? 1 : 0; }
+  size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   Renderer& renderer_;
   VkDescriptorSetLayout displayLayout_;
   Image image_;
   SamplerHandle sampler_;
-  std::unique_ptr<Pipeline> pipeline_;
+  PipelineVariants<bool> pipelines_;  // for an image with several samples, or with one
 };
 
 }  // namespace speculum

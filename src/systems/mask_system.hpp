@@ -1,9 +1,7 @@
 #pragma once
 
-#include <map>
-#include <memory>
-
 #include "systems/frame_info.hpp"
+#include "systems/pipeline_variants.hpp"
 
 namespace speculum {
 
@@ -19,9 +17,8 @@ class MaskSystem {
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  PipelineFactory& factory_;
   VkDescriptorSetLayout frameLayout_;
-  std::map<VkSampleCountFlagBits, std::unique_ptr<Pipeline>> pipelines_;
+  PipelineVariants<VkSampleCountFlagBits> pipelines_;
 };
 
 }  // namespace speculum

@@ -12,7 +12,7 @@ const MirrorImage* imageOf(const MirrorRange& mirror, const FrameInfo& info) {
 
 MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory,
                            VkDescriptorSetLayout frameLayout)
-    : device_(device), factory_(factory), frameLayout_(frameLayout) {
+    : device_(device), frameLayout_(frameLayout), pipelines_(factory) {
   const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                   .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
   imageLayout_ = createDescriptorSetLayout(device, {&binding, 1}, "mirror image");
@@ -37,61 +37,57 @@ bool MirrorSystem::tracesRays(Shading shading, const TraceVariant& trace) {
   return trace.traced;
 }
 
-const Pipeline& MirrorSystem::pipeline(const Variant& variant, VkDescriptorSetLayout traceLayout) {
-  Entry& entry = pipelines_[variant];
-  entry.idleFrames = 0;
-  if (!entry.pipeline) {
-    const Shading shading = variant.shading;
-    GraphicsPipelineDesc desc{.name = "mirror", .vert = "mirror.vert", .frag = "mirror.frag"};
-    desc.setLayouts = {frameLayout_, imageLayout_.get()};
-    desc.pushConstantBytes = sizeof(gpu::DrawConstants);
-    desc.samples = variant.samples;
-    desc.depthClamp = variant.clampDepth;
-    desc.fragConstants = {shading == Shading::base, variant.reprojected};
-    if (shading == Shading::average) {
-      desc.frag = "mirror_average.frag";
-    } else if (shading == Shading::ownSample || shading == Shading::ownSampleAdded) {
-      desc.frag = "mirror_sample.frag";
-      desc.sampleShading = true;
-    }
-    if (shading == Shading::ownSampleAdded) {
-      desc.depthCompare = VK_COMPARE_OP_EQUAL;
-      desc.depthWrite = false;
-      desc.blend = Blend::add;
-    }
-    if (tracesRays(shading, variant.trace)) {
-      const bool scattered = shading == Shading::scattered || shading == Shading::scatteredBySample;
-      desc.frag = scattered                     ? "mirror_scattered.frag"
-                  : shading == Shading::average ? "mirror_average_traced.frag"
-                                                : "mirror_traced.frag";
-      desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT &&
-                           (shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered));
-      desc.setLayouts.push_back(traceLayout);
-      addConstants(variant.trace, desc.fragConstants);
-    }
-    desc.fragConstants.resize(6, 0);
-    desc.fragConstants.insert(desc.fragConstants.end(), {variant.blurs, static_cast<uint32_t>(variant.shows),
-                                                         static_cast<uint32_t>(variant.lookup), variant.painted});
-    entry.pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
+GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, VkDescriptorSetLayout traceLayout) const {
+  const Shading shading = variant.shading;
+  GraphicsPipelineDesc desc{.name = "mirror",
+                            .vert = "mirror.vert",
+                            .frag = "mirror.frag",
+                            .fragConstants = {shading == Shading::base, variant.reprojected},
+                            .setLayouts = {frameLayout_, imageLayout_.get()},
+                            .pushConstantBytes = sizeof(gpu::DrawConstants),
+                            .samples = variant.samples,
+                            .depthClamp = variant.clampDepth};
+  if (shading == Shading::average) {
+    desc.frag = "mirror_average.frag";
+  } else if (shading == Shading::ownSample || shading == Shading::ownSampleAdded) {
+    desc.frag = "mirror_sample.frag";
+    desc.sampleShading = true;
   }
-  return *entry.pipeline;
+  if (shading == Shading::ownSampleAdded) {
+    desc.depthCompare = VK_COMPARE_OP_EQUAL;
+    desc.depthWrite = false;
+    desc.blend = Blend::add;
+  }
+  if (tracesRays(shading, variant.trace)) {
+    const bool scattered = shading == Shading::scattered || shading == Shading::scatteredBySample;
+    desc.frag = scattered                     ? "mirror_scattered.frag"
+                : shading == Shading::average ? "mirror_average_traced.frag"
+                                              : "mirror_traced.frag";
+    desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT &&
+                         (shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered));
+    desc.setLayouts.push_back(traceLayout);
+    addConstants(variant.trace, desc.fragConstants);
+  }
+  desc.fragConstants.resize(6, 0);
+  desc.fragConstants.insert(desc.fragConstants.end(), {variant.blurs, static_cast<uint32_t>(variant.shows),
+                                                       static_cast<uint32_t>(variant.lookup), variant.painted});
+  return desc;
 }
 
 void MirrorSystem::countPipelines(EffectLedger& ledger) const {
-  for (const auto& [variant, entry] : pipelines_) {
+  pipelines_.forEach([&](const Variant& variant) {
     ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::ripple, variant.shading == Shading::scatteredBySample);
     ledger.pipeline(EffectKind::roughness, variant.shading == Shading::scattered || variant.blurs);
-  }
+  });
 }
 
 void MirrorSystem::endFrame(const TraceVariant& trace, bool imagesShown) {
-  for (auto& [variant, entry] : pipelines_) {
+  pipelines_.endFrame([&](const Variant& variant) {
     const bool stays = imagesShown && variant.trace == trace;
-    entry.idleFrames += !stays && tracesRays(variant.shading, variant.trace);
-  }
-  std::erase_if(pipelines_, [](const auto& item) { return item.second.idleFrames > idleFramesKept; });
+    return !stays && tracesRays(variant.shading, variant.trace);
+  });
 }
 
 std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const MirrorImage* image,
@@ -153,7 +149,7 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
       variant.clampDepth = !oblique;
       const bool traces = tracesRays(shading, info.trace.variant());
       variant.trace = traces ? info.trace.variant() : TraceVariant{};
-      const Pipeline& drawn = pipeline(variant, info.trace.layout());
+      const Pipeline& drawn = pipelines_.get(variant, [&] { return describe(variant, info.trace.layout()); });
       const bool reads = image && shading != Shading::base;
       const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
       DescriptorWriter().image(0, reads ? image->descriptor : noImage).update(device_, set);

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <map>
-#include <memory>
-
 #include "systems/frame_info.hpp"
+#include "systems/pipeline_variants.hpp"
 
 namespace speculum {
 
@@ -38,21 +36,16 @@ class MirrorSystem {
   };
   static Variant variantOf(const MirrorRange& mirror, Shading shading);
   static bool tracesRays(Shading shading, const TraceVariant& trace);
-  const Pipeline& pipeline(const Variant& variant, VkDescriptorSetLayout traceLayout);
+  GraphicsPipelineDesc describe(const Variant& variant, VkDescriptorSetLayout traceLayout) const;
   // The draws of a mirror, in order.
   std::vector<Shading> shadings(const MirrorRange& mirror, const MirrorImage* image, const PassFormat& format) const;
 
   Device& device_;
-  PipelineFactory& factory_;
   VkDescriptorSetLayout frameLayout_;
   DescriptorSetLayoutHandle imageLayout_;
   SamplerHandle sampler_;
   Image noImage_;  // bound where a mirror has none: every set that a shader names must be bound
-  struct Entry {
-    std::unique_ptr<Pipeline> pipeline;
-    int idleFrames = 0;
-  };
-  std::map<Variant, Entry> pipelines_;
+  PipelineVariants<Variant> pipelines_;
 };
 
 }  // namespace speculum

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <map>
-#include <memory>
-
 #include "systems/frame_info.hpp"
+#include "systems/pipeline_variants.hpp"
 
 namespace speculum {
 
@@ -19,13 +17,8 @@ class PointLightSystem {
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  PipelineFactory& factory_;
   VkDescriptorSetLayout frameLayout_;
-  struct Entry {
-    std::unique_ptr<Pipeline> pipeline;
-    int idleFrames = 0;
-  };
-  std::map<VkSampleCountFlagBits, Entry> pipelines_;
+  PipelineVariants<VkSampleCountFlagBits> pipelines_;
 };
 
 }  // namespace speculum

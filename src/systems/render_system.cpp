@@ -9,7 +9,7 @@ namespace speculum {
 
 RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout,
                            VkDescriptorSetLayout textureLayout)
-    : factory_(factory), frameLayout_(frameLayout), textureLayout_(textureLayout) {}
+    : frameLayout_(frameLayout), textureLayout_(textureLayout), objects_(factory), skies_(factory) {}
 
 bool RenderSystem::tracesRays(const Variant& variant) {
   return variant.trace.traced || (variant.curved && !variant.environment);
@@ -37,47 +37,29 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
 
 }  // namespace
 
-const Pipeline& RenderSystem::objects(const Variant& variant, VkDescriptorSetLayout traceLayout) {
-  Entry& entry = objects_[variant];
-  entry.idleFrames = 0;
-  if (!entry.pipeline) {
-    GraphicsPipelineDesc desc{.name = "scene", .vert = "scene.vert", .frag = "scene.frag"};
-    desc.vertConstants = {variant.clipDistance};
-    desc.fragConstants = {variant.trilinear};
-    desc.setLayouts = {frameLayout_, textureLayout_};
-    if (variant.environment) {
-      desc.frag = variant.trace.traced ? "scene_environment_traced.frag" : "scene_environment.frag";
-    }
-    if (tracesRays(variant)) {
-      if (!variant.environment) {
-        desc.frag = variant.curved ? "scene_curved.frag" : "scene_traced.frag";
-      }
-      desc.setLayouts.push_back(traceLayout);
-      addConstants(variant.trace, desc.fragConstants);
-      desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
-    }
-    desc.pushConstantBytes = sizeof(gpu::DrawConstants);
-    desc.samples = variant.samples;
-    desc.depthClamp = variant.clampDepth;
-    desc.lines = variant.wireframe;
-    addVertexInput(desc);
-    entry.pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
+GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, VkDescriptorSetLayout traceLayout) const {
+  GraphicsPipelineDesc desc{.name = "scene",
+                            .vert = "scene.vert",
+                            .frag = "scene.frag",
+                            .vertConstants = {variant.clipDistance},
+                            .fragConstants = {variant.trilinear},
+                            .setLayouts = {frameLayout_, textureLayout_},
+                            .pushConstantBytes = sizeof(gpu::DrawConstants),
+                            .samples = variant.samples,
+                            .depthClamp = variant.clampDepth,
+                            .lines = variant.wireframe};
+  if (variant.environment) {
+    desc.frag = variant.trace.traced ? "scene_environment_traced.frag" : "scene_environment.frag";
+  } else if (tracesRays(variant)) {
+    desc.frag = variant.curved ? "scene_curved.frag" : "scene_traced.frag";
   }
-  return *entry.pipeline;
-}
-
-const Pipeline& RenderSystem::sky(VkSampleCountFlagBits samples) {
-  std::unique_ptr<Pipeline>& pipeline = skies_[samples];
-  if (!pipeline) {
-    GraphicsPipelineDesc desc{.name = "sky", .vert = "full_screen.vert", .frag = "sky.frag"};
-    desc.setLayouts = {frameLayout_};
-    desc.pushConstantBytes = sizeof(gpu::DrawConstants);
-    desc.samples = samples;
-    desc.depthWrite = false;
-    desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    pipeline = std::make_unique<Pipeline>(factory_, std::move(desc));
+  if (tracesRays(variant)) {
+    desc.setLayouts.push_back(traceLayout);
+    addConstants(variant.trace, desc.fragConstants);
+    desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
   }
-  return *pipeline;
+  addVertexInput(desc);
+  return desc;
 }
 
 namespace {
@@ -123,7 +105,7 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     variant.trace = info.trace.variant();
     const bool traces = tracesRays(variant);
     variant.trace = traces ? variant.trace : TraceVariant{};
-    const Pipeline& pipeline = objects(variant, info.trace.layout());
+    const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info.trace.layout()); });
     pipeline.bind(commands);
     pipeline.bindSet(commands, 0, info.data.set());
     if (traces) {
@@ -155,43 +137,50 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
 }
 
 void RenderSystem::countPipelines(EffectLedger& ledger) const {
-  for (const auto& [variant, entry] : objects_) {
+  objects_.forEach([&](const Variant& variant) {
     ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::curved, variant.curved);
     ledger.pipeline(EffectKind::wireframe, variant.wireframe);
-  }
+  });
 }
 
 void RenderSystem::endFrame(const TraceVariant& trace, bool imagesShown, bool curved) {
-  for (auto& [variant, entry] : objects_) {
+  objects_.endFrame([&](const Variant& variant) {
     const bool stays = imagesShown && variant.trace == trace && (curved || !variant.curved);
-    entry.idleFrames += !stays && (variant.curved || variant.trace.traced);
-  }
-  std::erase_if(objects_, [](const auto& item) { return item.second.idleFrames > idleFramesKept; });
+    return !stays && (variant.curved || variant.trace.traced);
+  });
+}
+
+uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, const PassData& data) {
+  const VkSampleCountFlagBits samples = scope.desc().targets.samples();
+  const Pipeline& pipeline = skies_.get(samples, [&] {
+    return GraphicsPipelineDesc{.name = "sky",
+                                .vert = "full_screen.vert",
+                                .frag = "sky.frag",
+                                .setLayouts = {frameLayout_},
+                                .pushConstantBytes = sizeof(gpu::DrawConstants),
+                                .samples = samples,
+                                .depthWrite = false,
+                                .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL};
+  });
+  pipeline.bind(scope.commands());
+  pipeline.bindSet(scope.commands(), 0, info.data.set());
+  pipeline.push(scope.commands(), gpu::DrawConstants{.viewIndex = data.view});
+  vkCmdDraw(scope.commands(), 3, 1, 0, 0);
+  return 1;
 }
 
 uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
   const PassData& data = info.data.passes()[pass];
   const ClipMethod clip = info.settings.reflection.clip;
-  uint32_t draws = 0;
-  if (!data.batches.empty()) {
-    draws += recordObjects(scope, info, data,
-                           {.samples = format.samples,
-                            .clipDistance = format.mirrorView && clip == ClipMethod::clipDistance,
-                            .clampDepth = !(format.mirrorView && clip == ClipMethod::oblique),
-                            .trilinear = info.settings.view.textureFilter == TextureFilter::trilinear,
-                            .wireframe = info.settings.view.wireframe});
-  }
-  if (info.environment.sky) {
-    const Pipeline& pipeline = sky(format.samples);
-    pipeline.bind(scope.commands());
-    pipeline.bindSet(scope.commands(), 0, info.data.set());
-    pipeline.push(scope.commands(), gpu::DrawConstants{.viewIndex = data.view});
-    vkCmdDraw(scope.commands(), 3, 1, 0, 0);
-    ++draws;
-  }
-  return draws;
+  const uint32_t draws = recordObjects(scope, info, data,
+                                       {.samples = format.samples,
+                                        .clipDistance = format.mirrorView && clip == ClipMethod::clipDistance,
+                                        .clampDepth = !(format.mirrorView && clip == ClipMethod::oblique),
+                                        .trilinear = info.settings.view.textureFilter == TextureFilter::trilinear,
+                                        .wireframe = info.settings.view.wireframe});
+  return draws + (info.environment.sky ? recordSky(scope, info, data) : 0);
 }
 
 }  // namespace speculum

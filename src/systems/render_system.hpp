@@ -1,9 +1,7 @@
 #pragma once
 
-#include <map>
-#include <memory>
-
 #include "systems/frame_info.hpp"
+#include "systems/pipeline_variants.hpp"
 
 namespace speculum {
 
@@ -33,20 +31,15 @@ class RenderSystem {
     auto operator<=>(const Variant&) const = default;
   };
   static bool tracesRays(const Variant& variant);
-  const Pipeline& objects(const Variant& variant, VkDescriptorSetLayout traceLayout);
-  const Pipeline& sky(VkSampleCountFlagBits samples);
+  GraphicsPipelineDesc objects(const Variant& variant, VkDescriptorSetLayout traceLayout) const;
   static void countDraw(EffectLedger& ledger, const Variant& variant);
   uint32_t recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data, Variant variant);
+  uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const PassData& data);
 
-  PipelineFactory& factory_;
   VkDescriptorSetLayout frameLayout_;
   VkDescriptorSetLayout textureLayout_;
-  struct Entry {
-    std::unique_ptr<Pipeline> pipeline;
-    int idleFrames = 0;
-  };
-  std::map<Variant, Entry> objects_;
-  std::map<VkSampleCountFlagBits, std::unique_ptr<Pipeline>> skies_;
+  PipelineVariants<Variant> objects_;
+  PipelineVariants<VkSampleCountFlagBits> skies_;
 };
 
 }  // namespace speculum

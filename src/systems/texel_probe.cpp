@@ -6,20 +6,8 @@
 
 namespace speculum {
 
-TexelProbe::TexelProbe(Renderer& renderer) : renderer_(renderer), device_(renderer.device()) {}
-
-const Pipeline& TexelProbe::pipeline(bool multisampled) {
-  std::unique_ptr<Pipeline>& pipeline = multisampled ? multisampled_ : single_;
-  if (!pipeline) {
-    pipeline = std::make_unique<Pipeline>(
-        renderer_.pipelines(),
-        ComputePipelineDesc{.name = "probe texel",
-                            .comp = multisampled ? "probe_texel_samples.comp" : "probe_texel.comp",
-                            .setLayouts = {layout_.get()},
-                            .pushConstantBytes = sizeof(gpu::ProbeConstants)});
-  }
-  return *pipeline;
-}
+TexelProbe::TexelProbe(Renderer& renderer)
+    : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
 
 void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel) {
   collect();
@@ -41,15 +29,21 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
       .image(0, descriptor)
       .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slot.result.descriptor())
       .update(device_, set);
-  const Pipeline& with = pipeline(image.samples() != VK_SAMPLE_COUNT_1_BIT);
+  const bool multisampled = image.samples() != VK_SAMPLE_COUNT_1_BIT;
+  const Pipeline& pipeline = pipelines_.get(multisampled, [&] {
+    return ComputePipelineDesc{.name = "probe texel",
+                               .comp = multisampled ? "probe_texel_samples.comp" : "probe_texel.comp",
+                               .setLayouts = {layout_.get()},
+                               .pushConstantBytes = sizeof(gpu::ProbeConstants)};
+  });
   device_.beginLabel(frame.commands, "probe texel");
-  device_.barriers().targetToCheck(frame.commands, image);
-  with.bind(frame.commands);
-  with.bindSet(frame.commands, 0, set);
-  with.push(frame.commands, gpu::ProbeConstants{texel});
+  device_.barriers().record(frame.commands, BarrierKind::targetToCheck, image);
+  pipeline.bind(frame.commands);
+  pipeline.bindSet(frame.commands, 0, set);
+  pipeline.push(frame.commands, gpu::ProbeConstants{texel});
   vkCmdDispatch(frame.commands, 1, 1, 1);
-  device_.barriers().checkToWrite(frame.commands, image);
-  device_.barriers().checkToHost(frame.commands);
+  device_.barriers().record(frame.commands, BarrierKind::checkToWrite, image);
+  Barriers::computeToHost(frame.commands);
   device_.endLabel(frame.commands);
 }
 
@@ -59,8 +53,7 @@ void TexelProbe::release() {
   if (std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.frame != 0; })) {
     return;
   }
-  single_.reset();
-  multisampled_.reset();
+  pipelines_.clear();
   layout_.reset();
   slots_ = {};
 }

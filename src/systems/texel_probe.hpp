@@ -1,11 +1,11 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 
 #include "core/renderer.hpp"
 #include "shaders/gpu_data.h"
+#include "systems/pipeline_variants.hpp"
 
 namespace speculum {
 
@@ -28,7 +28,7 @@ class TexelProbe {
   void release();
   // Of the last probed frame that has finished; nothing if there is none.
   const std::optional<TexelValue>& value();
-  size_t pipelineCount() const { return (single_ ? 1u : 0u) + (multisampled_ ? 1u : 0u); }
+  size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   struct Slot {
@@ -36,14 +36,12 @@ class TexelProbe {
     TexelValue asked;
     uint64_t frame = 0;  // number of the frame that probes; 0: none
   };
-  const Pipeline& pipeline(bool multisampled);
   void collect();
 
   Renderer& renderer_;
   Device& device_;
   DescriptorSetLayoutHandle layout_;
-  std::unique_ptr<Pipeline> single_;
-  std::unique_ptr<Pipeline> multisampled_;
+  PipelineVariants<bool> pipelines_;  // for an image with several samples, or with one
   std::array<Slot, framesInFlight> slots_;
   std::optional<TexelValue> value_;
   uint64_t valueFrame_ = 0;

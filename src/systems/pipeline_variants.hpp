@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "core/pipeline.hpp"
+#include "systems/effect_ledger.hpp"
+
+namespace speculum {
+
+// Pipelines of one system by what they differ in. Each is made when it is first drawn with.
+template <typename Variant>
+class PipelineVariants {
+ public:
+  explicit PipelineVariants(PipelineFactory& factory) : factory_(factory) {}
+
+  // `describe()` gives the description of a pipeline that is not there yet.
+  template <typename Describe>
+  const Pipeline& get(const Variant& variant, Describe describe) {
+    Entry& entry = entries_[variant];
+    entry.idleFrames = 0;
+    if (!entry.pipeline) {
+      entry.pipeline = std::make_unique<Pipeline>(factory_, describe());
+    }
+    return *entry.pipeline;
+  }
+
+  // Drops the pipelines that idle(variant) held for in more than idleFramesKept frames since they were drawn with.
+  template <typename Idle>
+  void endFrame(Idle idle) {
+    for (auto& [variant, entry] : entries_) {
+      entry.idleFrames += idle(variant);
+    }
+    std::erase_if(entries_, [](const auto& item) { return item.second.idleFrames > idleFramesKept; });
+  }
+
+  template <typename Predicate>
+  void dropIf(Predicate predicate) {
+    std::erase_if(entries_, [&](const auto& item) { return predicate(item.first); });
+  }
+  void clear() { entries_.clear(); }
+  size_t size() const { return entries_.size(); }
+
+  template <typename Visit>
+  void forEach(Visit visit) const {
+    for (const auto& [variant, entry] : entries_) {
+      visit(variant);
+    }
+  }
+
+ private:
+  struct Entry {
+    std::unique_ptr<Pipeline> pipeline;
+    int idleFrames = 0;
+  };
+  PipelineFactory& factory_;
+  std::map<Variant, Entry> entries_;
+};
+
+}  // namespace speculum
