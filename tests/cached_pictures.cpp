@@ -275,16 +275,18 @@ TEST(CachedPictures, TimeMayPauseAndRunBackwards) {
 TEST(CachedPictures, StatsListReusedMirrorsAndMergePasses) {
   Session session(withInterval(roomScene(), 4));
   std::vector<nlohmann::ordered_json> frames;
+  std::vector<std::vector<PassId>> passes;
   size_t ran = 0;
   for (int frame = 0; frame < 8; ++frame) {
     session.draw(0.0, false);
     session.finish();
     frames.push_back(frameStats(session, session.renderer().timings()));
+    passes.push_back(passIds(session));
     ran += frames.back()["passes"].size();
   }
   expectQuiet(session);
   EXPECT_GE(unchangedMirrors(frames.back()), 1);
-  const nlohmann::ordered_json merged = mergeStats(frames);
+  const nlohmann::ordered_json merged = mergeStats(frames, passes);
   size_t counted = 0;
   for (const auto& pass : merged["passes"]) {
     counted += pass.value("frames", frames.size());

@@ -39,8 +39,8 @@ class WatchedImages : public Watch {
     Frame frame = renderer_.beginFrame().value();
     watch.begin(frame, targets.size());
     for (size_t i = 0; i < targets.size(); ++i) {
-      watch.check(frame, std::to_string(i), {static_cast<int>(i)}, targets[i], targets[i].descriptor(sampler_.get()),
-                  used);
+      watch.check(frame, {{.path = {static_cast<int>(i)}}, std::to_string(i)}, false, targets[i],
+                  targets[i].descriptor(sampler_.get()), used);
     }
     watch.end(frame);
     renderer_.endFrame(frame);
@@ -84,7 +84,7 @@ TEST_F(WatchedImages, EveryHalfFloatIsJudgedInEveryChannel) {
   ASSERT_EQ(found.size(), 4u);
   for (int channel = 0; channel < 4; ++channel) {
     EXPECT_EQ(found[channel].pass, std::to_string(channel));
-    EXPECT_EQ(found[channel].path, std::vector<int>{channel});
+    EXPECT_EQ(found[channel].id.path, std::vector<int>{channel});
     EXPECT_EQ(found[channel].count, count);
     EXPECT_EQ(found[channel].y * 256 + found[channel].x, first[channel]);
     const float expected = glm::unpackHalf1x16(images[channel][first[channel]][channel]);
@@ -190,7 +190,7 @@ TEST_P(BrokenPass, IsNamedWithItsMirrorsAndPixel) {
   ASSERT_FALSE(watch.findings().empty());
   const NonFinite& found = watch.findings().front();
   EXPECT_EQ(found.pass, "mirror front > rear");
-  EXPECT_EQ(found.path, (std::vector<int>{0, 1}));
+  EXPECT_EQ(found.id.path, (std::vector<int>{0, 1}));
   EXPECT_EQ(found.x, 5);
   EXPECT_EQ(found.y, 3);
   EXPECT_EQ(found.sample, sample());
@@ -210,7 +210,7 @@ TEST_P(BrokenPass, OfTheMainViewIsFoundInItsSamples) {
   ASSERT_FALSE(watch.findings().empty());
   const NonFinite& found = watch.findings().front();
   EXPECT_EQ(found.pass, samples() > 1 ? "main view (samples)" : "main view");
-  EXPECT_TRUE(found.path.empty());
+  EXPECT_EQ(found.id.kind, PassKind::main);
   EXPECT_EQ(found.x, 60);
   EXPECT_EQ(found.y, 34);
   EXPECT_EQ(found.sample, sample());

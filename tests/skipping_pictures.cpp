@@ -333,10 +333,12 @@ TEST(Skipping, FiguresOfPassesNameTheParent) {
   Session session(options);
   session.setCamera(lookAt({1.4, 1.5, 1.6}, {1.2, 1.3, 0.0}, {0, 1, 0}, 100, 0.001));
   std::vector<nlohmann::ordered_json> frames;
+  std::vector<std::vector<PassId>> passes;
   for (int frame = 0; frame < 4; ++frame) {
     frames.push_back(statsWith(session, session.settings()));
+    passes.push_back(passIds(session));
   }
-  frames.push_back(mergeStats(frames));
+  frames.push_back(mergeStats(frames, passes));
   int mirrors = 0;
   for (const nlohmann::ordered_json& frame : frames) {
     for (const auto& pass : frame["passes"]) {

@@ -160,11 +160,11 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
   }
   std::ptrdiff_t place = 0;
   for (const RecordedPass& pass : sceneRenderer_->passes()) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const UiPass& r) {
-      return r.framesAgo > 0 && r.name == pass.name && r.path == pass.path;
-    });
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const UiPass& r) { return r.id == pass; });
     if (row == rows.end()) {
-      row = rows.insert(rows.begin() + place, UiPass{pass.name, pass.path, pass.depth, pass.kind});
+      row =
+          rows.insert(rows.begin() + place,
+                      UiPass{.name = pass.name, .path = pass.path, .depth = pass.depth, .kind = pass.kind, .id = pass});
     }
     row->areaPx = pass.areaPx;
     row->draws = pass.draws;
@@ -177,11 +177,13 @@ void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int update
     place = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const UiPass& row) { return row.framesAgo >= updateInterval && !isShown(row); });
-  for (UiPass& row : rows) {
-    // The times are of an earlier frame, whose plan may have differed.
-    const auto timing = std::find_if(timings.passes.begin(), timings.passes.end(),
-                                     [&](const PassTiming& t) { return t.name == row.name; });
-    row.gpuMs = timing != timings.passes.end() ? timing->gpuMs : row.gpuMs;
+  // The times are of an earlier frame, whose plan may have differed.
+  const std::span<const RecordedPass> timed = sceneRenderer_->passesOf(timings.frame);
+  for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const UiPass& r) { return r.id == timed[i]; });
+    if (row != rows.end()) {
+      row->gpuMs = timings.passes[i].gpuMs;
+    }
   }
   model_.passes = std::move(rows);
   const auto shown = std::find_if(model_.passes.begin(), model_.passes.end(), [&](const UiPass& row) {

@@ -113,18 +113,20 @@ void printEffects(const nlohmann::ordered_json& effects) {
 std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Options& options, int measured,
                                                     Progress& progress) {
   std::vector<nlohmann::ordered_json> frames;
+  std::vector<std::vector<PassId>> passes;
   for (int i = 0; i < options.warmup + measured; ++i) {
     session.draw(options.time, false);
     session.finish();
     if (i >= options.warmup) {
       frames.push_back(frameStats(session, session.renderer().timings()));
+      passes.push_back(passIds(session));
     }
     progress.advance();
     if (interruptRequested()) {
       return std::nullopt;
     }
   }
-  return mergeStats(frames);
+  return mergeStats(frames, passes);
 }
 
 // Milliseconds from one frame to the next when the CPU records one while the device draws the one before and no pass is

@@ -152,26 +152,25 @@ ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
 
 // A pass in the frames in which it ran.
 struct GatheredPass {
+  PassId id;
   std::vector<const ordered_json*> passes;
   const ordered_json* lastFrame = nullptr;
 };
 
-// By name and path; those that share both, because mirrors share a name, stay apart.
-std::vector<GatheredPass> gatherPasses(const std::vector<ordered_json>& frames) {
+std::vector<GatheredPass> gatherPasses(const std::vector<ordered_json>& frames,
+                                       const std::vector<std::vector<PassId>>& ids) {
   std::vector<GatheredPass> gathered;
-  for (const ordered_json& frame : frames) {
-    std::ptrdiff_t place = 0;
-    for (const ordered_json& pass : frame.at("passes")) {
-      auto found = std::find_if(gathered.begin(), gathered.end(), [&](const GatheredPass& known) {
-        const ordered_json& other = *known.passes.front();
-        return known.lastFrame != &frame && other.at("name") == pass.at("name") && other.at("path") == pass.at("path");
-      });
+  for (size_t f = 0; f < frames.size(); ++f) {
+    auto next = gathered.begin();
+    for (size_t i = 0; i < ids[f].size(); ++i) {
+      auto found = std::find_if(gathered.begin(), gathered.end(),
+                                [&](const GatheredPass& known) { return known.id == ids[f][i]; });
       if (found == gathered.end()) {
-        found = gathered.insert(gathered.begin() + place, GatheredPass{});
+        found = gathered.insert(next, {.id = ids[f][i]});
       }
-      found->passes.push_back(&pass);
-      found->lastFrame = &frame;
-      place = found - gathered.begin() + 1;
+      found->passes.push_back(&frames[f].at("passes").at(i));
+      found->lastFrame = &frames[f];
+      next = found + 1;
     }
   }
   return gathered;
@@ -190,9 +189,9 @@ ordered_json gatheredParent(const std::vector<GatheredPass>& gathered, const Gat
   return found - gathered.begin();
 }
 
-ordered_json mergePasses(const std::vector<ordered_json>& frames) {
+ordered_json mergePasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
   ordered_json merged = ordered_json::array();
-  const std::vector<GatheredPass> gathered = gatherPasses(frames);
+  const std::vector<GatheredPass> gathered = gatherPasses(frames, ids);
   for (const GatheredPass& pass : gathered) {
     merged.push_back(mergeObjects(pass.passes));
     merged.back()["parent"] = gatheredParent(gathered, pass);
@@ -238,7 +237,12 @@ ordered_json frameStats(Session& session, const FrameTimings& timings) {
   return json;
 }
 
-ordered_json mergeStats(const std::vector<ordered_json>& frames) {
+std::vector<PassId> passIds(Session& session) {
+  const std::vector<RecordedPass>& passes = session.sceneRenderer().passes();
+  return {passes.begin(), passes.end()};
+}
+
+ordered_json mergeStats(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& passes) {
   ordered_json merged = frames.back();
   merged["frames"] = frames.size();
   std::vector<const ordered_json*> totals;
@@ -246,7 +250,7 @@ ordered_json mergeStats(const std::vector<ordered_json>& frames) {
     totals.push_back(&frame.at("totals"));
   }
   merged["totals"] = mergeObjects(totals);
-  merged["passes"] = mergePasses(frames);
+  merged["passes"] = mergePasses(frames, passes);
   return merged;
 }
 

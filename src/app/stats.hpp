@@ -12,7 +12,10 @@ nlohmann::ordered_json frameStats(Session& session, const FrameTimings& timings)
 // Over the measured frames each *_ms becomes an object of median, min, p95 and max. `frames` are stats of one scene and
 // one time, whose plans differ at most in which mirrors show images of earlier frames: a pass is merged over those
 // frames in which it ran, and has their number as `frames` if they are not all.
-nlohmann::ordered_json mergeStats(const std::vector<nlohmann::ordered_json>& frames);
+// `passes` are passIds() of the same frames.
+nlohmann::ordered_json mergeStats(const std::vector<nlohmann::ordered_json>& frames,
+                                  const std::vector<std::vector<PassId>>& passes);
+std::vector<PassId> passIds(Session& session);  // of the last frame
 
 // { "median", "min", "p95", "max" } of at least one value.
 nlohmann::ordered_json summary(std::vector<double> values);

@@ -76,6 +76,16 @@ struct EnvironmentMap {
 // Kinds of recorded passes.
 enum class PassKind { mirror, environment, main, display, debugView };
 
+// Which pass it is: equal for the same pass of different frames.
+struct PassId {
+  PassKind kind = PassKind::mirror;
+  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
+  int instance = -1;      // of an environment map, index into SceneState::instances
+  int face = -1;          // of an environment map, index into EnvironmentMap::faces
+
+  bool operator==(const PassId&) const = default;
+};
+
 struct SkippedMirror {
   int mirror = 0;
   std::vector<int> path;  // mirrors from the eye, ending with this one

@@ -80,7 +80,7 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
   pipeline.bindSet(scope.commands(), 0, set);
   pipeline.push(scope.commands(), constants);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
-  return {.name = desc.name, .kind = kind, .draws = 1};
+  return {{.kind = kind}, desc.name, -1, 1};
 }
 
 RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, const Settings& settings) {

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace speculum {
@@ -77,12 +78,12 @@ const Pipeline& FiniteWatch::pipeline(const Variant& variant) {
   });
 }
 
-void FiniteWatch::check(Frame& frame, const std::string& pass, const std::vector<int>& path, Image& image,
+void FiniteWatch::check(Frame& frame, const RecordedPass& pass, bool samples, Image& image,
                         const VkDescriptorImageInfo& descriptor, VkExtent2D used) {
   Slot& slot = slots_[frame.index];
   const VkDescriptorBufferInfo search = searchOf(slot.results, slot.targets.size());
   const VkDescriptorBufferInfo found = foundOf(slot.results, slot.targets.size());
-  slot.targets.push_back({pass, path, used});
+  slot.targets.push_back({pass, samples, pass.name + (samples ? " (samples)" : ""), used});
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter()
       .image(0, descriptor)
@@ -97,7 +98,7 @@ void FiniteWatch::check(Frame& frame, const std::string& pass, const std::vector
     pipeline.push(frame.commands, gpu::CheckConstants{{used.width, used.height}});
     vkCmdDispatch(frame.commands, x, y, 1);
   };
-  device_.beginLabel(frame.commands, "check " + pass);
+  device_.beginLabel(frame.commands, "check " + pass.name);
   device_.barriers().record(frame.commands, BarrierKind::targetToCheck, image);
   dispatch(false, groups(used.width, groupWidth), groups(used.height, groupHeight));
   device_.barriers().record(frame.commands, BarrierKind::checkToLookUp, search);
@@ -139,8 +140,9 @@ void FiniteWatch::read(Slot& slot) {
     if (search.any != 0) {
       const auto value = readAt<gpu::CheckFound>(slot.results, foundOf(slot.results, i));
       const Target& target = slot.targets[i];
-      found.push_back({.pass = target.pass,
-                       .path = target.path,
+      found.push_back({.id = target.id,
+                       .samples = target.samples,
+                       .pass = target.name,
                        .x = static_cast<int>(search.pixel % target.used.width),
                        .y = static_cast<int>(search.pixel / target.used.width),
                        .sample = static_cast<int>(value.sampleIndex),
@@ -150,8 +152,10 @@ void FiniteWatch::read(Slot& slot) {
     }
   }
   if (!found.empty()) {
-    // What follows in a frame mostly comes of the first.
-    if (reported_.insert(found.front().pass).second) {
+    // The first finding of a frame is mostly the cause of those that follow.
+    const std::pair<PassId, bool> first(found.front().id, found.front().samples);
+    if (std::find(reported_.begin(), reported_.end(), first) == reported_.end()) {
+      reported_.push_back(first);
       spdlog::error("debug.check_finite: {}", describe(found.front()));
     }
     findings_ = std::move(found);

@@ -1,21 +1,22 @@
 #pragma once
 
 #include <array>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "core/renderer.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/pipeline_variants.hpp"
+#include "systems/recorded_pass.hpp"
 
 namespace speculum {
 
 // What was found in a target of a pass: a value that is NaN, infinite, below 0 or above 65504, the largest half float.
 struct NonFinite {
-  std::string pass;
-  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for the main view
-  int x = 0;              // pixel of the pass's target, from its top left; the first one row by row
+  PassId id;
+  bool samples = false;  // found in what is resolved to the pass's output
+  std::string pass;      // name for the user
+  int x = 0;             // pixel of the pass's target, from its top left; the first one row by row
   int y = 0;
   int sample = 0;
   glm::vec4 value{0.0f};  // radiance, and disparity in 1/m
@@ -33,7 +34,8 @@ class FiniteWatch {
   void begin(const Frame& frame, size_t targets);
   // After the pass that drew `image` has ended. Its upper left part of `used` pixels is checked; `descriptor` is the
   // image's. The image is then in the layout for being sampled.
-  void check(Frame& frame, const std::string& pass, const std::vector<int>& path, Image& image,
+  // With `samples`, it is what is resolved to the pass's output.
+  void check(Frame& frame, const RecordedPass& pass, bool samples, Image& image,
              const VkDescriptorImageInfo& descriptor, VkExtent2D used);
   void end(Frame& frame);
   // Gives the GPU's objects back as soon as the frames that were watched have finished.
@@ -49,8 +51,9 @@ class FiniteWatch {
 
  private:
   struct Target {
-    std::string pass;
-    std::vector<int> path;
+    PassId id;
+    bool samples = false;
+    std::string name;
     VkExtent2D used{0, 0};
   };
   struct Slot {
@@ -74,7 +77,7 @@ class FiniteWatch {
   std::vector<NonFinite> findings_;
   uint64_t findingsFrame_ = 0;
   uint64_t count_ = 0;
-  std::set<std::string> reported_;
+  std::vector<std::pair<PassId, bool>> reported_;  // passes, and whether by their samples
 };
 
 }  // namespace speculum

@@ -1,18 +1,15 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "frame/frame_plan.hpp"
 
 namespace speculum {
 
-// What was recorded for one pass; its GPU figures follow under the same index in FrameTimings::passes.
-struct RecordedPass {
-  std::string name;  // for people
-  PassKind kind = PassKind::mirror;
-  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
-  int depth = -1;         // of a mirror: 0 seen directly; -1 for other passes
+// One pass as it was recorded. Its GPU figures follow under the same index in the FrameTimings of its frame.
+struct RecordedPass : PassId {
+  std::string name;  // for the user; two mirrors may share one
+  int depth = -1;    // recursion depth of a mirror; -1 for other passes
   uint32_t draws = 0;
   double areaPx = 0.0;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,50 +29,58 @@ class SceneRenderer {
   SceneRenderer(const SceneRenderer&) = delete;
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-  // The images that this frame can be planned with: of the plan recorded last; none if a shader is new since then.
+  // Images of the last plan that the next one may reuse. Empty after a shader reload.
   FrameCache cache() const;
-  // Forgets them and every target of mirror images, so that what is drawn from now on does not depend on what was.
+  // Drops all cached images and their targets. The next frame renders everything.
   void restart();
 
-  // What of record() takes memory for the scene's textures and materials, before anything is recorded: after an
-  // OutOfMemoryError the frame can be planned again without effects.textures.
+  // Uploads the textures and materials that record() needs. Call it first: if it throws OutOfMemoryError, plan the
+  // frame again without effects.textures.
   void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
-  // Records everything up to and with the display pass. `plan` was made with cache().
+  // Records every pass up to the display pass. `plan` was made with cache().
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt);
 
-  // From the next frame on this picture is shown in the place of the scene's, stretched over the display image; one
-  // without pixels ends that. Display sRGB.
+  // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
+  // without pixels shows the scene again.
   void setCover(const Image8& picture) { display_.setCover(picture); }
 
+  // Passes of the last recorded frame, in order.
   const std::vector<RecordedPass>& passes() const { return recorded_; }
-  // What debug.check_finite found in the frames that have finished.
+  // Passes of frame number `frame`, if it is one of the last three recorded: the GPU's timings are of an earlier frame.
+  std::span<const RecordedPass> passesOf(uint64_t frame) const;
+  // Findings of debug.check_finite in the frames that have finished.
   const FiniteWatch& finiteWatch();
-  // What DebugView::probe asked for, of the last frame that asked and has finished; nothing while none asks.
+  // Answer to DebugView::probe, from the last frame that asked and has finished.
   const std::optional<TexelValue>& probed() { return probe_.value(); }
   size_t pipelineCount() const;
-  // What each effect took part in, of the last recorded frame that drew the main view.
+  // Share of each effect in the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
-  // Linear radiance of the main view, of the last recorded frame; waits for the GPU.
+  // Linear radiance of the main view in the last recorded frame. Waits for the GPU.
   LinearImage radiance();
 
  private:
+  void releaseDebugViews(const std::optional<DebugView>& debug, RetireQueue& retired);
+  void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan,
+                      const std::optional<DebugView>& debug);
   void prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
-  void prepareMaps(Frame& frame, const FramePlan& plan);
-  void recordPasses(Frame& frame, const FrameInfo& info);
-  void endRecord(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
-  void recordMap(Frame& frame, const FrameInfo& info, size_t map, size_t firstPass);
-  PassDesc mirrorPass(const FrameInfo& info, size_t index, const PassTargets& targets) const;
-  void recordMirrorPasses(Frame& frame, const FrameInfo& info, const PassRange& range);
-  RecordedPass recordMirrorPass(Frame& frame, const FrameInfo& info, size_t index, const PassDesc& desc);
-  void recordMainPass(Frame& frame, const FrameInfo& info);
-  bool keepsDepth(size_t pass) const { return depthPass_ == static_cast<int>(pass); }
-  void releaseViews(const std::optional<DebugView>& debug, RetireQueue& retired);
-  void recordDebugView(Frame& frame, const Settings& settings, const FramePlan& plan, const DebugView& debug);
-  void recordProbe(Frame& frame, const FramePlan& plan, const DebugView& debug);
-  void checkTarget(Frame& frame, const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
-  uint32_t recordSystems(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
-  void finishLedger(const Settings& settings, const FramePlan& plan);
+  void recordMaps(const FrameInfo& info);
+  void recordMap(const FrameInfo& info, size_t map, size_t firstFace);
+  void recordMirrors(const FrameInfo& info);
+  void recordMirrorRange(const FrameInfo& info, const PassRange& range);
+  void recordMain(const FrameInfo& info);
+  void recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug);
+  void endRecord(const FrameInfo& info);
+  void finishLedger(const FrameInfo& info);
+
+  // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
+  void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
+  // Keeps the depth of the pass that the debug view shows; call it before the pass and after it.
+  void keepDepth(const FrameInfo& info, size_t pass, PassDesc& desc);
+  void finishDepth(const FrameInfo& info, size_t pass);
+  void checkTarget(const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
+  // The target of plan.passes[pass], or of the main view for their number.
+  OffScreen& targetOf(const FramePlan& plan, int pass);
 
   Renderer& renderer_;
   Device& device_;
@@ -90,12 +99,13 @@ class SceneRenderer {
   std::unique_ptr<OffScreen> main_;
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
-  MainImage mainImage_;         // its content is empty if it is not to be shown again
+  MainImage mainImage_;        // its content is empty if it is not to be reused
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
   std::vector<RecordedPass> recorded_;
+  std::array<std::pair<uint64_t, std::vector<RecordedPass>>, framesInFlight + 1> recordedFrames_;  // by frame number
   EffectLedger ledger_;
-  std::optional<int> depthPass_;  // whose depth is looked at; the number of mirror passes stands for the main view
+  std::optional<int> depthPass_;  // pass whose depth the debug view shows; passes.size() is the main view
 };
 
 }  // namespace speculum

@@ -28,6 +28,7 @@ struct UiPass {
   uint32_t draws = 0;
   std::optional<DepthReadout> resolution;  // a mirror's, if it sees anything but the background
   std::vector<glm::vec2> outline;          // a mirror's: where it is seen, pixels of the picture
+  PassId id;
 };
 
 struct UiSkipped {
