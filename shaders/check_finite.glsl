@@ -7,6 +7,8 @@ layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform CHECKED_IMAGE checkedImage;
 
+layout(set = 0, binding = 1, std430) buffer Search { CheckSearch search; };
+
 layout(push_constant) uniform Constants { CheckConstants part; };
 
 int sampleCount(sampler2D image) { return 1; }
@@ -14,8 +16,9 @@ int sampleCount(sampler2DMS image) { return textureSamples(image); }
 vec4 valueOf(sampler2D image, ivec2 texel, int i) { return texelFetch(image, texel, 0); }
 vec4 valueOf(sampler2DMS image, ivec2 texel, int i) { return texelFetch(image, texel, i); }
 
-// By their bits, which compilers leave alone: some take isnan() for false. As numbers, those of floats from 0 up are in
-// the floats' order; infinity, NaN and all that has the sign bit come after them. Only -0 is as good as 0.
+// Whether a target may hold the value. Judged by its bits, because some compilers take isnan() for false: as integers
+// those of floats from 0 up are in the floats' order, and infinity, NaN and all with the sign bit come after them. Only
+// -0 is as good as 0.
 bool storable(vec4 value) {
   uvec4 bits = floatBitsToUint(value);
   bvec4 zero = equal(bits, uvec4(0x80000000u));
@@ -24,8 +27,6 @@ bool storable(vec4 value) {
 }
 
 #ifdef LOOK_UP
-layout(set = 0, binding = 1, std430) readonly buffer Search { CheckSearch search; };
-
 layout(set = 0, binding = 2, std430) writeonly buffer Found { CheckFound found; };
 
 void main() {
@@ -41,8 +42,6 @@ void main() {
   found.sampleIndex = i;
 }
 #else
-layout(set = 0, binding = 1, std430) buffer Search { CheckSearch search; };
-
 void main() {
   uvec2 at = gl_GlobalInvocationID.xy;
   if (any(greaterThanEqual(at, part.size))) {

@@ -1,4 +1,4 @@
-// Linear radiance to display-referred sRGB, once, after the samples are averaged. DISPLAY_IMAGE is the image's type.
+// Converts linear radiance to display-referred sRGB, after the samples are averaged. DISPLAY_IMAGE is the image's type.
 #include "gpu_data.h"
 #include "texels.glsl"
 

@@ -1,15 +1,15 @@
-// What a curved mirror reflects, from six images about its centre: EnvironmentMap in src/frame/frame_plan.hpp, with the
-// faces of src/frame/environment_map.cpp. The map is `diffuseTexture`. Needs shading.glsl.
+// Reflections of a curved mirror, looked up in six images about its centre: EnvironmentMap in src/frame/frame_plan.hpp,
+// with the faces of src/frame/environment_map.cpp. The map is bound as `diffuseTexture`. Needs shading.glsl.
 
 const float environmentBorder = 1.0;  // texels of a face beyond its edges
 
-// Where the map shows what lies in a direction from its centre.
-struct MapPlace {
+// Where the map shows a direction from its centre.
+struct MapTexel {
   ivec2 corner;  // of the face
   vec2 texel;    // in the face
 };
 
-MapPlace mapPlace(vec3 d, int size) {
+MapTexel mapTexel(vec3 d, int size) {
   vec3 a = abs(d);
   int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
   float side = d[axis] < 0.0 ? -1.0 : 1.0;
@@ -19,18 +19,18 @@ MapPlace mapPlace(vec3 d, int size) {
   vec2 p = vec2(dot(d, cross(forward, up)), -dot(d, up)) / max(a[axis], 1e-30);
   int face = 2 * axis + (side < 0.0 ? 1 : 0);
   float within = float(size) - 2.0 * environmentBorder;
-  return MapPlace(size * ivec2(face % 3, face / 3), environmentBorder + (0.5 * clamp(p, -1.0, 1.0) + 0.5) * within);
+  return MapTexel(size * ivec2(face % 3, face / 3), environmentBorder + (0.5 * clamp(p, -1.0, 1.0) + 0.5) * within);
 }
 
-// Bilinear. What is infinitely far lies in direction d from wherever it is seen.
-vec3 mapRadiance(ViewData view, MapPlace place, int size, vec3 d) {
-  vec2 low = clamp(floor(place.texel - 0.5), vec2(0.0), vec2(size - 2));
-  vec2 weight = clamp(place.texel - 0.5 - low, 0.0, 1.0);
+// Radiance of the map, bilinear. The background is infinitely far, in direction d from everywhere.
+vec3 mapRadiance(ViewData view, MapTexel at, int size, vec3 d) {
+  vec2 low = clamp(floor(at.texel - 0.5), vec2(0.0), vec2(size - 2));
+  vec2 weight = clamp(at.texel - 0.5 - low, 0.0, 1.0);
   vec3 background = backgroundRadiance(view, d);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 next = ivec2(i & 1, i >> 1);
-    vec4 value = texelFetch(diffuseTexture, place.corner + ivec2(low) + next, 0);
+    vec4 value = texelFetch(diffuseTexture, at.corner + ivec2(low) + next, 0);
     vec2 share = mix(1.0 - weight, weight, vec2(next));
     sum += share.x * share.y * (value.a > 0.0 ? value.rgb : background);
   }
@@ -47,16 +47,13 @@ vec3 throughBox(EnvironmentData map, vec3 position, vec3 d) {
   return t > 0.0 ? from + t * d : d;
 }
 
-// Of a mirror's reflection at `surface`, seen along `direction`.
+// Radiance of a mirror's reflection at `surface`, seen along `direction`.
 vec3 environmentRadiance(ViewData view, EnvironmentData map, Surface surface, vec3 direction, vec3 reflectance) {
-  // Not below the triangle's own plane but the shading normal's: triangles may be smaller than what derivatives see.
+  // Turned back above the shading normal's plane, not the triangle's: triangles may be smaller than derivatives see.
   vec3 d = mirrored(direction, surface.normal, surface.normal);
-  vec3 channels = view.throughput * reflectance;
-  float through = max(channels.r, max(channels.g, channels.b));
-  bool last = view.depth >= view.maxDepth || through < view.minThroughput || through == 0.0;
-  if (last || map.hasMap == 0) {
+  if (map.hasMap == 0 || isLastBounce(view, view.depth, view.throughput * reflectance)) {
     return backgroundRadiance(view, d);
   }
   vec3 toward = map.hasBox != 0 ? throughBox(map, surface.position, d) : d;
-  return mapRadiance(view, mapPlace(toward, map.faceSize), map.faceSize, d);
+  return mapRadiance(view, mapTexel(toward, map.faceSize), map.faceSize, d);
 }

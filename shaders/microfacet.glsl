@@ -10,7 +10,7 @@ uint mixedBits(uint x) {
 
 float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
 
-// Of the pixel, or of the sample where each has an invocation.
+// Seed of the pixel, or of the sample where each has an invocation.
 uint pixelSeed() { return mixedBits(uint(gl_FragCoord.x * 16.0) + mixedBits(uint(gl_FragCoord.y * 16.0))); }
 
 vec2 pixelShift(uint seed) { return vec2(unitInterval(seed), unitInterval(mixedBits(seed + 1))); }

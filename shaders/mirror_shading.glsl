@@ -1,19 +1,20 @@
-// The fragment shader of mirrors. MIRROR_IMAGE is the type of the image; with MIRROR_OWN_SAMPLE each invocation stands
-// for one sample, reads the same sample of the image and gives the reflection's share only. TRACED: light that needs
-// rays falls on the layer under the reflection.
+// The fragment shader of mirrors. MIRROR_IMAGE is the type of the image. With MIRROR_OWN_SAMPLE each invocation draws one
+// sample, reads the same sample of the image and gives the reflection's share only. With TRACED, light that needs rays
+// falls on the layer under the reflection.
 #include "interface.glsl"
 #include "shading.glsl"
 #include "texels.glsl"
 #include "microfacet.glsl"
+#include "mirror_plane.glsl"
 #ifdef TRACED
 #include "trace.glsl"
 #include "traced_light.glsl"
 #endif
 
 layout(constant_id = 0) const bool baseOnly = false;   // the share of the layer under the reflection
-layout(constant_id = 1) const bool reprojects = false; // the image is one of an earlier frame, and something moved
+layout(constant_id = 1) const bool reprojects = false; // the image is cached, and something has moved since
 layout(constant_id = 6) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
-// What is known of a mirror on the CPU, so that no pixel of it runs or waits for what it has not.
+// Constants, so that no pixel of a mirror runs code that the mirror does not need.
 layout(constant_id = 7) const uint shows = showsImage;
 layout(constant_id = 8) const uint lookup = lookupFetch;
 layout(constant_id = 9) const bool painted = true;     // its back, or its layer under the reflection, is not black
@@ -27,7 +28,7 @@ layout(location = 0) out vec4 color;
 // image's texel lie on one ray and its reflection.
 vec4 valueAt(ivec2 texel) { return texelFetch(reflection, texel, gl_SampleID); }
 
-// Of the values within their texels.
+// Position of the values within their texels.
 vec2 valuePosition() { return gl_SamplePosition; }
 
 vec4 reflected(MirrorData mirror) {
@@ -79,11 +80,11 @@ vec4 reflected(MirrorData mirror) {
 }
 #endif
 
-// What this fragment sees, as a cached image shows it. docs/architecture.md: When is an image used again?
+// Relation of this fragment to a cached image. docs/architecture.md: When is an image used again?
 struct Reprojection {
   vec3 direction;  // homogeneous texel of what is infinitely far
   vec3 parallax;   // added to it per disparity
-  float nearest;   // disparity of the mirror itself: what is seen lies behind it
+  float nearest;   // disparity of the mirror itself, behind which lies all that is seen
 };
 
 Reprojection reprojection(MirrorData mirror, float nearest) {
@@ -111,9 +112,9 @@ float refined(Reprojection r, ivec2 last, float disparity) {
   return disparity;
 }
 
-// Which of the image's points lies on this fragment's ray is not known beforehand. All that may are on a line in the
-// image, from where the mirror itself was to where infinity was; the first one that is there is seen. Where none is,
-// something hid what is seen now, and the farthest point found takes its place.
+// Finds the image's point that lies on this fragment's ray. All that may are on a line in the image, from where the mirror
+// itself was to where infinity was; the first one that is there is seen. Where none is, something hid what is seen now,
+// and the farthest point found fills the gap.
 float foundDisparity(Reprojection r, ivec2 last) {
   float span = distance(texelAt(r, r.nearest), texelAt(r, 0.0));
   int steps = int(clamp(ceil(span), 1.0, 32.0));
@@ -137,7 +138,7 @@ float foundDisparity(Reprojection r, ivec2 last) {
   return filling;
 }
 
-// A box as wide as a pixel and at least as a texel, which makes it bilinear at the screen's resolution. But every value
+// Filters by a box as wide as a pixel and at least as a texel, which is bilinear at the screen's resolution. Every value
 // counts by how far off the ray its own point is: the far ones beside a silhouette have moved by another length than the
 // near ones and would leave an outline behind. Where none counts, the farthest fills the gap.
 vec4 reprojected(MirrorData mirror, float nearest) {
@@ -173,9 +174,9 @@ vec2 pixelOf(ViewData view, vec3 point) {
   return vec2(dot(onPlane, x) / dot(x, x), dot(onPlane, y) / dot(y, y));
 }
 
-// The mean over microfacets of a rough mirror, looked up where the image of the smooth mirror shows what lies in their
-// directions: at the distance of what is found there, from a first guess of what the smooth mirror shows here. Beside the
-// image the background stands for what it does not show.
+// Mean over the microfacets of a rough mirror, looked up in the image of the smooth mirror: in each direction at the
+// distance that the image has there, guessed first from what the smooth mirror shows here. Beyond the image the background
+// is seen.
 vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
   vec3 normal = mirror.normal;
   vec3 incoming = safeNormalize(ray);
@@ -213,12 +214,6 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
 }
 #endif
 
-// F of docs/picture.md; `inward` is the ray's component along the normal, below zero.
-vec3 reflectance(MirrorData mirror, vec3 ray, float inward) {
-  vec3 f = mirror.reflectance;
-  return mirror.schlick != 0 ? schlick(f, -inward * inversesqrt(max(dot(ray, ray), 1e-30))) : f;
-}
-
 vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
   if (!painted) {
     return vec3(0.0);
@@ -236,20 +231,16 @@ vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
 void main() {
   MirrorData mirror = mirrors[draw.mirrorIndex];
   ViewData view = views[draw.viewIndex];
-  // The pixel's ray meets the plane: exact at every distance and angle, where interpolation over a polygon that may
-  // reach behind the eye is not. A pixel whose centre lies beyond the horizon is seen at grazing angle.
-  vec3 ray = rayThrough(view, gl_FragCoord.xy);
-  float inward = min(dot(mirror.normal, ray), -1e-7 * length(ray));
-  vec3 f = reflectance(mirror, ray, inward);
-  // The ray is one metre long along the view's axis.
-  float ownDisparity = inward / min(-mirror.eyeDistance, -1e-30);
+  PlaneHit hit = planeHit(mirror, view);
+  float cosine = -hit.inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));
+  vec3 f = reflectanceAt(mirror.reflectance, mirror.schlick, cosine);
 #ifdef MIRROR_OWN_SAMPLE
-  vec4 image = reprojects ? reprojected(mirror, ownDisparity) : reflected(mirror);
+  vec4 image = reprojects ? reprojected(mirror, hit.disparity) : reflected(mirror);
   color = storable(f * min(image.rgb, shareMax), image.a);
 #else
-  vec3 base = baseRadiance(mirror, view, ray * (-mirror.eyeDistance / inward));
+  vec3 base = baseRadiance(mirror, view, hit.position);
   if (shows == showsBack) {
-    color = storable(base, ownDisparity);
+    color = storable(base, hit.disparity);
     return;
   }
   if (baseOnly) {
@@ -259,12 +250,12 @@ void main() {
   vec4 image = vec4(0.0);
   if (shows == showsImage) {
     if (blurs) {
-      image = blurred(mirror, view, ray, ray * (-mirror.eyeDistance / inward));
+      image = blurred(mirror, view, hit.ray, hit.position);
     } else {
-      image = reprojects ? reprojected(mirror, ownDisparity) : reflected(mirror);
+      image = reprojects ? reprojected(mirror, hit.disparity) : reflected(mirror);
     }
   } else {
-    image.rgb = backgroundRadiance(view, reflect(ray, mirror.normal));
+    image.rgb = backgroundRadiance(view, reflect(hit.ray, mirror.normal));
   }
   color = storable(f * image.rgb + (1.0 - f) * base, image.a);
 #endif

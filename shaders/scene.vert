@@ -7,8 +7,8 @@ layout(constant_id = 0) const bool clipAtMirror = false;
 layout(location = 0) in vec3 position;  // mesh space
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
-// The instance, InstanceData of gpu_data.h. As attributes and not from the storage buffer: lavapipe fetches them
-// once for all vertices that it shades at a time, but reads a buffer anew for each.
+// Members of the instance's InstanceData. Attributes, because lavapipe fetches them once for all vertices that it shades at
+// a time, but reads a storage buffer anew for each.
 layout(location = 3) in mat4 clipFromMesh;
 layout(location = 7) in vec4 relativeFromMesh[3];  // rows
 layout(location = 10) in vec3 normalFromMesh[3];   // rows

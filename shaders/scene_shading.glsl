@@ -1,5 +1,5 @@
-// The fragment shader of objects. TRACED: light that needs rays; CURVED: objects that are mirrors; ENVIRONMENT: such that
-// look up a map.
+// The fragment shader of objects. TRACED adds light that needs rays; CURVED draws objects that are mirrors; ENVIRONMENT
+// draws those that look up a map.
 #include "interface.glsl"
 #include "shading.glsl"
 #ifdef TRACED
@@ -22,19 +22,13 @@ layout(location = 3) flat in uint instanceIndex;
 
 layout(location = 0) out vec4 color;
 
-// Bilinear by hand: the weights of a sampler have as few as 8 bits, which shows where texels differ much.
 vec3 bilinearLevel0(vec2 uv) {
-  ivec2 size = textureSize(diffuseTexture, 0);
-  vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
-  vec2 corner = floor(texel);
-  vec2 weight = texel - corner;
-  ivec2 low = (ivec2(corner) + size) % size;
-  ivec2 high = (low + 1) % size;
-  vec3 a = texelFetch(diffuseTexture, low, 0).rgb;
-  vec3 b = texelFetch(diffuseTexture, ivec2(high.x, low.y), 0).rgb;
-  vec3 c = texelFetch(diffuseTexture, ivec2(low.x, high.y), 0).rgb;
-  vec3 d = texelFetch(diffuseTexture, high, 0).rgb;
-  return mix(mix(a, b, weight.x), mix(c, d, weight.x), weight.y);
+  BilinearTexels at = bilinearTexels(uv, textureSize(diffuseTexture, 0));
+  vec3 a = texelFetch(diffuseTexture, at.low, 0).rgb;
+  vec3 b = texelFetch(diffuseTexture, ivec2(at.high.x, at.low.y), 0).rgb;
+  vec3 c = texelFetch(diffuseTexture, ivec2(at.low.x, at.high.y), 0).rgb;
+  vec3 d = texelFetch(diffuseTexture, at.high, 0).rgb;
+  return mix(mix(a, b, at.weight.x), mix(c, d, at.weight.x), at.weight.y);
 }
 
 vec3 diffuseFactor() {
@@ -69,9 +63,7 @@ vec3 weightsOnTriangle(vec3 point, Corners corners) {
 }
 
 vec3 relativeVertex(uint instance, uint triangle, uint corner) {
-  vec4 p = vec4(vertexOf(instance, triangle, corner).position, 1.0);
-  return vec3(dot(instances[instanceIndex].relativeFromMesh[0], p), dot(instances[instanceIndex].relativeFromMesh[1], p),
-              dot(instances[instanceIndex].relativeFromMesh[2], p));
+  return timesPoint(instances[instanceIndex].relativeFromMesh, vertexOf(instance, triangle, corner).position);
 }
 
 // At a pixel that the triangle covers in part, an interpolated position lies off the triangle, and with some drivers off
@@ -88,9 +80,7 @@ void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surf
   if (perSample) {
     vec3 normal = w.x * vertexOf(instance, triangle, 0).normal + w.y * vertexOf(instance, triangle, 1).normal +
                   w.z * vertexOf(instance, triangle, 2).normal;
-    normal = vec3(dot(instances[instanceIndex].normalFromMesh[0].xyz, normal),
-                  dot(instances[instanceIndex].normalFromMesh[1].xyz, normal),
-                  dot(instances[instanceIndex].normalFromMesh[2].xyz, normal));
+    normal = timesDirection(instances[instanceIndex].normalFromMesh, normal);
     surface.normal = safeNormalize(front ? normal : -normal);
   }
 }
@@ -129,7 +119,7 @@ void main() {
   vec3 direction = safeNormalize(surface.position);
   surface = mirrorLayer(surface.position, surface.normal, map.baseColor);
   float cosine = -dot(surface.normal, direction);
-  vec3 reflectance = map.schlick != 0 ? schlick(map.reflectance, cosine) : map.reflectance;
+  vec3 reflectance = reflectanceAt(map.reflectance, map.schlick, cosine);
   vec3 layer = vec3(0.0);
   if (any(greaterThan(surface.diffuse, vec3(0.0)))) {
 #ifdef TRACED

@@ -1,8 +1,8 @@
-// Radiance of a surface and of the background, as docs/picture.md defines them.
+// Radiance of a surface and of the background, as docs/picture.md defines them. Needs interface.glsl.
 
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
-const float shareMax = 65472.0;  // of what is weighted and added to another share: their sum rounds to halfMax at most
+const float shareMax = 65472.0;  // largest share that is added to another: their sum rounds to halfMax at most
 
 struct Surface {
   vec3 position;  // relative
@@ -15,7 +15,28 @@ struct Surface {
 
 vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
-// Of a light at `toLight` from the surface; `irradiance` is at 1 m, facing it.
+// Products of a matrix that is given by its rows with a point and with a direction.
+vec3 timesPoint(vec4 rows[3], vec3 p) {
+  return vec3(dot(rows[0], vec4(p, 1.0)), dot(rows[1], vec4(p, 1.0)), dot(rows[2], vec4(p, 1.0)));
+}
+vec3 timesDirection(vec4 rows[3], vec3 d) { return vec3(dot(rows[0].xyz, d), dot(rows[1].xyz, d), dot(rows[2].xyz, d)); }
+
+// The four texels that a bilinear look-up mixes, in a texture that repeats, with v upwards. By hand, because the weights
+// of a sampler have as few as 8 bits, which shows where texels differ much.
+struct BilinearTexels {
+  ivec2 low;
+  ivec2 high;
+  vec2 weight;
+};
+
+BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
+  vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
+  vec2 corner = floor(texel);
+  ivec2 low = (ivec2(corner) + size) % size;
+  return BilinearTexels(low, (low + 1) % size, texel - corner);
+}
+
+// Radiance that a light at `toLight` from the surface gives it; `irradiance` is at 1 m, facing the light.
 vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface, vec3 toViewer) {
   float distance2 = dot(toLight, toLight);
   vec3 l = safeNormalize(toLight);
@@ -50,6 +71,17 @@ vec3 schlick(vec3 reflectance, float cosine) {
   return reflectance + (1.0 - reflectance) * (grazing2 * grazing2 * grazing);
 }
 
+// Reflectance at an angle of incidence, from that at normal incidence.
+vec3 reflectanceAt(vec3 reflectance, uint followsSchlick, float cosine) {
+  return followsSchlick != 0 ? schlick(reflectance, cosine) : reflectance;
+}
+
+// Whether a bounce at this depth, after which `channels` of the light are left, shows the background only.
+bool isLastBounce(ViewData view, uint depth, vec3 channels) {
+  float through = max(channels.r, max(channels.g, channels.b));
+  return depth >= view.maxDepth || through < view.minThroughput || through == 0.0;
+}
+
 // The direction mirrored about m, turned back above the plane if it went below.
 vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
   vec3 d = direction - 2.0 * dot(direction, m) * m;
@@ -62,7 +94,7 @@ Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
   return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0);
 }
 
-// An object's, with what the scene replaces of its material; its texture is still to be multiplied in.
+// The surface of an object, without its texture.
 Surface objectSurface(vec3 position, vec3 normal, MaterialData material, MaterialChange change, float shininess) {
   return Surface(position, normal, change.replacesDiffuse != 0 ? change.diffuse : material.diffuse,
                  change.replacesSpecular != 0 ? change.specular : material.specular, material.emission,
@@ -78,6 +110,6 @@ vec3 backgroundRadiance(ViewData view, vec3 direction) {
                   : mix(view.horizon.rgb, view.ground.rgb, min(1.0, -8.0 * y));
 }
 
-// The target is half float: past its range some drivers store infinity, and one such sample spoils a resolve.
-// `disparity` is 1 / w of clip space in 1/m, 0 at infinity: by it an image is reprojected when it is shown again.
+// Value of a target, which is half float: past its range some drivers store infinity, and one such sample spoils a
+// resolve. `disparity` is 1 / w of clip space in 1/m, 0 at infinity: a cached image is reprojected by it.
 vec4 storable(vec3 radiance, float disparity) { return clamp(vec4(radiance, disparity), 0.0, halfMax); }

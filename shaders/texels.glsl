@@ -1,5 +1,5 @@
-// Reads of an image that are the same for images with one sample and with several: a multisampled texel stands for the
-// mean of its samples. Radiance in rgb, disparity in a.
+// Lookups in images with one sample or several: a multisampled texel stands for the mean of its samples. Images hold
+// radiance in rgb, disparity in a.
 
 vec4 texelMean(sampler2D image, ivec2 texel) { return texelFetch(image, texel, 0); }
 

@@ -1,5 +1,5 @@
 // Rays through the scene: a hierarchy of boxes over instances and mirrors, and one over the triangles of each mesh.
-// Needs interface.glsl.
+// Needs interface.glsl and shading.glsl.
 
 layout(set = 2, binding = 0, std430) readonly buffer TraceNodes { TraceNode traceNodes[]; };
 layout(set = 2, binding = 1, std430) readonly buffer TraceTriangles { TraceTriangle traceTriangles[]; };
@@ -17,7 +17,7 @@ layout(set = 2, binding = 11, std430) readonly buffer LightPaths {
   LightPath lightPaths[];
 };
 
-// As deep as both hierarchies together.
+// Entries of the stack: as many as both hierarchies together are deep.
 layout(constant_id = 2) const uint traceStackSize = 64;
 
 TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
@@ -37,8 +37,8 @@ struct Skip {
   float near;  // metres; within them the rest of the instance is not seen either
 };
 
-// Where triangles meet, rounding puts a point beyond its own, which in a crease is inside the object: by some 1e-7 of its
-// distance from the eye, and more along a ray that leaves at grazing angle.
+// Skip::near of a point. Where triangles meet, rounding puts it beyond its own, which in a crease is inside the object: by
+// some 1e-7 of its distance from the eye, and more along a ray that leaves at grazing angle.
 float nearOf(vec3 position) { return 2e-5 * length(position); }
 
 struct Hit {
@@ -128,15 +128,11 @@ LocalRay localRay(vec3 origin, vec3 direction) {
 }
 
 LocalRay meshRay(uint instance, vec3 origin, vec3 direction) {
-  vec4 m0 = traceInstances[instance].meshFromTrace[0];
-  vec4 m1 = traceInstances[instance].meshFromTrace[1];
-  vec4 m2 = traceInstances[instance].meshFromTrace[2];
-  vec4 from = vec4(origin, 1.0);
-  return localRay(vec3(dot(m0, from), dot(m1, from), dot(m2, from)),
-                  vec3(dot(m0.xyz, direction), dot(m1.xyz, direction), dot(m2.xyz, direction)));
+  vec4 rows[3] = traceInstances[instance].meshFromTrace;
+  return localRay(timesPoint(rows, origin), timesDirection(rows, direction));
 }
 
-// The first surface that the ray meets before tMax; with `any` one of them. Both in trace space.
+// The first surface that the ray meets before tMax, or with `any` one of them. In trace space.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
   if (traceCounts.items == 0) {

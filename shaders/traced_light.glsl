@@ -18,8 +18,7 @@ struct Incoming {
 };
 
 vec3 mirrorReflectance(uint mirror, float cosine) {
-  vec3 f = traceMirrors[mirror].reflectance;
-  return traceMirrors[mirror].schlick != 0 ? schlick(f, cosine) : f;
+  return reflectanceAt(traceMirrors[mirror].reflectance, traceMirrors[mirror].schlick, cosine);
 }
 
 Incoming directLight(LightData light, vec3 position, vec3 tracePosition, Skip self) {

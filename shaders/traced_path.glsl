@@ -56,35 +56,28 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   if (bounce.reflects) {
     bounce.surface = mirrorLayer(bounce.surface.position, bounce.surface.normal, traceInstances[instance].baseColor);
     float cosine = -dot(bounce.surface.normal, direction);
-    vec3 f = traceInstances[instance].reflectance;
-    bounce.reflectance = curved == curvedSchlick ? schlick(f, cosine) : f;
+    bounce.reflectance = reflectanceAt(traceInstances[instance].reflectance, uint(curved == curvedSchlick), cosine);
   }
 }
 
-// Bilinear on linear texels, repeated, v up.
+// Colour of a texture, bilinear.
 vec3 textureColor(uint index, vec2 uv) {
   TraceTexture source = traceTextures[index];
   ivec2 size = ivec2(source.width, source.height);
-  vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
-  vec2 corner = floor(texel);
-  vec2 weight = texel - corner;
-  ivec2 low = (ivec2(corner) + size) % size;
-  ivec2 high = (low + 1) % size;
+  BilinearTexels at = bilinearTexels(uv, size);
   vec3 rows[2];
   for (int i = 0; i < 2; ++i) {
-    int y = i == 0 ? low.y : high.y;
-    uvec2 left = traceTexels[source.firstTexel + uint(y * size.x + low.x)];
-    uvec2 right = traceTexels[source.firstTexel + uint(y * size.x + high.x)];
+    int y = i == 0 ? at.low.y : at.high.y;
+    uvec2 left = traceTexels[source.firstTexel + uint(y * size.x + at.low.x)];
+    uvec2 right = traceTexels[source.firstTexel + uint(y * size.x + at.high.x)];
     rows[i] = mix(vec3(unpackHalf2x16(left.x), unpackHalf2x16(left.y).x),
-                  vec3(unpackHalf2x16(right.x), unpackHalf2x16(right.y).x), weight.x);
+                  vec3(unpackHalf2x16(right.x), unpackHalf2x16(right.y).x), at.weight.x);
   }
-  return mix(rows[0], rows[1], weight.y);
+  return mix(rows[0], rows[1], at.weight.y);
 }
 
 vec3 normalFromMesh(uint instance, vec3 n) {
-  return vec3(dot(traceInstances[instance].normalFromMesh[0].xyz, n),
-              dot(traceInstances[instance].normalFromMesh[1].xyz, n),
-              dot(traceInstances[instance].normalFromMesh[2].xyz, n));
+  return timesDirection(traceInstances[instance].normalFromMesh, n);
 }
 
 // Unit normal of a triangle of the mesh, by the winding in the model file.
@@ -117,7 +110,7 @@ Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
   return bounce;
 }
 
-// Glow of the first glyph before `t`, which is lowered to it.
+// Glow of the first glyph that the ray meets before `t`; `t` becomes where.
 vec3 glyphRadiance(ViewData view, vec3 origin, vec3 direction, inout float t) {
   vec3 glow = vec3(0.0);
   for (uint i = view.firstLight; i < view.firstLight + view.lightCount; ++i) {
@@ -166,9 +159,7 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
       return sum;
     }
     weight *= path.bounce.reflectance;
-    vec3 channels = path.throughput * weight;
-    float through = max(channels.r, max(channels.g, channels.b));
-    bool last = path.depth >= view.maxDepth || through < view.minThroughput || through == 0.0;
+    bool last = isLastBounce(view, path.depth, path.throughput * weight);
     path.direction = mirrored(path.direction, last ? surface.normal : path.m, path.bounce.planeNormal);
     if (last) {
       return sum + weight * backgroundRadiance(view, path.direction);

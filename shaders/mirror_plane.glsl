@@ -1,0 +1,16 @@
+// Where the pixel's ray meets a mirror's plane: exact at every distance and angle, where interpolation over a polygon that
+// may reach behind the eye is not. A pixel whose centre lies beyond the horizon is seen at grazing angle. Needs
+// interface.glsl.
+
+struct PlaneHit {
+  vec3 ray;         // one metre long along the view's axis
+  float inward;     // its component along the normal, below zero
+  vec3 position;    // relative
+  float disparity;  // of the plane
+};
+
+PlaneHit planeHit(MirrorData mirror, ViewData view) {
+  vec3 ray = rayThrough(view, gl_FragCoord.xy);
+  float inward = min(dot(mirror.normal, ray), -1e-7 * length(ray));
+  return PlaneHit(ray, inward, ray * (-mirror.eyeDistance / inward), inward / min(-mirror.eyeDistance, -1e-30));
+}
