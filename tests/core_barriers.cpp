@@ -5,13 +5,11 @@
 namespace speculum::test {
 namespace {
 
-constexpr VkExtent2D extent{64, 48};
-
 // Frames with every kind of target, copies and uploads, with one kind of barrier left out.
 std::vector<std::string> messagesWithout(std::optional<BarrierKind> kind, int samples) {
   Device device(validated(RenderPath::renderPass));
-  Renderer renderer(device, headless(extent));
-  SmallScene scene(renderer, extent, samples);
+  Renderer renderer(device, headless(smallExtent));
+  SmallScene scene(renderer, smallExtent, samples);
   device.barriers().omit(kind);
   for (int i = 0; i < 4; ++i) {
     scene.frame(i == 3);
@@ -27,7 +25,7 @@ std::vector<std::string> messagesWithout(std::optional<BarrierKind> kind, int sa
 
 class Barrier : public testing::TestWithParam<BarrierKind> {
  protected:
-  // The messages are wanted here and would drown the test's own words.
+  // The messages are expected here; in the log they would hide the test's own output.
   void SetUp() override { spdlog::set_level(spdlog::level::off); }
   void TearDown() override { spdlog::set_level(spdlog::level::info); }
 };

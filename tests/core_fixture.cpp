@@ -9,8 +9,6 @@ namespace speculum::test {
 
 namespace {
 
-constexpr DescriptorBinding sourceBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-
 GraphicsPipelineDesc copyPipeline(std::string name, VkDescriptorSetLayout layout) {
   return {.name = std::move(name),
           .vert = "full_screen.vert",
@@ -54,6 +52,12 @@ std::string messagesOf(const Device& device) {
   return text;
 }
 
+DescriptorSetLayoutHandle oneBinding(Device& device, VkDescriptorType type, uint32_t count) {
+  const DescriptorBinding binding{
+      .type = type, .count = count, .stages = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT};
+  return createDescriptorSetLayout(device, {&binding, 1}, "test");
+}
+
 SmallScene::SmallScene(Renderer& renderer, VkExtent2D extent, int samples)
     : renderer_(renderer),
       shared_(renderer.device(), renderer.device().sampleCount(samples), "mirrors"),
@@ -61,7 +65,7 @@ SmallScene::SmallScene(Renderer& renderer, VkExtent2D extent, int samples)
       main_(renderer.device(),
             {.name = "main", .extent = extent, .samples = shared_.samples(), .role = TargetRole::main},
             renderer.retired()),
-      layout_(createDescriptorSetLayout(renderer.device(), std::span(&sourceBinding, 1), "source")),
+      layout_(oneBinding(renderer.device(), VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)),
       triangle_(renderer.pipelines(), {.name = "triangle",
                                        .vert = "triangle.vert",
                                        .frag = "triangle.frag",
@@ -119,6 +123,13 @@ bool SmallScene::frame(bool capture) {
   draw(*frame);
   renderer_.endFrame(*frame);
   return true;
+}
+
+void SmallScene::frames(int count) {
+  for (int i = 0; i < count; ++i) {
+    EXPECT_TRUE(frame());
+  }
+  renderer_.waitIdle();
 }
 
 void SmallScene::resize(VkExtent2D extent) {

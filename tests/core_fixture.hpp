@@ -21,6 +21,24 @@ struct TrianglePush {
   float brightness = 1.0f;
 };
 
+// A device with validation; a test that ends with a message of the layer fails.
+class GpuTest : public testing::Test {
+ protected:
+  void TearDown() override { EXPECT_EQ(device_.validationMessages(), 0) << messagesOf(device_); }
+
+  Device device_{validated()};
+};
+
+// The same with a renderer that draws into an image of smallExtent.
+inline constexpr VkExtent2D smallExtent{64, 48};
+class RendererTest : public GpuTest {
+ protected:
+  Renderer renderer_{device_, headless(smallExtent)};
+};
+
+// A layout with one binding, at 0.
+DescriptorSetLayoutHandle oneBinding(Device& device, VkDescriptorType type, uint32_t count = 1);
+
 // A small frame with every kind of target: two triangles into an OffScreen, that and a third triangle into a main
 // target, the main target onto the display image, an empty overlay.
 class SmallScene {
@@ -30,6 +48,8 @@ class SmallScene {
   void draw(Frame& frame);
   // Draws and submits one frame; false when the renderer gave none.
   bool frame(bool capture = false);
+  // Draws so many frames and waits for them.
+  void frames(int count);
   void resize(VkExtent2D extent);
 
   OffScreen& mirror() { return mirror_; }

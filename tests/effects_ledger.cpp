@@ -1,5 +1,5 @@
-// What an effect costs when nothing calls for it: nothing. Objects and draws are counted where the program meets
-// Vulkan, by linking its calls through functions of this file.
+// An effect that nothing calls for costs nothing. Objects and draws are counted where the program calls Vulkan, by
+// linking those calls through functions of this file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -79,8 +79,8 @@ using namespace testing_support;
 
 constexpr PictureSize size{160, 90};
 
-// `uncalled` asks for the effect where nothing that is seen needs it, `called` where something does; what is seen of it
-// takes more objects of these kinds.
+// `uncalled` asks for the effect where nothing visible needs it, `called` where something does, which takes more
+// objects of these kinds.
 struct Case {
   const char* effect;
   const char* uncalled;
@@ -107,128 +107,133 @@ model = "MODELS/teapot.obj"
 )" + rest);
 }
 
-Options optionsFor(const std::filesystem::path& file) {
+Options optionsFor(const std::filesystem::path& file,
+                   const std::vector<std::pair<std::string, std::string>>& more = {}) {
   Options options = headless(file, size);
-  // The watch has objects of its own.
+  // The check has objects of its own.
   set(options, {{"debug.check_finite", "false"}});
+  set(options, more);
   return options;
 }
 
-struct Outcome {
-  Counts counts;
-  Image8 picture;
-};
-
-Outcome run(const Options& options) {
-  counts = {};
-  Outcome result;
-  {
-    Session session(options);
-    session.draw(0.0, true);
-    session.finish();
-    result.picture = session.picture();
-    expectQuiet(session);
-    result.counts = counts;
-  }
-  return result;
-}
-
-// As if the program did not have the effect at all.
+// The same as if the program did not have the effect at all.
 Options without(Options options, const std::string& effect) {
   set(options, {{"effects." + effect, "false"}});
   return options;
 }
 
-class Ledger : public testing::TestWithParam<Case> {};
+// Longer than anything idle is kept.
+constexpr int untilIdle = 130;
 
-TEST_P(Ledger, WhatNothingCallsForCostsNothing) {
-  const std::string effect = GetParam().effect;
-  const Options options = optionsFor(sceneWith(effect + "_uncalled", GetParam().uncalled));
-  const Outcome asked = run(options);
-  const Outcome none = run(without(options, effect));
-  EXPECT_EQ(asked.counts.created, none.counts.created);
-  EXPECT_EQ(asked.counts.draws, none.counts.draws);
-  EXPECT_EQ(asked.picture.rgba, none.picture.rgba);
+struct Drawn {
+  std::map<std::string, int> alive;  // objects after the frames
+  int draws = 0;                     // of the last frame
+  std::vector<uint8_t> picture;
+
+  // Code and layouts stay: they are no cost of a frame, and hot reload knows them.
+  std::map<std::string, int> released(const Drawn& before) const {
+    std::map<std::string, int> kept = alive;
+    for (const char* kind : {"ShaderModule", "DescriptorSetLayout"}) {
+      kept[kind] = before.alive.at(kind);
+    }
+    return kept;
+  }
+};
+
+Drawn drawFrames(Session& session, int frames) {
+  for (int i = 0; i < frames; ++i) {
+    counts.draws = 0;
+    session.draw(0.0, true);
+    session.finish();
+  }
+  return {counts.alive, counts.draws, session.picture().rgba};
 }
 
-TEST_P(Ledger, WhatIsCalledForIsThereAndGivenBack) {
-  const std::string effect = GetParam().effect;
-  const Options options = optionsFor(sceneWith(effect + "_called", GetParam().called));
-  counts = {};
-  Session session(without(options, effect));
-  const Settings off = session.settings();
-  Settings on = off;
-  ASSERT_EQ(setSetting(on, "effects." + effect, "true"), std::nullopt);
-  const auto drawn = [&](const Settings& settings, int frames) {
-    session.setSettings(settings);
-    for (int i = 0; i < frames; ++i) {
-      counts.draws = 0;
-      session.draw(0.0, true);
-      session.finish();
-    }
-    return std::pair(counts.alive, session.picture().rgba);
-  };
-  const auto before = drawn(off, 3);
-  const int drawsBefore = counts.draws;
-  const auto during = drawn(on, 1);
-  for (const std::string& kind : GetParam().objects) {
-    EXPECT_GT(during.first.at(kind), before.first.at(kind)) << kind;
-  }
-  EXPECT_NE(during.second, before.second) << "the effect shows nothing";
+Drawn drawWith(Session& session, const std::string& effect, bool on, int frames) {
+  Settings settings = session.settings();
+  EXPECT_EQ(setSetting(settings, "effects." + effect, on ? "true" : "false"), std::nullopt);
+  session.setSettings(settings);
+  return drawFrames(session, frames);
+}
+
+nlohmann::ordered_json effectStats(Session& session, const std::string& effect) {
   const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
-  const auto& lines = stats.at("effects");
-  const auto line = std::find_if(lines.begin(), lines.end(), [&](const auto& l) { return l.at("name") == effect; });
-  ASSERT_NE(line, lines.end());
-  EXPECT_EQ(line->at("called_for"), true) << *line;
-  EXPECT_EQ(line->at("bytes") > 0, GetParam().needs("Buffer") || GetParam().needs("Image")) << *line;
-  EXPECT_GT(line->at("draws"), 0) << *line;
-  EXPECT_EQ(line->at("pipelines") > 0, GetParam().needs("Pipeline")) << *line;
-  const auto after = drawn(off, 130);
-  std::map<std::string, int> kept = after.first;
-  // Code and layouts stay: they are no cost of a frame, and hot reload knows them.
-  for (const char* kind : {"ShaderModule", "DescriptorSetLayout"}) {
-    kept[kind] = before.first.at(kind);
+  for (const auto& line : stats.at("effects")) {
+    if (line.at("name") == effect) {
+      return line;
+    }
   }
-  EXPECT_EQ(kept, before.first);
-  EXPECT_EQ(counts.draws, drawsBefore);
-  EXPECT_EQ(after.second, before.second);
+  ADD_FAILURE() << "no effect " << effect;
+  return {};
+}
+
+// One frame of each: nothing is made or drawn for the effect, and the pictures are the same.
+void expectFree(const Options& options, const std::string& effect) {
+  const auto run = [](const Options& drawn) {
+    counts = {};
+    Session session(drawn);
+    std::vector<uint8_t> picture = drawFrames(session, 1).picture;
+    expectQuiet(session);
+    return std::tuple(counts.created, counts.draws, picture);
+  };
+  EXPECT_EQ(run(options), run(without(options, effect)));
+}
+
+class Ledger : public testing::TestWithParam<Case> {
+ protected:
+  const std::string effect_ = GetParam().effect;
+};
+
+TEST_P(Ledger, UncalledEffectCostsNothing) {
+  expectFree(optionsFor(sceneWith(effect_ + "_uncalled", GetParam().uncalled)), effect_);
+}
+
+TEST_P(Ledger, CalledEffectIsListedAndReleased) {
+  counts = {};
+  Session session(without(optionsFor(sceneWith(effect_ + "_called", GetParam().called)), effect_));
+  const Drawn before = drawWith(session, effect_, false, 3);
+  const Drawn during = drawWith(session, effect_, true, 1);
+  for (const std::string& kind : GetParam().objects) {
+    EXPECT_GT(during.alive.at(kind), before.alive.at(kind)) << kind;
+  }
+  EXPECT_NE(during.picture, before.picture) << "the effect shows nothing";
+  const nlohmann::ordered_json line = effectStats(session, effect_);
+  EXPECT_EQ(line.at("called_for"), true) << line;
+  EXPECT_EQ(line.at("bytes") > 0, GetParam().needs("Buffer") || GetParam().needs("Image")) << line;
+  EXPECT_GT(line.at("draws"), 0) << line;
+  EXPECT_EQ(line.at("pipelines") > 0, GetParam().needs("Pipeline")) << line;
+  const Drawn after = drawWith(session, effect_, false, untilIdle);
+  EXPECT_EQ(after.released(before), before.alive);
+  EXPECT_EQ(after.draws, before.draws);
+  EXPECT_EQ(after.picture, before.picture);
   expectQuiet(session);
 }
 
 // The camera looks away, at what calls for the effect, and away again. Afterwards the effect has no draws, bytes or
 // pipelines, and there are no more objects than if it had been left out all the time.
-TEST_P(Ledger, TurningAwayGivesTheCostBack) {
-  const std::string effect = GetParam().effect;
-  const std::filesystem::path file = sceneWith(effect + "_turned_away", GetParam().called);
+TEST_P(Ledger, TurningAwayReleasesTheEffect) {
+  const std::filesystem::path file = sceneWith(effect_ + "_turned_away", GetParam().called);
   const CameraPose away = lookAt({0, 1, 3}, {0, 1, 9}, {0, 1, 0}, 60, 0.001);
   const auto alive = [&](const Options& options) {
     counts = {};
     Session session(options);
     const auto picture = [&](const std::optional<CameraPose>& camera, int frames) {
       session.setCamera(camera);
-      for (int i = 0; i < frames; ++i) {
-        session.draw(0.0, true);
-        session.finish();
-      }
-      return session.picture().rgba;
+      return drawFrames(session, frames).picture;
     };
     const std::vector<uint8_t> empty = picture(away, 3);
     EXPECT_NE(picture(std::nullopt, 1), empty);
-    EXPECT_EQ(picture(away, 130), empty);
-    const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
-    for (const auto& line : stats.at("effects")) {
-      if (line.at("name") == effect) {
-        EXPECT_EQ(line.at("called_for"), false) << line;
-        EXPECT_EQ(line.at("draws"), 0) << line;
-        EXPECT_EQ(line.at("bytes"), 0) << line;
-        EXPECT_EQ(line.at("pipelines"), 0) << line;
-      }
+    EXPECT_EQ(picture(away, untilIdle), empty);
+    const nlohmann::ordered_json line = effectStats(session, effect_);
+    EXPECT_EQ(line.at("called_for"), false) << line;
+    for (const char* cost : {"draws", "bytes", "pipelines"}) {
+      EXPECT_EQ(line.at(cost), 0) << line;
     }
     expectQuiet(session);
     return counts.alive;
   };
   const std::map<std::string, int> with = alive(optionsFor(file));
-  const std::map<std::string, int> never = alive(without(optionsFor(file), effect));
+  const std::map<std::string, int> never = alive(without(optionsFor(file), effect_));
   EXPECT_EQ(with.at("Buffer"), never.at("Buffer"));
   EXPECT_EQ(with.at("Image"), never.at("Image"));
   EXPECT_LE(with.at("Pipeline"), never.at("Pipeline"));
@@ -265,96 +270,67 @@ INSTANTIATE_TEST_SUITE_P(
              {"Pipeline"}}),
     [](const auto& info) { return std::string(info.param.effect); });
 
-// One of two effects goes: what only it needed goes with it.
-TEST(Ledger, EachEffectGivesBackItsOwn) {
+TEST(Ledger, EachEffectReleasesItsOwn) {
   const std::filesystem::path file =
       sceneWith("two_effects",
                 "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n[[light]]\n"
                 "position = [0, 2, 1]\nintensity = 9\n[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\n"
                 "casts_light = true\n");
-  const auto run = [&](Session& session, const char* shadows, int frames) {
-    Settings settings = session.settings();
-    EXPECT_EQ(setSetting(settings, "effects.shadows", shadows), std::nullopt);
-    session.setSettings(settings);
-    for (int i = 0; i < frames; ++i) {
-      session.draw(0.0, true);
-      session.finish();
-    }
-  };
   counts = {};
-  int buffers = 0;
-  int pipelines = 0;
+  Drawn never;
   {
-    Session never(without(optionsFor(file), "shadows"));
-    run(never, "false", 3);
-    buffers = counts.alive.at("Buffer");
-    pipelines = counts.alive.at("Pipeline");
+    Session session(optionsFor(file));
+    never = drawWith(session, "shadows", false, 3);
   }
   counts = {};
   Session session(optionsFor(file));
-  run(session, "true", 3);
-  EXPECT_GT(session.sceneRenderer().ledger()[EffectKind::shadows].pipelines, 0u);
-  EXPECT_GT(counts.alive.at("Buffer"), buffers);
-  run(session, "false", 130);
-  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::shadows].pipelines, 0u);
-  EXPECT_GT(session.sceneRenderer().ledger()[EffectKind::castsLight].pipelines, 0u);
-  EXPECT_EQ(counts.alive.at("Buffer"), buffers);
-  EXPECT_EQ(counts.alive.at("Pipeline"), pipelines);
+  const EffectLedger& ledger = session.sceneRenderer().ledger();
+  EXPECT_GT(drawWith(session, "shadows", true, 3).alive.at("Buffer"), never.alive.at("Buffer"));
+  EXPECT_GT(ledger[EffectKind::shadows].pipelines, 0u);
+  const Drawn after = drawWith(session, "shadows", false, untilIdle);
+  EXPECT_EQ(ledger[EffectKind::shadows].pipelines, 0u);
+  EXPECT_GT(ledger[EffectKind::castsLight].pipelines, 0u);
+  EXPECT_EQ(after.alive.at("Buffer"), never.alive.at("Buffer"));
+  EXPECT_EQ(after.alive.at("Pipeline"), never.alive.at("Pipeline"));
 }
 
 // At a limit of depth a rough mirror reflects nothing that could be blurred.
 TEST(Ledger, RoughnessWithoutReflectionCostsNothing) {
-  Options options = optionsFor(sceneWith(
-      "rough_deep", "[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\nroughness = 0.3\nbase_color = [0.3, 0, 0]\n"));
-  set(options, {{"reflection.max_depth", "0"}});
-  const Outcome asked = run(options);
-  const Outcome none = run(without(options, "roughness"));
-  EXPECT_EQ(asked.counts.created, none.counts.created);
-  EXPECT_EQ(asked.picture.rgba, none.picture.rgba);
+  expectFree(optionsFor(sceneWith("rough_deep",
+                                  "[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\nroughness = 0.3\n"
+                                  "base_color = [0.3, 0, 0]\n"),
+                        {{"reflection.max_depth", "0"}}),
+             "roughness");
 }
 
-// Targets, draws and a pipeline while a curved mirror is drawn, all given back when it is not; rays never.
-TEST(Ledger, EnvironmentMapsAreThereAndGivenBack) {
-  Options options = optionsFor(
-      sceneWith("environment", "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\nmirror = {}\n"));
-  set(options, {{"effects.curved_lookup", "environment"}});
+// Targets, draws and a pipeline exist while a curved mirror is drawn, but nothing to trace rays with.
+TEST(Ledger, EnvironmentMapsAreListedAndReleased) {
   counts = {};
-  Session session(without(options, "curved"));
-  const auto drawn = [&](const char* curved, int frames) {
-    Settings settings = session.settings();
-    EXPECT_EQ(setSetting(settings, "effects.curved", curved), std::nullopt);
-    session.setSettings(settings);
-    for (int i = 0; i < frames; ++i) {
-      counts.draws = 0;
-      session.draw(0.0, true);
-      session.finish();
-    }
-    return std::pair(counts.alive, session.picture().rgba);
-  };
-  const auto before = drawn("false", 3);
-  const int drawsBefore = counts.draws;
-  const auto during = drawn("true", 1);
+  Session session(without(optionsFor(sceneWith("environment",
+                                               "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\n"
+                                               "mirror = {}\n"),
+                                     {{"effects.curved_lookup", "environment"}}),
+                          "curved"));
+  const Drawn before = drawWith(session, "curved", false, 3);
+  const Drawn during = drawWith(session, "curved", true, 1);
   const EffectCost cost = session.sceneRenderer().ledger()[EffectKind::curved];
-  EXPECT_EQ(during.first.at("Image"), before.first.at("Image") + 2) << "the faces side by side, and their depth";
-  EXPECT_EQ(during.first.at("Buffer"), before.first.at("Buffer")) << "nothing to trace";
+  EXPECT_EQ(during.alive.at("Image"), before.alive.at("Image") + 2) << "the faces side by side, and their depth";
+  EXPECT_EQ(during.alive.at("Buffer"), before.alive.at("Buffer")) << "nothing to trace";
   EXPECT_EQ(cost.pipelines, 1u);
   EXPECT_GE(cost.bytes, 6ull * 256 * 256 * (8 + 4));
   EXPECT_GT(static_cast<int>(cost.draws), 1) << "the faces' draws as well";
-  EXPECT_GT(counts.draws, drawsBefore);
-  EXPECT_NE(during.second, before.second);
-  const auto still = drawn("true", 2);
-  EXPECT_EQ(still.second, during.second);
-  EXPECT_EQ(counts.draws, drawsBefore) << "an unchanged map is not drawn again";
-  const auto after = drawn("false", 130);
-  std::map<std::string, int> kept = after.first;
-  for (const char* kind : {"ShaderModule", "DescriptorSetLayout"}) {
-    kept[kind] = before.first.at(kind);
-  }
-  // The faces' own pipelines, of one sample, are no cost of the effect's.
-  EXPECT_LE(kept.at("Pipeline"), before.first.at("Pipeline") + 1);
-  kept["Pipeline"] = before.first.at("Pipeline");
-  EXPECT_EQ(kept, before.first);
-  EXPECT_EQ(after.second, before.second);
+  EXPECT_GT(during.draws, before.draws);
+  EXPECT_NE(during.picture, before.picture);
+  const Drawn still = drawWith(session, "curved", true, 2);
+  EXPECT_EQ(still.picture, during.picture);
+  EXPECT_EQ(still.draws, before.draws) << "an unchanged map is not drawn again";
+  const Drawn after = drawWith(session, "curved", false, untilIdle);
+  std::map<std::string, int> kept = after.released(before);
+  // Pipelines of one sample that drew the faces are no cost of the effect.
+  EXPECT_LE(kept.at("Pipeline"), before.alive.at("Pipeline") + 1);
+  kept["Pipeline"] = before.alive.at("Pipeline");
+  EXPECT_EQ(kept, before.alive);
+  EXPECT_EQ(after.picture, before.picture);
   EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].bytes, 0u);
   expectQuiet(session);
 }

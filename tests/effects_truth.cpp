@@ -1,4 +1,4 @@
-// Effects that rays draw, against the ray tracer: exact ones pixel by pixel, approximate ones along their knob.
+// Traced effects against the ray tracer: exact ones pixel by pixel, approximate ones along their settings.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,6 +54,18 @@ const std::string pool =
     "[[mirror]]\nname = \"pool\"\nposition = [0, 0.05, 1.2]\nrotation = [-90, 0, 0]\nsize = [3, 2]\n";
 const std::string ripple = "ripple = { amplitude = 0.006, wavelength = 0.35, speed = 0.2 }\n";
 
+// Root of the mean squared difference in radiance, over the pixels whose `counts` is set.
+double rootMeanSquare(const LinearImage& drawn, const LinearImage& reference, const std::vector<bool>& counts) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (size_t i = 0; i < drawn.pixels.size(); ++i) {
+    const glm::dvec3 off = glm::dvec3(drawn.pixels[i]) - glm::dvec3(reference.pixels[i]);
+    sum += counts[i] ? glm::dot(off, off) : 0.0;
+    count += counts[i] ? 1.0 : 0.0;
+  }
+  return std::sqrt(sum / count);
+}
+
 struct Case {
   const char* name;
   std::string rest;
@@ -80,7 +92,7 @@ std::string tracedEffectsOf(const Options& options, double time) {
 
 class ExactEffects : public testing::TestWithParam<Case> {};
 
-TEST_P(ExactEffects, AreTheTracers) {
+TEST_P(ExactEffects, EqualTheRayTracer) {
   constexpr double time = 1.7;
   const std::filesystem::path file = corner("effects_" + std::string(GetParam().name), GetParam().rest);
   EXPECT_EQ(tracedEffectsOf(truthOptions(file, size, 3), time), GetParam().effects);
@@ -122,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 // Far from the origin the same rays are traced.
-TEST(ExactEffects, HoldFarFromTheOrigin) {
+TEST(ExactEffects, EqualTheRayTracerFarFromTheOrigin) {
   std::ostringstream out;
   const auto at = [](double x, double y, double z) {
     std::ostringstream text;
@@ -154,7 +166,7 @@ TEST(ExactEffects, BothRenderPathsDrawTheSameBytes) {
 
 // With several samples and a ray for each, as with one sample at twice the resolution each way: edges of shadows and
 // of what curved mirrors show are smooth. Compared with the tracer's four samples, by mean error.
-TEST(ExactEffects, AreSmoothWithRaysAtEverySample) {
+TEST(ExactEffects, RaysAtEverySampleReduceError) {
   const std::filesystem::path file =
       corner("effects_samples", shadowLight +
                                     "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.2, 0.6, 1.2]\n"
@@ -171,12 +183,7 @@ TEST(ExactEffects, AreSmoothWithRaysAtEverySample) {
     session.finish();
     expectQuiet(session);
     const LinearImage drawn = session.radiance();
-    double sum = 0.0;
-    for (size_t i = 0; i < drawn.pixels.size(); ++i) {
-      const glm::dvec3 off = glm::dvec3(drawn.pixels[i]) - glm::dvec3(reference.image.pixels[i]);
-      sum += glm::dot(off, off);
-    }
-    return std::sqrt(sum / static_cast<double>(drawn.pixels.size()));
+    return rootMeanSquare(drawn, reference.image, std::vector<bool>(drawn.pixels.size(), true));
   };
   const double once = error("false");
   const double each = error("true");
@@ -199,7 +206,7 @@ TEST(RoughFloor, ShowsNoBackAtTheHorizon) {
 }
 
 // Throughput is a product for each channel: red light does not get through a green mirror.
-TEST(ExactEffects, ThroughputIsThatOfEachChannel) {
+TEST(ExactEffects, ThroughputIsPerChannel) {
   const std::filesystem::path file =
       corner("effects_throughput", plainLight +
                                        "[[mirror]]\nposition = [0, 1, -1.6]\nsize = [4, 2]\n"
@@ -216,7 +223,7 @@ TEST(ExactEffects, ThroughputIsThatOfEachChannel) {
 }
 
 // With what else changes how mirrors are drawn: nothing complains, and the picture stays near.
-TEST(ExactEffects, GoWithOtherSettings) {
+TEST(ExactEffects, StayCloseUnderOtherSettings) {
   const std::filesystem::path file =
       corner("effects_settings", shadowLight + plainLight + wall + "casts_light = true\nroughness = 0.1\n" + pool +
                                      ripple + side +
@@ -286,7 +293,7 @@ std::filesystem::path randomScene(unsigned seed) {
 
 class RandomEffects : public testing::TestWithParam<unsigned> {};
 
-TEST_P(RandomEffects, AreTheTracers) {
+TEST_P(RandomEffects, EqualTheRayTracer) {
   constexpr PictureSize small{240, 136};
   const std::filesystem::path file = randomScene(GetParam());
   expectTruth(file, small, 3, trace(file, small, 3, 2.5), 2.5);
@@ -316,20 +323,13 @@ class RoughMirror : public testing::Test {
     session.finish();
     expectQuiet(session);
     const LinearImage drawn = session.radiance();
-    double sum = 0.0;
-    double count = 0.0;
-    for (size_t i = 0; i < drawn.pixels.size(); ++i) {
-      const glm::dvec3 off = glm::dvec3(drawn.pixels[i]) - glm::dvec3(reference_.image.pixels[i]);
-      sum += reference_.mirrorMask[i] ? glm::dot(off, off) : 0.0;
-      count += reference_.mirrorMask[i] ? 1.0 : 0.0;
-    }
-    return std::sqrt(sum / count);
+    return rootMeanSquare(drawn, reference_.image, {reference_.mirrorMask.begin(), reference_.mirrorMask.end()});
   }
 };
 
 // The more rays, the smaller the error: a factor of 8 in rays is worth at least 1.8 in RMSE, where 8^0.5 is expected
 // until the noise of the reference is reached.
-TEST_F(RoughMirror, ErrorFallsAlongItsKnob) {
+TEST_F(RoughMirror, MoreRaysReduceError) {
   const double two = error({{"effects.rough_samples", "2"}});
   const double sixteen = error({{"effects.rough_samples", "16"}});
   const double most = error({{"effects.rough_samples", "128"}});
@@ -340,7 +340,7 @@ TEST_F(RoughMirror, ErrorFallsAlongItsKnob) {
 
 // The image of the smooth mirror is the cheap end: far nearer than a mirror without its roughness, and with as many
 // look-ups as rays behind what is traced, because it lacks what the smooth mirror does not show.
-TEST_F(RoughMirror, ImageIsTheCheapEnd) {
+TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const double smooth = error({{"effects.roughness", "false"}});
   const double few = error({{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}});
   const double image = error({{"effects.rough_lookup", "image"}, {"effects.rough_samples", "64"}});
@@ -365,7 +365,7 @@ TEST(Effects, CanBeSwitchedOff) {
 }
 
 // The same, of those that trace no rays: seen directly, in a mirror and by rays in a curved one.
-TEST(Effects, FresnelTexturesAndGlyphsCanBeSwitchedOff) {
+TEST(Effects, OthersCanBeSwitchedOff) {
   const auto panel = [](const std::string& name, const std::string& material) {
     const std::filesystem::path file = sceneDirectory() / (name + ".obj");
     std::ofstream(sceneDirectory() / (name + ".mtl")) << "newmtl m\nKd 0.8 0.7 0.3\n" << material;

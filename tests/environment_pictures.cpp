@@ -15,10 +15,19 @@ using namespace testing_support;
 
 constexpr PictureSize size{240, 180};
 
+std::string block(const char* position, const char* scale, const char* color, const char* copies = "") {
+  return std::string("[[object]]\nmodel = \"MODELS/block.obj\"\nspecular = [0, 0, 0]\nposition = ") + position +
+         "\nscale = " + scale + "\ncolor = " + color + "\n" + copies;
+}
+
 // A room with a pattern on its floor, ceiling and walls, and a ball off its middle; without highlights, which a map
 // shows as its centre sees them. `rest` adds to it.
 std::filesystem::path room(const std::string& name, const std::string& rest = "") {
-  return writeScene("environment_" + name, R"(
+  const char* alongX = "copies = { count = 7, step = [0.8, 0, 0] }\n";
+  const char* alongZ = "copies = { count = 7, step = [0, 0, 0.8] }\n";
+  return writeScene(
+      "environment_" + name,
+      R"(
 [environment]
 background = [0.25, 0.3, 0.4]
 ambient = [0.2, 0.2, 0.2]
@@ -34,72 +43,19 @@ model = "MODELS/sphere.obj"
 position = [0.3, 1.1, 0.2]
 scale = 1.2
 mirror = { reflectance = [0.9, 0.9, 0.9] }
-[[object]]
-model = "MODELS/block.obj"
-position = [0, -0.2, 0]
-scale = [6.4, 0.2, 6.4]
-color = [0.5, 0.5, 0.5]
-specular = [0, 0, 0]
-[[object]]
-model = "MODELS/block.obj"
-position = [-2.4, 0, 0]
-scale = [0.4, 0.002, 6]
-color = [0.05, 0.05, 0.05]
-specular = [0, 0, 0]
-copies = { count = 7, step = [0.8, 0, 0] }
-[[object]]
-model = "MODELS/block.obj"
-position = [0, 3, 0]
-scale = [6.4, 0.2, 6.4]
-color = [0.8, 0.8, 0.7]
-specular = [0, 0, 0]
-[[object]]
-model = "MODELS/block.obj"
-position = [-3.1, 0, 0]
-scale = [0.2, 3, 6.4]
-color = [0.7, 0.2, 0.1]
-specular = [0, 0, 0]
-copies = { count = 2, step = [6.2, 0, 0] }
-[[object]]
-model = "MODELS/block.obj"
-position = [0, 0, -3.1]
-scale = [6.4, 3, 0.2]
-color = [0.1, 0.3, 0.7]
-specular = [0, 0, 0]
-copies = { count = 2, step = [0, 0, 6.2] }
-[[object]]
-model = "MODELS/block.obj"
-position = [-2.4, 0.5, -2.999]
-scale = [0.4, 2, 0.002]
-color = [0.9, 0.8, 0.2]
-specular = [0, 0, 0]
-copies = { count = 7, step = [0.8, 0, 0] }
-[[object]]
-model = "MODELS/block.obj"
-position = [-2.4, 0.5, 2.999]
-scale = [0.4, 2, 0.002]
-color = [0.1, 0.1, 0.1]
-specular = [0, 0, 0]
-copies = { count = 7, step = [0.8, 0, 0] }
-[[object]]
-model = "MODELS/block.obj"
-position = [2.999, 0.5, -2.4]
-scale = [0.002, 2, 0.4]
-color = [0.9, 0.9, 0.9]
-specular = [0, 0, 0]
-copies = { count = 7, step = [0, 0, 0.8] }
-[[object]]
-model = "MODELS/block.obj"
-position = [-2.999, 0.5, -2.4]
-scale = [0.002, 2, 0.4]
-color = [0.1, 0.6, 0.1]
-specular = [0, 0, 0]
-copies = { count = 7, step = [0, 0, 0.8] }
 [[light]]
 position = [-1, 2.6, 1]
 intensity = 18
 glow = 0
-)" + rest);
+)" + block("[0, -0.2, 0]", "[6.4, 0.2, 6.4]", "[0.5, 0.5, 0.5]") +
+          block("[-2.4, 0, 0]", "[0.4, 0.002, 6]", "[0.05, 0.05, 0.05]", alongX) +
+          block("[0, 3, 0]", "[6.4, 0.2, 6.4]", "[0.8, 0.8, 0.7]") +
+          block("[-3.1, 0, 0]", "[0.2, 3, 6.4]", "[0.7, 0.2, 0.1]", "copies = { count = 2, step = [6.2, 0, 0] }\n") +
+          block("[0, 0, -3.1]", "[6.4, 3, 0.2]", "[0.1, 0.3, 0.7]", "copies = { count = 2, step = [0, 0, 6.2] }\n") +
+          block("[-2.4, 0.5, -2.999]", "[0.4, 2, 0.002]", "[0.9, 0.8, 0.2]", alongX) +
+          block("[-2.4, 0.5, 2.999]", "[0.4, 2, 0.002]", "[0.1, 0.1, 0.1]", alongX) +
+          block("[2.999, 0.5, -2.4]", "[0.002, 2, 0.4]", "[0.9, 0.9, 0.9]", alongZ) +
+          block("[-2.999, 0.5, -2.4]", "[0.002, 2, 0.4]", "[0.1, 0.6, 0.1]", alongZ) + rest);
 }
 
 Options mapped(const std::filesystem::path& file, std::vector<std::pair<std::string, std::string>> more = {}) {
@@ -143,7 +99,7 @@ class BallError {
   std::vector<bool> counts_;
 };
 
-TEST(EnvironmentMaps, ErrorFallsAlongTheSizeOfTheFacesAndWithTheBox) {
+TEST(EnvironmentMaps, LargerFacesAndTheBoxReduceError) {
   const std::filesystem::path file = room("error");
   const BallError error(file);
   const auto measured = [&](int faces, const char* box) {
@@ -162,8 +118,8 @@ TEST(EnvironmentMaps, ErrorFallsAlongTheSizeOfTheFacesAndWithTheBox) {
   EXPECT_LT(measured(64, "true"), 0.5 * measured(64, "false"));
 }
 
-// Of a ball before the sky nothing is looked up but the background, which is exact.
-TEST(EnvironmentMaps, TheSkyIsExact) {
+// A ball before the sky looks up nothing but the background, which is exact.
+TEST(EnvironmentMaps, ShowTheSkyExactly) {
   const std::filesystem::path file = writeScene("environment_sky", R"(
 [environment]
 sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.6], ground = [0.2, 0.15, 0.1] }
@@ -184,8 +140,7 @@ glow = 0
               "environment_sky");
 }
 
-// Beyond a limit the map is not looked up.
-TEST(EnvironmentMaps, AtALimitTheBackgroundIsShown) {
+TEST(EnvironmentMaps, ShowTheBackgroundAtADepthLimit) {
   const std::filesystem::path file = room("limit");
   Options environment = mapped(file, {{"reflection.max_depth", "0"}});
   Options traced = environment;
@@ -233,7 +188,7 @@ std::vector<std::string> mapPasses(Session& session, double time) {
   return names;
 }
 
-TEST(EnvironmentMaps, FacesAreListedWhenTheyAreRendered) {
+TEST(EnvironmentMaps, ListTheirFacesWhenRendered) {
   Session session(mapped(room("faces")));
   const std::vector<std::string> names = mapPasses(session, 0.0);
   ASSERT_EQ(names.size(), 6u);
@@ -251,7 +206,7 @@ TEST(EnvironmentMaps, FacesAreListedWhenTheyAreRendered) {
 }
 
 // Faces have no path of mirrors either, and are recorded before the main view.
-TEST(EnvironmentMaps, AMirrorIsSeenInTheMainViewNotInAFace) {
+TEST(EnvironmentMaps, AreNoParentsOfMirrorPasses) {
   Session session(mapped(room("parents", "[[mirror]]\nposition = [-0.9, 1.4, -2.9]\nsize = [1, 1]\n")));
   session.draw(0.0, true);
   session.finish();
@@ -262,7 +217,7 @@ TEST(EnvironmentMaps, AMirrorIsSeenInTheMainViewNotInAFace) {
 }
 
 // A map and what shows it, with everything that moves: the same bytes whether what is unchanged is skipped or not.
-TEST(EnvironmentMaps, SkippingChangesNoByte) {
+TEST(EnvironmentMaps, ReuseChangesNoByte) {
   const std::filesystem::path file = room(
       "skipping", everything + "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [1.4, 0, 1]\nspin = [0, 90, 0]\n");
   for (const char* interval : {"1", "3"}) {
@@ -287,7 +242,7 @@ TEST(EnvironmentMaps, SkippingChangesNoByte) {
       expectQuiet(rendering);
     } else {
       EXPECT_LT(captures, 8);
-      // At rest every map comes due, and the mirror that shows them is rendered after them.
+      // When nothing moves every map comes due, and the mirror that shows them is rendered after them.
       Session fresh(options);
       mapPasses(fresh, 0.2);
       EXPECT_EQ(pictures[6], fresh.picture().rgba);

@@ -1,4 +1,4 @@
-// debug.check_finite: it finds what is there, names it, and is not there itself when it is off.
+// debug.check_finite finds and names values that are not finite, and costs nothing when it is off.
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr PictureSize size{64, 36};
 
-// What is found is an error in the log, which is wanted here and would drown the test's own words.
+// Findings are errors in the log; here they are expected and would hide the test's own output.
 class Watch : public testing::Test {
  protected:
   void SetUp() override { spdlog::set_level(spdlog::level::off); }
@@ -175,7 +175,8 @@ class BrokenPass : public Watch, public testing::WithParamInterface<std::tuple<R
   std::string name() const {
     return std::string(renderPathName(path())) + std::to_string(samples()) + (negative() ? "negative" : "nan");
   }
-  void expectValue(const NonFinite& found) const {
+  void expectFinding(const NonFinite& found, int x, int y) const {
+    EXPECT_EQ(std::tuple(found.x, found.y, found.sample, found.count), std::tuple(x, y, sample(), uint64_t{1}));
     EXPECT_TRUE(negative() ? found.value.g == -0.25f : std::isnan(found.value.g)) << found.value.g;
     EXPECT_GE(found.value.r, 0.0f);
   }
@@ -191,11 +192,7 @@ TEST_P(BrokenPass, IsNamedWithItsMirrorsAndPixel) {
   const NonFinite& found = watch.findings().front();
   EXPECT_EQ(found.pass, "mirror front > rear");
   EXPECT_EQ(found.id.path, (std::vector<int>{0, 1}));
-  EXPECT_EQ(found.x, 5);
-  EXPECT_EQ(found.y, 3);
-  EXPECT_EQ(found.sample, sample());
-  EXPECT_EQ(found.count, 1u);
-  expectValue(found);
+  expectFinding(found, 5, 3);
   EXPECT_EQ(
       describe(found).rfind("mirror front > rear: pixel 5, 3, sample " + std::to_string(sample()) + ": radiance ", 0),
       0u)
@@ -211,11 +208,7 @@ TEST_P(BrokenPass, OfTheMainViewIsFoundInItsSamples) {
   const NonFinite& found = watch.findings().front();
   EXPECT_EQ(found.pass, samples() > 1 ? "main view (samples)" : "main view");
   EXPECT_EQ(found.id.kind, PassKind::main);
-  EXPECT_EQ(found.x, 60);
-  EXPECT_EQ(found.y, 34);
-  EXPECT_EQ(found.sample, sample());
-  EXPECT_EQ(found.count, 1u);
-  expectValue(found);
+  expectFinding(found, 60, 34);
   // The mean of four samples is positive again, but never a number again.
   EXPECT_EQ(watch.findings().size(), samples() > 1 && !negative() ? 2u : 1u);
 }
@@ -276,7 +269,7 @@ std::map<std::string, int64_t> objectsBesidesModules() {
   return objects;
 }
 
-TEST_F(WatchedFrames, NothingExistsForThemWhenTheCheckIsOff) {
+TEST_F(WatchedFrames, CostNothingWhenTheCheckIsOff) {
   Options options = headless(writeScene("hall_off", hall), size);
   set(options, {{"debug.check_finite", "false"}});
   Session session(options);
@@ -305,7 +298,7 @@ TEST_F(WatchedFrames, NothingExistsForThemWhenTheCheckIsOff) {
   EXPECT_EQ(session.device().allocatedBytes(), bytes);
 }
 
-TEST_F(WatchedFrames, ShowTheSameBytesAsOthers) {
+TEST_F(WatchedFrames, ShowTheSameBytesAsUnwatchedOnes) {
   Options options = headless(writeScene("hall_same", hall), size);
   const Image8 checked = draw(options);
   set(options, {{"debug.check_finite", "false"}});

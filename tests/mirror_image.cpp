@@ -1,4 +1,4 @@
-// The mirror is right, not merely unchanged: its image is the direct picture of the mirrored scene.
+// Mirrors are right, not merely unchanged: a mirror image is the direct picture of the mirrored scene.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace testing_support;
 
 constexpr PictureSize size{320, 180};
 
-struct Thing {
+struct Node {
   std::string model;
   glm::dvec3 position;
   glm::dmat3 rotation;
@@ -27,7 +27,7 @@ struct World {
   glm::dvec3 eye, target;
   Plane mirror;
   glm::dvec3 mirrorAngles;
-  std::vector<Thing> things;
+  std::vector<Node> nodes;
   std::vector<glm::dvec3> lights;
 };
 
@@ -58,7 +58,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-// A mirror in any orientation, an eye in front of it that looks at it, and things between and beside them.
+// A mirror in any orientation, an eye in front of it that looks at it, and objects between and beside them.
 World randomWorld(unsigned seed) {
   Random random(seed);
   World world;
@@ -70,8 +70,8 @@ World randomWorld(unsigned seed) {
   world.target = at(random.uniform(-1, 1), random.uniform(-1, 1), 0.0);
   for (const char* model : {"teapot", "torus_knot", "sphere", "vase", "queen", "torus_knot"}) {
     const double size = random.uniform(0.3, 0.9);
-    world.things.push_back({model, at(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(1.5, 4.5)),
-                            rotationFromDegrees(random.inBox(180.0)), glm::dvec3(size, size, 1.3 * size)});
+    world.nodes.push_back({model, at(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(1.5, 4.5)),
+                           rotationFromDegrees(random.inBox(180.0)), glm::dvec3(size, size, 1.3 * size)});
   }
   for (int i = 0; i < 2; ++i) {
     world.lights.push_back(at(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(1, 5)));
@@ -82,10 +82,10 @@ World randomWorld(unsigned seed) {
 // H R S = (H R diag(-1, 1, 1)) diag(-1, 1, 1) S: a rotation again, and a negative scale.
 World mirrored(World world) {
   const glm::dmat3 h = reflectionLinear(world.mirror.normal);
-  for (Thing& thing : world.things) {
-    thing.position = reflectPoint(thing.position, world.mirror);
-    thing.rotation = h * thing.rotation * glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1);
-    thing.scale.x = -thing.scale.x;
+  for (Node& node : world.nodes) {
+    node.position = reflectPoint(node.position, world.mirror);
+    node.rotation = h * node.rotation * glm::dmat3(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+    node.scale.x = -node.scale.x;
   }
   for (glm::dvec3& light : world.lights) {
     light = reflectPoint(light, world.mirror);
@@ -98,9 +98,9 @@ std::string toml(const World& world, const std::string& reflectance) {
   out << "[environment]\nbackground = [0.3, 0.5, 0.4]\nambient = [0.1, 0.1, 0.1]\n[camera]\nposition = "
       << vec(world.eye) << "\ntarget = " << vec(world.target) << "\nvertical_fov = 70\n"
       << "[settings]\n\"view.samples\" = 1\n\"reflection.samples\" = 1\n";
-  for (const Thing& thing : world.things) {
-    out << "[[object]]\nmodel = \"MODELS/" << thing.model << ".obj\"\nposition = " << vec(thing.position)
-        << "\nrotation = " << vec(anglesOf(thing.rotation)) << "\nscale = " << vec(thing.scale) << "\n";
+  for (const Node& node : world.nodes) {
+    out << "[[object]]\nmodel = \"MODELS/" << node.model << ".obj\"\nposition = " << vec(node.position)
+        << "\nrotation = " << vec(anglesOf(node.rotation)) << "\nscale = " << vec(node.scale) << "\n";
   }
   for (const glm::dvec3& light : world.lights) {
     out << "[[light]]\nposition = " << vec(light) << "\nintensity = 12\n";
@@ -116,23 +116,15 @@ Image8 drawWorld(const std::string& name, const std::string& text) {
   return draw(headless(writeScene(name, text), size));
 }
 
-// Where a black mirror leaves black is the mirror: everything else has ambient light.
-std::vector<bool> mirrorMask(const Image8& black) {
-  std::vector<bool> mask;
-  for (size_t i = 0; i < black.rgba.size(); i += 4) {
-    mask.push_back(black.rgba[i] == 0 && black.rgba[i + 1] == 0 && black.rgba[i + 2] == 0);
-  }
-  return mask;
-}
-
 class MirrorImage : public testing::TestWithParam<unsigned> {};
 
-TEST_P(MirrorImage, EqualsTheDirectPictureOfTheMirroredScene) {
+// Pixels of the mirror are those that a black one leaves black: everything else has ambient light.
+TEST_P(MirrorImage, EqualsThePictureOfTheMirroredScene) {
   const World world = randomWorld(GetParam());
   const std::string name = "mirror_image_" + std::to_string(GetParam());
   const Image8 seen = drawWorld(name, toml(world, "[1, 1, 1]"));
   const Image8 direct = drawWorld(name + "_direct", toml(mirrored(world), ""));
-  const std::vector<bool> mask = mirrorMask(drawWorld(name + "_black", toml(world, "[0, 0, 0]")));
+  const std::vector<bool> mask = blackPixels(drawWorld(name + "_black", toml(world, "[0, 0, 0]")));
   const size_t covered = static_cast<size_t>(std::count(mask.begin(), mask.end(), true));
   ASSERT_GE(covered, mask.size() * 3 / 10) << "the mirror is too small to judge by";
   expectAlike(seen, direct, 1, name, mask);
@@ -140,17 +132,17 @@ TEST_P(MirrorImage, EqualsTheDirectPictureOfTheMirroredScene) {
 
 INSTANTIATE_TEST_SUITE_P(RandomPlanes, MirrorImage, testing::Range(0u, 20u));
 
-TEST(MirrorImages, NothingBehindThePlaneShows) {
+TEST(MirrorImages, HideWhatIsBehindThePlane) {
   for (unsigned seed = 100; seed < 105; ++seed) {
     World world = mirrored(randomWorld(seed));
     // Everything stands behind the mirror now, as near as 1 mm.
-    for (Thing& thing : world.things) {
-      thing.position += world.mirror.normal * (-world.mirror.distance(thing.position) - 1.0);
-      thing.scale *= 0.3;
+    for (Node& node : world.nodes) {
+      node.position += world.mirror.normal * (-world.mirror.distance(node.position) - 1.0);
+      node.scale *= 0.3;
     }
     const std::string name = "behind_" + std::to_string(seed);
     const Image8 seen = drawWorld(name, toml(world, "[1, 1, 1]"));
-    const std::vector<bool> mask = mirrorMask(drawWorld(name + "_black", toml(world, "[0, 0, 0]")));
+    const std::vector<bool> mask = blackPixels(drawWorld(name + "_black", toml(world, "[0, 0, 0]")));
     const Image8 empty = drawWorld(name + "_empty",
                                    "[environment]\nbackground = [0.3, 0.5, 0.4]\n[camera]\nposition = "
                                    "[0, 0, 0]\ntarget = [0, 0, -1]\n");
@@ -161,12 +153,12 @@ TEST(MirrorImages, NothingBehindThePlaneShows) {
   }
 }
 
-TEST(MirrorImages, TwoRendersAreByteIdentical) {
+TEST(MirrorImages, AreTheSameBytesWhenRenderedTwice) {
   const std::string text = toml(randomWorld(7), "[0.9, 0.9, 0.9]");
   EXPECT_EQ(drawWorld("twice_a", text).rgba, drawWorld("twice_b", text).rgba);
 }
 
-TEST(MirrorImages, EveryClippingMethodCutsAlikeAtModerateDistance) {
+TEST(MirrorImages, ClippingMethodsAgreeAtModerateDistance) {
   const std::filesystem::path scene = writeScene("clips", toml(randomWorld(3), "[1, 1, 1]"));
   Options options = headless(scene, size);
   const Image8 expected = draw(options);

@@ -1,5 +1,4 @@
-// Images of several mirrors in one frame: overlapping, nested, many; their seams; what they cost in memory; what guards
-// them.
+// Images of several mirrors in one frame: overlapping, nested, many; their seams, memory and barriers.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -44,44 +43,38 @@ std::string mirror(const std::string& name, const std::string& rest) {
 // One behind the other on the screen, both towards the eye; neither sees the other.
 const std::string left = mirror("left", "position = [-0.5, 1, 0]\nrotation = [0, 8, 0]\nsize = [2, 1.6]");
 const std::string right = mirror("right", "position = [0.5, 1.2, -1]\nrotation = [0, -6, 0]\nsize = [2.4, 1.6]");
-const std::string leftBlack =
-    mirror("left", "position = [-0.5, 1, 0]\nrotation = [0, 8, 0]\nsize = [2, 1.6]\nreflectance = [0, 0, 0]");
-const std::string rightBlack =
-    mirror("right", "position = [0.5, 1.2, -1]\nrotation = [0, -6, 0]\nsize = [2.4, 1.6]\nreflectance = [0, 0, 0]");
+const std::string black = "reflectance = [0, 0, 0]\n";
 
 Image8 drawText(const std::string& name, const std::string& text) {
   return draw(headless(writeScene(name, text), size));
 }
 
-std::vector<bool> black(const Image8& image) {
-  std::vector<bool> mask;
-  for (size_t i = 0; i < image.rgba.size(); i += 4) {
-    mask.push_back(image.rgba[i] == 0 && image.rgba[i + 1] == 0 && image.rgba[i + 2] == 0);
-  }
-  return mask;
-}
-
 // Where one mirror is seen, the picture with both is the picture with the other one black.
 void expectIndependent(const std::string& name, const std::string& before, const std::string& after) {
   const Image8 both = drawText(name, before + left + right + after);
-  const Image8 leftOnly = drawText(name + "_l", before + left + rightBlack + after);
-  const Image8 rightOnly = drawText(name + "_r", before + leftBlack + right + after);
-  const std::vector<bool> leftMask = black(rightOnly);
-  const std::vector<bool> rightMask = black(leftOnly);
+  const Image8 leftOnly = drawText(name + "_l", before + left + right + black + after);
+  const Image8 rightOnly = drawText(name + "_r", before + left + black + right + after);
+  const std::vector<bool> leftMask = blackPixels(rightOnly);
+  const std::vector<bool> rightMask = blackPixels(leftOnly);
   ASSERT_GT(std::count(leftMask.begin(), leftMask.end(), true), 200);
   ASSERT_GT(std::count(rightMask.begin(), rightMask.end(), true), 200);
   EXPECT_EQ(difference(both, leftOnly, 0, leftMask).largest, 0);
   EXPECT_EQ(difference(both, rightOnly, 0, rightMask).largest, 0);
 }
 
-TEST(MirrorPictures, OverlappingMirrorsHaveImagesOfTheirOwn) {
+TEST(MirrorPictures, OverlappingMirrorsHaveTheirOwnImages) {
   expectIndependent("overlap", room, "");
 }
 
-TEST(MirrorPictures, OverlappingMirrorsSeenInAMirrorHaveImagesOfTheirOwn) {
-  // The camera looks the other way, into a large mirror that shows the two.
+// The room, but the camera looks the other way.
+std::string turnedRoom() {
   std::string turned = room;
-  turned.replace(turned.find("target = [0, 1, 0]"), 18, "target = [0, 1, 9]");
+  return turned.replace(turned.find("target = [0, 1, 0]"), 18, "target = [0, 1, 9]");
+}
+
+// The camera looks into a large mirror that shows the two.
+TEST(MirrorPictures, NestedOverlappingMirrorsHaveTheirOwnImages) {
+  std::string turned = turnedRoom();
   // Deeper down the two do see each other in the large one.
   turned.replace(turned.find("[settings]"), 10, "[settings]\n\"reflection.max_depth\" = 2");
   const std::string behind = mirror("big", "position = [0, 1, 9]\nrotation = [0, 180, 0]\nsize = [12, 8]");
@@ -208,7 +201,7 @@ TEST(MirrorPictures, DoNotDependOnUnwrittenMemory) {
   }
 }
 
-TEST(MirrorPictures, DebugViewShowsTheMeanOfAnImagesSamples) {
+TEST(MirrorPictures, DebugViewShowsTheMeanOfSamples) {
   const Image8 averaged = drawDebugView("4");
   EXPECT_GT(shareAlike(averaged, drawDebugView("1")), 0.9);  // but for edges
   EXPECT_LT(shareAlike(averaged, drawText("no_debug_view", room + left)), 0.8);
@@ -241,11 +234,9 @@ TEST(MirrorPictures, MovingFramesKeepTheirMemory) {
   expectQuiet(session);
 }
 
-TEST(MirrorPictures, TurningAwayGivesTheMirrorsMemoryBack) {
-  std::string turned = room;
-  turned.replace(turned.find("target = [0, 1, 0]"), 18, "target = [0, 1, 9]");
-  Session with(headless(writeScene("away", turned + left + right), size));
-  Session without(headless(writeScene("no_mirrors", turned), size));
+TEST(MirrorPictures, TurningAwayReleasesTheMirrorsMemory) {
+  Session with(headless(writeScene("away", turnedRoom() + left + right), size));
+  Session without(headless(writeScene("no_mirrors", turnedRoom()), size));
   for (Session* session : {&with, &without}) {
     session->draw(0.0, true);
     session->renderer().waitIdle();
@@ -259,8 +250,7 @@ TEST(MirrorPictures, TurningAwayGivesTheMirrorsMemoryBack) {
 
 class OmittedBarrier : public testing::TestWithParam<const char*> {};
 
-// Synchronisation validation sees through render passes better than through dynamic rendering; the barriers are the
-// same on both paths.
+// Synchronisation validation sees more in render passes than in dynamic rendering; both paths have the same barriers.
 TEST_P(OmittedBarrier, IsNoticed) {
   Options options = headless(writeScene("barriers", room + left + right), {64, 36});
   options.renderPath = RenderPath::renderPass;

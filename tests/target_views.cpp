@@ -1,4 +1,4 @@
-// Targets that are looked at: right values at the right place, and nothing left behind.
+// The debug view and the texel probe: right values at the right pixels, and nothing left behind.
 #include <gtest/gtest.h>
 
 #include "picture_support.hpp"
@@ -89,7 +89,7 @@ TexelValue probed(Session& session, const DebugView& debug) {
   return session.sceneRenderer().probed().value();
 }
 
-TEST_P(TargetView, ATexelIsReadExactly) {
+TEST_P(TargetView, ProbeReadsATexelExactly) {
   Options options = hallOptions(GetParam().second);
   options.renderPath = GetParam().first;
   Session session(options);
@@ -163,7 +163,7 @@ TEST(TargetViews, ColourIsThePictureMagnified) {
   expectQuiet(session);
 }
 
-TEST(TargetViews, CostNothingWhenNobodyLooks) {
+TEST(TargetViews, CostNothingWhenOff) {
   Session session(hallOptions("4"));
   const FramePlan plan = session.draw(0.0, false).plan;
   drawWith(session, std::nullopt);
@@ -187,7 +187,7 @@ TEST(TargetViews, CostNothingWhenNobodyLooks) {
   expectQuiet(session);
 }
 
-TEST(TargetViews, TheBarrierOfDepthIsMissedWhenLeftOut) {
+TEST(TargetViews, MissTheBarrierOfDepth) {
   for (const char* omitted : {"depthToSample", ""}) {
     Options options = hallOptions();
     options.renderPath = RenderPath::renderPass;

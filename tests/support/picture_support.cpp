@@ -83,6 +83,14 @@ Image8 draw(const Options& options, double time) {
   return picture;
 }
 
+std::vector<bool> blackPixels(const Image8& image) {
+  std::vector<bool> mask;
+  for (size_t i = 0; i < image.rgba.size(); i += 4) {
+    mask.push_back(image.rgba[i] == 0 && image.rgba[i + 1] == 0 && image.rgba[i + 2] == 0);
+  }
+  return mask;
+}
+
 // Empty at a test's first call: what an earlier run left is not found. Not called scenes: the programs beside it would
 // take it for the folder that they come with.
 std::filesystem::path sceneDirectory() {

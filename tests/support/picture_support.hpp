@@ -30,6 +30,9 @@ void expectQuiet(Session& session);
 // Draws one picture that is quiet.
 Image8 draw(const Options& options, double time = 0.0);
 
+// Whether each pixel is black.
+std::vector<bool> blackPixels(const Image8& image);
+
 // A temporary directory of the running test's own: tests run side by side and may use the same names.
 std::filesystem::path sceneDirectory();
 
