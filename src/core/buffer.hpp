@@ -30,10 +30,6 @@ class Buffer {
   void writeObject(const T& value, VkDeviceSize offset = 0) const {
     write(std::as_bytes(std::span(&value, 1)), offset);
   }
-  template <typename T>
-  void writeSpan(std::span<const T> values, VkDeviceSize offset = 0) const {
-    write(std::as_bytes(values), offset);
-  }
 
  private:
   Memory memory_;  // freed after the buffer, and thereby unmapped

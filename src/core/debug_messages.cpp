@@ -23,12 +23,6 @@ std::vector<std::string> DebugMessages::latest() const {
   return {latest_.begin(), latest_.end()};
 }
 
-void DebugMessages::clear() {
-  const std::lock_guard lock(mutex_);
-  latest_.clear();
-  count_ = 0;
-}
-
 VkBool32 DebugMessages::receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
                                 const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
   const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;

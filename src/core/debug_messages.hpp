@@ -16,7 +16,6 @@ class DebugMessages {
 
   int count() const;
   std::vector<std::string> latest() const;
-  void clear();
 
  private:
   static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity,

@@ -95,7 +95,6 @@ class Device {
   // Warnings and errors of the validation layer since the start; 0 is the only good figure.
   int validationMessages() const { return instance_.messages().count(); }
   std::vector<std::string> lastValidationMessages() const { return instance_.messages().latest(); }  // 32, oldest first
-  void clearValidationMessages() { instance_.messages().clear(); }
 
   uint64_t allocatedBytes() const { return allocatedBytes_; }  // live device memory of this process
   MemoryBudget memoryBudget() const;

@@ -17,7 +17,6 @@ class Instance {
   VkInstance get() const { return instance_.get(); }
   bool hasDebugUtils() const { return debugUtils_; }
   bool validation() const { return static_cast<bool>(messenger_); }
-  DebugMessages& messages() { return messages_; }
   const DebugMessages& messages() const { return messages_; }
 
  private:

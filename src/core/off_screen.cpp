@@ -14,11 +14,9 @@ Image makeColor(Device& device, const OffScreenDesc& desc, Use use) {
   VkImageUsageFlags usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   usage |= output || desc.readSamples ? VK_IMAGE_USAGE_SAMPLED_BIT : 0;
   usage |= samples == VK_SAMPLE_COUNT_1_BIT ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;
-  return Image(device, {.extent = desc.extent,
-                        .format = desc.format,
-                        .usage = usage,
-                        .samples = samples,
-                        .name = output ? desc.name : desc.name + " samples"});
+  return Image(
+      device,
+      {.extent = desc.extent, .usage = usage, .samples = samples, .name = output ? desc.name : desc.name + " samples"});
 }
 
 Image makeDepth(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples, std::string name) {
@@ -83,7 +81,7 @@ void OffScreen::retire(RetireQueue& retired) {
 }
 
 void OffScreen::create(RetireQueue& retired) {
-  sampler_ = createSampler(*device_, {.filter = desc_.filter, .maxLod = 0.0f}, desc_.name);
+  sampler_ = createSampler(*device_, {.maxLod = 0.0f}, desc_.name);
   color_ = makeColor(*device_, desc_, Use::output);
   if (color_.samples() != desc_.samples) {
     samples_ = makeColor(*device_, desc_, Use::resolved);

@@ -34,12 +34,10 @@ class SharedDepth {
 struct OffScreenDesc {
   std::string name;
   VkExtent2D extent{1, 1};
-  VkFormat format = colorFormat;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool keepSamples = false;  // the output is the multisampled colour, read sample by sample; else it is resolved
   bool readSamples = false;  // the samples that are resolved can be read as well, if the pass stores them
   bool depth = true;
-  VkFilter filter = VK_FILTER_LINEAR;
   TargetRole role = TargetRole::offscreen;
   SharedDepth* shared = nullptr;  // outlives the target; its sample count replaces `samples`
 };

@@ -20,10 +20,6 @@ VkClearValue depthClear(const PassDesc& desc) {
   return {.depthStencil = {desc.clearDepth, 0}};
 }
 
-VkAttachmentLoadOp loadOp(bool load) {
-  return load ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
-}
-
 VkAttachmentStoreOp storeOp(bool store) {
   return store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
 }
@@ -90,9 +86,7 @@ PassGroup::PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::sp
   if (!any.loadColor) {
     discard(samples);
   }
-  if (!any.loadDepth) {
-    discard(depths);
-  }
+  discard(depths);
   if (any.targets.role == TargetRole::swapchain && !any.loadColor) {
     discard(outputs);
   }
@@ -104,11 +98,12 @@ PassGroup::PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::sp
 
 PassGroup::~PassGroup() {
   const TargetRole role = passes_.front().targets.role;
+  if (role == TargetRole::swapchain) {
+    return;
+  }
   std::vector<Image*> outputs;
   for (const PassDesc& pass : passes_) {
-    if (pass.sampledAfterwards && role != TargetRole::swapchain) {
-      outputs.push_back(&pass.targets.output());
-    }
+    outputs.push_back(&pass.targets.output());
   }
   barriers_.record(commands_, role == TargetRole::main ? BarrierKind::mainToSample : BarrierKind::offscreenToSample,
                    outputs);
@@ -164,7 +159,7 @@ void PassScope::beginDynamic() {
   VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                   .imageView = targets.color->view(),
                                   .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                  .loadOp = loadOp(desc_.loadColor),
+                                  .loadOp = desc_.loadColor ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,
                                   .storeOp = storeOp(storesColor(desc_)),
                                   .clearValue = colorClear(desc_)};
   if (targets.resolve) {
@@ -176,7 +171,7 @@ void PassScope::beginDynamic() {
   if (targets.depth) {
     depth.imageView = targets.depth->view();
     depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-    depth.loadOp = loadOp(desc_.loadDepth);
+    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     depth.storeOp = storeOp(desc_.storeDepth);
     depth.clearValue = depthClear(desc_);
   }
@@ -197,7 +192,6 @@ void PassScope::beginRenderPass() {
                                 .samples = targets.samples(),
                                 .resolve = targets.resolve != nullptr,
                                 .loadColor = desc_.loadColor,
-                                .loadDepth = targets.depth && desc_.loadDepth,
                                 .storeColor = storesColor(desc_),
                                 .storeDepth = targets.depth && desc_.storeDepth,
                                 .colorLayout = targets.color->layout()});

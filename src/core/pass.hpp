@@ -50,10 +50,8 @@ struct PassDesc {
   std::array<float, 4> clearColor{0.0f, 0.0f, 0.0f, 1.0f};
   float clearDepth = 0.0f;  // reversed Z: infinitely far
   bool loadColor = false;   // else cleared
-  bool loadDepth = false;
   bool storeDepth = false;
   bool storeSamples = false;       // multisampled colour is kept for those who load or read it
-  bool sampledAfterwards = true;   // the output becomes readable in fragment shaders; ignored for the swapchain
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
   bool grouped = false;            // its barriers are those of its PassGroup
   bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path

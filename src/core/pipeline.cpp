@@ -83,14 +83,13 @@ VkPipelineDepthStencilStateCreateInfo depthState(const GraphicsPipelineDesc& des
 constexpr VkColorComponentFlags allColor =
     VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
 
-VkPipelineColorBlendAttachmentState blending(Blend blend, bool writesColor) {
-  const bool add = blend == Blend::add;
-  return {.blendEnable = blend != Blend::none,
-          .srcColorBlendFactor = add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_SRC_ALPHA,
-          .dstColorBlendFactor = add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+VkPipelineColorBlendAttachmentState blending(bool adds, bool writesColor) {
+  return {.blendEnable = adds,
+          .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+          .dstColorBlendFactor = VK_BLEND_FACTOR_ONE,
           .colorBlendOp = VK_BLEND_OP_ADD,
           .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-          .dstAlphaBlendFactor = add ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+          .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
           .alphaBlendOp = VK_BLEND_OP_ADD,
           .colorWriteMask = writesColor ? allColor : 0};
 }
@@ -168,13 +167,14 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
   }
   const auto vertexInput = vertexInputState(desc);
   const VkPipelineInputAssemblyStateCreateInfo assembly{
-      .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO, .topology = desc.topology};
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+      .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
   const VkPipelineViewportStateCreateInfo viewport{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
   const auto raster = rasterization(desc, device_.caps());
   const auto samples = multisampling(desc, device_.caps());
   const auto depth = depthState(desc);
-  const auto attachment = blending(desc.blend, !desc.frag.empty());
+  const auto attachment = blending(desc.adds, !desc.frag.empty());
   const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                                   .attachmentCount = 1,
                                                   .pAttachments = &attachment};

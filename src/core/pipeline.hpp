@@ -12,13 +12,6 @@
 
 namespace speculum {
 
-// How a fragment joins what the target holds.
-enum class Blend {
-  none,  // replaces it
-  over,  // source alpha over destination
-  add,   // colours and alphas are added
-};
-
 // Dynamic: viewport, scissor, front face. Everything else is fixed here.
 struct GraphicsPipelineDesc {
   std::string name;
@@ -36,10 +29,9 @@ struct GraphicsPipelineDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER;  // reversed Z
   bool depthClamp = true;                            // nothing is cut at the near plane; ignored where not supported
   bool sampleShading = false;                        // one invocation per sample; ignored where not supported
-  Blend blend = Blend::none;
+  bool adds = false;   // colours and alphas are added to what the target holds; else they replace it
   bool lines = false;  // wireframe; filled where not supported
   VkCullModeFlags cullMode = VK_CULL_MODE_NONE;
-  VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   std::vector<VkVertexInputBindingDescription> vertexBindings;
   std::vector<VkVertexInputAttributeDescription> vertexAttributes;
 };
@@ -95,8 +87,6 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   void bind(VkCommandBuffer commands) const;
-  VkPipeline get() const { return pipeline_.get(); }
-  VkPipelineLayout layout() const { return layout_.get(); }
   void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const;
   template <typename T>
   void push(VkCommandBuffer commands, const T& constants) const {

@@ -14,7 +14,6 @@ struct RenderPassKey {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool resolve = false;
   bool loadColor = false;
-  bool loadDepth = false;
   bool storeColor = true;
   bool storeDepth = false;
   VkImageLayout colorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;

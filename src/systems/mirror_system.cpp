@@ -56,7 +56,7 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, VkDescriptor
   if (shading == Shading::ownSampleAdded) {
     desc.depthCompare = VK_COMPARE_OP_EQUAL;
     desc.depthWrite = false;
-    desc.blend = Blend::add;
+    desc.adds = true;
   }
   if (tracesRays(shading, variant.trace)) {
     const bool scattered = shading == Shading::scattered || shading == Shading::scatteredBySample;
