@@ -3,7 +3,7 @@
 
 const float environmentBorder = 1.0;  // texels of a face beyond its edges
 
-// Where the map shows a direction from its centre.
+// Texel of the map for a direction from its centre.
 struct MapTexel {
   ivec2 corner;  // of the face
   vec2 texel;    // in the face

@@ -118,7 +118,7 @@ struct DrawConstants {
   uint firstTriangle;  // of the draw, in its mesh
 };
 
-// What a mirror shows, and how it looks up its image: specialisation constants.
+// Content of a mirror and lookup of its image: values of specialisation constants.
 const uint showsImage = 0;
 const uint showsBackground = 1;
 const uint showsBack = 2;
@@ -227,7 +227,7 @@ struct DepthViewConstants {
   float halfDepth;  // depth shown half bright
 };
 
-// What debug.check_finite finds in an image: the search, and the value that it looks up afterwards.
+// Finding of debug.check_finite in an image: result of the search, and the value looked up afterwards.
 struct CheckSearch {
   uint pixel;  // y * width + x of the first; at the start all bits
   uint count;  // samples
@@ -244,7 +244,7 @@ struct CheckConstants {
   uvec2 size;  // pixels of the part that is in use
 };
 
-// What reading one texel back gives.
+// One texel, read back.
 struct ProbedTexel {
   vec4 mean;   // of the samples
   vec4 first;  // sample: depth has no mean

@@ -1,4 +1,4 @@
-// Where the pixel's ray meets a mirror's plane: exact at every distance and angle, where interpolation over a polygon that
+// The point at which the pixel's ray meets a mirror's plane: exact at every distance and angle, where interpolation over a polygon that
 // may reach behind the eye is not. A pixel whose centre lies beyond the horizon is seen at grazing angle. Needs
 // interface.glsl.
 

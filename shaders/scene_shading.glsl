@@ -66,7 +66,7 @@ vec3 relativeVertex(uint instance, uint triangle, uint corner) {
   return timesPoint(instances[instanceIndex].relativeFromMesh, vertexOf(instance, triangle, corner).position);
 }
 
-// At a pixel that the triangle covers in part, an interpolated position lies off the triangle, and with some drivers off
+// Moves the surface onto the triangle. At a pixel that the triangle covers in part, an interpolated position lies off the triangle, and with some drivers off
 // its plane: rays would start inside the object.
 void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surface) {
   Corners corners = Corners(relativeVertex(instance, triangle, 0), relativeVertex(instance, triangle, 1),

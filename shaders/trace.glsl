@@ -90,7 +90,7 @@ vec4 meetTriangle(TraceTriangle triangle, vec3 origin, uint along, vec3 shear) {
   return vec4(u, v, w, shear.z * (u * a.z + v * b.z + w * c.z)) / area;
 }
 
-// Where the ray meets the mirror's polygon, from either side; below zero: nowhere.
+// Parameter at which the ray meets the mirror's polygon, from either side; below zero: it does not.
 float meetMirror(uint mirror, vec3 origin, vec3 direction) {
   vec3 fromMirror = origin - traceMirrors[mirror].origin;
   vec3 normal = traceMirrors[mirror].normal;

@@ -121,7 +121,7 @@ TEST_F(HotReload, EditChangesThePictureAndLeaksNothing) {
   EXPECT_EQ(liveObjects(), objects);
 }
 
-// What fill.comp writes.
+// Values that fill.comp writes.
 std::vector<uint32_t> filled(Renderer& renderer, const Pipeline& pipeline, VkDescriptorSetLayout layout) {
   constexpr uint32_t offset = 7;
   const Buffer buffer(renderer.device(), 8 * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,

@@ -222,7 +222,7 @@ TEST(ExactEffects, ThroughputIsPerChannel) {
   expectAlike(draw(options), truth.picture, 2, "effects_throughput", notBackground(truth.traced));
 }
 
-// With what else changes how mirrors are drawn: nothing complains, and the picture stays near.
+// Other settings that change how mirrors are drawn give no message, and the picture stays close.
 TEST(ExactEffects, StayCloseUnderOtherSettings) {
   const std::filesystem::path file =
       corner("effects_settings", shadowLight + plainLight + wall + "casts_light = true\nroughness = 0.1\n" + pool +

@@ -51,8 +51,8 @@ constexpr VkImageLayout depthAttachment = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHME
 constexpr VkImageLayout sampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout unsaid = VK_IMAGE_LAYOUT_UNDEFINED;
 
-// By kind. What the acquire semaphore of a swapchain image is waited for at, the colour stage, chains it to its
-// barrier.
+// Rules by kind. The acquire semaphore of a swapchain image is waited for at the colour stage, which chains it to the
+// image's barrier.
 constexpr std::array<Rule, barrierKindCount> rules = {{
     {"offscreenBeforeWrite", colorWrites, colorUses, attachment},
     {"offscreenSamplesBeforeWrite", colorWrites, colorUses, attachment},
@@ -90,7 +90,7 @@ const Rule& ruleOf(BarrierKind kind) {
   return rules[static_cast<size_t>(kind)];
 }
 
-// What an attachment waits for: its earlier writes, and shaders that read it if any can.
+// The uses that are waited for: for an attachment its earlier writes, and shaders that read it if any can.
 Scope before(const Rule& rule, std::span<Image* const> images) {
   const bool writes = rule.layout == attachment || rule.layout == depthAttachment;
   const bool read = std::any_of(images.begin(), images.end(), [](const Image* image) {

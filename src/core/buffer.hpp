@@ -24,7 +24,7 @@ class Buffer {
   std::byte* mapped() const { return mapped_; }  // null in BufferMemory::device
   VkDescriptorBufferInfo descriptor() const { return {buffer_.get(), 0, VK_WHOLE_SIZE}; }
 
-  // Into a host buffer; throws std::out_of_range past its end.
+  // Writes into a host buffer. Throws std::out_of_range past its end.
   void write(std::span<const std::byte> data, VkDeviceSize offset = 0) const;
   template <typename T>
   void writeObject(const T& value, VkDeviceSize offset = 0) const {

@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// Receives what the validation layer says, logs it and keeps the latest for tests.
+// Receives the messages of the validation layer, logs them and keeps the latest for tests.
 class DebugMessages {
  public:
   VkDebugUtilsMessengerCreateInfoEXT createInfo();  // points here; covers instance creation too

@@ -26,8 +26,8 @@ struct FrameTimings {
 enum class TimerDetail { frame, passes };
 
 // Timestamps and pipeline statistics of one frame in flight. Both stamps of a pass are taken at the bottom of the pipe,
-// so that passes do not overlap in the figures and their times add up to the frame's. That has its price: lavapipe ends
-// all its work before it takes a stamp, so that passes do not overlap on it either. TimerDetail::frame has two stamps.
+// so that passes do not overlap in the figures and their times add up to the frame's. On lavapipe, which ends all its
+// work before it takes a stamp, passes then do not overlap at all. TimerDetail::frame takes two stamps a frame.
 class GpuTimer {
  public:
   explicit GpuTimer(Device& device, const std::string& name);
@@ -36,7 +36,7 @@ class GpuTimer {
   void finish(VkCommandBuffer commands);                                     // after its last pass
   int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
   void end(VkCommandBuffer commands, int slot);
-  // Both within one render pass.
+  // Count the samples that pass the depth test; begin and end within one render pass.
   void beginSamples(VkCommandBuffer commands, int slot);
   void endSamples(VkCommandBuffer commands, int slot);
   FrameTimings read() const;  // after the frame's fence

@@ -58,11 +58,11 @@ class OffScreen {
   VkSampleCountFlagBits samples() const { return desc_.samples; }
   uint64_t bytes() const;  // without shared depth
   Image& color() { return color_; }
-  // What is resolved to color(): null unless there is such an image. Its descriptor is for shaders that read samples.
+  // The image that is resolved to color(), or null. Its descriptor is for shaders that read samples.
   Image* samplesImage() { return samples_ ? &samples_ : nullptr; }
   VkDescriptorImageInfo samplesDescriptor() const { return samples_.descriptor(sampler_.get()); }
   PassTargets targets();
-  // With depth that is shared with other targets than its own is; of the same samples, made to cover the target.
+  // Uses `depth` in place of its own: of the same samples, grown to cover the target.
   PassTargets targets(SharedDepth& depth, RetireQueue& retired);
   VkDescriptorImageInfo descriptor() const { return color_.descriptor(sampler_.get()); }
 

@@ -14,7 +14,7 @@ namespace speculum {
 class GpuTimer;
 class RenderPassCache;
 
-// What a pass's targets are for; decides which barriers guard them.
+// Use of a pass's targets, which decides the barriers that guard them.
 enum class TargetRole { offscreen, main, swapchain };
 
 // With `resolve`, `color` is multisampled and the pass's output is the resolved image; without it the output is `color`
@@ -76,8 +76,8 @@ class PassGroup {
   std::span<const PassDesc> passes_;
 };
 
-// From construction to end: debug label, timestamps, statistics, barriers before and after, rendering on the device's
-// render path. Viewport, scissor and front face are set. Made by Renderer::beginPass.
+// A pass that is being recorded, from construction to end: debug label, timestamps, statistics, barriers, rendering on
+// the device's render path. Viewport, scissor and front face are set. Made by Renderer::beginPass.
 class PassScope {
  public:
   PassScope(const PassScope&) = delete;
@@ -89,7 +89,7 @@ class PassScope {
   // A label within the pass's own; ended by endLabel.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }
-  // From here to the pass's end the samples that pass the depth test are counted; once a pass, with collectStatistics.
+  // Counts the samples that pass the depth test from here to the pass's end. Once a pass, with collectStatistics.
   void countSamples();
 
  private:

@@ -213,7 +213,7 @@ std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
 }
 
 uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface) {
-  // Where there is a queue that draws, there is one that does both.
+  // A device with a queue that draws has one that draws and computes.
   constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(device.handle);
   for (uint32_t i = 0; i < families.size(); ++i) {

@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// What one GPU offers, read before anything of it is used.
+// Offers of one GPU, read before anything of it is used.
 struct PhysicalDevice {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
@@ -23,8 +23,8 @@ struct PhysicalDevice {
 
 std::vector<PhysicalDevice> physicalDevices(VkInstance instance);
 
-// By index or part of the name; empty: the first of the best type that is usable. Throws std::runtime_error that lists
-// the GPUs when nothing fits or the one named lacks a feature.
+// Chooses by index or part of the name, or if that is empty the first usable one of the best type. Throws
+// std::runtime_error that lists the GPUs when nothing fits or the one named lacks a feature.
 const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const std::string& wanted);
 
 std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device);

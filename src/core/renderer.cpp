@@ -74,7 +74,7 @@ void Renderer::waitIdle() {
   finish(slots_[firstIsOlder ? 0 : 1]);
   finish(slots_[firstIsOlder ? 1 : 0]);
   device_.waitIdle();
-  // What is retired while a frame is recorded may be in its commands.
+  // Objects retired while a frame is recorded may be in its commands.
   retired_.collect(recording_ ? frameNumber_ - 1 : frameNumber_);
 }
 

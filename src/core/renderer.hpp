@@ -34,7 +34,7 @@ struct Pixels {
 
 class Renderer;
 
-// What a frame that is being recorded gives to those who record it. Valid from beginFrame to endFrame.
+// A frame that is being recorded. Valid from beginFrame to endFrame.
 struct Frame {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   uint32_t index = 0;                          // frame in flight, 0 or 1: choose per-frame buffers by it
@@ -55,7 +55,7 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Nothing while the window is paused or its swapchain could not be made. Waits for the frame before the last one.
+  // Waits for the frame before the last one. Returns nothing while the window is paused or has no swapchain.
   std::optional<Frame> beginFrame();
   PassScope beginPass(Frame& frame, const PassDesc& desc);
   // `passes`, at least one, outlive the group; each is begun and ended within it.
@@ -70,7 +70,7 @@ class Renderer {
   VkExtent2D displayExtent() const;
   uint32_t displayImageCount() const;  // at least 2, as Dear ImGui wants it
   VkRenderPass overlayRenderPass();    // compatible with beginOverlay's; may change when displayFormat() does
-  // Of the window, none when headless. A new one holds from the next frame on.
+  // Present modes of the window; none when headless. A new mode applies from the next frame on.
   std::vector<PresentMode> presentModes() const;
   std::optional<PresentMode> presentMode() const;
   void setPresentMode(PresentMode mode);
@@ -80,9 +80,9 @@ class Renderer {
   Pixels readback();
   void waitIdle();  // also collects timings and retired objects
 
-  // Of the last frame that has finished; of the very last one after waitIdle().
+  // Timings of the last frame that has finished; after waitIdle() of the last one recorded.
   const FrameTimings& timings() const { return timings_; }
-  // Of the frames that begin from now on; TimerDetail::passes until then.
+  // Applies to frames that begin from now on. TimerDetail::passes at first.
   void setTimerDetail(TimerDetail detail) { timerDetail_ = detail; }
   uint64_t frameNumber() const { return frameNumber_; }
   // Rebuilds what changed on disk; call it between frames. Cheap when no directory is watched.

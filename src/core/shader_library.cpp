@@ -26,7 +26,7 @@ bool isSpirv(const std::vector<uint8_t>& code) {
   return magic == spirvMagic;
 }
 
-// Of a make rule "output: source include include", lines joined by backslashes.
+// Sources in a make rule "output: source include include", lines joined by backslashes.
 std::vector<fs::path> sourcesIn(const fs::path& depfile) {
   const auto content = readFileIfAny(depfile);
   std::vector<fs::path> sources;
@@ -103,7 +103,7 @@ ShaderChange ShaderLibrary::poll() {
   return change;
 }
 
-// The flags are those of the build, so that an unchanged file gives unchanged SPIR-V.
+// Compiles with the flags of the build, so that an unchanged file gives unchanged SPIR-V.
 bool ShaderLibrary::compile(const std::string& name, Entry& entry) {
   entry.newest = newest(entry.sources);
   const fs::path output = output_->path() / (name + ".spv");

@@ -13,7 +13,7 @@ namespace speculum {
 
 struct ShaderChange {
   std::vector<std::string> changed;  // names whose SPIR-V is new, e.g. "mirror.frag"
-  std::string errors;                // the compiler's words on files that did not compile; empty if all did
+  std::string errors;                // messages of the compiler; empty if every file compiles
 };
 
 // SPIR-V modules by the name of their GLSL file ("mirror.frag" is read from mirror.frag.spv). With a directory of
@@ -27,7 +27,7 @@ class ShaderLibrary {
   VkShaderModule module(const std::string& name);
 
   bool watching() const { return !glslDir_.empty(); }
-  // Looks at the files' times and compiles what is newer. A file that fails keeps its module. Replaced modules are
+  // Compiles files that are newer than their modules. A file that fails keeps its module. Replaced modules are
   // destroyed at once: pipelines do not need theirs after creation.
   ShaderChange poll();
   const std::string& errors() const { return errors_; }  // of the files that fail at present

@@ -31,7 +31,7 @@ class SwapChain {
   VkFormat format() const { return format_.format; }
   PresentMode presentMode() const { return mode_; }  // in use: FIFO where the wanted one is missing
   std::vector<PresentMode> presentModes() const;     // that the surface offers
-  // From the next recreate() on.
+  // Applies from the next recreate() on.
   void choosePresentMode(PresentMode wanted);
   bool copyable() const { return copyable_; }  // whether its images can be read back
   Image& image(uint32_t index) { return images_[index]; }

@@ -10,7 +10,7 @@ namespace speculum {
 
 namespace {
 
-// Where a target is shown, and its texel for a pixel of the display: pixel * xy + zw.
+// Area in which a target is shown, and the texel for a pixel of the display: pixel * xy + zw.
 struct Placement {
   VkRect2D area;
   glm::vec4 lookup;

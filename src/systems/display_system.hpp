@@ -14,7 +14,7 @@ namespace speculum {
 
 enum class TargetKind { color, depth };
 
-// What a pass drew, shown over the picture in an area of the display image.
+// A pass's target, shown over the picture in an area of the display image.
 struct DebugView {
   int pass = 0;    // index into FramePlan::passes; their number stands for the main view
   PixelRect area;  // pixels
@@ -25,8 +25,8 @@ struct DebugView {
   std::optional<glm::ivec2> probe;  // texel to be read: see SceneRenderer::probed
 };
 
-// Records what draws into the display image: the picture, once through exposure, tone curve and sRGB, and a target that
-// is looked at over it.
+// Draws into the display image: the picture, through exposure, tone curve and sRGB, and over it the target of a debug
+// view.
 class DisplaySystem {
  public:
   explicit DisplaySystem(Renderer& renderer);
@@ -37,14 +37,14 @@ class DisplaySystem {
   // See SceneRenderer::setCover.
   void setCover(const Image8& picture);
 
-  // The display pass: of this radiance, or of the cover.
+  // Records the display pass, of this radiance or of the overlay image.
   RecordedPass record(Frame& frame, const MirrorImage& radiance, const Settings& settings);
-  // The target of debug.pass, radiance or depth; nothing where its area shows none of it.
+  // Record the target of debug.pass; nothing if no part of it lies in the area.
   std::optional<RecordedPass> recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
                                           const MirrorImage& radiance, const Settings& settings);
   std::optional<RecordedPass> recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
                                           KeptDepth& depth);
-  // What only looking at targets took.
+  // Gives back the pipelines that only debug views needed.
   void releaseView();
 
   size_t pipelineCount() const { return pipelines_.size(); }

@@ -6,10 +6,10 @@
 
 namespace speculum {
 
-// After so many frames without a call for it, what only an effect needs is given back.
+// Frames without a call for an effect after which its resources are given back.
 inline constexpr int idleFramesKept = 120;
 
-// What an effect took part in, of the frame recorded last.
+// Cost of an effect in the last recorded frame.
 struct EffectCost {
   uint32_t draws = 0;
   uint64_t bytes = 0;      // of device objects that it needs; effects that trace rays share theirs

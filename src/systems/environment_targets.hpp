@@ -10,9 +10,9 @@ class EnvironmentTargets {
  public:
   explicit EnvironmentTargets(Device& device);
 
-  // The maps that the next frame can be planned with; see SceneRenderer::cache.
+  // Maps that the next plan may reuse.
   std::span<const EnvironmentMap> cached() const { return cached_; }
-  void restart();  // forgets them
+  void restart();  // drops them
 
   // Takes the targets of the plan's maps, at the start of its frame; those of other maps become free.
   void prepare(const FramePlan& plan, RetireQueue& retired);

@@ -11,7 +11,7 @@
 
 namespace speculum {
 
-// What was found in a target of a pass: a value that is NaN, infinite, below 0 or above 65504, the largest half float.
+// A finding in a target of a pass: a value that is NaN, infinite, below 0 or above 65504, the largest half float.
 struct NonFinite {
   PassId id;
   bool samples = false;  // found in what is resolved to the pass's output
@@ -30,10 +30,10 @@ class FiniteWatch {
  public:
   explicit FiniteWatch(Renderer& renderer);
 
-  // A frame in which up to `targets` are checked.
+  // Begins a frame in which up to `targets` are checked.
   void begin(const Frame& frame, size_t targets);
-  // After the pass that drew `image` has ended. Its upper left part of `used` pixels is checked; `descriptor` is the
-  // image's. The image is then in the layout for being sampled.
+  // Checks the upper left part, `used` pixels, of the image that an ended pass drew; `descriptor` is the image's. The
+  // image is then in the layout for being sampled.
   // With `samples`, it is what is resolved to the pass's output.
   void check(Frame& frame, const RecordedPass& pass, bool samples, Image& image,
              const VkDescriptorImageInfo& descriptor, VkExtent2D used);
@@ -43,7 +43,7 @@ class FiniteWatch {
 
   // Takes in the frames that have finished. The first finding of a pass is an error in the log, once for each pass.
   void collect();
-  // Of the last finished frame that had any: one for each target, in the order of recording.
+  // Findings of the last finished frame that had any: one for each target, in the order of recording.
   const std::vector<NonFinite>& findings() const { return findings_; }
   uint64_t findingsFrame() const { return findingsFrame_; }  // its number; 0: nothing was ever found
   uint64_t count() const { return count_; }                  // samples found since the start

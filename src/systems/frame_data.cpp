@@ -240,8 +240,8 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     return effects.curved && scene.objects[static_cast<size_t>(state.instances[i].object)].mirror.has_value();
   };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
-  // Plain instances of a mesh at one level are one draw, curved mirrors of the same mesh another, and each that is seen
-  // in part is its own.
+  // Plain instances of a mesh at one level share a draw, its curved mirrors another; each that is seen in part has its
+  // own.
   for (auto first = order.begin(); first != order.end();) {
     const int mesh = state.instances[*first].mesh;
     const auto last = std::find_if(first, order.end(), [&](int i) { return state.instances[i].mesh != mesh; });
@@ -272,7 +272,7 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
   }
 }
 
-// A map's own faces show the background in the place of further maps.
+// Adds the map that a curved mirror looks up. Faces of maps show the background instead of further maps.
 void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch) {
   const std::vector<EnvironmentMap>& maps = source.plan.maps;
   const auto map = std::find_if(maps.begin(), maps.end(), [&](const auto& m) { return m.instance == instance; });

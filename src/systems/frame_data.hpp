@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-// What a mirror shows, and how its image is looked up; specialisation constants of mirror_shading.glsl.
+// Content of a mirror and lookup of its image; specialisation constants of mirror_shading.glsl.
 enum class MirrorShows : uint32_t {
   image = gpu::showsImage,
   background = gpu::showsBackground,
@@ -18,7 +18,7 @@ enum class MirrorShows : uint32_t {
 };
 enum class Lookup : uint32_t { fetch = gpu::lookupFetch, bilinear = gpu::lookupBilinear, box = gpu::lookupBox };
 
-// Where a mirror's image was rendered to, for those who look it up.
+// A mirror image, for the pass that looks it up.
 struct MirrorImage {
   VkDescriptorImageInfo descriptor{};
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
@@ -54,7 +54,7 @@ struct MirrorRange {
   bool painted = false;  // that layer or the back, whichever is seen, is not black
 };
 
-// What the systems draw in one pass: indices into the buffers of FrameData.
+// Draws of one pass: indices into the buffers of FrameData.
 struct PassData {
   uint32_t view = 0;
   std::vector<Batch> batches;
@@ -86,7 +86,7 @@ class FrameData {
   // Bindings of interface.glsl; the next one is that of SceneResources::materials().
   enum Kind { views, lights, instances, mirrors, environments, mirrorVertices, kindCount };
 
-  // What all passes of a frame share.
+  // Inputs that all passes of a frame share.
   struct Source {
     const Scene& scene;
     const SceneState& state;
@@ -94,7 +94,7 @@ class FrameData {
     const Environment& environment;
     const FramePlan& plan;
   };
-  // `corner`: where in its target the pass is drawn, in pixels.
+  // Adds a pass that is drawn from pixel `corner` of its target on.
   void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
   void addLights(const Source& source, const PlannedPass& pass, gpu::ViewData& view);
   void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
@@ -118,7 +118,7 @@ class FrameData {
   VkBuffer instanceBuffer_ = VK_NULL_HANDLE;
 };
 
-// What the shaders read of an instance seen in a view. `clipFromRelative` takes world space minus the view's eye to
+// Data of an instance seen in a view. `clipFromRelative` takes world space minus the view's eye to
 // clip space.
 gpu::InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
                                const glm::dmat4& clipFromRelative);
@@ -127,7 +127,7 @@ gpu::InstanceData instanceData(const InstanceState& instance, const Object& obje
 // whose unit square is `overscan(view)` times the picture.
 glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip);
 
-// Where the faces of an environment map lie in its target, in texels.
+// Corner of an environment map's face in its target, in texels.
 glm::ivec2 faceCorner(const EnvironmentMap& map, size_t face);
 
 }  // namespace speculum

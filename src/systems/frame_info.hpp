@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// What the systems need to record one frame. The same for a window's frame and a headless one.
+// Inputs of the systems for one frame, with a window or headless.
 struct FrameInfo {
   Frame& frame;
   const Scene& scene;
@@ -25,7 +25,7 @@ struct FrameInfo {
   std::span<const VkDescriptorSet> maps;  // of plan.maps, by index; in the place of an object's texture
 };
 
-// What decides which pipeline draws in a pass.
+// Properties of a pass that decide which pipelines draw in it.
 struct PassFormat {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool mirrorView = false;

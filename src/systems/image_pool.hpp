@@ -8,9 +8,9 @@
 
 namespace speculum {
 
-// Targets for mirror images and environment maps, which keep their samples. An image is taken for a pass and given back
-// as soon as the pass that samples it is recorded, so that a frame holds no more than the images alive at one time.
-// Targets are kept for later frames and dropped when a number of frames went by without need of them.
+// Targets for mirror images and environment maps, which keep their samples. A target is taken for a pass and released
+// as soon as the pass that samples it is recorded, so that a frame needs no more than the images alive at one time.
+// Targets serve later frames, and are dropped after framesKept frames without use.
 class ImagePool {
  public:
   static constexpr int framesKept = 30;  // without need of a target

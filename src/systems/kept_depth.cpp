@@ -12,7 +12,7 @@ KeptDepth::KeptDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout)
 
 void KeptDepth::prepare(PassDesc& pass, RetireQueue& retired) {
   Device& device = renderer_.device();
-  // As large as the colour: a framebuffer has one size.
+  // The size is the colour's, because a framebuffer has one size.
   const VkExtent2D wanted = pass.targets.color->extent();
   const VkExtent2D has = image_.extent();
   const VkSampleCountFlagBits samples = pass.targets.samples();

@@ -8,22 +8,22 @@
 
 namespace speculum {
 
-// The depth of one pass, kept for being looked at: passes of different ranges share depth images, so the watched one
-// gets an image of its own. Nothing exists on the GPU before prepare() and after release().
+// Depth of the pass that the debug view shows. Other passes share depth images, so this one gets an image of its own.
+// Nothing exists on the GPU before prepare() and after release().
 class KeptDepth {
  public:
   KeptDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout);
 
-  // The pass, before it begins, writes its depth here.
+  // Makes the pass, which has not begun, write its depth here.
   void prepare(PassDesc& pass, RetireQueue& retired);
-  // After it has ended.
+  // Makes the depth readable; call it after the pass.
   void finish(VkCommandBuffer commands);
   void release(RetireQueue& retired);
 
   bool exists() const { return static_cast<bool>(image_); }
   Image& image() { return image_; }
   VkDescriptorImageInfo descriptor() const { return image_.descriptor(sampler_.get()); }
-  // Draws it with display_depth.glsl.
+  // Pipeline that draws the depth with display_depth.glsl.
   const Pipeline& pipeline();
   size_t pipelineCount() const { return pipelines_.size(); }
 

@@ -5,13 +5,13 @@
 
 namespace speculum {
 
-// Keeps a mirror pass from shading what no one looks up. Where it has a mask the pass clears its depth to the nearest,
-// which nothing is in front of; the mask, drawn first, opens its polygon by the farthest depth.
+// Keeps a mirror pass from shading what no lookup reads. A pass with a mask clears its depth to the nearest, which
+// nothing is in front of; the mask, drawn first, opens its polygon with the farthest depth.
 class MaskSystem {
  public:
   MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
-  // What a pass clears its depth to.
+  // Value that a pass clears its depth to.
   static float clearDepth(const PassData& data) { return data.maskVertexCount > 0 ? 1.0f : 0.0f; }
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   size_t pipelineCount() const { return pipelines_.size(); }

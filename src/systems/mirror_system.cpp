@@ -108,7 +108,7 @@ std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mir
   return {Shading::ownSample};
 }
 
-// Of what the shader of this shading asks for; the rest is the same for all mirrors, who then share a pipeline.
+// Sets only what the shader of this shading asks for, so that mirrors that differ elsewhere share a pipeline.
 MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading) {
   Variant variant{.shading = shading};
   switch (shading) {

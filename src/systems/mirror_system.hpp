@@ -5,18 +5,18 @@
 
 namespace speculum {
 
-// Draws the mirrors of a pass: fronts read the images that earlier passes rendered for them, fronts without an image
+// Draws the mirrors of a pass: fronts look up the images that other passes rendered for them, fronts without an image
 // show the background, backs their paint. An image with the pass's samples and pixels is read sample by sample; the
 // layer under the reflection, whose light costs much more, is then a draw of its own at one invocation per pixel.
-// Rippled and rough mirrors trace what they reflect, rippled ones at each sample, as their images have edges. An
-// image of an earlier frame is read like one of this frame as long as nothing moved, otherwise it is reprojected.
+// Rippled and rough mirrors trace what they reflect, rippled ones at each sample, because their reflections have edges.
+// A cached image is read like a new one as long as nothing moved, otherwise it is reprojected.
 class MirrorSystem {
  public:
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
-  // As RenderSystem does.
+  // Drops pipelines as RenderSystem::endFrame does.
   void endFrame(const TraceVariant& trace, bool imagesShown);
   size_t pipelineCount() const { return pipelines_.size(); }
 

@@ -87,7 +87,7 @@ std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const Pas
   return targets;
 }
 
-// For the debug view until the frame ends, for the next frames.
+// Whether a pass's image outlives its use in this frame: for the debug view, or for the next frames.
 bool MirrorTargets::isKept(const FramePlan& plan, int pass) const {
   return pass == kept_ || std::any_of(plan.cached.begin(), plan.cached.end(),
                                       [&](const CachedImage& image) { return image.pass == pass; });
@@ -125,7 +125,7 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
   fitDepth(retired);
 }
 
-// The first depth image serves as long as there are targets. Images grow with what is asked for and would never shrink.
+// Shrinks depth images, which otherwise only grow, and drops idle ones. The first serves as long as there are targets.
 void MirrorTargets::fitDepth(RetireQueue& retired) {
   size_t used = depths_.size();
   for (Depth& depth : depths_) {

@@ -14,16 +14,16 @@ class MirrorTargets {
  public:
   explicit MirrorTargets(Device& device);
 
-  // The images that the next frame can be planned with.
+  // Images that the next plan may reuse.
   const std::vector<CachedImage>& cachedImages() const { return cachedImages_; }
-  void restart();  // forgets them and, in the next frame, every target
+  void restart();  // drops them and, in the next frame, every target
 
-  // At the start of the plan's frame: takes over the images that it shows again. `kept` is a pass whose image is not
-  // given back before the frame ends.
+  // Begins the plan's frame and takes over the cached images that it reuses. `kept` is a pass whose image is not
+  // released before the frame ends.
   void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> kept, RetireQueue& retired);
-  // Targets for the passes of a range, in order, each with depth of its own. None is one that the range's passes show.
+  // Targets for the passes of a range, in order, each with depth of its own; none is one that the range looks up.
   std::vector<PassTargets> acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired);
-  // The images that a pass shows are needed no more.
+  // Releases the images that a recorded pass looked up.
   void releaseShown(const FramePlan& plan, const PlannedPass& pass);
   void end(const FramePlan& plan, RetireQueue& retired);
 
@@ -33,7 +33,7 @@ class MirrorTargets {
   std::span<const MirrorImage> cached() const { return cachedDescriptors_; }
 
  private:
-  // Depth that the passes of one place in their ranges use in turn.
+  // Depth that the passes with the same index in their ranges use in turn.
   struct Depth {
     std::unique_ptr<SharedDepth> image;
     int idleFrames = 0;

@@ -64,13 +64,13 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, VkDescriptorS
 
 namespace {
 
-// All indices of a mesh's part, or of what is drawn in its place.
+// Indices of a mesh's part at the batch's level.
 IndexRange partRange(const Scene& scene, const SceneResources::GpuMesh& mesh, size_t part, const Batch& batch) {
   return batch.level < 0 ? IndexRange{mesh.parts[part].firstIndex, mesh.parts[part].indexCount}
                          : levelsOf(scene.meshes[batch.mesh]).levels[batch.level].parts[part];
 }
 
-// Those of them that a batch draws.
+// The indices of a part that a batch draws.
 std::vector<IndexRange> drawnRanges(const IndexRange& part, const Batch& batch) {
   if (batch.ranges.empty()) {
     return {part};

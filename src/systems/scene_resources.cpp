@@ -142,7 +142,7 @@ void SceneResources::createLevels(size_t mesh) {
                                       name + " level indices");
 }
 
-// In the order of GpuMesh::parts.
+// Materials in the order of GpuMesh::parts.
 void SceneResources::createMaterials(bool textured) {
   std::vector<gpu::MaterialData> materials;
   for (const Mesh& mesh : scene_.meshes) {

@@ -18,7 +18,7 @@ struct GpuVertex {
   glm::vec2 uv;
 };
 
-// What a scene keeps on the GPU: meshes and materials as long as it is shown, textures while something drawn has one.
+// Resources of a scene on the GPU: meshes and materials as long as it is shown, textures while something drawn has one.
 class SceneResources {
  public:
   struct Part {
@@ -31,18 +31,18 @@ class SceneResources {
     Buffer vertices;
     Buffer indices;  // uint32
     std::vector<Part> parts;
-    // Of MeshLevels; none until levels of the mesh are drawn, nor when no levels have been drawn for some frames.
+    // Simplified meshes, of MeshLevels; empty while none has been drawn for some frames.
     Buffer levelVertices;
     Buffer levelIndices;
   };
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
 
-  // At the start of a frame. `asked`: effects.textures, `drawn`: drawsTextures. Uploads are finished on return.
+  // Begins a frame. `asked` is effects.textures, `drawn` is drawsTextures(). Uploads are finished on return.
   void prepare(Frame& frame, bool asked, bool drawn);
-  // The part of prepare() that takes memory. After an OutOfMemoryError it can be called with other arguments.
+  // The uploads of prepare(). After an OutOfMemoryError it can be called with other arguments.
   void upload(Frame& frame, bool asked, bool drawn);
-  // Likewise for what is drawn in the place of the meshes: `drawn` is meshesWithLevels.
+  // Uploads the levels of the meshes `drawn`, which is meshesWithLevels(), and drops idle ones.
   void prepareLevels(Frame& frame, std::span<const int> drawn);
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }

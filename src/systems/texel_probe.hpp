@@ -9,10 +9,10 @@
 
 namespace speculum {
 
-// What a target holds at one texel.
+// Value of a target at one texel.
 struct TexelValue {
   glm::ivec2 texel{0};      // from the target's top left
-  bool depth = false;       // of depth: `value` is nothing then
+  bool depth = false;       // of a depth image, whose `value` is 0
   glm::vec4 value{0.0f};    // linear radiance, disparity in 1/m; the mean of the texel's samples
   float storedDepth = 0.0;  // of the first sample; near plane / metres along the view, 0: infinitely far
 };
@@ -22,11 +22,11 @@ class TexelProbe {
  public:
   explicit TexelProbe(Renderer& renderer);
 
-  // Of a colour target or a kept depth that can be sampled; `descriptor` is the image's. Afterwards it is as before.
+  // Reads a texel of a colour target or a depth that can be sampled; `descriptor` is the image's. Its layout stays.
   void probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel);
   // Gives the GPU's objects back as soon as the frames that were probed have finished, and forgets the value.
   void release();
-  // Of the last probed frame that has finished; nothing if there is none.
+  // Value in the last probed frame that has finished, if there is one.
   const std::optional<TexelValue>& value();
   size_t pipelineCount() const { return pipelines_.size(); }
 

@@ -43,7 +43,7 @@ gpu::TraceInstance instanceData(const InstanceState& instance, const Object& obj
   return data;
 }
 
-// Of a box about the mesh's centre, in trace space.
+// Bounds of a box about the mesh's centre, in trace space.
 Bounds boundsOf(const InstanceState& instance, const Mesh& mesh, const glm::dvec3& eye) {
   const glm::dvec3 center = instance.worldFromMesh.translation - eye;
   glm::dvec3 reach(0.0);

@@ -11,7 +11,7 @@
 
 namespace speculum {
 
-// What a pipeline needs to know of the traced effects of a frame: its specialisation constants.
+// Traced effects of a frame, as specialisation constants of pipelines.
 struct TraceVariant {
   bool traced = false;  // there is light that needs rays, or a mirror's bounce of light
   bool shadows = false;
@@ -25,8 +25,8 @@ struct TraceVariant {
 // Appends `variant` to a fragment shader's constants, of which there are at most two.
 void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants);
 
-// The scene as rays meet it, placed anew every frame. Nothing exists before a frame calls for it, and all is given back
-// when frames have gone by without.
+// The scene that rays meet, with the positions of the present frame. Nothing exists before a frame calls for it, and
+// all is given back after some frames without a call.
 class TraceFrame {
  public:
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
@@ -60,7 +60,7 @@ class TraceFrame {
   const Scene& scene_;
   DescriptorSetLayoutHandle layout_;
   std::optional<TraceScene> traceScene_;
-  Buffer nothing_;  // bound in the place of a scene whose triangles no ray meets
+  Buffer nothing_;  // bound instead of a scene whose triangles no ray meets
   FrameBuffers buffers_;
   std::vector<gpu::TraceNode> topNodes_;
   std::vector<uint32_t> items_;

@@ -6,14 +6,14 @@
 
 namespace speculum {
 
-// No buffer of a scene's rays, placed or not, is larger. `instances` with all copies.
+// Upper bound of the size of any buffer for a scene's rays. `instances` counts all copies.
 uint64_t largestTraceBuffer(const Scene& scene, size_t instances);
 
-// What rays meet of a scene as long as it is shown: triangles of its meshes under hierarchies of boxes, attributes of
+// The part of a scene for rays that stays while it is shown: triangles under hierarchies of boxes, attributes of
 // their vertices, texels. Finished on return.
 class TraceScene {
  public:
-  // Where a mesh stands in the buffers.
+  // Offsets of a mesh in the buffers.
   struct MeshRange {
     uint32_t root = 0;           // node
     uint32_t firstTriangle = 0;  // a third of its first index
