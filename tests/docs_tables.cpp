@@ -4,9 +4,12 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <set>
 #include <sstream>
 
+#include "edit/toml_text.hpp"
 #include "frame/setting_fields.hpp"
+#include "scene/scene_fields.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {
@@ -35,30 +38,158 @@ std::string settingsTable(std::string_view group) {
   return table;
 }
 
-// Holds the tables of `page` between "<!-- table NAME -->" and "<!-- end -->" against what they should be.
-void expectTable(const std::string& page, const std::string& name, const std::string& expected) {
-  const std::filesystem::path file = sourceDir() / "docs" / page;
+template <typename Field>
+std::string values(const Field& field) {
+  using Value = typename Field::Value;
+  using Inner = decltype([] {
+    if constexpr (IsOptional<Value>::value) {
+      return typename Value::value_type();
+    } else {
+      return Value();
+    }
+  }());
+  std::string text = field.range.shortText();
+  const auto shaped = [&](const std::string& shape) { return shape + (text.empty() ? "" : ", each " + text); };
+  if constexpr (Described<Inner>) {
+    text = "table";
+  } else if constexpr (std::is_same_v<Inner, bool>) {
+    text = "true, false";
+  } else if constexpr (std::is_same_v<Inner, std::string>) {
+    text = "text";
+  } else if constexpr (std::is_same_v<Inner, glm::dvec2>) {
+    text = shaped("[width, height]");
+  } else if constexpr (std::is_same_v<Inner, glm::dvec3>) {
+    text = shaped(field.color ? "[r, g, b]" : field.uniform ? "number or [x, y, z]" : "[x, y, z]");
+  } else if constexpr (std::is_same_v<Inner, std::vector<glm::dvec3>>) {
+    text = shaped("[[x, y, z], ...]");
+  } else if constexpr (std::is_enum_v<Inner>) {
+    for (const std::string_view name : choicesOf(Inner())) {
+      text += (text.empty() ? "" : ", ") + tomlText(name);
+    }
+  }
+  return field.unit.empty() ? text : text.empty() ? std::string(field.unit) : text + "; " + std::string(field.unit);
+}
+
+// The value in a node without keys; nothing for what has none.
+template <typename Field, typename Node>
+std::string defaultText(const Field& field, const Node& node) {
+  using Value = typename Field::Value;
+  if constexpr (std::is_enum_v<Value>) {
+    return tomlText(choicesOf(Value())[static_cast<size_t>(node.*field.member)]);
+  } else if constexpr (!IsOptional<Value>::value && !Described<Value> &&
+                       !std::is_same_v<Value, std::vector<glm::dvec3>>) {
+    return tomlText(node.*field.member);
+  }
+  return "";
+}
+
+// Calls `visit` with each field, the node that holds its default and the key's prefix, tables within included.
+template <Described Node, typename Visitor>
+void forEachRow(const std::string& prefix, const Visitor& visit) {
+  const Node node{};
+  forEachField<Node>([&](const auto& field) {
+    using Value = typename std::decay_t<decltype(field)>::Value;
+    visit(field, node, prefix);
+    const std::string within = prefix + std::string(field.key) + ".";
+    if constexpr (Described<Value>) {
+      forEachRow<Value>(within, visit);
+    } else if constexpr (IsOptional<Value>::value) {
+      if constexpr (Described<typename Value::value_type>) {
+        forEachRow<typename Value::value_type>(within, visit);
+      }
+    }
+  });
+}
+
+template <Described Node>
+std::string fieldsTable() {
+  std::string table = "| key | default | values | meaning |\n|---|---|---|---|\n";
+  forEachRow<Node>("", [&](const auto& field, const auto& node, const std::string& prefix) {
+    const std::string value = defaultText(field, node);
+    table += "| `" + prefix + std::string(field.key) + "` | " +
+             (field.required  ? "required"
+              : value.empty() ? "none"
+                              : "`" + value + "`") +
+             " | " + cell(values(field)) + " | " + cell(field.text) + " |\n";
+  });
+  return table;
+}
+
+// Holds a part of a file between two lines against what it should be.
+void expectPart(const std::filesystem::path& name, const std::string& first, const std::string& last,
+                const std::string& expected) {
+  const std::filesystem::path file = sourceDir() / name;
   std::ifstream stream(file);
   std::stringstream content;
   content << stream.rdbuf();
   std::string text = content.str();
-  const std::string mark = "<!-- table " + name + " -->\n";
-  const size_t begin = text.find(mark);
-  const size_t end = text.find("<!-- end -->", begin);
-  ASSERT_TRUE(begin != std::string::npos && end != std::string::npos) << page << " lacks " << mark;
-  const std::string table = "\n" + expected + "\n";
+  const size_t mark = text.find(first + "\n");
+  const size_t end = text.find(last, mark);
+  ASSERT_TRUE(mark != std::string::npos && end != std::string::npos) << name << " lacks " << first;
+  const size_t begin = mark + first.size() + 1;
   if (std::getenv("UPDATE_DOCS")) {
-    std::ofstream(file) << text.replace(begin + mark.size(), end - begin - mark.size(), table);
+    std::ofstream(file) << text.replace(begin, end - begin, expected);
     return;
   }
-  EXPECT_EQ(text.substr(begin + mark.size(), end - begin - mark.size()), table)
-      << page << ": run frame_tests --gtest_filter='Docs*' with UPDATE_DOCS=1";
+  EXPECT_EQ(text.substr(begin, end - begin), expected)
+      << name << ": run edit_tests --gtest_filter='Descriptions*' with UPDATE_DOCS=1";
 }
 
-TEST(DocsTables, ListEverySetting) {
+void expectTable(const std::string& page, const std::string& name, const std::string& table) {
+  expectPart("docs/" + page, "<!-- table " + name + " -->", "<!-- end -->", "\n" + table + "\n");
+}
+
+TEST(Descriptions, MakeTheTableOfSettings) {
   for (const std::string group : {"reflection", "view", "effects", "quality", "debug"}) {
     expectTable("settings.md", group, settingsTable(group + "."));
   }
+}
+
+TEST(Descriptions, MakeTheTablesOfSceneFiles) {
+  const std::string page = "scene_format.md";
+  expectTable(page, "environment", fieldsTable<Environment>());
+  expectTable(page, "camera", fieldsTable<CameraSpec>());
+  expectTable(page, "object", fieldsTable<Object>());
+  expectTable(page, "light", fieldsTable<PointLight>());
+  expectTable(page, "mirror", fieldsTable<Mirror>());
+  expectTable(page, "bookmark", fieldsTable<Bookmark>());
+}
+
+// A word of a dictionary, quoted once more.
+std::string word(const std::string& text) {
+  std::string word = "\"";
+  for (const char c : text) {
+    word += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  }
+  return word + "\"\n";
+}
+
+TEST(Descriptions, MakeTheDictionaryOfTheFuzzers) {
+  std::string words;
+  std::set<std::string> known;
+  const auto add = [&]<typename Node>(const Node&, const std::string& header) {
+    words += word(header);
+    forEachRow<Node>("", [&](const auto& field, const auto& node, const std::string& prefix) {
+      const std::string key = prefix + std::string(field.key) + " = ";
+      words += known.insert(key).second ? word(key + defaultText(field, node)) : "";
+    });
+  };
+  add(Environment(), "[environment]");
+  add(CameraSpec(), "[camera]");
+  add(Object(), "[[object]]");
+  add(PointLight(), "[[light]]");
+  add(Mirror(), "[[mirror]]");
+  add(Bookmark(), "[[bookmark]]");
+  words += word("[settings]");
+  for (const SettingField& field : settingFields()) {
+    const bool number = std::holds_alternative<NumberSetting>(field.kind) ||
+                        std::holds_alternative<IntegerSetting>(field.kind) ||
+                        std::holds_alternative<BooleanSetting>(field.kind);
+    const std::string value = settingValue(Settings(), field.key);
+    words += word(tomlText(field.key) + " = " + (number ? value : tomlText(value)));
+  }
+  expectPart("tests/fuzz/dictionaries/scene.dict", "# From the descriptions of fields and settings.",
+             "# Values and shapes.", words);
 }
 
 }  // namespace

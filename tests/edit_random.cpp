@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "edit_support.hpp"
+#include "scene/scene_fields.hpp"
 
 namespace speculum {
 namespace {
@@ -65,94 +66,75 @@ std::string name() {
   return std::array<std::string, 6>{"", "a", "ä \"b\"", "c\\d\n", "#[x]", "'''"}[whole(0, 6)];
 }
 
-void editObject(Object& object) {
-  switch (whole(0, 9)) {
-    case 0:
-      object.name = name();
-      break;
-    case 1:
-      object.position = point();
-      break;
-    case 2:
-      object.rotation[whole(0, 3)] = number();
-      break;
-    case 3:
-      object.scale = whole(0, 2) == 0 ? glm::dvec3(share() + 0.1) : glm::dvec3(1.0, share() + 0.1, 2.0);
-      break;
-    case 4:
-      object.color = whole(0, 2) == 0 ? std::optional<glm::dvec3>() : color();
-      break;
-    case 5:
-      object.shininess = whole(0, 2) == 0 ? std::optional<double>() : 1.0 + share();
-      break;
-    case 6:
-      object.copies = {whole(1, 4), whole(0, 2) == 0 ? glm::dvec3(0.0) : point()};
-      break;
-    case 7:
-      object.mirror.reset();
-      break;
-    default:
-      object.mirror = ObjectMirror{color(), whole(0, 2) == 0 ? Fresnel::none : Fresnel::schlick, color()};
+template <Described Node>
+void editField(Node& node);
+
+// Mirrors may not be far from the origin for their size.
+template <typename Owner>
+glm::dvec3 pointOf(const Range& range) {
+  const glm::dvec3 any = std::is_same_v<Owner, Mirror> ? color() : point();
+  return glm::clamp(any, glm::dvec3(range.low), glm::dvec3(range.high));
+}
+
+// Some value that the field takes.
+template <typename Field, typename Value>
+void randomize(const Field& field, Value& value) {
+  if constexpr (Described<Value>) {
+    editField(value);
+  } else if constexpr (IsOptional<Value>::value) {
+    auto inner = value.value_or(field.start.value_or(typename Value::value_type{}));
+    randomize(field, inner);
+    value = whole(0, 3) == 0 ? std::nullopt : Value(inner);
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    value = !value;
+  } else if constexpr (std::is_same_v<Value, int>) {
+    value = whole(1, 4);
+  } else if constexpr (std::is_same_v<Value, double>) {
+    const Range& range = field.range;
+    value = range.high <= 1e6  ? range.low + (range.high - range.low) * share()
+            : range.low == 0.0 ? positive()
+                               : std::clamp(std::max(number(), field.floor), range.low, range.high);
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    value = name();
+  } else if constexpr (std::is_enum_v<Value>) {
+    value = static_cast<Value>(whole(0, static_cast<int>(choicesOf(value).size())));
+  } else if constexpr (std::is_same_v<Value, glm::dvec2>) {
+    value = {share() + 0.25, share() + 0.25};
+  } else if constexpr (std::is_same_v<Value, glm::dvec3>) {
+    const bool uniform = whole(0, 2) == 0;
+    value = field.color           ? color()
+            : field.uniform       ? (uniform ? glm::dvec3(share() + 0.1) : glm::dvec3(1.0, share() + 0.1, 2.0))
+            : field.key == "axis" ? glm::dvec3(share(), 1.0, share())
+            : whole(0, 2) == 0    ? glm::dvec3(value.x, value.y, std::clamp(share(), field.range.low, field.range.high))
+                                  : pointOf<typename Field::Owner>(field.range);
   }
 }
 
-void editLight(PointLight& light) {
-  switch (whole(0, 8)) {
-    case 0:
-      light.name = name();
-      break;
-    case 1:
-      light.position = point();
-      break;
-    case 2:
-      light.position.z = number();
-      break;
-    case 3:
-      light.intensity = positive();
-      break;
-    case 4:
-      light.radius = positive();
-      break;
-    case 5:
-      light.castsShadow = !light.castsShadow;
-      break;
-    case 6:
-      light.orbit.reset();
-      break;
-    default:
-      light.orbit = Orbit{point(), {share(), 1.0, share()}, number() / 1e12};
-  }
+template <Described Node>
+void editField(Node& node) {
+  const int chosen = whole(0, static_cast<int>(fieldCount<Node>));
+  int index = 0;
+  forEachField<Node>([&](const auto& field) {
+    if (index++ == chosen && field.appliesTo(node) && field.key != "model") {
+      randomize(field, node.*field.member);
+    }
+  });
 }
 
 void editMirror(Mirror& mirror) {
-  switch (whole(0, 8)) {
-    case 0:
-      mirror.name = name();
-      break;
-    case 1:
-      mirror.reflectance = color();
-      break;
-    case 2:
-      mirror.twoSided = !mirror.twoSided;
-      break;
-    case 3:
-      mirror.fresnel = mirror.fresnel == Fresnel::none ? Fresnel::schlick : Fresnel::none;
-      break;
-    case 4:
-      mirror.ripple.reset();
-      break;
-    case 5:
-      mirror.ripple = Ripple{share() + 0.001, share() + 0.001, number()};
-      break;
-    case 6:
-      mirror = Mirror{.name = mirror.name, .position = color(), .size = {share() + 0.25, share() + 0.25}};
-      break;
-    default:
-      mirror = Mirror{.name = mirror.name};
-      for (int i = 0; i < 24; ++i) {
-        const double turn = i * 0.2617993877991494;
-        mirror.polygon.push_back({std::cos(turn), std::sin(turn), 0.0});
-      }
+  const int what = whole(0, 8);
+  if (what > 1) {
+    editField(mirror);
+    return;
+  }
+  mirror = Mirror{.name = mirror.name};
+  if (what == 0) {
+    mirror.position = color();
+    mirror.size = {share() + 0.25, share() + 0.25};
+  }
+  for (int i = 0; what == 1 && i < 24; ++i) {
+    const double turn = i * 0.2617993877991494;
+    mirror.polygon.push_back({std::cos(turn), std::sin(turn), 0.0});
   }
 }
 
@@ -160,24 +142,22 @@ void editScene(SceneDocument& document) {
   document.change("edit", {}, [&](Scene& scene) {
     const int what = whole(0, 6);
     if (what == 0) {
-      scene.environment.background = color();
-      scene.environment.ambient = color();
-      scene.environment.sky = whole(0, 2) == 0 ? std::optional<Sky>() : Sky{color(), color(), color()};
+      editField(scene.environment);
     } else if (what == 1) {
       scene.camera.position = {share(), 5.0 + share(), share()};
       scene.camera.target = {1.0 + share(), share(), 2.0};
       scene.camera.verticalFov = 1.0 + 100.0 * share();
     } else if (what <= 3 && !scene.objects.empty()) {
-      editObject(scene.objects[whole(0, static_cast<int>(scene.objects.size()))]);
+      editField(scene.objects[whole(0, static_cast<int>(scene.objects.size()))]);
     } else if (what == 4 && !scene.lights.empty()) {
-      editLight(scene.lights[whole(0, static_cast<int>(scene.lights.size()))]);
+      editField(scene.lights[whole(0, static_cast<int>(scene.lights.size()))]);
     } else if (!scene.mirrors.empty()) {
       editMirror(scene.mirrors[whole(0, static_cast<int>(scene.mirrors.size()))]);
     }
   });
 }
 
-// One of the things that there are; nothing if there are none.
+// One of the nodes; none if there are none.
 Selection anything(const Scene& scene) {
   const std::array counts{scene.objects.size(), scene.mirrors.size(), scene.lights.size()};
   const int kind = whole(0, 3);
@@ -228,7 +208,7 @@ void step(SceneDocument& document) {
   }
 }
 
-TEST(RandomEdits, ReadBackExactlyAndAreUndoneToTheBytes) {
+TEST(RandomEdits, ReadBackAndUndoToTheBytes) {
   TextScene text(kText);
   const std::filesystem::path other = text.folder / "other.toml";
   EXPECT_TRUE(rc::check("random edits", [&] {

@@ -35,7 +35,7 @@ void expectFault(const std::string& text, const std::string& place, const std::s
 
 class SceneFault : public testing::TestWithParam<Fault> {};
 
-TEST_P(SceneFault, IsToldWithLineAndKey) {
+TEST_P(SceneFault, NamesLineAndKey) {
   expectFault(kCamera + GetParam().text, GetParam().place, GetParam().message);
 }
 
@@ -221,11 +221,11 @@ TEST(SceneFaults, CameraParts) {
   expectFault("camera = 3\n", "1: camera:", "a table is needed");
 }
 
-TEST(SceneFaults, UnknownKeysComeInTheOrderOfTheFile) {
+TEST(SceneFaults, FirstUnknownKeyIsNamed) {
   expectFault("[camera]\nzebra = 1\napple = 2\n", "2: camera.zebra:", "not a known key");
 }
 
-TEST(SceneFaults, FilesThatAreNone) {
+TEST(SceneFaults, MissingFilesAndFolders) {
   const TemporaryFolder folder;
   const std::string missing = inputErrorOf([&] { loadScene(folder / "none.toml"); });
   EXPECT_EQ(missing, (folder / "none.toml").string() +
@@ -234,13 +234,13 @@ TEST(SceneFaults, FilesThatAreNone) {
   EXPECT_NE(directory.find(":1: file: is a folder (a scene file is needed)"), std::string::npos) << directory;
 }
 
-TEST(SceneFaults, GarbageIsToldNotCrashedOn) {
+TEST(SceneFaults, GarbageIsAnError) {
   expectFault(std::string("\x00\xff\xfe\x80garbage", 12), "1: toml:", "a TOML 1.0 file is needed");
   expectFault(std::string(100'000, '['), "1: toml:", "a TOML 1.0 file is needed");
   expectFault("a = " + std::string(100'000, '['), "1: toml:", "a TOML 1.0 file is needed");
 }
 
-TEST(SceneFaults, FaultOfAModelIsToldWithItsOwnFile) {
+TEST(SceneFaults, ModelErrorsNameTheModelFile) {
   const TemporaryFolder folder;
   folder.write("models/bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
   const auto scene = folder.write("scenes/a.toml", std::string(kCamera) + "[[object]]\nmodel = '../models/bad.obj'\n");

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/scene_fields.hpp"
 
 namespace speculum {
 
@@ -15,12 +15,9 @@ struct KeyText {
   bool omissible = false;  // the loader's default
 };
 
-// Every key that says something about the thing, in the order of docs/scene_format.md.
-std::vector<KeyText> keyTexts(const Environment& environment);
-std::vector<KeyText> keyTexts(const CameraSpec& camera);
-std::vector<KeyText> keyTexts(const Object& object);
-std::vector<KeyText> keyTexts(const PointLight& light);
-std::vector<KeyText> keyTexts(const Mirror& mirror);
-std::vector<KeyText> keyTexts(const Bookmark& bookmark);
+// Every key that says something about the node: Environment, CameraSpec, Object, PointLight, Mirror or Bookmark. In the
+// order of its description.
+template <Described Node>
+std::vector<KeyText> keyTexts(const Node& node);
 
 }  // namespace speculum

@@ -26,12 +26,24 @@ std::string tomlText(double value) {
   return {text.data(), end};
 }
 
+std::string tomlText(int value) {
+  return std::to_string(value);
+}
+
 std::string tomlText(const glm::dvec2& value) {
   return fmt::format("[{}, {}]", tomlText(value.x), tomlText(value.y));
 }
 
 std::string tomlText(const glm::dvec3& value) {
   return fmt::format("[{}, {}, {}]", tomlText(value.x), tomlText(value.y), tomlText(value.z));
+}
+
+std::string tomlText(const std::vector<glm::dvec3>& values) {
+  std::string text;
+  for (const glm::dvec3& value : values) {
+    text += (text.empty() ? "" : ", ") + tomlText(value);
+  }
+  return "[" + text + "]";
 }
 
 std::string tomlText(bool value) {

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "scene/scene_fields.hpp"
+
 namespace speculum {
 
 namespace {
@@ -37,10 +39,18 @@ class Numbers {
     (add(values), ...);
   }
 
-  void add(const Sky& sky) { addAll(sky.zenith, sky.horizon, sky.ground); }
-  void add(const Ripple& ripple) { addAll(ripple.amplitude, ripple.wavelength, ripple.speed); }
-  void add(const ObjectMirror& mirror) {
-    addAll(mirror.reflectance, static_cast<int>(mirror.fresnel), mirror.baseColor);
+  void add(const std::string& text) { add(std::vector<double>(text.begin(), text.end())); }
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  void add(Enum value) { add(static_cast<double>(value)); }
+  // The fields that are read where the node is drawn; SceneState has the others.
+  template <Described Node>
+  void add(const Node& node) {
+    forEachField<Node>([&](const auto& field) {
+      if (field.use == FieldUse::appearance) {
+        add(node.*field.member);
+      }
+    });
   }
   void add(const View& view) {
     addAll(view.eye, view.worldToView, view.clip, view.cone, view.rect, view.pictureSize, view.path);
@@ -61,23 +71,18 @@ void addInstance(const ImageSurroundings& around, int index, Numbers& numbers) {
   const InstanceState& instance = around.state.instances[index];
   numbers.addAll(index, instance.object, instance.mesh, instance.worldFromMesh.linear,
                  instance.worldFromMesh.translation, instance.center, instance.radius);
-  const Object& object = around.scene.objects[instance.object];
-  numbers.addAll(object.color, object.specular, object.shininess, object.mirror);
+  numbers.add(around.scene.objects[instance.object]);
 }
 
 void addMirror(const ImageSurroundings& around, int index, Numbers& numbers) {
   const MirrorState& state = around.state.mirrors[index];
   numbers.addAll(index, state.polygon, state.origin, state.normal, state.axisX, state.axisY);
-  const Mirror& mirror = around.scene.mirrors[index];
-  numbers.addAll(mirror.reflectance, static_cast<int>(mirror.fresnel), mirror.baseColor, mirror.roughness,
-                 mirror.ripple, mirror.twoSided, mirror.backColor, mirror.castsLight);
+  numbers.add(around.scene.mirrors[index]);
 }
 
 void addLights(const ImageSurroundings& around, Numbers& numbers) {
   for (size_t i = 0; i < around.scene.lights.size(); ++i) {
-    const PointLight& light = around.scene.lights[i];
-    numbers.addAll(around.state.lights[i].position, light.color, light.intensity, light.radius, light.glow,
-                   light.castsShadow);
+    numbers.addAll(around.state.lights[i].position, around.scene.lights[i]);
   }
 }
 
@@ -113,7 +118,7 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
                                    std::span<const PlannedPass* const> passes) {
   Numbers numbers;
   const Environment environment = effectiveEnvironment(around.scene, around.settings);
-  numbers.addAll(environment.background, environment.sky, environment.ambient);
+  numbers.add(environment);
   numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near);
   addEffects(around, main, numbers);
   const bool all = around.effects.any() || !around.maps.empty();

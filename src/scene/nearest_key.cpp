@@ -26,7 +26,7 @@ size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known) {
-  // Keys of any length come from the file; beyond this nothing known is near.
+  // A file may have keys of any length; no known key is near a longer one.
   constexpr size_t kLongest = 64;
   size_t least = key.size() > kLongest ? 0 : std::max<size_t>(1, key.size() * 2 / 5) + 1;
   std::string_view nearest;

@@ -125,7 +125,7 @@ struct Mirror {
   bool operator==(const Mirror&) const = default;
 };
 
-// A view that a person goes back to.
+// A view that the user can return to.
 struct Bookmark {
   std::string name;  // not empty, and no other's
   glm::dvec3 position{0.0};

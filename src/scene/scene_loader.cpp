@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The file of a model as a scene names it.
+// File that a scene's name of a model means.
 fs::path modelFile(const Scene& scene, const std::string& model) {
   const fs::path named = scene.file.parent_path() / model;
   fs::path file = named.lexically_normal();
@@ -29,7 +29,7 @@ fs::path modelFile(const Scene& scene, const std::string& model) {
   return file;
 }
 
-// Told of each model, passes on what is done of all of them, by their bytes.
+// Turns the progress of each model into that of all, by their bytes.
 class ModelProgress {
  public:
   ModelProgress(const Scene& scene, const LoadProgress& progress) : progress_(progress) {
@@ -65,7 +65,7 @@ class ModelProgress {
   double total_ = 0.0;
 };
 
-// Each file is loaded once, whatever it is called.
+// Finds a file that is loaded already, under whatever name.
 std::optional<int> knownMesh(const Scene& scene, const fs::path& file) {
   std::error_code error;
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -91,7 +91,7 @@ int meshIndex(const TableReader& object, Scene& scene, ModelProgress& progress) 
   return static_cast<int>(scene.meshes.size()) - 1;
 }
 
-// Every copy takes memory in every frame.
+// Bounds the memory that copies take in every frame.
 constexpr int kMostInstances = 1'000'000;
 
 void checkCount(const TableReader& table, const Object& object, int earlier) {
@@ -100,7 +100,7 @@ void checkCount(const TableReader& table, const Object& object, int earlier) {
   }
 }
 
-// Beyond, squares of what follows from it are no doubles.
+// Larger extents leave the range of doubles when they are squared.
 bool extentInRange(const glm::dvec3& scale, const Mesh& mesh) {
   const glm::dvec3 farthest = glm::abs(scale) * (glm::abs(mesh.center) + mesh.radius);
   return std::max({farthest.x, farthest.y, farthest.z}) <= 1e150;
@@ -117,7 +117,7 @@ constexpr std::array<std::string_view, 8> kKeys{"title",  "environment", "camera
 
 void addBookmarks(const TableReader& reader, Scene& scene) {
   std::set<std::string> names;
-  for (const TableReader& table : reader.tables("bookmark", bookmarkKeys())) {
+  for (const TableReader& table : reader.tables("bookmark", keysOf<Bookmark>())) {
     Bookmark bookmark = readBookmark(table, scene.camera);
     if (!names.insert(bookmark.name).second) {
       table.fail("name", "'" + bookmark.name + "' is another bookmark's", "names that differ are needed");
@@ -126,22 +126,22 @@ void addBookmarks(const TableReader& reader, Scene& scene) {
   }
 }
 
-// All but the models.
+// Reads everything but the models.
 Scene readScene(const TableReader& reader, const fs::path& file, std::string text) {
   Scene scene{.file = file, .text = std::move(text)};
   scene.title = reader.text("title", "");
   scene.environment = readEnvironment(reader);
   scene.camera = readCamera(reader);
   scene.settings = readSettings(reader);
-  for (const TableReader& table : reader.tables("light", lightKeys())) {
+  for (const TableReader& table : reader.tables("light", keysOf<PointLight>())) {
     scene.lights.push_back(readLight(table));
   }
-  for (const TableReader& table : reader.tables("mirror", mirrorKeys())) {
+  for (const TableReader& table : reader.tables("mirror", keysOf<Mirror>())) {
     scene.mirrors.push_back(readMirror(table));
   }
   addBookmarks(reader, scene);
   int instances = 0;
-  for (const TableReader& table : reader.tables("object", objectKeys())) {
+  for (const TableReader& table : reader.tables("object", keysOf<Object>())) {
     Object object = readObject(table);
     checkCount(table, object, instances);
     instances += object.copies.count;
@@ -168,11 +168,11 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
   std::string text = readTomlText(file, "scene file");
   const toml::table root = parseToml(file, text, "scene file");
   const TableReader reader(file, "", root, 1, kKeys);
-  // First, so that a slip in the file is told before models are read.
+  // Errors of the file come first, before models take their time.
   Scene scene = readScene(reader, file, std::move(text));
   ModelProgress models(scene, progress);
   size_t index = 0;
-  for (const TableReader& table : reader.tables("object", objectKeys())) {
+  for (const TableReader& table : reader.tables("object", keysOf<Object>())) {
     Object& object = scene.objects[index++];
     object.mesh = meshIndex(table, scene, models);
     checkExtent(table, object, scene.meshes[object.mesh]);

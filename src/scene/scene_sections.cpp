@@ -15,73 +15,62 @@ namespace {
 
 using Key = std::string_view;
 
-// Shorter vectors could be told from zero, but squares of products with them are no doubles any more.
+// Products with shorter vectors leave the range of doubles when they are squared.
 constexpr double kShortest = 1e-30;
 
 bool hasDirection(const glm::dvec3& v) {
   return glm::length(v) >= kShortest;
 }
 
-constexpr Range kFieldOfView{.low = 1.0, .high = 170.0};  // degrees
-
-// Checking a polygon takes time in the square of this.
+// Bounds the time to check a polygon, which grows with its square.
 constexpr size_t kMostVertices = 1000;
 
-Fresnel readFresnel(const TableReader& table) {
-  static constexpr std::array<Key, 2> kFresnel{"none", "schlick"};
-  return table.choice("fresnel", 0, kFresnel) == 1 ? Fresnel::schlick : Fresnel::none;
+template <typename Value, typename Field>
+Value readValue(const TableReader& table, const Field& field, const Value& fallback) {
+  if constexpr (std::is_same_v<Value, double>) {
+    return std::max(field.floor, table.number(field.key, fallback, field.range));
+  } else if constexpr (std::is_same_v<Value, int>) {
+    return static_cast<int>(table.integer(field.key, fallback, static_cast<int64_t>(field.range.low),
+                                          static_cast<int64_t>(field.range.high)));
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return table.boolean(field.key, fallback);
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    return field.required ? table.text(field.key) : table.text(field.key, fallback);
+  } else if constexpr (std::is_same_v<Value, glm::dvec2>) {
+    return table.vec2(field.key, field.range);
+  } else if constexpr (std::is_same_v<Value, glm::dvec3>) {
+    return field.required  ? table.vec3(field.key, field.range)
+           : field.uniform ? table.numberOrVec3(field.key, fallback)
+                           : table.vec3(field.key, fallback, field.range);
+  } else if constexpr (std::is_same_v<Value, std::vector<glm::dvec3>>) {
+    return table.points(field.key);
+  } else {
+    return static_cast<Value>(table.choice(field.key, static_cast<size_t>(fallback), choicesOf(fallback)));
+  }
 }
 
-std::optional<ObjectMirror> readObjectMirror(const TableReader& object) {
-  static constexpr std::array<Key, 3> kKeys{"reflectance", "fresnel", "base_color"};
-  const std::optional<TableReader> table = object.subtable("mirror", kKeys);
-  if (!table) {
-    return std::nullopt;
-  }
-  ObjectMirror mirror;
-  mirror.reflectance = table->vec3("reflectance", mirror.reflectance, kUnit);
-  mirror.fresnel = readFresnel(*table);
-  mirror.baseColor = table->vec3("base_color", mirror.baseColor, kNotNegative);
-  return mirror;
-}
-
-Copies readCopies(const TableReader& object) {
-  static constexpr std::array<Key, 2> kKeys{"count", "step"};
-  Copies copies;
-  if (const std::optional<TableReader> table = object.subtable("copies", kKeys)) {
-    copies.count = static_cast<int>(table->integer("count", copies.count, 1, 1'000'000));
-    copies.step = table->vec3("step", copies.step, kCoordinate);
-  }
-  return copies;
-}
-
-std::optional<Orbit> readOrbit(const TableReader& light) {
-  static constexpr std::array<Key, 3> kKeys{"center", "axis", "speed"};
-  const std::optional<TableReader> table = light.subtable("orbit", kKeys);
-  if (!table) {
-    return std::nullopt;
-  }
-  Orbit orbit;
-  orbit.center = table->vec3("center", orbit.center, kCoordinate);
-  orbit.axis = table->vec3("axis", orbit.axis, kCoordinate);
-  orbit.speed = table->number("speed", orbit.speed, kTurn);
-  if (!hasDirection(orbit.axis)) {
-    table->fail("axis", "has no direction", "a vector that is not zero, such as [0, 1, 0], is needed");
-  }
-  return orbit;
-}
-
-std::optional<Ripple> readRipple(const TableReader& mirror) {
-  static constexpr std::array<Key, 3> kKeys{"amplitude", "wavelength", "speed"};
-  const std::optional<TableReader> table = mirror.subtable("ripple", kKeys);
-  if (!table) {
-    return std::nullopt;
-  }
-  Ripple ripple;
-  ripple.amplitude = table->number("amplitude", ripple.amplitude, kNotNegative);
-  ripple.wavelength = table->number("wavelength", ripple.wavelength, kPositive);
-  ripple.speed = table->number("speed", ripple.speed);
-  return ripple.amplitude > 0.0 ? std::optional(ripple) : std::nullopt;
+template <Described Node>
+void readFields(const TableReader& table, Node& node) {
+  forEachField<Node>([&](const auto& field) {
+    if (!field.appliesTo(node)) {
+      return;
+    }
+    using Value = typename std::decay_t<decltype(field)>::Value;
+    Value& value = node.*field.member;
+    if constexpr (Described<Value>) {
+      if (const auto within = table.subtable(field.key, keysOf<Value>())) {
+        readFields(*within, value);
+      }
+    } else if constexpr (!IsOptional<Value>::value) {
+      value = readValue(table, field, value);
+    } else if constexpr (Described<typename Value::value_type>) {
+      if (const auto within = table.subtable(field.key, keysOf<typename Value::value_type>())) {
+        readFields(*within, value.emplace());
+      }
+    } else if (table.has(field.key)) {
+      value = readValue(table, field, typename Value::value_type());
+    }
+  });
 }
 
 std::optional<std::string> shapeDefect(std::span<const glm::dvec3> polygon) {
@@ -106,7 +95,7 @@ void checkShape(const TableReader& table, Key key, std::span<const glm::dvec3> p
   }
 }
 
-// Vertices are rounded to 2^-53 of their distance from the origin: little must be left of that in the mirror.
+// Vertices are rounded to 2^-53 of their distance from the origin, which must be small against the mirror.
 void checkSizeAtPosition(const TableReader& table, const Mirror& mirror) {
   if (std::min(mirror.size.x, mirror.size.y) < 1e-10 * glm::length(mirror.position)) {
     table.fail("position", "is too far from the origin for the mirror's size",
@@ -114,31 +103,25 @@ void checkSizeAtPosition(const TableReader& table, const Mirror& mirror) {
   }
 }
 
-void readShape(const TableReader& table, Mirror& mirror) {
-  if (table.has("polygon")) {
-    for (const Key other : {"size", "position", "rotation", "spin"}) {
-      if (table.has(other)) {
-        table.fail(other, "does not go with polygon", "give either polygon or position, rotation, spin and size");
-      }
+// Reads the polygon before the other fields, because it decides which of them apply.
+void readPolygon(const TableReader& table, Mirror& mirror) {
+  for (const Key other : {"size", "position", "rotation", "spin"}) {
+    if (table.has(other)) {
+      table.fail(other, "does not go with polygon", "give either polygon or position, rotation, spin and size");
     }
-    mirror.polygon = table.points("polygon");
-    if (mirror.polygon.size() > kMostVertices) {
-      table.fail("polygon", vertexCountText(mirror.polygon.size()), kGoodCount);
-    }
-    checkShape(table, "polygon", mirror.polygon);
-    return;
   }
-  if (!table.has("size")) {
-    table.fail("size", "is missing", "size = [width, height] or polygon = [[x, y, z], ...] is needed");
+  mirror.polygon = table.points("polygon");
+  if (mirror.polygon.size() > kMostVertices) {
+    table.fail("polygon", vertexCountText(mirror.polygon.size()), kGoodCount);
   }
-  mirror.size = table.vec2("size", kLength);
+  checkShape(table, "polygon", mirror.polygon);
+}
+
+void checkRectangle(const TableReader& table, const Mirror& mirror) {
   const glm::dvec2 half = 0.5 * mirror.size;
   const std::array<glm::dvec3, 4> corners{glm::dvec3(-half, 0.0), glm::dvec3(half.x, -half.y, 0.0),
                                           glm::dvec3(half, 0.0), glm::dvec3(-half.x, half.y, 0.0)};
   checkShape(table, "size", corners);
-  mirror.position = table.vec3("position", mirror.position, kCoordinate);
-  mirror.rotation = table.vec3("rotation", mirror.rotation, kCoordinate);
-  mirror.spin = table.vec3("spin", mirror.spin, kTurn);
   checkSizeAtPosition(table, mirror);
 }
 
@@ -186,7 +169,7 @@ SettingEntry readSetting(const TableReader& settings, const toml::node& node, co
   return entry;
 }
 
-// `depth` tables stand around the table within [settings].
+// `depth`: number of tables around `table` within [settings].
 void flatten(const TableReader& settings, const toml::table& table, const std::string& prefix, int tableLine, int depth,
              std::map<std::string, SettingEntry>& entries) {
   constexpr int kDeepest = 7;
@@ -210,36 +193,20 @@ void flatten(const TableReader& settings, const toml::table& table, const std::s
 }  // namespace
 
 Environment readEnvironment(const TableReader& file) {
-  static constexpr std::array<Key, 3> kKeys{"background", "sky", "ambient"};
-  static constexpr std::array<Key, 3> kSkyKeys{"zenith", "horizon", "ground"};
   Environment environment;
-  const std::optional<TableReader> table = file.subtable("environment", kKeys);
-  if (!table) {
-    return environment;
-  }
-  environment.background = table->vec3("background", environment.background, kNotNegative);
-  environment.ambient = table->vec3("ambient", environment.ambient, kNotNegative);
-  if (const std::optional<TableReader> sky = table->subtable("sky", kSkyKeys)) {
-    environment.sky = Sky{.zenith = sky->vec3("zenith", kNotNegative),
-                          .horizon = sky->vec3("horizon", kNotNegative),
-                          .ground = sky->vec3("ground", kNotNegative)};
+  if (const std::optional<TableReader> table = file.subtable("environment", keysOf<Environment>())) {
+    readFields(*table, environment);
   }
   return environment;
 }
 
 CameraSpec readCamera(const TableReader& file) {
-  static constexpr std::array<Key, 6> kKeys{"position", "target", "up", "vertical_fov", "near", "orbit_speed"};
-  const std::optional<TableReader> table = file.subtable("camera", kKeys);
+  const std::optional<TableReader> table = file.subtable("camera", keysOf<CameraSpec>());
   if (!table) {
     file.fail("camera", "is missing", "[camera] with position and target is needed");
   }
   CameraSpec camera;
-  camera.position = table->vec3("position", kCoordinate);
-  camera.target = table->vec3("target", kCoordinate);
-  camera.up = table->vec3("up", camera.up, kCoordinate);
-  camera.verticalFov = table->number("vertical_fov", camera.verticalFov, kFieldOfView);
-  camera.near = table->number("near", camera.near, kPositive);
-  camera.orbitSpeed = table->number("orbit_speed", camera.orbitSpeed, kTurn);
+  readFields(*table, camera);
   checkDirections(*table, camera);
   return camera;
 }
@@ -262,12 +229,7 @@ std::vector<SettingEntry> readSettings(const TableReader& file) {
 
 Object readObject(const TableReader& table) {
   Object object;
-  object.name = table.text("name", "");
-  object.model = table.text("model");
-  object.position = table.vec3("position", object.position, kCoordinate);
-  object.rotation = table.vec3("rotation", object.rotation, kCoordinate);
-  object.scale = table.numberOrVec3("scale", object.scale);
-  object.spin = table.vec3("spin", object.spin, kTurn);
+  readFields(table, object);
   for (int i = 0; i < 3; ++i) {
     if (object.scale[i] == 0.0) {
       table.fail("scale", "is zero along an axis", "scales other than 0 are needed, negative ones mirror");
@@ -276,45 +238,33 @@ Object readObject(const TableReader& table) {
   if (!std::isnormal(object.scale.x * object.scale.y * object.scale.z)) {
     table.fail("scale", "leaves the range of double precision", "scales nearer to 1 are needed");
   }
-  if (table.has("color")) {
-    object.color = table.vec3("color", kNotNegative);
-  }
-  if (table.has("specular")) {
-    object.specular = table.vec3("specular", kNotNegative);
-  }
-  if (table.has("shininess")) {
-    object.shininess = std::max(1.0, table.number("shininess", 1.0));
-  }
-  object.copies = readCopies(table);
-  object.mirror = readObjectMirror(table);
   return object;
 }
 
 PointLight readLight(const TableReader& table) {
   PointLight light;
-  light.name = table.text("name", "");
-  light.position = table.vec3("position", kCoordinate);
-  light.color = table.vec3("color", light.color, kNotNegative);
-  light.intensity = table.number("intensity", light.intensity, kNotNegative);
-  light.radius = table.number("radius", light.radius, kLength);
-  light.glow = table.number("glow", light.glow, kNotNegative);
-  light.castsShadow = table.boolean("casts_shadow", light.castsShadow);
-  light.orbit = readOrbit(table);
+  readFields(table, light);
+  if (light.orbit && !hasDirection(light.orbit->axis)) {
+    table.subtable("orbit")->fail("axis", "has no direction",
+                                  "a vector that is not zero, such as [0, 1, 0], is needed");
+  }
   return light;
 }
 
 Mirror readMirror(const TableReader& table) {
   Mirror mirror;
-  mirror.name = table.text("name", "");
-  readShape(table, mirror);
-  mirror.reflectance = table.vec3("reflectance", mirror.reflectance, kUnit);
-  mirror.fresnel = readFresnel(table);
-  mirror.baseColor = table.vec3("base_color", mirror.baseColor, kNotNegative);
-  mirror.roughness = table.number("roughness", mirror.roughness, kUnit);
-  mirror.ripple = readRipple(table);
-  mirror.twoSided = table.boolean("two_sided", mirror.twoSided);
-  mirror.backColor = table.vec3("back_color", mirror.backColor, kNotNegative);
-  mirror.castsLight = table.boolean("casts_light", mirror.castsLight);
+  if (table.has("polygon")) {
+    readPolygon(table, mirror);
+  } else if (!table.has("size")) {
+    table.fail("size", "is missing", "size = [width, height] or polygon = [[x, y, z], ...] is needed");
+  }
+  readFields(table, mirror);
+  if (isRectangle(mirror)) {
+    checkRectangle(table, mirror);
+  }
+  if (mirror.ripple && mirror.ripple->amplitude == 0.0) {
+    mirror.ripple.reset();
+  }
   return mirror;
 }
 
@@ -335,44 +285,13 @@ std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> poly
 }
 
 Bookmark readBookmark(const TableReader& table, const CameraSpec& camera) {
-  Bookmark bookmark{.name = table.text("name")};
+  Bookmark bookmark;
+  readFields(table, bookmark);
   if (bookmark.name.empty()) {
     table.fail("name", "is empty", "a name to choose the bookmark by is needed");
   }
-  bookmark.position = table.vec3("position", kCoordinate);
-  bookmark.target = table.vec3("target", kCoordinate);
-  if (table.has("up")) {
-    bookmark.up = table.vec3("up", kCoordinate);
-  }
-  if (table.has("vertical_fov")) {
-    bookmark.verticalFov = table.number("vertical_fov", camera.verticalFov, kFieldOfView);
-  }
   checkDirections(table, cameraOf(bookmark, camera));
   return bookmark;
-}
-
-std::span<const std::string_view> objectKeys() {
-  static constexpr std::array<Key, 11> kKeys{"name",  "model",    "position",  "rotation", "scale", "spin",
-                                             "color", "specular", "shininess", "copies",   "mirror"};
-  return kKeys;
-}
-
-std::span<const std::string_view> lightKeys() {
-  static constexpr std::array<Key, 8> kKeys{"name",   "position", "color",        "intensity",
-                                            "radius", "glow",     "casts_shadow", "orbit"};
-  return kKeys;
-}
-
-std::span<const std::string_view> mirrorKeys() {
-  static constexpr std::array<Key, 14> kKeys{"name",    "position",    "rotation",   "spin",       "size",
-                                             "polygon", "reflectance", "fresnel",    "base_color", "roughness",
-                                             "ripple",  "two_sided",   "back_color", "casts_light"};
-  return kKeys;
-}
-
-std::span<const std::string_view> bookmarkKeys() {
-  static constexpr std::array<Key, 5> kKeys{"name", "position", "target", "up", "vertical_fov"};
-  return kKeys;
 }
 
 }  // namespace speculum

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "scene/scene.hpp"
+#include "scene/scene_fields.hpp"
 #include "scene/table_reader.hpp"
 
 namespace speculum {
 
-// The parts of a scene file, each from its table; all throw InputError. Object::mesh is left to the caller.
+// Each reads a part of a scene file from its table and throws InputError. Object::mesh is left to the caller.
 Environment readEnvironment(const TableReader& file);
 CameraSpec readCamera(const TableReader& file);
 std::vector<SettingEntry> readSettings(const TableReader& file);
@@ -14,9 +14,12 @@ PointLight readLight(const TableReader& table);
 Mirror readMirror(const TableReader& table);
 Bookmark readBookmark(const TableReader& table, const CameraSpec& camera);
 
-std::span<const std::string_view> objectKeys();
-std::span<const std::string_view> lightKeys();
-std::span<const std::string_view> mirrorKeys();
-std::span<const std::string_view> bookmarkKeys();
+// Keys of the table that a node is read from.
+template <Described Node>
+std::span<const std::string_view> keysOf() {
+  static const std::array<std::string_view, fieldCount<Node>> keys = std::apply(
+      [](const auto&... field) { return std::array{field.key...}; }, fieldsOf(static_cast<const Node*>(nullptr)));
+  return keys;
+}
 
 }  // namespace speculum

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
@@ -21,23 +20,6 @@ std::string elementKey(std::string_view key, size_t index) {
 }
 
 }  // namespace
-
-bool Range::contains(double value) const {
-  return std::isfinite(value) && (aboveLow ? value > low : value >= low) && value <= high;
-}
-
-std::string Range::text() const {
-  const bool bounded = high < std::numeric_limits<double>::max();
-  if (bounded) {
-    return aboveLow ? fmt::format("a finite number above {:g} and up to {:g} is needed", low, high)
-                    : fmt::format("a {}number {:g} .. {:g} is needed", high > 1e6 ? "finite " : "", low, high);
-  }
-  if (low == -std::numeric_limits<double>::max()) {
-    return "a finite number is needed";
-  }
-  return aboveLow ? fmt::format("a finite number above {} is needed", low)
-                  : fmt::format("a finite number of {} or more is needed", low);
-}
 
 std::string_view typeName(const toml::node& node) {
   switch (node.type()) {

@@ -4,37 +4,18 @@
 
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "scene/value_range.hpp"
+
 namespace speculum {
 
-// The numbers that a key takes; never infinite or NaN.
-struct Range {
-  double low = -std::numeric_limits<double>::max();
-  double high = std::numeric_limits<double>::max();
-  bool aboveLow = false;  // low itself is out
-
-  bool contains(double value) const;
-  std::string text() const;  // "a number in 0 .. 1"
-};
-
-inline constexpr Range kAny{};
-inline constexpr Range kNotNegative{.low = 0.0};
-inline constexpr Range kPositive{.low = 0.0, .aboveLow = true};
-// Metres and degrees, and metres that are lengths: squares of sums and products of several of them are still doubles.
-inline constexpr Range kCoordinate{.low = -1e15, .high = 1e15};
-inline constexpr Range kLength{.low = 0.0, .high = 1e15, .aboveLow = true};
-// Degrees per second: times any number of seconds is still a double.
-inline constexpr Range kTurn{.low = -1e9, .high = 1e9};
-inline constexpr Range kUnit{.low = 0.0, .high = 1.0};
-
 // One table of a scene file. Every getter throws InputError with file, line and full key for a wrong type or a value
-// out of range; those with a fallback return it when the key is absent, the others then throw as well.
+// out of range. An absent key gives the fallback; without a fallback it is an error as well.
 class TableReader {
  public:
   // Throws for a key that is not among `known`. `label` is the table's full key, empty for the whole file. `file`,
@@ -61,7 +42,7 @@ class TableReader {
   // A number stands for three equal ones.
   glm::dvec3 numberOrVec3(std::string_view key, const glm::dvec3& fallback) const;
   std::vector<glm::dvec3> points(std::string_view key) const;
-  // The place of the text among `choices`.
+  // Index of the text in `choices`.
   size_t choice(std::string_view key, size_t fallback, std::span<const std::string_view> choices) const;
 
   std::optional<TableReader> subtable(std::string_view key, std::span<const std::string_view> known) const;
@@ -87,7 +68,7 @@ class TableReader {
   int line_ = 1;
 };
 
-// "a string", "a table" ...: what an error says that a value is.
+// "a string", "a table" ...: the name of a value's type in errors.
 std::string_view typeName(const toml::node& node);
 
 }  // namespace speculum

@@ -5,7 +5,10 @@
 
 namespace speculum {
 
-size_t endOfTomlString(std::string_view toml, size_t start) {
+namespace {
+
+// End of the string that begins at `start` with a quotation mark; of an unfinished one, of what it spans.
+size_t endOfString(std::string_view toml, size_t start) {
   const char quote = toml[start];
   const bool multiLine = toml.substr(start, 3) == std::string_view(quote == '"' ? "\"\"\"" : "'''");
   const size_t marks = multiLine ? 3 : 1;
@@ -29,9 +32,7 @@ size_t endOfTomlString(std::string_view toml, size_t start) {
   return toml.size();
 }
 
-namespace {
-
-// The line of the first character outside strings and comments that `stop` is true of, or 0.
+// Line of the first character outside strings and comments for which `stop` is true, or 0.
 template <typename Stop>
 int lineOf(std::string_view toml, Stop stop) {
   int line = 1;
@@ -39,7 +40,7 @@ int lineOf(std::string_view toml, Stop stop) {
     const size_t start = i;
     const char c = toml[i++];
     if (c == '"' || c == '\'') {
-      i = endOfTomlString(toml, start);
+      i = endOfString(toml, start);
       for (const char skipped : toml.substr(start, i - start)) {
         line += skipped == '\n' ? 1 : 0;
       }

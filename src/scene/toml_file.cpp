@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Nobody writes a larger scene by hand.
+// No scene written by hand is larger.
 constexpr uintmax_t kLargestFile = 16u << 20;
 
 }  // namespace

@@ -1,0 +1,257 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "scene/member_count.hpp"
+#include "scene/scene.hpp"
+#include "scene/value_range.hpp"
+
+namespace speculum {
+
+// What becomes of a field: its value is read where the node is drawn, evaluated into SceneState, or serves users only.
+// Only the first kind belongs to the content of a mirror image beside SceneState.
+enum class FieldUse { appearance, placement, label };
+
+template <typename Owner, typename Value>
+struct FieldTraits {
+  std::string_view unit = {};
+  Range range = kAny;        // of each number
+  double floor = kAny.low;   // smaller numbers count as this one
+  bool required = false;     // a file must have it
+  bool alwaysSaved = false;  // even at its default: the table that it stands in is there for it
+  bool color = false;        // linear RGB
+  bool uniform = false;      // one number stands for three equal ones
+  FieldUse use = FieldUse::appearance;
+  double step = 0.01;                            // change for a pixel of a drag in the inspector
+  bool (*applies)(const Owner& node) = nullptr;  // else it is neither read nor saved
+  bool (*shown)(const Owner& node) = nullptr;    // else the inspector has no row for it
+  Value start = {};                              // of an optional field when a user switches it on
+};
+
+// One key of a scene file's table and the member that it stands for; the default is the member's.
+template <typename OwnerType, typename ValueType>
+struct Field : FieldTraits<OwnerType, ValueType> {
+  using Owner = OwnerType;
+  using Value = ValueType;
+
+  ValueType OwnerType::*member;
+  std::string_view key;
+  std::string_view text;  // what it means, for tooltips and docs/scene_format.md
+
+  bool appliesTo(const Owner& node) const { return this->applies == nullptr || this->applies(node); }
+};
+
+template <typename Owner, typename Value>
+Field<Owner, Value> field(Value Owner::*member, std::string_view key, std::string_view text,
+                          const FieldTraits<Owner, Value>& traits = {}) {
+  return {traits, member, key, text};
+}
+
+// The fields of each type, in the order in which they are saved. A member that is missing here does not compile.
+// Reader, writer, the content of mirror images, the inspector, docs/scene_format.md and the fuzzers' dictionary follow.
+
+inline const auto& fieldsOf(const Sky*) {
+  static const std::tuple fields{
+      field(&Sky::zenith, "zenith", "straight up", {.range = kNotNegative, .required = true, .color = true}),
+      field(&Sky::horizon, "horizon", "at the horizon", {.range = kNotNegative, .required = true, .color = true}),
+      field(&Sky::ground, "ground", "below it", {.range = kNotNegative, .required = true, .color = true})};
+  return fields;
+}
+
+inline const auto& fieldsOf(const Environment*) {
+  static const std::tuple fields{
+      field(&Environment::background, "background", "radiance of rays that hit nothing: the clear colour",
+            {.range = kNotNegative, .color = true}),
+      field(&Environment::sky, "sky", "replaces the background"),
+      field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse colour",
+            {.range = kNotNegative, .color = true})};
+  return fields;
+}
+
+inline const auto& fieldsOf(const CameraSpec*) {
+  static const std::tuple fields{
+      field(&CameraSpec::position, "position", "the eye", {.unit = "m", .range = kCoordinate, .required = true}),
+      field(&CameraSpec::target, "target", "what it looks at; not the position",
+            {.unit = "m", .range = kCoordinate, .required = true}),
+      field(&CameraSpec::up, "up", "not along the view direction", {.range = kCoordinate}),
+      field(&CameraSpec::verticalFov, "vertical_fov", "vertical field of view", {.unit = "deg", .range = kFieldOfView}),
+      field(&CameraSpec::near, "near", "sets depth precision only: nothing is cut there, and there is no far plane",
+            {.unit = "m", .range = kPositive}),
+      field(&CameraSpec::orbitSpeed, "orbit_speed", "around the target about up, by the right-hand rule",
+            {.unit = "deg/s", .range = kTurn})};
+  return fields;
+}
+
+inline const auto& fieldsOf(const Copies*) {
+  static const std::tuple fields{
+      field(&Copies::count, "count", "instances of the object",
+            {.range = kCopies, .use = FieldUse::placement, .step = 0.1}),
+      field(&Copies::step, "step", "from one instance to the next",
+            {.unit = "m", .range = kCoordinate, .use = FieldUse::placement, .shown = [](const Copies& copies) {
+               return copies.count > 1;
+             }})};
+  return fields;
+}
+
+inline const auto& fieldsOf(const ObjectMirror*) {
+  static const std::tuple fields{
+      field(&ObjectMirror::reflectance, "reflectance", "as of a mirror",
+            {.range = kUnit, .alwaysSaved = true, .color = true}),
+      field(&ObjectMirror::fresnel, "fresnel", "as of a mirror"),
+      field(&ObjectMirror::baseColor, "base_color", "as of a mirror", {.range = kNotNegative, .color = true})};
+  return fields;
+}
+
+inline const auto& fieldsOf(const Object*) {
+  static const std::tuple fields{
+      field(&Object::name, "name", "for messages and the panel", {.use = FieldUse::label}),
+      field(&Object::model, "model", "OBJ file, relative to the scene file",
+            {.required = true, .use = FieldUse::label, .shown = [](const Object&) { return false; }}),
+      field(&Object::position, "position", "of the model's origin",
+            {.unit = "m", .range = kCoordinate, .use = FieldUse::placement}),
+      field(&Object::rotation, "rotation", "pitch about X, yaw about Y, roll about Z; R = Ry Rx Rz",
+            {.unit = "deg", .range = kCoordinate, .use = FieldUse::placement, .step = 0.5}),
+      field(&Object::scale, "scale", "along the model's own axes; negative mirrors it, zero is an error",
+            {.uniform = true, .use = FieldUse::placement}),
+      field(&Object::spin, "spin", "added to the rotation",
+            {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5}),
+      field(&Object::color, "color", "replaces Kd of the whole model; a texture stays and is multiplied",
+            {.range = kNotNegative, .color = true, .start = glm::dvec3(0.6)}),
+      field(&Object::specular, "specular", "replaces Ks of the whole model",
+            {.range = kNotNegative, .color = true, .start = glm::dvec3(0.2)}),
+      field(&Object::shininess, "shininess", "replaces Ns, the exponent of the highlights; below 1 counts as 1",
+            {.floor = 1.0, .step = 1.0, .start = 50.0}),
+      field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
+      field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
+  return fields;
+}
+
+inline const auto& fieldsOf(const Orbit*) {
+  static const std::tuple fields{
+      field(&Orbit::center, "center", "point on the axis",
+            {.unit = "m", .range = kCoordinate, .use = FieldUse::placement}),
+      field(&Orbit::axis, "axis", "direction; not zero",
+            {.range = kCoordinate, .use = FieldUse::placement, .shown = [](const Orbit&) { return false; }}),
+      field(&Orbit::speed, "speed", "by the right-hand rule",
+            {.unit = "deg/s", .range = kTurn, .alwaysSaved = true, .use = FieldUse::placement, .step = 0.5})};
+  return fields;
+}
+
+inline const auto& fieldsOf(const PointLight*) {
+  static const std::tuple fields{
+      field(&PointLight::name, "name", "for messages and the panel", {.use = FieldUse::label}),
+      field(&PointLight::position, "position", "of the centre",
+            {.unit = "m", .range = kCoordinate, .required = true, .use = FieldUse::placement}),
+      field(&PointLight::color, "color", "of light and sphere", {.range = kNotNegative, .color = true}),
+      field(&PointLight::intensity, "intensity", "irradiance at 1 m on a surface that faces the light",
+            {.range = kNotNegative, .step = 0.1}),
+      field(&PointLight::radius, "radius", "of the visible sphere, and the floor of the inverse square law",
+            {.unit = "m", .range = kLength, .step = 0.002}),
+      field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = kNotNegative}),
+      field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors hide the light from what is behind them"),
+      field(&PointLight::orbit, "orbit", "circles around an axis", {.use = FieldUse::placement})};
+  return fields;
+}
+
+inline const auto& fieldsOf(const Ripple*) {
+  static const std::tuple fields{field(&Ripple::amplitude, "amplitude", "0: no ripple",
+                                       {.unit = "m", .range = kNotNegative, .alwaysSaved = true, .step = 0.0002}),
+                                 field(&Ripple::wavelength, "wavelength", "of both trains of waves",
+                                       {.unit = "m", .range = kPositive, .step = 0.005}),
+                                 field(&Ripple::speed, "speed", "of the waves", {.unit = "m/s", .step = 0.005})};
+  return fields;
+}
+
+inline bool isRectangle(const Mirror& mirror) {
+  return mirror.polygon.empty();
+}
+
+inline const auto& fieldsOf(const Mirror*) {
+  static const std::tuple fields{
+      field(&Mirror::name, "name", "figures name the mirror by it, or by its index from 0", {.use = FieldUse::label}),
+      field(&Mirror::polygon, "polygon",
+            "instead of position, rotation, size and spin: world-space vertices, planar, convex, counter-clockwise "
+            "seen from the front",
+            {.unit = "m",
+             .range = kCoordinate,
+             .use = FieldUse::placement,
+             .applies = [](const Mirror& mirror) { return !isRectangle(mirror); }}),
+      field(&Mirror::position, "position", "of the centre of a rectangle",
+            {.unit = "m", .range = kCoordinate, .use = FieldUse::placement, .applies = isRectangle}),
+      field(&Mirror::rotation, "rotation", "as of objects; unrotated it faces +Z",
+            {.unit = "deg", .range = kCoordinate, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
+      field(&Mirror::size, "size", "width and height",
+            {.unit = "m", .range = kLength, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
+      field(&Mirror::spin, "spin", "added to the rotation",
+            {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
+      field(&Mirror::reflectance, "reflectance",
+            "share of light reflected at every angle; at normal incidence with Fresnel",
+            {.range = kUnit, .color = true}),
+      field(&Mirror::fresnel, "fresnel", "Schlick: reflects more at grazing angles, all at 90 degrees"),
+      field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
+            {.range = kNotNegative, .color = true}),
+      field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
+      field(&Mirror::backColor, "back_color", "diffuse colour of the back of a one-sided mirror",
+            {.range = kNotNegative, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
+      field(&Mirror::roughness, "roughness", "spread of the reflection: GGX with alpha = roughness squared",
+            {.range = kUnit, .step = 0.002}),
+      // The loader takes ripples without height for none.
+      field(&Mirror::ripple, "ripple", "two trains of waves run over the mirror",
+            {.applies = [](const Mirror& mirror) { return !mirror.ripple || mirror.ripple->amplitude > 0.0; },
+             .start = Ripple{.amplitude = 0.002}}),
+      field(&Mirror::castsLight, "casts_light", "light bounced by the mirror reaches the scene")};
+  return fields;
+}
+
+inline const auto& fieldsOf(const Bookmark*) {
+  static const std::tuple fields{
+      field(&Bookmark::name, "name", "no other bookmark's", {.required = true, .use = FieldUse::label}),
+      field(&Bookmark::position, "position", "as the camera's", {.unit = "m", .range = kCoordinate, .required = true}),
+      field(&Bookmark::target, "target", "as the camera's", {.unit = "m", .range = kCoordinate, .required = true}),
+      field(&Bookmark::up, "up", "the camera's unless given", {.range = kCoordinate}),
+      field(&Bookmark::verticalFov, "vertical_fov", "the camera's unless given",
+            {.unit = "deg", .range = kFieldOfView})};
+  return fields;
+}
+
+template <typename T>
+concept Described = requires {
+  fieldsOf(static_cast<const T*>(nullptr));
+};
+
+template <typename T>
+inline constexpr size_t fieldCount =
+    std::tuple_size_v<std::decay_t<decltype(fieldsOf(static_cast<const T*>(nullptr)))>>;
+
+static_assert(fieldCount<Sky> == memberCount<Sky>());
+static_assert(fieldCount<Environment> == memberCount<Environment>());
+static_assert(fieldCount<CameraSpec> == memberCount<CameraSpec>());
+static_assert(fieldCount<Copies> == memberCount<Copies>());
+static_assert(fieldCount<ObjectMirror> == memberCount<ObjectMirror>());
+static_assert(fieldCount<Object> + 1 == memberCount<Object>());  // Object::mesh stands for the model
+static_assert(fieldCount<Orbit> == memberCount<Orbit>());
+static_assert(fieldCount<PointLight> == memberCount<PointLight>());
+static_assert(fieldCount<Ripple> == memberCount<Ripple>());
+static_assert(fieldCount<Mirror> == memberCount<Mirror>());
+static_assert(fieldCount<Bookmark> == memberCount<Bookmark>());
+
+template <typename T>
+struct IsOptional : std::false_type {};
+template <typename T>
+struct IsOptional<std::optional<T>> : std::true_type {};
+
+// Calls `visit` with each Field of a type.
+template <Described Node, typename Visitor>
+void forEachField(const Visitor& visit) {
+  std::apply([&](const auto&... field) { (visit(field), ...); }, fieldsOf(static_cast<const Node*>(nullptr)));
+}
+
+// Names of an enumeration's values in scene files, in the order of the enumerators.
+constexpr auto choicesOf(Fresnel) {
+  return std::array<std::string_view, 2>{"none", "schlick"};
+}
+
+}  // namespace speculum

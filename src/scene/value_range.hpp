@@ -1,0 +1,31 @@
+#pragma once
+
+#include <limits>
+#include <string>
+
+namespace speculum {
+
+// The numbers that a key takes; never infinite or NaN.
+struct Range {
+  double low = -std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::max();
+  bool aboveLow = false;  // low itself is out
+
+  bool contains(double value) const;
+  std::string text() const;       // for errors: "a number in 0 .. 1 is needed"
+  std::string shortText() const;  // for tables: "0 .. 1", "> 0"; empty where only technical limits apply
+};
+
+inline constexpr Range kAny{};
+inline constexpr Range kNotNegative{.low = 0.0};
+inline constexpr Range kPositive{.low = 0.0, .aboveLow = true};
+// Metres and degrees, and metres that are lengths: squares of sums and products of several of them are still doubles.
+inline constexpr Range kCoordinate{.low = -1e15, .high = 1e15};
+inline constexpr Range kLength{.low = 0.0, .high = 1e15, .aboveLow = true};
+// Degrees per second: times any number of seconds is still a double.
+inline constexpr Range kTurn{.low = -1e9, .high = 1e9};
+inline constexpr Range kUnit{.low = 0.0, .high = 1.0};
+inline constexpr Range kFieldOfView{.low = 1.0, .high = 170.0};  // degrees
+inline constexpr Range kCopies{.low = 1.0, .high = 1'000'000.0};
+
+}  // namespace speculum
