@@ -1,4 +1,4 @@
-// What the writer leaves of a text that people wrote, and what it adds.
+// The writer keeps what a user wrote and changes only values.
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -29,7 +29,7 @@ void expectEdit(const std::string& text, const std::function<void(Scene&)>& edit
   EXPECT_EQ(scene.saved(), text);
 }
 
-TEST(TomlNumbers, ReadBackExactlyAndAreShort) {
+TEST(TomlNumbers, ShortTextsReadBackExactly) {
   EXPECT_EQ(tomlText(0.0), "0");
   EXPECT_EQ(tomlText(-0.0), "-0.0");
   EXPECT_EQ(tomlText(0.1), "0.1");
@@ -49,7 +49,7 @@ TEST(TomlNumbers, ReadBackExactlyAndAreShort) {
   }
 }
 
-TEST(EditedText, OnlyTheNumberThatChangedIsWrittenAnew) {
+TEST(EditedText, OnlyTheChangedNumberIsRewritten) {
   const std::string text = std::string(kCamera) +
                            "# a light\n[[light]]   # of the hall\n"
                            "position = [ 0x10, +3.50, 1e0 ] # where it hangs\nintensity=2_0\n\n";
@@ -88,7 +88,7 @@ TEST(EditedText, PolygonBecomesRectangle) {
       "roughness = 0.1 # r\nposition = [0, 0, -1]\nsize = [2, 1]\n");
 }
 
-TEST(EditedText, TablesWithinComeAndGo) {
+TEST(EditedText, InnerTablesComeAndGo) {
   const std::string text = std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\nripple = { amplitude = 0.01 } # waves\n" +
                            "[[light]]\nposition = [0, 1, 0]\n";
   expectEdit(
@@ -101,7 +101,7 @@ TEST(EditedText, TablesWithinComeAndGo) {
       text, [](Scene& s) { s.lights[0].orbit = Orbit{.speed = 20}; }, "", "orbit = { speed = 20 }\n");
 }
 
-TEST(EditedText, EveryWayToWriteATableWithin) {
+TEST(EditedText, InnerTablesInEveryForm) {
   const auto waves = [](Scene& s) { s.mirrors[0].ripple->wavelength = 0.25; };
   const auto still = [](Scene& s) { s.mirrors[0].ripple.reset(); };
   const std::string mirror = std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\n";
@@ -147,7 +147,7 @@ TEST(EditedText, EnvironmentInEveryForm) {
       "ground = [1, 1, 1] }\n");
 }
 
-TEST(EditedText, ANewTableStandsBehindTheKeysThatAreAddedAboveIt) {
+TEST(EditedText, NewTableFollowsKeysAddedAboveIt) {
   expectEdit(
       kCamera,
       [](Scene& s) {
@@ -157,7 +157,7 @@ TEST(EditedText, ANewTableStandsBehindTheKeysThatAreAddedAboveIt) {
       "", "vertical_fov = 40\n\n[environment]\nambient = [0.5, 0.5, 0.5]\n");
 }
 
-TEST(EditedText, LineBreaksOfDosAndNoneAtTheEnd) {
+TEST(EditedText, DosLineBreaksAndNoneAtTheEnd) {
   const std::string dos =
       "[camera]\r\nposition = [0, 0, 4] # eye\r\ntarget = [0, 0, 0]\r\n\r\n[[light]]\r\nposition = [0, 1, 0]";
   const auto shadow = [](Scene& s) { s.lights[0].castsShadow = true; };
@@ -183,7 +183,26 @@ TEST(EditedText, NamesOfEveryKind) {
       text, [](Scene& s) { s.lights[0].glow = 0; }, "[0, 1, 0]\n", "[0, 1, 0]\nglow = 0\n");
 }
 
-TEST(EditedText, KeysThatLineUpGoOnDoingSo) {
+// The parser counts columns in code points, the text is edited in bytes.
+TEST(EditedText, CharactersOfSeveralBytesBeforeTheValue) {
+  const std::string inlined =
+      "light = [{name = '😀 ä, {', position = [0, 1, 0], orbit.\"speed\" = 3}, {position = [0, 2, 0]}] # ☃\n" +
+      std::string(kCamera);
+  expectEdit(
+      inlined, [](Scene& s) { s.lights[0].position.y = 7; }, "[0, 1, 0]", "[0, 7, 0]");
+  expectEdit(
+      inlined, [](Scene& s) { s.lights[0].orbit->speed = 4; }, "= 3}", "= 4}");
+  expectEdit(
+      inlined, [](Scene& s) { s.lights[0].orbit.reset(); }, ", orbit.\"speed\" = 3", "");
+  expectEdit(
+      inlined, [](Scene& s) { s.lights[1].glow = 0; }, "[0, 2, 0]}", "[0, 2, 0], glow = 0}");
+  const std::string several =
+      std::string(kCamera) + "[[light]]\nname = \"\"\"Größe\n  😀\"\"\" # ä\nposition = [0, 1, 0]\n";
+  expectEdit(
+      several, [](Scene& s) { s.lights[0].name = "a"; }, "\"\"\"Größe\n  😀\"\"\"", "\"a\"");
+}
+
+TEST(EditedText, AlignedKeysStayAligned) {
   const std::string text =
       std::string(kCamera) + "[[light]]\n  name     = 'a'\n  position = [0, 1, 0]\n\n# last words\n";
   expectEdit(
@@ -195,7 +214,7 @@ TEST(EditedText, KeysThatLineUpGoOnDoingSo) {
                                "target       = [0, 0, 0]\nvertical_fov = 40\n");
 }
 
-TEST(EditedText, RemovedThingsTakeTheirCommentsAlong) {
+TEST(EditedText, RemovedNodesTakeTheirComments) {
   const std::string head = std::string(kCamera) + "\n# ---- lights ----\n\n";
   const std::string first = "# the first\n# of two\n[[light]]\nname = 'a'\nposition = [0, 1, 0] # up\n";
   const std::string second = "\n# the second\n[[light]]\nname = 'b'\nposition = [0, 2, 0]\n# that was it\n";
@@ -228,7 +247,7 @@ TEST(EditedText, AddedAndRemovedInBrackets) {
   EXPECT_NE(scene.saved().find("size = [3, 4]"), std::string::npos);
 }
 
-TEST(EditedText, SettingsWhereverTheyStand) {
+TEST(EditedText, SettingsInEveryForm) {
   const auto saved = [](const std::string& text, const std::vector<SavedSetting>& changes) {
     return TextScene(text).saved(changes);
   };

@@ -34,7 +34,7 @@ std::string inBraces(const std::vector<std::string>& items) {
   return "{" + text + (items.empty() ? "}" : " }");
 }
 
-// The keys of a table within as one value, or nothing if all may be left out.
+// Keys of a table within as one value in braces; empty if all may be omitted.
 std::string bracesText(const std::vector<KeyText>& keys, const std::string& table) {
   std::vector<std::string> items;
   for (const KeyText& key : keys) {
@@ -45,7 +45,7 @@ std::string bracesText(const std::vector<KeyText>& keys, const std::string& tabl
   return items.empty() ? std::string() : inBraces(items);
 }
 
-// Keys as they are to be written: tables within as braces, what may be left out left out.
+// Keys and values to write: tables within as braces, without omissible keys.
 std::vector<std::pair<std::string, std::string>> statements(const std::vector<KeyText>& keys) {
   std::vector<std::pair<std::string, std::string>> list;
   for (size_t i = 0; i < keys.size(); ++i) {
@@ -61,7 +61,7 @@ std::vector<std::pair<std::string, std::string>> statements(const std::vector<Ke
   return list;
 }
 
-// A list of points in lines of their own if it is too long for one.
+// Breaks a list of points into lines if it is too long for one.
 std::string broken(const std::string& value, size_t before, const std::string& lineBreak) {
   if (!value.starts_with("[[") || before + value.size() <= kLongestLine) {
     return value;
@@ -74,7 +74,7 @@ std::string broken(const std::string& value, size_t before, const std::string& l
   return text + "]";
 }
 
-// What stands in braces or brackets, separated by commas.
+// Items of braces or brackets, which commas separate.
 void collectItems(const TomlNode& node, std::vector<const TomlNode*>& items) {
   for (const auto& child : node.children) {
     if (child->value) {
@@ -102,9 +102,7 @@ TomlEditor::TomlEditor(std::string text) : text_(std::move(text)) {
 
 void TomlEditor::noteOwners(const TomlNode& node, const TomlNode* list) {
   owners_[&node] = list;
-  for (const TomlSection& section : node.sections) {
-    linedUp_ = linedUp_ || section.linedUp;
-  }
+  linedUp_ = linedUp_ || (node.section && node.section->linedUp);
   const TomlNode* inner = node.value && node.kind != TomlNode::Kind::scalar ? &node : list;
   for (const auto& child : node.children) {
     noteOwners(*child, inner);
@@ -157,7 +155,7 @@ void TomlEditor::setValue(const TomlNode& value, const std::string& text) {
   edits_.push_back({value.value.value(), text});
 }
 
-// Numbers of an array that stay are left as they are written.
+// Leaves the numbers of an array that did not change as they are written.
 void TomlEditor::patch(const TomlNode& value, const std::string& base, const std::string& edited) {
   const auto compare = [&](const auto& self, const TomlNode& here, const TomlNode& was, const TomlNode& becomes) {
     const std::string_view text = becomes.value->of(edited);
@@ -187,7 +185,7 @@ void TomlEditor::addKey(const std::vector<TomlNode*>& tables, const std::string&
     lists_[&table].added.push_back(keyValue(key, 0, text));
     return;
   }
-  if (table.sections.empty() && !table.dotted) {
+  if (!table.section && !table.dotted) {
     std::vector<TomlNode*> outer(tables.begin(), tables.end() - 1);
     if (outer.empty() && root_.child(table.key) == &table) {
       outer.push_back(&root_);
@@ -197,18 +195,17 @@ void TomlEditor::addKey(const std::vector<TomlNode*>& tables, const std::string&
     }
     return addKey(outer, tomlKey(table.key) + "." + key, text);
   }
-  // Under a header of its own, or else below what was added with a dotted key.
-  const bool headed = !table.sections.empty();
-  const TomlSection* section = headed ? &table.sections.back() : nullptr;
-  const size_t at = headed ? section->end : table.dotted->end;
-  const std::optional<TextRange> last = headed ? section->lastStatement : table.dotted;
+  // The key goes under the table's header, or else below the last dotted key.
+  const std::optional<TomlSection>& section = table.section;
+  const size_t at = section ? section->end : table.dotted->end;
+  const std::optional<TextRange> last = section ? section->lastStatement : table.dotted;
   std::string indent;
   if (last) {
     const size_t blanks = text_.find_first_not_of(" \t", last->begin) - last->begin;
     indent = text_.substr(last->begin, blanks);
   }
-  const std::string name = headed ? key : table.dottedPrefix + key;
-  const size_t width = headed && section->linedUp ? section->keyWidth : 0;
+  const std::string name = section ? key : table.dottedPrefix + key;
+  const size_t width = section && section->linedUp ? section->keyWidth : 0;
   const std::string value = broken(text, indent.size() + std::max(width, name.size() + 1) + 2, lineBreak_);
   edits_.push_back({{at, at}, indent + keyValue(name, width, value) + lineBreak_});
 }
@@ -220,19 +217,19 @@ void TomlEditor::remove(TomlNode& node) {
   } else if (list != nullptr && node.value) {
     lists_[list].removed.insert(&node);
   } else {
-    for (const TomlSection& section : node.sections) {
-      removeSection(section);
+    if (node.section) {
+      removeSection(*node.section);
     }
     for (const auto& child : node.children) {
       // Statements under a header go with it.
-      if (node.sections.empty() || !child->statement) {
+      if (!node.section || !child->statement) {
         remove(*child);
       }
     }
   }
 }
 
-// With comments that follow without a blank line, unless a header comes right below them.
+// End of a section with the comments that follow it directly, unless they belong to a header right below.
 size_t TomlEditor::contentEnd(const TomlSection& section) const {
   size_t end = section.end;
   while (end < text_.size() && line(end).starts_with('#')) {
@@ -255,8 +252,8 @@ void TomlEditor::removeSection(const TomlSection& section) {
 
 size_t TomlEditor::endOfTable(const TomlNode& table) const {
   size_t end = 0;
-  for (const TomlSection& section : table.sections) {
-    end = std::max(end, contentEnd(section));
+  if (table.section) {
+    end = contentEnd(*table.section);
   }
   for (const auto& child : table.children) {
     end = std::max(end, endOfTable(*child));
@@ -280,7 +277,7 @@ void TomlEditor::addBlock(size_t at, const std::string& header, const std::vecto
 
 void TomlEditor::addSection(const std::string& name, const std::vector<std::string>& after,
                             const std::vector<KeyText>& keys) {
-  size_t at = root_.sections.front().end;
+  size_t at = root_.section->end;
   for (const std::string& other : after) {
     const TomlNode* table = root_.child(other);
     at = std::max(at, table != nullptr ? endOfTable(*table) : 0);
@@ -306,7 +303,7 @@ void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>&
   addBlock(at, "[[" + list + "]]", keys);
 }
 
-// A run of removed items goes with the comma behind it, or before it at the end of the list.
+// Removes a run of items with the comma behind it, or at the end of the list with the comma before it.
 void TomlEditor::resolve(const TomlNode& list, const ListChange& change, std::vector<Edit>& edits) const {
   std::vector<const TomlNode*> items;
   collectItems(list, items);
@@ -341,14 +338,14 @@ std::string TomlEditor::text() const {
   for (const auto& [list, change] : lists_) {
     resolve(*list, change, edits);
   }
-  // What is added to a table comes before a table that is added behind it.
+  // Keys added to a table come before a table that is added behind it.
   std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {
     return std::tuple(a.range.begin, a.range.end, a.block) < std::tuple(b.range.begin, b.range.end, b.block);
   });
   std::string result;
   size_t at = 0;
   for (const Edit& edit : edits) {
-    // What is removed twice, as a part of something larger.
+    // Part of a larger range that is gone already.
     if (edit.text.empty() && edit.range.end <= at) {
       continue;
     }

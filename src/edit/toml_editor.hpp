@@ -10,8 +10,8 @@
 
 namespace speculum {
 
-// Changes values in the text of a TOML file and leaves all else as it stands: comments, order, blanks, line breaks.
-// Nodes are those of outline(); changes are collected and made by text().
+// Changes values in the text of a TOML file and keeps everything else: comments, order, blanks, line breaks. Nodes are
+// those of outline(); text() applies the changes collected so far.
 class TomlEditor {
  public:
   // `text` must have been parsed without an error.
@@ -19,8 +19,8 @@ class TomlEditor {
 
   TomlNode& outline() { return root_; }
 
-  // Brings the table from `base`, what the text says, to `edited`. What is equal in both is left alone, whatever its
-  // text; keys in `edited` only are added unless they are omissible.
+  // Changes the table from `base`, the values of the text, to `edited`. Equal values keep their text, and new keys are
+  // added unless they are omissible.
   void change(TomlNode& table, const std::vector<KeyText>& base, const std::vector<KeyText>& edited);
   // Adds [name] behind the last of the tables `after` that the text has.
   void addSection(const std::string& name, const std::vector<std::string>& after, const std::vector<KeyText>& keys);
@@ -29,7 +29,7 @@ class TomlEditor {
   // Adds an element at the end of the file's array `list`, which the text may lack.
   void addElement(const std::string& list, const std::vector<KeyText>& keys);
   void setValue(const TomlNode& value, const std::string& text);
-  // `tables` leads from a table to the one that gets the key; only the last may lack a place of its own in the text.
+  // Adds a key to the last of `tables`, a path of nested tables of which only the last may be missing from the text.
   void addKey(const std::vector<TomlNode*>& tables, const std::string& key, const std::string& text);
   void remove(TomlNode& node);
 
@@ -42,7 +42,7 @@ class TomlEditor {
     std::string text;
     bool block = false;  // begins with a blank line
   };
-  // What becomes of braces or brackets.
+  // Changes of the items in braces or brackets.
   struct ListChange {
     std::set<const TomlNode*> removed;
     std::vector<std::string> added;

@@ -3,220 +3,206 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <utility>
 
-#include "scene/toml_depth.hpp"
+#include "edit/toml_text.hpp"
 
 namespace speculum {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
+// Line and column, from 1.
+using Position = std::pair<uint32_t, uint32_t>;
 
-struct KeyPart {
-  std::string name;
-  size_t begin = 0;
-};
-
-struct Key {
-  std::vector<KeyPart> parts;
-  TextRange range;
-};
-
-TomlNode& childOf(TomlNode& table, const std::string& name, TomlNode::Kind kind) {
-  if (TomlNode* known = table.child(name)) {
-    return *known;
-  }
-  auto node = std::make_unique<TomlNode>();
-  node->kind = kind;
-  node->key = name;
-  return *table.children.emplace_back(std::move(node));
+Position beginOf(const toml::source_region& region) {
+  return {region.begin.line, region.begin.column};
 }
 
-// The table that a header or a dotted key goes through: of an array of tables the last.
-TomlNode& tableIn(TomlNode& table, const std::string& name) {
-  TomlNode& node = childOf(table, name, TomlNode::Kind::table);
-  return node.kind == TomlNode::Kind::array ? *node.children.back() : node;
+bool isArrayOfHeaders(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  return array && array->is_array_of_tables() && beginOf(array->front().source()) == beginOf(array->source());
 }
 
+// A table that only the headers of tables within name: it has the position of the first of them.
+bool isImplicit(const toml::table& table) {
+  return std::any_of(table.begin(), table.end(), [&](const auto& entry) {
+    const bool headed = entry.second.is_table() || isArrayOfHeaders(entry.second);
+    return headed && beginOf(entry.second.source()) == beginOf(table.source());
+  });
+}
+
+// Turns the parser's tree, which knows where each node stands, into ranges of bytes.
 class Outliner {
  public:
-  explicit Outliner(std::string_view text) : text_(text), at_(text.starts_with("\xef\xbb\xbf") ? 3 : 0) {}
+  explicit Outliner(std::string text) : text_(std::move(text)) {
+    lines_.push_back(text_.starts_with("\xef\xbb\xbf") ? 3 : 0);
+    for (size_t i = 0; i < text_.size(); ++i) {
+      if (text_[i] == '\n') {
+        lines_.push_back(i + 1);
+      }
+    }
+  }
 
   TomlNode file() {
     TomlNode root;
-    root.sections.push_back({.begin = at_, .end = at_});
-    TomlNode* table = &root;
-    for (skipBetween(); at_ < text_.size(); skipBetween()) {
-      if (text_[at_] == '[') {
-        table = &header(root);
-      } else {
-        statement(*table);
-      }
-    }
+    root.section = TomlSection{.begin = lines_.front(), .end = lines_.front()};
+    section_ = &*root.section;
+    addChildren(root, toml::parse(text_));
     return root;
   }
 
-  void value(TomlNode& node) {
-    const size_t begin = at_;
-    const char c = peek();
-    if (c == '"' || c == '\'') {
-      node.kind = TomlNode::Kind::scalar;
-      at_ = endOfTomlString(text_, at_);
-    } else if (c == '[') {
-      array(node);
-    } else if (c == '{') {
-      braces(node);
-    } else {
-      node.kind = TomlNode::Kind::scalar;
-      at_ = std::min(text_.find_first_of(" \t\r\n,]}#", at_), text_.size());
-    }
-    node.value = TextRange{begin, at_};
-  }
-
- private:
-  char peek() const {
-    if (at_ >= text_.size()) {
-      throw std::logic_error("the outline ran past the end of the text");
-    }
-    return text_[at_];
-  }
-
-  void skipBlanks() { at_ = std::min(text_.find_first_not_of(kBlanks, at_), text_.size()); }
-
-  // Blanks, line breaks and comments.
-  void skipBetween() {
-    for (;;) {
-      at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
-      if (at_ == text_.size() || text_[at_] != '#') {
-        return;
-      }
-      at_ = std::min(text_.find('\n', at_), text_.size());
-    }
-  }
-
-  size_t lineStart(size_t at) const {
-    const size_t before = at == 0 ? std::string_view::npos : text_.rfind('\n', at - 1);
-    return before == std::string_view::npos ? 0 : before + 1;
-  }
-
-  size_t lineEnd(size_t at) const {
-    const size_t found = text_.find('\n', at);
-    return found == std::string_view::npos ? text_.size() : found + 1;
-  }
-
-  std::string keyName() {
-    const size_t begin = at_;
-    if (peek() != '"' && peek() != '\'') {
-      at_ = std::min(text_.find_first_of(" \t.=]", at_), text_.size());
-      return std::string(text_.substr(begin, at_ - begin));
-    }
-    at_ = endOfTomlString(text_, at_);
-    const toml::table parsed = toml::parse("key = " + std::string(text_.substr(begin, at_ - begin)));
-    return parsed["key"].value<std::string>().value();
-  }
-
-  Key key() {
-    Key key{.range = {at_, at_}};
-    for (;;) {
-      skipBlanks();
-      const size_t begin = at_;
-      key.parts.push_back({keyName(), begin});
-      key.range.end = at_;
-      skipBlanks();
-      if (peek() != '.') {
-        return key;
-      }
-      ++at_;
-    }
-  }
-
-  TomlNode& header(TomlNode& root) {
-    const bool element = text_.substr(at_, 2) == "[[";
-    const TomlSection section{.begin = lineStart(at_), .end = lineEnd(at_)};
-    at_ += element ? 2 : 1;
-    const Key name = key();
-    at_ = std::min(section.end, text_.size());
-    TomlNode* table = &root;
-    for (size_t i = 0; i + 1 < name.parts.size(); ++i) {
-      table = &tableIn(*table, name.parts[i].name);
-    }
-    if (element) {
-      TomlNode& list = childOf(*table, name.parts.back().name, TomlNode::Kind::array);
-      table = list.children.emplace_back(std::make_unique<TomlNode>()).get();
-    } else {
-      table = &tableIn(*table, name.parts.back().name);
-    }
-    table->sections.push_back(section);
-    return *table;
-  }
-
-  // `key = value`, in lines of its own or in braces.
-  TomlNode& keyedValue(TomlNode& table, Key& name) {
-    name = key();
-    ++at_;
-    skipBlanks();
-    TomlNode* owner = &table;
-    for (size_t i = 0; i + 1 < name.parts.size(); ++i) {
-      owner = &tableIn(*owner, name.parts[i].name);
-    }
-    TomlNode& node = childOf(*owner, name.parts.back().name, TomlNode::Kind::scalar);
-    value(node);
-    node.keyed = TextRange{name.range.begin, at_};
+  TomlNode value(const std::string& key) {
+    TomlNode node;
+    const toml::table parsed = toml::parse(text_);
+    addValue(node, *parsed.get(key));
     return node;
   }
 
-  void statement(TomlNode& table) {
-    const size_t begin = at_;
-    Key name;
-    TomlNode& node = keyedValue(table, name);
-    const TextRange lines{lineStart(begin), lineEnd(at_)};
+ private:
+  // Columns count code points.
+  size_t offset(const toml::source_position& position) const {
+    size_t at = lines_.at(position.line - 1);
+    for (uint32_t column = 1; column < position.column; ++column) {
+      ++at;
+      while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xc0) == 0x80) {
+        ++at;
+      }
+    }
+    return at;
+  }
+
+  TextRange range(const toml::source_region& region) const { return {offset(region.begin), offset(region.end)}; }
+
+  TextRange linesOf(const toml::source_region& region) const {
+    const size_t end = text_.find('\n', offset(region.end));
+    return {lines_.at(region.begin.line - 1), end == std::string_view::npos ? text_.size() : end + 1};
+  }
+
+  void addChildren(TomlNode& node, const toml::table& table) {
+    std::vector<std::pair<const toml::key*, const toml::node*>> entries;
+    for (const auto& [key, child] : table) {
+      entries.emplace_back(&key, &child);
+    }
+    std::sort(entries.begin(), entries.end(),
+              [](const auto& a, const auto& b) { return beginOf(a.first->source()) < beginOf(b.first->source()); });
+    for (const auto& [key, child] : entries) {
+      TomlNode& added = *node.children.emplace_back(std::make_unique<TomlNode>());
+      added.key = key->str();
+      addKeyed(added, *key, *child);
+    }
+  }
+
+  void addKeyed(TomlNode& node, const toml::key& key, const toml::node& source) {
+    const toml::table* table = source.as_table();
+    if (isArrayOfHeaders(source)) {
+      node.kind = TomlNode::Kind::array;
+      for (const toml::node& element : *source.as_array()) {
+        addSection(*node.children.emplace_back(std::make_unique<TomlNode>()), *element.as_table());
+      }
+    } else if (table && !table->is_inline() && text_[offset(source.source().begin)] == '[') {
+      isImplicit(*table) ? addChildren(node, *table) : addSection(node, *table);
+    } else if (table && !table->is_inline()) {
+      dotted_.push_back(&node);
+      addChildren(node, *table);
+      dotted_.pop_back();
+    } else {
+      addValue(node, source);
+      addStatement(node, key, source);
+    }
+  }
+
+  void addSection(TomlNode& node, const toml::table& table) {
+    const TextRange header = linesOf(table.source());
+    node.section = TomlSection{.begin = header.begin, .end = header.end};
+    TomlSection* outer = std::exchange(section_, &*node.section);
+    addChildren(node, table);
+    section_ = outer;
+  }
+
+  void addValue(TomlNode& node, const toml::node& source) {
+    node.value = range(source.source());
+    node.kind = TomlNode::Kind::scalar;
+    if (const toml::array* array = source.as_array()) {
+      node.kind = TomlNode::Kind::array;
+      for (const toml::node& element : *array) {
+        addValue(*node.children.emplace_back(std::make_unique<TomlNode>()), element);
+      }
+    } else if (const toml::table* table = source.as_table()) {
+      node.kind = TomlNode::Kind::table;
+      TomlSection* outer = std::exchange(section_, nullptr);
+      std::vector<TomlNode*> outerDotted = std::exchange(dotted_, {});
+      addChildren(node, *table);
+      section_ = outer;
+      dotted_ = std::move(outerDotted);
+      keyItems(node);
+    }
+  }
+
+  // Keys in braces begin behind the brace or the comma.
+  void keyItems(TomlNode& braces) {
+    std::vector<TomlNode*> items;
+    collectItems(braces, items);
+    std::sort(items.begin(), items.end(), [](auto* a, auto* b) { return a->value->begin < b->value->begin; });
+    size_t end = braces.value->begin + 1;
+    for (TomlNode* item : items) {
+      item->keyed = TextRange{text_.find_first_not_of(" \t,", end), item->value->end};
+      end = item->value->end;
+    }
+  }
+
+  static void collectItems(TomlNode& node, std::vector<TomlNode*>& items) {
+    for (const auto& child : node.children) {
+      if (child->value) {
+        items.push_back(child.get());
+      } else {
+        collectItems(*child, items);
+      }
+    }
+  }
+
+  // `key = value` in lines of its own.
+  void addStatement(TomlNode& node, const toml::key& key, const toml::node& source) {
+    if (!section_) {
+      return;
+    }
+    const TextRange lines{linesOf(key.source()).begin, linesOf(source.source()).end};
+    const size_t begin = text_.find_first_not_of(" \t", lines.begin);
+    node.keyed = TextRange{begin, node.value->end};
     node.statement = lines;
-    TomlSection& section = table.sections.back();
-    section.end = lines.end;
-    section.lastStatement = lines;
-    const size_t equals = text_.find('=', name.range.end);
-    section.linedUp = section.linedUp || equals > name.range.end + 1;
-    section.keyWidth = equals - begin;
-    TomlNode* owner = &table;
-    for (size_t i = 0; i + 1 < name.parts.size(); ++i) {
-      owner = &tableIn(*owner, name.parts[i].name);
-      owner->dotted = lines;
-      owner->dottedPrefix = std::string(text_.substr(begin, name.parts[i + 1].begin - begin));
+    const size_t keyEnd = offset(key.source().end);
+    const size_t equals = text_.find('=', keyEnd);
+    section_->linedUp = section_->linedUp || equals > keyEnd + 1;
+    if (!section_->lastStatement || section_->lastStatement->begin < lines.begin) {
+      section_->end = lines.end;
+      section_->lastStatement = lines;
+      section_->keyWidth = equals - begin;
     }
-    at_ = std::min(lines.end, text_.size());
-  }
-
-  void array(TomlNode& node) {
-    node.kind = TomlNode::Kind::array;
-    ++at_;
-    for (skipBetween(); peek() != ']'; skipBetween()) {
-      if (peek() == ',') {
-        ++at_;
-        continue;
+    std::string prefix;
+    for (TomlNode* owner : dotted_) {
+      prefix += tomlKey(owner->key) + ".";
+      if (!owner->dotted || owner->dotted->begin < lines.begin) {
+        owner->dotted = lines;
+        owner->dottedPrefix = prefix;
       }
-      value(*node.children.emplace_back(std::make_unique<TomlNode>()));
     }
-    ++at_;
   }
 
-  void braces(TomlNode& node) {
-    node.kind = TomlNode::Kind::table;
-    ++at_;
-    for (skipBlanks(); peek() != '}'; skipBlanks()) {
-      if (peek() == ',') {
-        ++at_;
-        continue;
-      }
-      Key name;
-      keyedValue(node, name);
-    }
-    ++at_;
-  }
-
-  std::string_view text_;
-  size_t at_ = 0;
+  std::string text_;
+  std::vector<size_t> lines_;       // where each begins
+  TomlSection* section_ = nullptr;  // whose statements are read; null in braces
+  std::vector<TomlNode*> dotted_;   // tables around the current one that dotted keys have made
 };
+
+void moveBack(TomlNode& node, size_t bytes) {
+  for (std::optional<TextRange>* range : {&node.value, &node.keyed}) {
+    if (*range) {
+      *range = TextRange{(*range)->begin - bytes, (*range)->end - bytes};
+    }
+  }
+  for (const auto& child : node.children) {
+    moveBack(*child, bytes);
+  }
+}
 
 }  // namespace
 
@@ -230,12 +216,13 @@ const TomlNode* TomlNode::child(std::string_view name) const {
 }
 
 TomlNode outlineOf(std::string_view text) {
-  return Outliner(text).file();
+  return Outliner(std::string(text)).file();
 }
 
 TomlNode outlineOfValue(std::string_view text) {
-  TomlNode node;
-  Outliner(text).value(node);
+  const std::string key = "v = ";
+  TomlNode node = Outliner(key + std::string(text)).value("v");
+  moveBack(node, key.size());
   return node;
 }
 

@@ -26,20 +26,19 @@ struct TomlSection {
   bool linedUp = false;                    // keys are padded so that their = stand below each other
 };
 
-// Where the text of a TOML file says what. A table may be written in several places: under headers, with dotted keys,
-// in braces.
+// Where the text of a TOML file has each value. A table may be written under a header, with dotted keys or in braces.
 struct TomlNode {
   enum class Kind { table, array, scalar };
 
   Kind kind = Kind::table;
   std::string key;                                  // unquoted; empty for the root and for elements
   std::vector<std::unique_ptr<TomlNode>> children;  // of a table, elements of an array, in the order of the text
-  std::optional<TextRange> value;                   // of what stands behind the =, or is an element of brackets
-  std::optional<TextRange> keyed;                   // from the key to the end of the value, if that is this node's own
-  std::optional<TextRange> statement;               // the whole lines of `keyed`, if it does not stand in braces
-  std::vector<TomlSection> sections;                // of a table with headers; an element of [[key]] has one at least
-  std::optional<TextRange> dotted;  // the lines of the last statement that added to the table with a dotted key
-  std::string dottedPrefix;         // what stands there before the added key: "sky."
+  std::optional<TextRange> value;                   // behind the =, or as an element of brackets
+  std::optional<TextRange> keyed;                   // from the key to the end of the value, if it has a key of its own
+  std::optional<TextRange> statement;               // the whole lines of `keyed`, unless it stands in braces
+  std::optional<TomlSection> section;               // of a table with a header, and of the root
+  std::optional<TextRange> dotted;  // lines of the last statement that added to the table with a dotted key
+  std::string dottedPrefix;         // before the key that such a statement adds: "sky."
 
   TomlNode* child(std::string_view name);
   const TomlNode* child(std::string_view name) const;
