@@ -33,7 +33,7 @@ auto moveTeapot(double x) {
   return [x](Scene& scene) { scene.objects[0].position.x = x; };
 }
 
-TEST(SceneDocument, UndoAndRedoBringContentLabelAndSelectionBack) {
+TEST(SceneDocument, UndoAndRedoRestoreContentLabelAndSelection) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   EXPECT_FALSE(document.canUndo() || document.canRedo() || document.modified());
@@ -64,7 +64,7 @@ TEST(SceneDocument, UndoAndRedoBringContentLabelAndSelectionBack) {
   EXPECT_FALSE(document.canRedo()) << "a new step ends what could be redone";
 }
 
-TEST(SceneDocument, WhatChangesNothingIsNoStep) {
+TEST(SceneDocument, UnchangedValuesAddNoStep) {
   TextScene text(kText);
   const uint64_t revision = text.document.revision();
   text.document.change("move", kTeapot, moveTeapot(0));
@@ -72,7 +72,7 @@ TEST(SceneDocument, WhatChangesNothingIsNoStep) {
   EXPECT_EQ(text.document.revision(), revision);
 }
 
-TEST(SceneDocument, AFailedChangeLeavesTheSceneAsItWas) {
+TEST(SceneDocument, FailedChangeLeavesTheSceneUnchanged) {
   TextScene text(kText);
   EXPECT_THROW(text.document.change("move", kTeapot,
                                     [](Scene& scene) {
@@ -86,7 +86,7 @@ TEST(SceneDocument, AFailedChangeLeavesTheSceneAsItWas) {
   EXPECT_FALSE(text.document.canUndo() || text.document.modified());
 }
 
-TEST(SceneDocument, AGestureIsOneStep) {
+TEST(SceneDocument, GestureIsOneStep) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   document.beginGesture();
@@ -110,7 +110,7 @@ TEST(SceneDocument, AGestureIsOneStep) {
   EXPECT_FALSE(document.inGesture());
 }
 
-TEST(SceneDocument, AGestureThatComesBackOrIsCancelledIsNone) {
+TEST(SceneDocument, RevertedOrCancelledGestureAddsNoStep) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   document.beginGesture();
@@ -132,7 +132,7 @@ TEST(SceneDocument, AGestureThatComesBackOrIsCancelledIsNone) {
   EXPECT_TRUE(document.canRedo()) << "what was undone before can still be redone";
 }
 
-TEST(SceneDocument, RevisionsTellValuesFromStructure) {
+TEST(SceneDocument, StructureRevisionIgnoresValues) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   const auto rises = [&](const auto& action) {
@@ -154,7 +154,7 @@ TEST(SceneDocument, RevisionsTellValuesFromStructure) {
   EXPECT_FALSE(rises([&] { document.addBookmark({.position = {1, 1, 1}, .target = {0, 0, 0}}); }));
 }
 
-TEST(SceneDocument, AddedThingsFollowTheViewer) {
+TEST(SceneDocument, AddedNodesFaceTheViewer) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   document.select(kTeapot);
@@ -180,7 +180,7 @@ TEST(SceneDocument, AddedThingsFollowTheViewer) {
   EXPECT_FALSE(document.modified());
 }
 
-TEST(SceneDocument, DuplicatesStandBesideWithNamesOfTheirOwn) {
+TEST(SceneDocument, DuplicatesGetNamesAndPositions) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   EXPECT_EQ(document.duplicate(kTeapot), (Selection{Kind::object, 1}));
@@ -197,7 +197,7 @@ TEST(SceneDocument, DuplicatesStandBesideWithNamesOfTheirOwn) {
   EXPECT_EQ(document.undoLabel(), "duplicate light 'lamp'");
 }
 
-TEST(SceneDocument, RemovingSelectsNothingAndUndoSelectsAgain) {
+TEST(SceneDocument, UndoOfRemovalSelectsAgain) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   document.remove(kFloor);
@@ -210,7 +210,7 @@ TEST(SceneDocument, RemovingSelectsNothingAndUndoSelectsAgain) {
   EXPECT_FALSE(document.modified());
 }
 
-TEST(SceneDocument, SeveralThingsAreDuplicatedAndRemovedInOneStepAndStayTogether) {
+TEST(SceneDocument, SeveralNodesAreOneStep) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   const Scene& scene = text.scene;
@@ -239,7 +239,7 @@ TEST(SceneDocument, SeveralThingsAreDuplicatedAndRemovedInOneStepAndStayTogether
   EXPECT_FALSE(document.canUndo() || document.modified());
 }
 
-TEST(SceneDocument, DuplicatesStandBesideTheWholeRowOfCopies) {
+TEST(SceneDocument, DuplicateAvoidsTheRowOfCopies) {
   for (const double step : {3.0, -3.0}) {
     TextScene text(kText);
     text.document.change("spread", kTeapot, [&](Scene& scene) { scene.objects[0].copies.step = {step, 0, 0}; });
@@ -258,7 +258,7 @@ TEST(SceneDocument, DuplicatesStandBesideTheWholeRowOfCopies) {
   }
 }
 
-TEST(SceneDocument, BookmarksKeepTheirNamesApart) {
+TEST(SceneDocument, BookmarkNamesStayUnique) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   const Bookmark view{.position = {1, 1, 1}, .target = {0, 0, 0}};
@@ -274,7 +274,7 @@ TEST(SceneDocument, BookmarksKeepTheirNamesApart) {
   EXPECT_THROW(document.removeBookmark(1), std::out_of_range);
 }
 
-TEST(SceneDocument, ForgetsTheOldestSteps) {
+TEST(SceneDocument, DropsTheOldestSteps) {
   TextScene text(kText);
   for (size_t i = 1; i <= SceneDocument::mostSteps + 5; ++i) {
     text.document.change("move", kTeapot, moveTeapot(static_cast<double>(i)));
@@ -292,7 +292,7 @@ TEST(SceneDocument, ForgetsTheOldestSteps) {
   EXPECT_EQ(text.scene.objects[0].position.x, SceneDocument::mostSteps + 5);
 }
 
-TEST(SceneDocument, ForgetsStepsThatTakeTooMuchMemory) {
+TEST(SceneDocument, DropsStepsBeyondTheMemoryLimit) {
   std::string many = kText;
   for (int i = 0; i < 20000; ++i) {
     many += "[[light]]\nposition = [0, 1, 0]\n";
@@ -310,7 +310,7 @@ TEST(SceneDocument, ForgetsStepsThatTakeTooMuchMemory) {
   EXPECT_LE(steps * bytes, SceneDocument::mostBytes);
 }
 
-TEST(SceneDocument, ModifiedIsAgainstWhatWasSaved) {
+TEST(SceneDocument, ModifiedComparesWithTheSavedContent) {
   TextScene text(kText);
   SceneDocument& document = text.document;
   document.change("move", kTeapot, moveTeapot(1));

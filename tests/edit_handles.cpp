@@ -1,4 +1,4 @@
-// Handles of the gizmo, what dragging them does, and outlines.
+// The gizmo's handles, drags of them, and outlines.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -36,7 +36,7 @@ double largest(const glm::dmat3& m) {
   return most;
 }
 
-TEST(PitchYawRoll, GivesTheRotationBackNearTheAnglesBefore) {
+TEST(PitchYawRoll, RestoresTheRotationNearGivenAngles) {
   rc::check([] {
     const glm::dvec3 angles(*rc::gen::elementOf(std::vector<double>{uniform(-400, 400), 90.0, -90.0, 0.0, 89.99999}),
                             uniform(-400, 400), uniform(-400, 400));
@@ -48,7 +48,7 @@ TEST(PitchYawRoll, GivesTheRotationBackNearTheAnglesBefore) {
   });
 }
 
-TEST(PitchYawRoll, AtGimbalLockTheRollStays) {
+TEST(PitchYawRoll, KeepsTheRollAtGimbalLock) {
   const glm::dvec3 angles(90.0, 25.0, 40.0);
   const glm::dvec3 turned = pitchYawRoll(rotationAboutAxis({0, 1, 0}, 10.0) * rotationFromDegrees(angles), angles);
   EXPECT_NEAR(turned.x, 90.0, 1e-5);
@@ -56,7 +56,7 @@ TEST(PitchYawRoll, AtGimbalLockTheRollStays) {
   EXPECT_EQ(turned.z, 40.0);
 }
 
-TEST(GizmoOfMoving, EveryHandleIsFoundWhereItIsDrawn) {
+TEST(GizmoHandles, HandlesAreHitWhereDrawn) {
   const PictureView picture = lookingAt({3, 2, 4}, {0, 0, 0});
   for (const GizmoMode mode : {GizmoMode::move, GizmoMode::turn}) {
     const Gizmo gizmo(mode, {0.2, 0.1, 0.0}, arm);
@@ -67,7 +67,7 @@ TEST(GizmoOfMoving, EveryHandleIsFoundWhereItIsDrawn) {
       for (const glm::dvec2& p : shape.points) {
         middle += p / static_cast<double>(shape.points.size());
       }
-      // Of a ring a point away from where it crosses another, of everything else the middle.
+      // A point of a ring away from where it crosses another; the middle of any other handle.
       const glm::dvec2 p = mode == GizmoMode::turn ? shape.points[shape.points.size() / 5] : middle;
       if (!shape.behind) {
         EXPECT_EQ(gizmo.at(picture, p, 6.0), shape.handle);
@@ -79,7 +79,7 @@ TEST(GizmoOfMoving, EveryHandleIsFoundWhereItIsDrawn) {
   }
 }
 
-TEST(GizmoOfMoving, IsAsLargeAtEveryDistance) {
+TEST(GizmoHandles, SizeIsTheSameAtEveryDistance) {
   for (const double distance : {0.01, 1.0, 300.0}) {
     const PictureView picture = lookingAt({0, 0, distance}, {0, 0, 0});
     double farthest = 0.0;
@@ -92,7 +92,7 @@ TEST(GizmoOfMoving, IsAsLargeAtEveryDistance) {
   }
 }
 
-TEST(GizmoOfMoving, WhatPointsAtTheEyeIsLeftOut) {
+TEST(GizmoHandles, HandlesTowardsTheEyeAreHidden) {
   const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
   for (const GizmoShape& shape : Gizmo(GizmoMode::move, {0, 0, 0}, arm).shapes(picture)) {
     EXPECT_NE(shape.handle, Grip::moveZ);
@@ -101,7 +101,7 @@ TEST(GizmoOfMoving, WhatPointsAtTheEyeIsLeftOut) {
   }
 }
 
-TEST(GizmoDragging, AnAxisFollowsThePointer) {
+TEST(GizmoDragging, AxisFollowsThePointer) {
   rc::check([] {
     const glm::dvec3 pivot = inBox(2.0);
     const glm::dvec3 eye = pivot + glm::dvec3(uniform(-3, 3), uniform(-2, 2), uniform(2, 6));
@@ -122,7 +122,7 @@ TEST(GizmoDragging, AnAxisFollowsThePointer) {
   });
 }
 
-TEST(GizmoDragging, ThroughAMirrorTheImageFollowsThePointer) {
+TEST(GizmoDragging, MirrorImageFollowsThePointer) {
   Scene scene;
   scene.mirrors.push_back({.position = {0, 0, -2}, .rotation = {0, 20, 0}, .size = {9, 9}});
   scene.mirrors.push_back({.position = {0, 0, 5}, .rotation = {0, 190, 0}, .size = {19, 9}});
@@ -168,7 +168,7 @@ TEST(GizmoDragging, PlanesAndRingsFollowThePointer) {
   });
 }
 
-TEST(GizmoDragging, ARingSeenFromItsEdgeCountsPixels) {
+TEST(GizmoDragging, RingSeenEdgeOnCountsPixels) {
   const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
   const glm::dvec2 start(450.0, 350.0);
   GizmoDrag ring(picture, Gizmo(GizmoMode::turn, {0, 0, 0}, arm), Grip::turnY, start);
@@ -177,7 +177,7 @@ TEST(GizmoDragging, ARingSeenFromItsEdgeCountsPixels) {
   EXPECT_NEAR(ring.to(start + glm::dvec2(arm, 50.0), false).degrees, glm::degrees(1.0), 0.1);
 }
 
-TEST(GizmoDragging, BeyondTheHorizonTheLastChangeStays) {
+TEST(GizmoDragging, LastChangeStaysBeyondTheHorizon) {
   const PictureView picture = lookingAt({0, 1, 4}, {0, 1, 0});
   GizmoDrag drag(picture, Gizmo(GizmoMode::move, {0, 0, 0}, arm), Grip::moveZX, {450.0, 500.0});
   const glm::dvec3 low = drag.to({450.0, 450.0}, false).translation;
@@ -186,7 +186,7 @@ TEST(GizmoDragging, BeyondTheHorizonTheLastChangeStays) {
   EXPECT_EQ(drag.to({450.0, 350.0}, false).translation, low);
 }
 
-TEST(Transforming, ThingsStandWhereTheyWerePut) {
+TEST(Transforming, NodesStandWhereTheyWereMoved) {
   rc::check([] {
     Scene scene;
     scene.meshes.push_back({.halfExtent = glm::dvec3(0.5), .radius = 0.9});
@@ -312,7 +312,7 @@ TEST(Outline, FollowsTheSilhouetteAlsoInside) {
   EXPECT_TRUE(meshOutline(ring(200)).edges.empty()) << "80000 triangles";
 }
 
-TEST(Outline, ABoxHasSixEdges) {
+TEST(Outline, BoxHasSixEdges) {
   Mesh mesh{.halfExtent = glm::dvec3(1.0), .radius = std::sqrt(3.0)};
   // Each side with corners of its own.
   for (int axis = 0; axis < 3; ++axis) {

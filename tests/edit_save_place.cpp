@@ -1,4 +1,4 @@
-// Where a scene is saved that a person names a file for.
+// The file that a scene is saved to when the user types a name.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(SavePlace, TomlIsAddedWhereItIsMissing) {
+TEST(SavePlace, MissingTomlEndingIsAdded) {
   EXPECT_EQ(sceneFileNamed("/a/b.toml"), "/a/b.toml");
   EXPECT_EQ(sceneFileNamed("/a/b"), "/a/b.toml");
   EXPECT_EQ(sceneFileNamed("b.v2"), "b.v2.toml");
@@ -21,7 +21,7 @@ TEST(SavePlace, TomlIsAddedWhereItIsMissing) {
   EXPECT_THROW(sceneFileNamed("/a/"), SaveError);
 }
 
-TEST(SavePlace, AMissingFolderIsNamed) {
+TEST(SavePlace, MissingFolderIsNamed) {
   const TemporaryFolder folder;
   EXPECT_NO_THROW(requireFolder(folder / "a.toml"));
   EXPECT_NO_THROW(requireFolder("a.toml")) << "the working directory";

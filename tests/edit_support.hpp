@@ -17,10 +17,10 @@ std::string contentOfFile(const std::filesystem::path& file);
 
 std::vector<std::filesystem::path> shippedScenes();
 
-// Every field of what can be edited, exactly, but for where it stood and how models are named.
+// Compares every field that can be edited exactly, but for the names of models.
 void expectSameContent(const Scene& actual, const Scene& expected, const std::string& about);
 
-// A scene of a text, in a folder of its own with "triangle.obj".
+// A scene read from a text, in a folder of its own with "triangle.obj".
 struct TextScene {
   explicit TextScene(const std::string& text)
       : model(folder.write("triangle.obj", kTriangle)),

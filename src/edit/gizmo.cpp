@@ -13,12 +13,12 @@ namespace speculum {
 namespace {
 
 constexpr int ringSteps = 72;
-constexpr double axisStart = 0.14;  // of the arm, so that the middle stays free
-constexpr double planeNear = 0.32;  // of the arm: where the square of a plane begins and ends
+constexpr double axisStart = 0.14;  // share of the arm; keeps the middle free
+constexpr double planeNear = 0.32;  // share of the arm where a plane's square begins and ends
 constexpr double planeFar = 0.56;
 constexpr double centerPixels = 7.0;  // radius of the handle of the view's plane
 constexpr double headPixels = 15.0;   // length of an arrow's head
-// Sines of the angle between eye and axis, or eye and plane, below which a handle cannot be taken hold of.
+// Sines of the angle between eye and axis, or eye and plane, below which a handle cannot be grabbed.
 constexpr double steepestAxis = 0.15;
 constexpr double flattestPlane = 0.12;
 constexpr double flattestRing = 0.15;  // below it, turning counts pixels along the ring's edge
@@ -56,7 +56,7 @@ void addLine(GizmoShape& shape, const std::optional<PixelLine>& line) {
   }
 }
 
-// Nothing if a corner is not on the picture.
+// Fails if a corner is not on the picture.
 std::optional<GizmoShape> filled(const PictureView& picture, Grip handle, std::span<const glm::dvec3> corners) {
   GizmoShape shape{.handle = handle, .filled = true};
   for (const glm::dvec3& corner : corners) {
@@ -99,17 +99,17 @@ double distanceTo(const GizmoShape& shape, const glm::dvec2& p) {
   return nearest;
 }
 
-// The largest power of ten that is at most a tenth of `value`.
+// Largest power of ten that is at most a tenth of `value`.
 double grain(double value) {
   return std::pow(10.0, std::floor(std::log10(0.1 * value)));
 }
 
-// By division below 1, as that gives the double nearest to the decimal number.
+// Divides for steps below 1: that gives the double nearest to the decimal number.
 double rounded(double value, double step) {
   return step < 1.0 ? std::round(value / step) / std::round(1.0 / step) : std::round(value / step) * step;
 }
 
-// An arrow as lines, its head as a triangle of so many pixels.
+// Adds an arrow as lines with a triangle of so many pixels as its head.
 void addArrow(const PictureView& picture, const glm::dvec3& pivot, int axis, double length,
               std::vector<GizmoShape>& shapes) {
   const Grip handle = moveAxes[static_cast<size_t>(axis)];
@@ -139,7 +139,7 @@ void addCenter(const glm::dvec2& center, std::vector<GizmoShape>& shapes) {
 void addRing(const PictureView& picture, const glm::dvec3& pivot, int axis, double radius,
              std::vector<GizmoShape>& shapes) {
   const glm::dvec3 sight = towards(picture, pivot);
-  // Seen from along its axis a ring has no far half.
+  // A ring seen along its axis has no far half.
   const double depth = std::abs(glm::dot(sight, unit(axis))) < 0.98 ? 0.02 * radius : 2.0 * radius;
   GizmoShape front{.handle = rings[static_cast<size_t>(axis)]};
   GizmoShape back{.handle = front.handle, .behind = true};
@@ -194,7 +194,7 @@ std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
   return shapes;
 }
 
-// Of what is equally near, what is drawn on top.
+// Prefers, among equally near handles, the one drawn on top.
 Grip Gizmo::at(const PictureView& picture, const glm::dvec2& pixel, double reach) const {
   Grip found = Grip::none;
   double nearest = reach;
@@ -228,14 +228,14 @@ GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle
   } else if (isPlane(handle)) {
     normal_ = axis_;
   } else {
-    // Of all planes through the axis the one that faces the eye.
+    // The plane through the axis that faces the eye most.
     normal_ = glm::normalize(sight - axis_ * glm::dot(axis_, sight));
   }
   start_ = meet(pixel).value_or(pivot_);
   lastAngle_ = angleAt(pixel).value_or(0.0);
 }
 
-// Not at the plane's horizon, where a pixel is kilometres.
+// Fails near the plane's horizon, where a pixel spans kilometres.
 std::optional<glm::dvec3> GizmoDrag::meet(const glm::dvec2& pixel) const {
   constexpr double farthest = 1000.0;  // times the pivot's depth
   const Ray ray = picture_.ray(pixel);
@@ -252,7 +252,7 @@ std::optional<glm::dvec3> GizmoDrag::moveAt(const glm::dvec2& pixel) const {
   return handle_ == Grip::moveView || isPlane(handle_) ? by : axis_ * glm::dot(axis_, by);
 }
 
-// Degrees, unbounded in the second case only.
+// Degrees; unbounded if pixels are counted.
 std::optional<double> GizmoDrag::angleAt(const glm::dvec2& pixel) const {
   if (onScreen_) {
     return glm::degrees(glm::dot(pixel - pressed_, screen_) / arm_);

@@ -6,30 +6,30 @@ namespace speculum {
 
 enum class GizmoMode { move, turn };
 
-// What the pointer takes hold of. Planes are named by the axes along which they move.
+// Handle that the pointer grabs. Plane handles are named by the axes along which they move.
 enum class Grip { none, moveX, moveY, moveZ, moveYZ, moveZX, moveXY, moveView, turnX, turnY, turnZ };
 
-// The axis of the world that a handle stands for: 0, 1, 2; of a plane its normal. -1 for the view's plane and none.
+// World axis 0, 1 or 2 of a handle, for planes that of their normal; -1 for the view's plane and none.
 int axisOf(Grip handle);
 
-// A part of the gizmo over the picture.
+// One part of the gizmo as it is drawn over the picture.
 struct GizmoShape {
   Grip handle = Grip::none;
-  std::vector<glm::dvec2> points;  // pixels; a polygon if it is filled, otherwise pairs of ends of lines
+  std::vector<glm::dvec2> points;  // pixels; a polygon if filled, else pairs of line ends
   bool filled = false;
   bool behind = false;  // the far half of a ring
 };
 
-// Handles about a point along the world's axes, as large on the picture wherever the point is. In a mirror they are
-// those of the mirror's image.
+// Handles around a point along the world's axes, of the same size on the picture at every distance. In a picture seen
+// through mirrors they belong to the mirror image.
 class Gizmo {
  public:
   // `pivot` in the world; `arm`: length of an axis and radius of a ring, pixels.
   Gizmo(GizmoMode mode, const glm::dvec3& pivot, double arm) : mode_(mode), pivot_(pivot), arm_(arm) {}
 
-  // Nothing for a point that the picture cannot show.
+  // Empty for a point that the picture cannot show.
   std::vector<GizmoShape> shapes(const PictureView& picture) const;
-  // The handle within `reach` pixels of a point of the picture.
+  // Finds the handle within `reach` pixels of a point of the picture.
   Grip at(const PictureView& picture, const glm::dvec2& pixel, double reach) const;
 
   double arm() const { return arm_; }
@@ -41,7 +41,7 @@ class Gizmo {
   double arm_;
 };
 
-// Moves or turns by one handle, from press to release, in the picture as it was at the press.
+// A drag of one handle from press to release, in the picture as it was at the press.
 class GizmoDrag {
  public:
   struct Change {
@@ -55,8 +55,8 @@ class GizmoDrag {
   GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle, const glm::dvec2& pixel);
 
   Grip handle() const { return handle_; }
-  // What the pointer asks for in all since the press. Where its ray meets nothing, say above the horizon of a plane,
-  // the last change stays. Without `snap` it is rounded to less than a tenth of a pixel, for short numbers.
+  // Total change since the press. Where the pointer's ray misses the plane, as above its horizon, the last change
+  // stays. Without `snap` the change is rounded to less than a tenth of a pixel, for short numbers.
   Change to(const glm::dvec2& pixel, bool snap);
 
  private:
@@ -70,8 +70,8 @@ class GizmoDrag {
   double arm_;
   glm::dvec3 axis_{0.0};    // of the handle
   glm::dvec3 normal_{0.0};  // of the plane that the pointer's ray meets
-  bool onScreen_ = false;   // the plane shows its edge: pixels are counted instead
-  glm::dvec2 screen_{0.0};  // then: the direction on the picture that counts, unit
+  bool onScreen_ = false;   // the plane is seen edge-on: pixels are counted instead
+  glm::dvec2 screen_{0.0};  // unit direction on the picture along which they count
   glm::dvec2 pressed_;      // pixels
   glm::dvec3 start_{0.0};   // where the ray met the plane at the press
   double lastAngle_ = 0.0;  // degrees

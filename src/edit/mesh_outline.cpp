@@ -18,25 +18,25 @@ bool before(const glm::dvec3& a, const glm::dvec3& b) {
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
-// For each vertex the first one of those that stand at the same place: normals and texture split them.
-std::vector<uint32_t> placesOf(const Mesh& mesh) {
+// Index of the first vertex at the same position, one per vertex: normals and textures split vertices.
+std::vector<uint32_t> firstAtPosition(const Mesh& mesh) {
   const auto at = [&](uint32_t i) -> const glm::dvec3& { return mesh.vertices[i].position; };
   std::vector<uint32_t> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return before(at(a), at(b)); });
-  std::vector<uint32_t> places(order.size());
+  std::vector<uint32_t> first(order.size());
   for (size_t i = 0; i < order.size(); ++i) {
-    places[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? places[order[i - 1]] : order[i];
+    first[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? first[order[i - 1]] : order[i];
   }
-  return places;
+  return first;
 }
 
 std::vector<MeshEdge> edgesOf(const Mesh& mesh) {
-  const std::vector<uint32_t> places = placesOf(mesh);
+  const std::vector<uint32_t> first = firstAtPosition(mesh);
   std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> third;  // vertices beside an edge
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const std::array<uint32_t, 3> corner{places[mesh.indices[i]], places[mesh.indices[i + 1]],
-                                         places[mesh.indices[i + 2]]};
+    const std::array<uint32_t, 3> corner{first[mesh.indices[i]], first[mesh.indices[i + 1]],
+                                         first[mesh.indices[i + 2]]};
     const bool flat = corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0];
     for (size_t k = 0; !flat && k < 3; ++k) {
       third[std::minmax({corner[k], corner[(k + 1) % 3]})].push_back(corner[(k + 2) % 3]);
@@ -63,8 +63,8 @@ MeshOutline meshOutline(const Mesh& mesh) {
   return {.points = outlinePoints(mesh), .edges = small ? edgesOf(mesh) : std::vector<MeshEdge>()};
 }
 
-// Directions on a Fibonacci lattice: Gonzalez, "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude
-// Lattices" (2010).
+// Takes directions on a Fibonacci lattice: Gonzalez, "Measurement of Areas on a Sphere Using Fibonacci and
+// Latitude-Longitude Lattices" (2010).
 std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
   std::vector<glm::dvec3> points;
   if (mesh.vertices.size() <= mostPoints) {

@@ -14,7 +14,7 @@ constexpr size_t mostLines = 4000;
 constexpr double lightGap = 5.0;  // pixels between a light and its circle
 constexpr int circleSteps = 48;
 
-// The convex hull, counter-clockwise: Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions" (1979).
+// Convex hull, counter-clockwise: Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions" (1979).
 std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
   std::sort(points.begin(), points.end(),
             [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -100,7 +100,7 @@ std::vector<PixelLine> hullOutline(const InstanceState& instance, const glm::dve
   std::vector<glm::dvec2> pixels;
   for (const glm::dvec3& point : points) {
     const glm::dvec3 world = instance.worldFromMesh.point(point);
-    // A mirror shows nothing of what is behind it.
+    // A mirror shows only what is in front of it.
     if (picture.view().clip && picture.view().clip->distance(world) < 0.0) {
       continue;
     }
@@ -115,7 +115,7 @@ std::vector<PixelLine> hullOutline(const InstanceState& instance, const glm::dve
   return lines;
 }
 
-// The part of it that the mirrors of the picture show.
+// Clips a line to what the mirrors of the picture show.
 std::optional<PixelLine> lineInFront(const PictureView& picture, glm::dvec3 a, glm::dvec3 b) {
   if (const auto& clip = picture.view().clip) {
     const double da = clip->distance(a);
@@ -130,7 +130,7 @@ std::optional<PixelLine> lineInFront(const PictureView& picture, glm::dvec3 a, g
   return picture.line(a, b);
 }
 
-// Where the surface turns away from the eye. Nothing if that is more lines than are worth drawing.
+// Edges where the surface turns away from the eye; empty if they are too many to draw.
 std::optional<std::vector<PixelLine>> silhouette(const InstanceState& instance, const PictureView& picture,
                                                  std::span<const MeshEdge> edges) {
   const Affine& placed = instance.worldFromMesh;

@@ -6,10 +6,10 @@
 
 namespace speculum {
 
-// What surrounds the selected thing on the picture, or in the mirrors that `picture` goes through: a mirror's edges; of
-// an object the edges of its mesh where it turns away from the eye or ends, without them or with more than 4000 the
-// convex hull of its points (the edges of its box where it reaches behind the eye); a circle about a light. Nothing
-// where it is not seen.
+// Outline of the selected node on the picture, or on its image in the mirrors that `picture` goes through; empty where
+// it is not seen. A mirror shows its edges, a light a circle. An object shows the edges where its mesh turns away from
+// the eye or ends; with none, or more than 4000, the convex hull of its points, or its box where that reaches behind
+// the eye.
 std::vector<PixelLine> outlineOf(const Scene& scene, const SceneState& state, const Selection& selection,
                                  const PictureView& picture, const MeshOutline& shape);
 

@@ -28,7 +28,7 @@ Selection selectionOf(const SceneHit& hit, const TraceWorld& world) {
   return {};
 }
 
-// Whether the plan left the mirror at the end of the path without the image that it would have shown.
+// Whether the plan skipped the mirror at the end of the path, so that it shows no image.
 bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
   return std::any_of(limits.skipped.begin(), limits.skipped.end(), [&](const SkippedMirror& skip) {
     const bool shown = skip.reason == SkipReason::maxPasses || skip.reason == SkipReason::maxDepth ||
@@ -37,7 +37,7 @@ bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
   });
 }
 
-// Starts at the reflected eye and reaches the mirror at the same t: nothing is moved off a surface.
+// Starts at the reflected eye and reaches the mirror at the same t, so that no offset off the surface is needed.
 Ray reflectedRay(const Ray& ray, const Plane& plane, double t) {
   return {reflectPoint(ray.origin, plane), reflectionLinear(plane.normal) * ray.direction, t};
 }

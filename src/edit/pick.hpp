@@ -8,23 +8,23 @@
 
 namespace speculum {
 
-// A thing that a pixel shows.
+// A node that a pixel shows.
 struct Picked {
   Selection what;
-  std::vector<int> path;  // mirrors that it is seen through, from the eye; indices into Scene::mirrors
-  glm::dvec3 point{0.0};  // world, on the thing itself
+  std::vector<int> path;  // mirrors from the eye that it is seen in; indices into Scene::mirrors
+  glm::dvec3 point{0.0};  // world, on the node itself
 
   bool operator==(const Picked&) const = default;
 };
 
-// Which mirrors show an image.
+// Limits of the frame plan: a mirror beyond them shows no image.
 struct PickLimits {
   int maxDepth = 4;                        // reflection.max_depth
   double minThroughput = 0.0;              // reflection.min_throughput
-  std::span<const SkippedMirror> skipped;  // of the plan of the picture, if it is known
+  std::span<const SkippedMirror> skipped;  // by the plan of the picture, if it is known
 };
 
-// Finds what a pixel shows, in double and without the GPU.
+// Finds the nodes under a pixel, in double precision and without the GPU.
 class Picker {
  public:
   // Keeps a reference to the scene, whose meshes must not change; builds their hierarchies.
@@ -33,9 +33,9 @@ class Picker {
   Picker(const Picker&) = delete;
   Picker& operator=(const Picker&) = delete;
 
-  // What the ray through a point of the picture ends on first, then the mirrors it was seen through, the one nearest to
-  // the eye last. Reflections are followed in planar mirrors as they are drawn; those of ripples and of rough mirrors
-  // as in the mirror's plane. Nothing of the background seen directly. `picture` is a camera's view of the state.
+  // First the node that the ray through a point of the picture ends on, then the mirrors on its way, the one nearest to
+  // the eye last; empty where the background is seen directly. Reflections are followed as planar mirrors draw them;
+  // rippled and rough mirrors count as smooth. `picture` is the camera's view of the state.
   std::vector<Picked> at(const SceneState& state, const PictureView& picture, const glm::dvec2& pixel,
                          const PickLimits& limits);
 

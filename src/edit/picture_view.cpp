@@ -79,7 +79,7 @@ double PictureView::metresPerPixel(const glm::dvec3& world) const {
 std::optional<PixelLine> PictureView::line(const glm::dvec3& a, const glm::dvec3& b) const {
   const double depthA = depth(a);
   const double depthB = depth(b);
-  // A little beyond, so that rounding leaves both ends where pixel() takes them.
+  // Cuts a little beyond the near plane, so that pixel() takes both ends despite rounding.
   const double near = projection_.near * 1.001;
   if (depthA < near && depthB < near) {
     return std::nullopt;
@@ -92,7 +92,7 @@ std::optional<PixelLine> PictureView::line(const glm::dvec3& a, const glm::dvec3
   return first && second ? clipped({*first, *second}) : std::nullopt;
 }
 
-// Cyrus, Beck, "Generalized Two- and Three-Dimensional Clipping" (1978), whichever way the polygon runs.
+// Clips as in Cyrus, Beck, "Generalized Two- and Three-Dimensional Clipping" (1978), for either winding.
 std::optional<PixelLine> PictureView::clipped(const PixelLine& line) const {
   const glm::dvec2 along = line.b - line.a;
   double area = 0.0;

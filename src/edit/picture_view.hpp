@@ -15,26 +15,26 @@ struct PixelLine {
   glm::dvec2 b{0.0};
 };
 
-// The picture that a person sees and points into, or what it shows in a chain of mirrors. It projects exactly as passes
-// do. Pixels run from the top left corner; the centre of the first one is at (0.5, 0.5).
+// View of the picture that the user points into, or of its images in a chain of mirrors. Projects exactly as passes do.
+// Pixels run from the top left corner; the centre of the first one is at (0.5, 0.5).
 class PictureView {
  public:
   PictureView(const CameraPose& camera, int width, int height);
-  // The image of the world that is seen through these mirrors, indices into SceneState::mirrors from the eye. Nothing
-  // if one of them is not there, or not seen from its reflecting side.
+  // View of the world's image in these mirrors, indices into SceneState::mirrors from the eye. Fails if one does not
+  // exist or is not seen from its reflecting side.
   std::optional<PictureView> through(const Scene& scene, const SceneState& state, std::span<const int> path) const;
 
   const View& view() const { return view_; }
   const glm::dvec3& eye() const { return view_.eye; }  // world; reflected about the mirrors
   const std::vector<int>& path() const { return view_.path; }
   glm::dvec3 forward() const;  // world, unit
-  // From the eye through a point of the picture; the direction is one metre deep, not of unit length.
+  // Ray from the eye through a point of the picture; its direction is one metre deep, not of unit length.
   Ray ray(const glm::dvec2& pixel) const;
   double depth(const glm::dvec3& world) const;  // metres in front of the eye's plane
-  // Nothing for what is nearer than the near plane.
+  // Fails for points nearer than the near plane.
   std::optional<glm::dvec2> pixel(const glm::dvec3& world) const;
   double metresPerPixel(const glm::dvec3& world) const;  // at its depth
-  // The part of it beyond the near plane and within what is seen: the picture, or the last mirror of the path.
+  // Clips to the part beyond the near plane and within the picture, or within the last mirror of the path.
   std::optional<PixelLine> line(const glm::dvec3& a, const glm::dvec3& b) const;
   std::optional<PixelLine> clipped(const PixelLine& line) const;
   bool sees(const glm::dvec3& center, double radius) const { return sphereVisible(view_, center, radius); }
@@ -45,7 +45,7 @@ class PictureView {
 
   View view_;
   Projection projection_;
-  std::vector<glm::dvec2> shown_;  // convex, pixels: where on the picture it is seen
+  std::vector<glm::dvec2> shown_;  // convex, pixels: part of the picture that shows it
 };
 
 }  // namespace speculum

@@ -4,11 +4,11 @@
 
 namespace speculum {
 
-// The scene file that a person means who names this one: ".toml" is added unless it is there. Names of models stay, for
-// SceneDocument::save to refuse. Throws SaveError if there is no name.
+// Scene file for a name that the user typed: ".toml" is added unless it is there. Names of models stay as they are, and
+// SceneDocument::save refuses them. Throws SaveError if there is no name.
 std::filesystem::path sceneFileNamed(const std::filesystem::path& file);
 
-// Throws SaveError that names the outermost folder on the way to the file that does not exist.
+// Throws a SaveError with the outermost missing folder of the file's path.
 void requireFolder(const std::filesystem::path& file);
 
 }  // namespace speculum

@@ -6,10 +6,10 @@
 
 namespace speculum {
 
-// What of a scene can be edited.
+// The part of a scene that can be edited.
 struct SceneContent {
-  // Where things stand in the file that the scene was loaded from; -1 for what was added since. Those that were loaded
-  // stand in their order before those that were added.
+  // Index of each node in the file that the scene was loaded from, -1 if it was added since. Loaded nodes come first,
+  // in their order.
   struct Origins {
     std::vector<int> objects;
     std::vector<int> lights;
@@ -30,7 +30,7 @@ struct SceneContent {
   bool operator==(const SceneContent&) const = default;
 };
 
-// Of a scene as it was loaded.
+// Content of a scene as it was loaded.
 SceneContent contentOf(const Scene& scene);
 
 }  // namespace speculum

@@ -27,7 +27,7 @@ size_t bytesOf(const SceneContent& content) {
   return bytes;
 }
 
-// Whether the same things stand at the same places of the lists.
+// Whether the lists hold the same nodes in the same order.
 bool sameStructure(const SceneContent& a, const SceneContent& b) {
   return a.origins.objects == b.origins.objects && a.origins.lights == b.origins.lights &&
          a.origins.mirrors == b.origins.mirrors &&
@@ -134,6 +134,118 @@ Selection SceneDocument::structural(const std::string& label, const std::functio
   const Selection after = edit();
   record({.label = label, .content = std::move(before), .before = selected, .after = after});
   return after;
+}
+
+Selection SceneDocument::append(const Thing& node) {
+  const auto append = [](auto& nodes, std::vector<int>& origins, auto added, Selection::Kind kind) {
+    added.name = freeName(added.name, nodes);
+    nodes.push_back(std::move(added));
+    origins.push_back(-1);
+    return Selection{.kind = kind, .index = static_cast<int>(nodes.size()) - 1};
+  };
+  if (const auto* object = std::get_if<Object>(&node)) {
+    return append(scene_.objects, origins_.objects, *object, Selection::Kind::object);
+  }
+  if (const auto* light = std::get_if<PointLight>(&node)) {
+    return append(scene_.lights, origins_.lights, *light, Selection::Kind::light);
+  }
+  return append(scene_.mirrors, origins_.mirrors, std::get<Mirror>(node), Selection::Kind::mirror);
+}
+
+void SceneDocument::erase(const Selection& selection) {
+  const auto erase = [&](auto& nodes, std::vector<int>& origins) {
+    nodes.erase(nodes.begin() + selection.index);
+    origins.erase(origins.begin() + selection.index);
+  };
+  if (selection.kind == Selection::Kind::object) {
+    erase(scene_.objects, origins_.objects);
+  } else if (selection.kind == Selection::Kind::mirror) {
+    erase(scene_.mirrors, origins_.mirrors);
+  } else {
+    erase(scene_.lights, origins_.lights);
+  }
+}
+
+Selection SceneDocument::addMirror(const glm::dvec3& position, const glm::dvec3& viewer) {
+  Mirror mirror = newMirror(position, viewer);
+  mirror.name = freeName(mirror.name, scene_.mirrors);
+  return structural("add mirror '" + mirror.name + "'", [&] { return append(mirror); });
+}
+
+Selection SceneDocument::addLight(const glm::dvec3& position, const glm::dvec3& viewer) {
+  PointLight light = newLight(position, viewer);
+  light.name = freeName(light.name, scene_.lights);
+  return structural("add light '" + light.name + "'", [&] { return append(light); });
+}
+
+Selection SceneDocument::addObject(int mesh, const glm::dvec3& position) {
+  Object object = newObject(scene_, mesh, position);
+  object.name = freeName(object.name, scene_.objects);
+  return structural("add object '" + object.name + "'", [&] { return append(object); });
+}
+
+Selection SceneDocument::duplicate(const Selection& selection) {
+  return selection ? structural("duplicate " + describe(scene_, selection),
+                                [&] { return append(copyBeside(scene_, selection)); })
+                   : selection;
+}
+
+std::vector<Selection> SceneDocument::duplicate(std::span<const Selection> nodes) {
+  std::vector<Selection> copies;
+  structural("duplicate " + describe(scene_, nodes), [&] {
+    for (const Thing& copy : copiesBeside(scene_, nodes)) {
+      copies.push_back(append(copy));
+    }
+    return copies.front();
+  });
+  return copies;
+}
+
+void SceneDocument::remove(const Selection& selection) {
+  if (selection) {
+    select(selection);
+    remove({&selection, 1});
+  }
+}
+
+void SceneDocument::remove(std::span<const Selection> nodes) {
+  std::vector<Selection> fromTheEnd(nodes.begin(), nodes.end());
+  std::sort(fromTheEnd.begin(), fromTheEnd.end(),
+            [](const Selection& a, const Selection& b) { return a.index > b.index; });
+  structural("remove " + describe(scene_, nodes), [&] {
+    for (const Selection& node : fromTheEnd) {
+      erase(node);
+    }
+    return Selection();
+  });
+}
+
+std::string SceneDocument::addBookmark(Bookmark bookmark) {
+  bookmark.name = freeName(bookmark.name.empty() ? "view" : bookmark.name, scene_.bookmarks);
+  structural("add bookmark '" + bookmark.name + "'", [&] {
+    scene_.bookmarks.push_back(bookmark);
+    origins_.bookmarks.push_back(-1);
+    return selection_;
+  });
+  return bookmark.name;
+}
+
+void SceneDocument::removeBookmark(size_t index) {
+  structural("remove bookmark '" + scene_.bookmarks.at(index).name + "'", [&] {
+    scene_.bookmarks.erase(scene_.bookmarks.begin() + static_cast<std::ptrdiff_t>(index));
+    origins_.bookmarks.erase(origins_.bookmarks.begin() + static_cast<std::ptrdiff_t>(index));
+    return selection_;
+  });
+}
+
+std::string SceneDocument::renameBookmark(size_t index, const std::string& name) {
+  const std::string before = scene_.bookmarks.at(index).name;
+  if (name.empty() || name == before) {
+    return before;
+  }
+  const std::string chosen = freeName(name, scene_.bookmarks);
+  change("rename bookmark '" + before + "'", {}, [&](Scene& scene) { scene.bookmarks[index].name = chosen; });
+  return chosen;
 }
 
 void SceneDocument::beginGesture() {

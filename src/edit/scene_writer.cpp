@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// With '/', as scene files have it, and absolute only if there is no way from the one to the other.
+// Path as scene files have it, with '/'; absolute only if no relative path exists.
 std::string pathFrom(const fs::path& folder, const fs::path& target) {
   std::error_code error;
   const fs::path from = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
@@ -35,8 +35,8 @@ bool sameFolder(const fs::path& a, const fs::path& b) {
          fs::weakly_canonical(a, error).parent_path() == fs::weakly_canonical(b, error).parent_path();
 }
 
-// Paths stay as they were written where that is still right.
-void namesModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::path& file, SceneContent& content) {
+// Keeps paths as they were written where they are still right.
+void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::path& file, SceneContent& content) {
   const bool moved = !sameFolder(loaded.file, file);
   for (size_t i = 0; i < content.objects.size(); ++i) {
     Object& object = content.objects[i];
@@ -79,8 +79,8 @@ void editTable(TomlEditor& editor, const std::string& name, const T& loaded, con
   }
 }
 
-// The tables from [settings] to the value of `key`, the value last; empty if it is not there. Its parts may be quoted
-// together or nested.
+// Tables from [settings] to the value of `key`, the value last; empty if the text lacks it. The key's parts may be
+// quoted together or nested.
 std::vector<TomlNode*> findSetting(TomlNode& table, std::string_view key) {
   for (const auto& child : table.children) {
     if (child->key == key && child->kind != TomlNode::Kind::table) {
@@ -200,7 +200,7 @@ SceneContent contentOf(const Scene& scene) {
 std::string editedText(const Scene& loaded, const SceneContent& edited, std::span<const Mesh> meshes,
                        std::span<const SavedSetting> settings, const fs::path& file) {
   SceneContent content = edited;
-  namesModels(loaded, meshes, file, content);
+  nameModels(loaded, meshes, file, content);
   Settings wanted = settingsOf(loaded);
   const Settings before = wanted;
   for (const SavedSetting& change : settings) {

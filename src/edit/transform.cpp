@@ -15,14 +15,14 @@ Thing itemOf(const std::vector<Item>& items, int index) {
   return index >= 0 && static_cast<size_t>(index) < items.size() ? Thing(items[static_cast<size_t>(index)]) : Thing();
 }
 
-// Reduced as evaluate() does it.
+// Angles reduced as evaluate() reduces them.
 glm::dvec3 spunBy(const glm::dvec3& spin, double time) {
   return {std::remainder(spin.x * time, 360.0), std::remainder(spin.y * time, 360.0),
           std::remainder(spin.z * time, 360.0)};
 }
 
-// Metres and degrees to nine decimals: 29.999999999999996 is no number to write into a file. By division, which gives
-// the double nearest to the decimal number.
+// Rounds metres and degrees to nine decimals, so that files hold 30 and not 29.999999999999996. Division gives the
+// double nearest to the decimal number.
 glm::dvec3 tidy(const glm::dvec3& v) {
   constexpr double decimals = 1e9;
   constexpr double farthest = 1e6;  // beyond, a double has no such decimals
@@ -100,8 +100,8 @@ double reachOf(const Scene& scene, const SceneState& state, const Selection& sel
   return reach;
 }
 
-Thing moved(const Thing& thing, const glm::dvec3& by, double time) {
-  Thing result = thing;
+Thing moved(const Thing& node, const glm::dvec3& by, double time) {
+  Thing result = node;
   if (auto* object = std::get_if<Object>(&result)) {
     object->position = tidy(object->position + by);
   } else if (auto* light = std::get_if<PointLight>(&result)) {
@@ -117,8 +117,8 @@ Thing moved(const Thing& thing, const glm::dvec3& by, double time) {
   return result;
 }
 
-Thing turned(const Thing& thing, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time) {
-  Thing result = thing;
+Thing turned(const Thing& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time) {
+  Thing result = node;
   if (auto* object = std::get_if<Object>(&result)) {
     const glm::dvec3 step = static_cast<double>(copy) * object->copies.step;
     object->position = tidy(about(pivot, rotation, object->position + step) - step);

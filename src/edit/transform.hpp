@@ -7,30 +7,30 @@
 
 namespace speculum {
 
-// A thing of a scene by itself.
+// A scene node by itself.
 using Thing = std::variant<std::monostate, Object, PointLight, Mirror>;
 
-// Nothing for a selection that the scene does not hold.
+// Empty for a selection that the scene does not hold.
 Thing thingOf(const Scene& scene, const Selection& selection);
 
-// Where a thing is taken hold of, in the world: an object's origin, or the middle of its bounding sphere if the origin
-// lies outside it; a light's centre; the middle of a mirror.
+// Point of a node (world) that the gizmo is at: an object's origin, or the centre of its bounding sphere if the origin
+// lies outside it; a light's centre; a mirror's middle.
 glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection& selection);
-// Of a sphere about the pivot that holds the thing, metres.
+// Radius of a sphere around the pivot that holds the node, metres.
 double reachOf(const Scene& scene, const SceneState& state, const Selection& selection);
 
-// The instance of an object's copy; null if there is none.
+// Instance of an object's copy; null if there is none.
 const InstanceState* instanceOf(const SceneState& state, const Selection& selection);
 
-// The thing moved by so many metres of the world, as it stands at `time`. An object's copies all move.
-Thing moved(const Thing& thing, const glm::dvec3& by, double time);
+// The node moved by so many metres in the world, as it is at `time`. All copies of an object move.
+Thing moved(const Thing& node, const glm::dvec3& by, double time);
 
-// The thing turned about a point of the world, as it stands at `time`. Copies turn each about its own place; `copy` is
-// the one that turns about the pivot. Lights do not turn.
-Thing turned(const Thing& thing, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time);
+// The node turned about a point of the world, as it is at `time`. `copy` turns about the pivot, the other copies about
+// their own origins. Lights do not turn.
+Thing turned(const Thing& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time);
 
-// Pitch, yaw and roll in degrees of R = Ry Rx Rz, of all that give the rotation those nearest to `near`. At a pitch of
-// 90 degrees, where yaw and roll turn about one axis, the roll is that of `near`.
+// Pitch, yaw and roll in degrees with R = Ry Rx Rz, the solution nearest to `near`. At a pitch of 90 degrees, where yaw
+// and roll turn about one axis, the roll is that of `near`.
 glm::dvec3 pitchYawRoll(const glm::dmat3& rotation, const glm::dvec3& near);
 
 }  // namespace speculum

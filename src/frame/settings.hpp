@@ -23,8 +23,8 @@ struct ReflectionSettings {
   double minThroughput = 0.0005;
   int maxPasses = 64;
   int updateInterval = 1;     // frames
-  bool skipUnchanged = true;  // an image that would be the same again is not rendered
-  double meshError = 0.0;     // texels that the outlines of objects in mirror images may be off by; 0: none
+  bool skipUnchanged = true;  // a mirror image that would come out the same is used again
+  double meshError = 0.0;     // texels by which outlines of objects in mirror images may be off
   ClipMethod clip = ClipMethod::clipDistance;
 
   bool operator==(const ReflectionSettings&) const = default;
@@ -37,15 +37,15 @@ struct ViewSettings {
   std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene
   TextureFilter textureFilter = TextureFilter::bilinear;
   bool wireframe = false;
-  bool continuous = false;  // the window draws what does not change as well
+  bool continuous = false;  // the window draws all the time
 
   bool operator==(const ViewSettings&) const = default;
 };
 
-// What a rough mirror looks up: rays, or the image of the mirror as if it were smooth.
+// A rough mirror looks up rays, or the image of the mirror as if it were smooth.
 enum class RoughLookup { traced, image };
 
-// What a curved mirror reflects: what rays meet, or six images about its centre.
+// A curved mirror looks up rays, or six images about its centre.
 enum class CurvedLookup { traced, environment };
 
 // Effects are drawn where the scene calls for them, unless they are switched off here.
@@ -60,31 +60,31 @@ struct EffectSettings {
   bool glyphs = true;
   int roughSamples = 16;  // rays a pixel of rough mirrors
   RoughLookup roughLookup = RoughLookup::traced;
-  bool perSample = false;  // rays at each sample of a pixel, not once
+  bool perSample = false;  // rays at each sample of a pixel, not once a pixel
   CurvedLookup curvedLookup = CurvedLookup::traced;
   int environmentSize = 256;    // texels of each side of an environment map's faces
   int environmentInterval = 1;  // frames
-  bool environmentBox = true;   // look-ups are corrected as if what surrounds the object were a box
+  bool environmentBox = true;   // corrects look-ups as if the surroundings of the object were a box
 
   bool operator==(const EffectSettings&) const = default;
 };
 
-// What a mirror or a light of the scene asks for, as far as it is not switched off.
+// Whether an effect that a mirror or a light asks for is drawn.
 bool isSchlick(Fresnel fresnel, const EffectSettings& effects);
 bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 
-// Bounds that a measured sweep is asked to keep; see accuracy/pareto.hpp. Nothing in the frame plan reads them.
+// Bounds for the choice among measured settings; see accuracy/pareto.hpp. The frame plan does not read them.
 struct QualitySettings {
   double budgetMs = 0.0;  // GPU milliseconds a frame; 0: no bound
   double maxError = 0.0;  // mean FLIP; 0: no bound
 };
 
 struct DebugSettings {
-  std::string omitBarrier;   // name of a barrier that is not recorded, to show that validation notices; empty: none
-  bool checkFinite = false;  // every render target of radiance is searched for values that are not finite or negative
-  bool skipHidden = true;    // a mirror that others or objects hide has no pass
-  bool cullClusters = true;  // of objects seen in part only what a view may see is drawn
-  bool maskPasses = true;    // what no one looks up of a mirror's image is not shaded
+  std::string omitBarrier;   // name of a barrier that is not recorded, so that validation must notice
+  bool checkFinite = false;  // searches every target of radiance for values that are negative or not finite
+  bool skipHidden = true;    // mirrors that others or objects hide have no pass
+  bool cullClusters = true;  // draws only the clusters of an object that a view may see
+  bool maskPasses = true;    // shades only the texels of a mirror image that are looked up
 
   bool operator==(const DebugSettings&) const = default;
 };
@@ -101,10 +101,10 @@ struct Settings {
 // "r,g,b" or "[r, g, b]". Returns what is wrong and what would be right, or nothing.
 std::optional<std::string> setSetting(Settings& settings, std::string_view key, std::string_view value);
 std::string settingValue(const Settings& settings, std::string_view key);
-// "key=value" of every key, a line each: equal for equal settings.
+// "key=value" of every key, a line each. Equal for equal settings.
 std::string settingsKey(const Settings& settings);
 
-// Defaults, then the scene's [settings]. Throws InputError with FILE:LINE.
+// Defaults overlaid with the scene's [settings]. Throws InputError with FILE:LINE.
 Settings settingsOf(const Scene& scene);
 
 // Whether mirror images, or the main view, rendered under one of them could have been rendered under the other: all

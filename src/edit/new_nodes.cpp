@@ -1,0 +1,135 @@
+#include "edit/new_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/affine.hpp"
+#include "scene/scene_state.hpp"
+
+namespace speculum {
+
+namespace {
+
+double distanceOf(const glm::dvec3& position, const glm::dvec3& viewer) {
+  const double distance = glm::length(viewer - position);
+  // A mirror that is small for its distance from the origin is refused.
+  return std::max(distance > 0.0 ? distance : 1.0, 1e-8 * glm::length(position));
+}
+
+glm::dmat3 linearOf(const Object& object) {
+  glm::dmat3 linear = rotationFromDegrees(object.rotation);
+  for (int i = 0; i < 3; ++i) {
+    linear[i] *= object.scale[i];
+  }
+  return linear;
+}
+
+// Half the extent of the model's box along the world's axes.
+glm::dvec3 halfExtent(const Object& object, const Mesh& mesh) {
+  const glm::dmat3 linear = linearOf(object);
+  return glm::abs(linear[0]) * mesh.halfExtent.x + glm::abs(linear[1]) * mesh.halfExtent.y +
+         glm::abs(linear[2]) * mesh.halfExtent.z;
+}
+
+// From the first copy to the last, metres in the world.
+glm::dvec3 rowOf(const Object& object) {
+  return static_cast<double>(object.copies.count - 1) * object.copies.step;
+}
+
+// A copy in the mirror's own place would be in front of it as much as behind.
+glm::dvec3 stepInPlane(const MirrorState& state) {
+  double low = 0.0;
+  double high = 0.0;
+  for (const glm::dvec3& vertex : state.polygon) {
+    const double x = glm::dot(vertex - state.origin, state.axisX);
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  return 1.1 * (high - low) * state.axisX;
+}
+
+// An orbit moves along, so that the light circles as before.
+Thing copyMoved(const Thing& node, const glm::dvec3& step) {
+  Thing copy = moved(node, step, 0.0);
+  if (auto* light = std::get_if<PointLight>(&copy); light && light->orbit) {
+    light->orbit->center += step;
+  }
+  return copy;
+}
+
+}  // namespace
+
+Mirror newMirror(const glm::dvec3& position, const glm::dvec3& viewer) {
+  const glm::dvec3 toViewer = viewer - position;
+  const double distance = distanceOf(position, viewer);
+  Mirror mirror{.name = "mirror", .position = position, .size = {0.3 * distance, 0.4 * distance}};
+  mirror.rotation.y = glm::degrees(std::atan2(toViewer.x, toViewer.z));
+  return mirror;
+}
+
+PointLight newLight(const glm::dvec3& position, const glm::dvec3& viewer) {
+  const double distance = distanceOf(position, viewer);
+  return {.name = "light", .position = position, .intensity = distance * distance, .radius = 0.01 * distance};
+}
+
+Object newObject(const Scene& scene, int mesh, const glm::dvec3& position) {
+  const Mesh& model = scene.meshes.at(mesh);
+  Object object{.name = model.source.stem().string(), .mesh = mesh};
+  const glm::dvec3 center = linearOf(object) * model.center;
+  object.position = position - center + glm::dvec3(0.0, halfExtent(object, model).y, 0.0);
+  return object;
+}
+
+Thing copyBeside(const Scene& scene, const Selection& selection) {
+  const size_t index = selection.index;
+  switch (selection.kind) {
+    case Selection::Kind::object: {
+      const Object& object = scene.objects.at(index);
+      const double width = 2.2 * halfExtent(object, scene.meshes.at(object.mesh)).x + std::abs(rowOf(object).x);
+      return copyMoved(object, {width, 0.0, 0.0});
+    }
+    case Selection::Kind::mirror:
+      return copyMoved(scene.mirrors.at(index), stepInPlane(evaluate(scene, 0.0).mirrors[index]));
+    case Selection::Kind::light:
+      return copyMoved(scene.lights.at(index), {6.0 * scene.lights[index].radius, 0.0, 0.0});
+    default:
+      return {};
+  }
+}
+
+std::vector<Thing> copiesBeside(const Scene& scene, std::span<const Selection> nodes) {
+  const SceneState state = evaluate(scene, 0.0);
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (Selection node : nodes) {
+    node.copy = 0;
+    const double x = pivotOf(scene, state, node).x;
+    const double reach = reachOf(scene, state, node);
+    const double row = node.kind == Selection::Kind::object ? rowOf(scene.objects.at(node.index)).x : 0.0;
+    low = std::min(low, x + std::min(row, 0.0) - reach);
+    high = std::max(high, x + std::max(row, 0.0) + reach);
+  }
+  std::vector<Thing> copies;
+  for (const Selection& node : nodes) {
+    copies.push_back(copyMoved(thingOf(scene, node), {1.1 * (high - low), 0.0, 0.0}));
+  }
+  return copies;
+}
+
+std::string freeName(const std::string& wanted, const std::set<std::string>& taken) {
+  if (wanted.empty() || !taken.contains(wanted)) {
+    return wanted;
+  }
+  const size_t blank = wanted.rfind(' ');
+  const std::string last = blank == std::string::npos ? "" : wanted.substr(blank + 1);
+  const bool counted = !last.empty() && last.size() < 9 && last.find_first_not_of("0123456789") == std::string::npos;
+  const std::string stem = counted ? wanted.substr(0, blank) : wanted;
+  for (int number = counted ? std::stoi(last) + 1 : 2;; ++number) {
+    if (std::string name = stem + " " + std::to_string(number); !taken.contains(name)) {
+      return name;
+    }
+  }
+}
+
+}  // namespace speculum
