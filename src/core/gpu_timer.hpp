@@ -11,7 +11,7 @@ struct PassTiming {
   std::string name;
   double gpuMs = 0.0;  // 0 where the queue has no timestamps
   bool hasStatistics = false;
-  uint64_t triangles = 0;  // that left clipping
+  uint64_t triangles = 0;  // triangles after clipping
   uint64_t fragments = 0;  // fragment shader invocations
   bool hasSamples = false;
   uint64_t samples = 0;  // that passed the depth test since beginSamples

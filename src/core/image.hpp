@@ -64,7 +64,8 @@ class Image {
   VkImage image_ = VK_NULL_HANDLE;
   ImageViewHandle view_;
   VkImageLayout layout_ = VK_IMAGE_LAYOUT_UNDEFINED;
-  std::unique_ptr<Device, Announce> announced_;  // the last member: what observes the image lets go of the view first
+  // The last member, so that observers drop the view before it is destroyed.
+  std::unique_ptr<Device, Announce> announced_;
 };
 
 struct SamplerDesc {

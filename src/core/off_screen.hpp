@@ -73,7 +73,7 @@ class OffScreen {
   OffScreenDesc desc_;
   SamplerHandle sampler_;
   Image color_;    // the output
-  Image samples_;  // what is resolved to it
+  Image samples_;  // multisampled; resolved to color_
   Image depth_;
 };
 

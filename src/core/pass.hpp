@@ -57,7 +57,7 @@ struct PassDesc {
   bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path
 };
 
-// The whole of `targets` in one go: area, viewport and scissor cover the output.
+// Describes a pass over all of `targets`: render area, viewport and scissor cover the output.
 PassDesc fullPass(std::string name, const PassTargets& targets);
 
 // Barriers of one pass, or of several that touch none of each other's targets: all before the first and all after the

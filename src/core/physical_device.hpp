@@ -29,7 +29,8 @@ const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const s
 
 std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device);
 
-// A family that draws, and presents to `surface` unless that is null. Throws std::runtime_error if there is none.
+// Index of a queue family that draws and, unless `surface` is null, presents to it. Throws std::runtime_error if there
+// is none.
 uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface);
 
 }  // namespace speculum

@@ -12,7 +12,7 @@
 
 namespace speculum {
 
-// Dynamic: viewport, scissor, front face. Everything else is fixed here.
+// State of a graphics pipeline. Only viewport, scissor and front face are dynamic.
 struct GraphicsPipelineDesc {
   std::string name;
   std::string vert;                     // e.g. "scene.vert"

@@ -131,7 +131,7 @@ class Renderer {
   uint64_t frameNumber_ = 0;
   bool swapChainStale_ = false;
   bool recording_ = false;
-  std::optional<uint32_t> captureSlot_;  // that holds the latest capture
+  std::optional<uint32_t> captureSlot_;  // slot of the latest capture
   IdleGuard idle_;
 };
 

@@ -30,7 +30,7 @@ class ShaderLibrary {
   // Compiles files that are newer than their modules. A file that fails keeps its module. Replaced modules are
   // destroyed at once: pipelines do not need theirs after creation.
   ShaderChange poll();
-  const std::string& errors() const { return errors_; }  // of the files that fail at present
+  const std::string& errors() const { return errors_; }  // messages for the files that fail at present
 
  private:
   struct Entry {

@@ -25,7 +25,7 @@ enum class SkipReason {
 };
 std::string_view skipReasonName(SkipReason reason);
 
-// A mirror drawn in some view.
+// A mirror that a view draws.
 struct MirrorDraw {
   int mirror = 0;                      // index into Scene::mirrors
   bool back = false;                   // its painted back is seen

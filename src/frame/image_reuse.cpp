@@ -21,7 +21,7 @@ int marginFor(const CachedImage& image, const ReuseRequest& request, int due) {
   }
   const double most = largestMargin * request.view.pictureSize.y;
   const double perFrame = largestShift(image, request.view, request.projection, request.visible) / image.age;
-  // A cut, or too fast for the next frame already: a margin would be lost.
+  // After a cut, or in motion too fast for even the next frame, a margin would be wasted.
   if (due == 1 || perFrame == 0.0 || !(perFrame < most)) {
     return 0;
   }

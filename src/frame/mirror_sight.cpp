@@ -7,8 +7,8 @@ namespace speculum {
 
 namespace {
 
-// Distance of the eye from the mirror's plane; exactly 0 where rounding leaves no side to be on. What is rounded are
-// the coordinates themselves, so that it grows with their distance from the origin.
+// Signed distance of the eye from the mirror's plane; exactly 0 where rounding leaves no side to be on. Coordinates are
+// rounded, so that the threshold grows with their distance from the origin.
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
   const double height = glm::dot(mirror.normal, eye - mirror.origin);
   return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;

@@ -7,11 +7,11 @@
 
 namespace speculum {
 
-// A mirror before the eye of some view.
+// A mirror as the eye of a view sees it.
 struct Sight {
-  MirrorDraw draw;                  // without what the settings make of it
-  double height = 0.0;              // metres, of the eye above the mirror's front; exactly 0: in its plane
-  std::vector<glm::dvec3> visible;  // world; what the view shows of it
+  MirrorDraw draw;                  // before settings are applied
+  double height = 0.0;              // metres of the eye before the mirror's front; exactly 0 in its plane
+  std::vector<glm::dvec3> visible;  // world; visible region
 };
 Sight sightOf(const Scene& scene, const SceneState& state, const View& view, int mirror);
 
@@ -22,8 +22,8 @@ glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects,
 
 bool isRough(const Mirror& mirror, const EffectSettings& effects);
 
-// Whether rays show what the image of the mirror's plane cannot. Without reflection, at a limit of depth or throughput,
-// only ripples show.
+// Says whether rays show what an image of the mirror's plane cannot. At a limit of depth or throughput, where nothing
+// is reflected, only ripples count.
 bool scatters(const Mirror& mirror, const EffectSettings& effects, bool reflects);
 
 }  // namespace speculum

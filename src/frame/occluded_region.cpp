@@ -8,11 +8,11 @@ namespace speculum {
 
 namespace {
 
-// How much farther from the eye what is hidden has to be, as a part of its distance: the depth test must be sure.
+// Part of its distance by which a hidden point must be farther, so that the depth test is sure.
 constexpr double depthPart = 1e-4;
 constexpr double marginPixels = 1.0;
 
-// A view's axis and what a pixel measures across it at unit depth.
+// A view's axis and the size of a pixel at unit depth.
 struct Axis {
   Axis(const View& view, const Projection& projection)
       : forward(-glm::transpose(view.worldToView)[2]), pixel(2.0 / (projection.focal * view.pictureSize.y)) {}
@@ -23,9 +23,9 @@ struct Axis {
   double pixel;
 };
 
-// Adds what lies on the left of the edge from a to b, seen from the eye, by `margin` measured across the view at unit
-// depth. The unit normal of the plane through the eye and the edge; nothing if the edge points at the eye or `inside`
-// is not on its left (all from the eye).
+// Adds the half space on the left of the edge from a to b, seen from the eye, less a `margin` measured across the view
+// at unit depth. Returns the unit normal of the plane through eye and edge; nothing if the edge points at the eye or
+// `inside` is not on its left. All vectors start at the eye.
 std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, const glm::dvec3& b,
                                   const glm::dvec3& inside, double margin, const Axis& axis) {
   glm::dvec3 normal = glm::cross(b, a);
@@ -38,7 +38,7 @@ std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, c
   return region.back().at(inside) > 0.0 ? std::optional(normal) : std::nullopt;
 }
 
-// Without vertices that clipping put on top of another.
+// Removes vertices that clipping put on top of another.
 std::vector<glm::dvec3> distinctVertices(const std::vector<glm::dvec3>& polygon, double least) {
   std::vector<glm::dvec3> kept;
   for (const glm::dvec3& p : polygon) {
@@ -135,7 +135,7 @@ std::optional<OccludedRegion> hiddenByBody(const BodyOccluder& body, const FlatO
   }
   const glm::dvec3 inside = vertexMean(body.points) - view.eye;
   const auto edges = outline(body, view.eye);
-  // What is at least `nearest` deep is at least `slack` within the outline there.
+  // A displacement by `slack`, at depth `nearest` or beyond, is seen as slack / nearest at most.
   const double margin = marginPixels * axis.pixel + body.slack / nearest;
   for (const auto& [from, to] : edges) {
     if (!addEdge(region, body.points[from] - view.eye, body.points[to] - view.eye, inside, margin, axis)) {

@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// Where a linear function of the vector from the eye to a point is positive: dot(gradient, v) + constant.
+// The points with dot(gradient, v) + constant > 0, where v is the vector from the eye to the point.
 struct HalfSpace {
   glm::dvec3 gradient{0.0};  // per metre
   double constant = 0.0;
@@ -35,7 +35,7 @@ struct FlatOccluder {
   double radius = 0.0;
 };
 
-// Nothing if the polygon is seen edge-on or clipped away in the view.
+// Region behind a flat occluder; nothing if it is seen edge-on or clipped away in the view.
 std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const View& view,
                                            const Projection& projection);
 
@@ -52,7 +52,7 @@ struct BodyOccluder {
 std::optional<OccludedRegion> hiddenByBody(const BodyOccluder& body, const FlatOccluder& target, const View& view,
                                            const Projection& projection);
 
-// What of convex polygons (world space) lies outside a region, in convex pieces.
+// Cuts a region out of convex polygons (world space) and returns the convex pieces that are left.
 std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,
                                              const std::vector<std::vector<glm::dvec3>>& polygons);
 

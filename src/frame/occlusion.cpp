@@ -11,9 +11,9 @@ namespace speculum {
 
 namespace {
 
-// Parts of the size of what is drawn; floats give or take 1e-7 of it.
+// Part of the size of what is drawn; floats are off by about 1e-7 of it.
 constexpr double roundingPart = 1e-5;
-// Polygons that several occluders may cut what is not hidden into, and occluders that are tried together.
+// Most pieces that several occluders may leave of a polygon, and most occluders that are tried together.
 constexpr size_t mostPieces = 24;
 constexpr size_t mostOccluders = 64;
 
@@ -33,8 +33,8 @@ double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points)
   return radius;
 }
 
-// Which occluders are worth a closer look: those that look large enough and stand before one of a polygon's corners or
-// its middle. Whatever covers all of it does.
+// Selects the occluders that are worth testing: those that look large enough and stand before a corner of the polygon
+// or its middle. An occluder that covers all of it always does.
 class Prospects {
  public:
   Prospects(const glm::dvec3& eye, std::span<const glm::dvec3> polygon)
@@ -52,7 +52,7 @@ class Prospects {
                        [&](const glm::dvec3& p) { return sphereMeetsSegment(center, radius, eye_, p); });
   }
   bool looksLarge(double radius, double nearest) const { return nearest <= 0.0 || radius >= width_ * nearest; }
-  // Whether a corner lies beyond a plane.
+  // Says whether a corner lies beyond a plane.
   bool farther(const Plane& plane) const {
     const double side = plane.distance(eye_);
     return std::any_of(polygon_.begin(), polygon_.end(),
@@ -131,7 +131,7 @@ const Occlusion::Body& Occlusion::bodyOf(int instance) {
   return *body;
 }
 
-// Enters a region if it holds a part of the polygon; whether it holds all of it.
+// Adds a region that holds a part of the polygon; returns whether it holds all of it.
 bool Occlusion::Hiders::add(std::optional<OccludedRegion> region, const Hider& of, const glm::dvec3& eye,
                             std::span<const glm::dvec3> polygon) {
   if (!region) {
@@ -155,7 +155,7 @@ bool Occlusion::Hiders::add(std::optional<OccludedRegion> region, const Hider& o
   return all;
 }
 
-// What hides `polygon`, which is one of mirror `mirror`: the first that does so alone, or those that hide a part of it.
+// Finds the first occluder that hides all of `polygon`, a part of `mirror`, or else all that hide a part of it.
 Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> instances, int mirror,
                                     std::span<const glm::dvec3> polygon) {
   Hiders found;
@@ -177,7 +177,7 @@ Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> insta
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const double nearest = glm::length(instance.center - view.eye) - instance.radius;
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
-    // Levels of a mesh have other outlines.
+    // Mesh levels have other outlines than the mesh.
     if ((simplifies && mayHaveLevels(mesh)) || !prospects.looksLarge(widest, nearest) ||
         !prospects.include(instance.center, instance.radius)) {
       continue;
@@ -206,7 +206,7 @@ std::string Occlusion::nameOfHider(const Hider& hider) const {
 
 std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const int> instances, int mirror,
                                                std::span<const glm::dvec3> polygon) {
-  // What an oblique depth buffer keeps in order is not known here.
+  // It is not known here what an oblique depth buffer keeps in order.
   const bool oblique = settings_.reflection.clip == ClipMethod::oblique && view.clip;
   if (!settings_.debug.skipHidden || settings_.view.wireframe || oblique || polygon.empty()) {
     return std::nullopt;
@@ -215,7 +215,7 @@ std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const
   return found.whole ? nameOfHider(*found.whole) : hiddenTogether(found.parts, view, polygon);
 }
 
-// Whether no piece is left of the polygon when the regions of all are taken away one after the other.
+// Takes the regions of all occluders away one after the other and names them if nothing is left of the polygon.
 std::optional<std::string> Occlusion::hiddenTogether(std::span<const Hider> hiders, const View& view,
                                                      std::span<const glm::dvec3> polygon) const {
   std::vector<std::vector<glm::dvec3>> pieces = {{polygon.begin(), polygon.end()}};

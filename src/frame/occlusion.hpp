@@ -11,16 +11,16 @@
 
 namespace speculum {
 
-// Finds what hides a mirror from a view's eye: other mirrors, flat faces of objects and whole convex objects, one that
-// covers all of it or several together. Conservative: by more than what rounding on the GPU and the edges of pixels can
-// undo, so that a hidden mirror would not have left a trace in the picture; where two occluders meet without one
-// reaching behind the other, that leaves a strip that hides nothing. Objects and mirrors are opaque on both sides.
+// Finds the occluders that hide a mirror from a view's eye, alone or several together: other mirrors, flat faces of
+// objects, whole convex objects. It is conservative by more than rounding on the GPU and the edges of pixels, so that a
+// hidden mirror would not have left a trace in the picture. Where two occluders meet without one reaching behind the
+// other, that leaves a strip that hides nothing. Objects and mirrors are opaque on both sides.
 class Occlusion {
  public:
   Occlusion(const Scene& scene, const SceneState& state, const Settings& settings, const Projection& projection);
 
-  // What hides all of `polygon` (world), a part of `mirror`, in the view: "object NAME", "mirror NAME", or several of
-  // them. `instances` are those that the view shows.
+  // Names the occluders that hide all of `polygon` (world), a part of `mirror`, in the view: "object NAME", "mirror
+  // NAME", or several of them. `instances` are those that the view shows.
   std::optional<std::string> hiddenBy(const View& view, std::span<const int> instances, int mirror,
                                       std::span<const glm::dvec3> polygon);
 

@@ -99,7 +99,7 @@ class SceneRenderer {
   std::unique_ptr<OffScreen> main_;
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
-  MainImage mainImage_;        // its content is empty if it is not to be reused
+  MainImage mainImage_;         // its content is empty if it is not to be reused
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
   std::vector<RecordedPass> recorded_;
