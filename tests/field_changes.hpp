@@ -9,7 +9,10 @@ void changeFields(Node& node);
 
 inline double otherNumber(const Range& range, double floor, double value) {
   const double other = 0.75 * value + 0.123456789012345;
-  return other < floor ? floor + other : range.contains(other) ? other : 0.5 * value;
+  if (other < floor) {
+    return floor + other;
+  }
+  return range.contains(other) ? other : range.contains(0.5 * value) ? 0.5 * value : 0.5 * (range.low + range.high);
 }
 
 // Gives a value of a field another one that a scene file may have.
