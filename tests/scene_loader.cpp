@@ -30,8 +30,7 @@ TEST(SceneDefaults, AreThoseOfTheTypes) {
 }
 
 TEST(SceneDefaults, RippleWithoutAmplitudeIsNone) {
-  EXPECT_FALSE(
-      load(kCamera + "[[mirror]]\nsize = [1, 1]\nripple = { wavelength = 0.1 }\n").mirrors.at(0).ripple);
+  EXPECT_FALSE(load(kCamera + "[[mirror]]\nsize = [1, 1]\nripple = { wavelength = 0.1 }\n").mirrors.at(0).ripple);
 }
 
 constexpr const char* kEverything = R"(title = "Gallery"

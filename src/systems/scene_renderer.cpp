@@ -191,12 +191,13 @@ void SceneRenderer::recordMap(const FrameInfo& info, size_t map, size_t firstFac
     const PassDesc desc = scenePass("environment of " + planned.name + " " + faceAxes()[face].name, target.targets(),
                                     {{corner.x, corner.y}, size}, viewport, planned.faces[face].view, info.environment);
     const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
-    drawScene(info, firstFace + face, desc,
-              {{.kind = PassKind::environment, .instance = planned.instance, .face = static_cast<int>(face)},
-               desc.name,
-               -1,
-               0,
-               planned.faces[face].areaPx});
+    RecordedPass pass;
+    pass.kind = PassKind::environment;
+    pass.instance = planned.instance;
+    pass.face = static_cast<int>(face);
+    pass.name = desc.name;
+    pass.areaPx = planned.faces[face].areaPx;
+    drawScene(info, firstFace + face, desc, std::move(pass));
     // Counts each draw once, although curved mirrors seen in the face were entered already.
     ledger_[EffectKind::curved].draws = drawsBefore + recorded_.back().draws;
   }
@@ -226,9 +227,14 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
   {
     const PassGroup group = renderer_.beginGroup(info.frame, descs);
     for (size_t i = range.first; i < range.end; ++i) {
-      const PlannedPass& pass = info.plan.passes[i];
+      const PlannedPass& planned = info.plan.passes[i];
       const PassDesc& desc = descs[i - range.first];
-      drawScene(info, i, desc, {{.path = pass.view.path}, desc.name, pass.depth, 0, pass.areaPx});
+      RecordedPass pass;
+      pass.path = planned.view.path;
+      pass.name = desc.name;
+      pass.depth = planned.depth;
+      pass.areaPx = planned.areaPx;
+      drawScene(info, i, desc, std::move(pass));
     }
   }
   for (size_t i = range.first; i < range.end; ++i) {
