@@ -90,11 +90,7 @@ constexpr const char* kTwoModels =
     "[[object]]\nmodel = 'large.obj'\n";
 
 fs::path twoModels(const TemporaryFolder& folder) {
-  std::string large = box(1.0);
-  for (int i = 0; i < 100000; ++i) {
-    large += "f 1 2 4\n";
-  }
-  folder.write("large.obj", large);
+  folder.write("large.obj", box(1.0) + repeated("v 0 0 0\n", 100'000));
   folder.write("small.obj", box(1.0));
   return folder.write("scene.toml", kTwoModels);
 }
