@@ -285,11 +285,11 @@ std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> poly
 }
 
 Bookmark readBookmark(const TableReader& table, const CameraSpec& camera) {
-  Bookmark bookmark;
-  readFields(table, bookmark);
-  if (bookmark.name.empty()) {
+  if (table.text("name").empty()) {
     table.fail("name", "is empty", "a name to choose the bookmark by is needed");
   }
+  Bookmark bookmark;
+  readFields(table, bookmark);
   checkDirections(table, cameraOf(bookmark, camera));
   return bookmark;
 }
