@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "accuracy/sweep_results.hpp"
+#include "accuracy/sweep_json.hpp"
 #include "command_support.hpp"
 #include "picture_support.hpp"
 

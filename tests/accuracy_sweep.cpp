@@ -8,6 +8,9 @@
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/pareto.hpp"
 #include "accuracy/sweep.hpp"
+#include "accuracy/sweep_json.hpp"
+#include "accuracy/sweep_plan.hpp"
+#include "accuracy/sweep_plan_file.hpp"
 #include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene/scene_loader.hpp"
@@ -45,7 +48,7 @@ FrontCandidate candidate(double error, double ms, double spread) {
   return {error, {.median = ms, .minimum = ms - spread, .lowerQuartile = ms - spread, .upperQuartile = ms + spread}};
 }
 
-TEST(ParetoFront, HoldsWhatNothingBeats) {
+TEST(ParetoFront, HoldsUndominatedPoints) {
   EXPECT_EQ(
       paretoFront(std::vector{candidate(0.3, 1, 0), candidate(0.2, 2, 0), candidate(0.25, 3, 0), candidate(0.1, 4, 0)}),
       (std::vector{0, 1, 3}));
@@ -57,7 +60,7 @@ TEST(ParetoFront, CheaperMeansBeyondTheSpread) {
   EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.4), candidate(0.2, 3, 0.4)}), (std::vector{1, 0}));
 }
 
-TEST(ParetoFront, OfEqualPicturesTheFirstStaysUnlessAnotherIsClearlyCheaper) {
+TEST(ParetoFront, FirstOfEqualPicturesStaysUnlessClearlyDearer) {
   EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.1), candidate(0.1, 3, 0.1), candidate(0.1, 2.9, 0.1)}),
             (std::vector{1}));
   EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.6), candidate(0.1, 3, 0.6)}), (std::vector{0}));
@@ -73,7 +76,7 @@ SweepPoint point(const std::string& name, double flip, double ms) {
   return p;
 }
 
-TEST(QualityBudget, ChoosesFromTheFrontAndSaysWhatIsGivenUp) {
+TEST(QualityBudget, ChoosesFromTheFrontWithReason) {
   SweepResults results;
   results.points = {point("1", 0.3, 1.0), point("2", 0.2, 2.0), point("3", 0.25, 3.0), point("4", 0.1, 4.0)};
   EXPECT_FALSE(chooseForBudget(results, {}));
@@ -96,7 +99,7 @@ TEST(QualityBudget, ChoosesFromTheFrontAndSaysWhatIsGivenUp) {
   EXPECT_FALSE(chosen({.ms = 2.0, .error = 0.15}).met);
 }
 
-TEST(QualityBudget, WithoutTimestampsTheFrameCounts) {
+TEST(QualityBudget, FrameTimeReplacesMissingTimestamps) {
   SweepPoint p = point("1", 0.3, 0.0);
   p.gpuMs = {};
   p.frameMs.median = 5.0;
@@ -120,10 +123,20 @@ class SweepFiles : public testing::Test {
     }
     return "nothing";
   }
+  // Message about `text` as a results.json, without the file's name.
+  std::string readProblem(const std::string& text) {
+    const fs::path file = folder_.write("r.json", text);
+    try {
+      readSweepResults(file);
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(file.string().size() + 2);
+    }
+    return "nothing";
+  }
   TemporaryFolder folder_;
 };
 
-TEST_F(SweepFiles, PlanFromAFile) {
+TEST_F(SweepFiles, PlanIsReadFromFile) {
   const fs::path file = folder_.write("mine.toml", R"(repeats = 20
 [[configuration]]
 name = "cheap"
@@ -169,7 +182,7 @@ TEST_F(SweepFiles, MistakesNameTheLine) {
   EXPECT_THROW(readSweepPlan(folder_ / "absent.toml", SweepContext()), InputError);
 }
 
-TEST(SweepPlans, BuiltInOnesAreWhatTheDeviceAndTheSceneAllow) {
+TEST(SweepPlans, BuiltInPlansFitDeviceAndScene) {
   const SweepContext context = contextOf(true, true);
   const SweepPlan quick = sweepPlan("quick", context);
   const SweepPlan full = sweepPlan("full", context);
@@ -202,13 +215,37 @@ TEST(SweepPlans, BuiltInOnesAreWhatTheDeviceAndTheSceneAllow) {
   }
 }
 
-TEST(SweepPlans, TheWindowsTakesADozenConfigurations) {
+TEST(SweepPlans, WindowMeasuresADozenConfigurations) {
   const SweepPlan plan = viewSweep(contextOf(true, true));
   EXPECT_GE(plan.configurations.size(), 10u);
   EXPECT_LE(plan.configurations.size(), 16u);
   EXPECT_TRUE(plan.series.empty());
   EXPECT_EQ(viewSweep(contextOf(false, false)).configurations.size(), 2u);
 }
+
+// Renders by ray tracing, 16 samples a pixel, so that the depth of recursion is the only error.
+class TracingSubject : public SweepSubject {
+ public:
+  TracingSubject(const Scene& scene, const SceneState& state) : tracer_(scene, state) {}
+
+  std::vector<Image8> pictures(const Settings& settings) override {
+    ++drawn;
+    const auto result = tracer_.render(
+        {.width = 48, .height = 27, .samples = 16, .maxDepth = settings.reflection.maxDepth, .minThroughput = 0.0});
+    return std::vector<Image8>(static_cast<size_t>(settings.reflection.updateInterval),
+                               toDisplay(result->image, settings.view.exposure, settings.view.toneMap));
+  }
+  FrameCost cost(const Settings& settings) override {
+    ++timed;
+    const double ms = 1.0 + settings.reflection.maxDepth + 0.01 * (timed % 3);
+    return {ms, 0.1, ms + 1.0};
+  }
+  int drawn = 0;
+  int timed = 0;
+
+ private:
+  RayTracer tracer_;
+};
 
 // Two facing mirrors beside a lit ball, 48x27: depth matters.
 class SmallSweep : public SweepFiles {
@@ -241,45 +278,32 @@ reflectance = [0.8, 0.8, 0.8]
     plan_ = planner.plan;
   }
 
-  SweepScene sweepScene(const std::string& identity = "one") const {
-    return {.scene = scene_, .state = state_, .width = 48, .height = 27, .identity = identity, .truthSamples = 16};
+  struct Run {
+    bool finished = false;
+    SweepResults results;
+    int drawn = 0;  // pictures
+    int timed = 0;  // frames
+  };
+  // Runs the sweep with the store in `folder`, in memory without one.
+  Run run(const fs::path& folder, const SweepProgress& progress = {}, const std::string& identity = "one") {
+    TracingSubject subject(scene_, state_);
+    SweepStore store(folder);
+    const SweepScene scene{
+        .scene = scene_, .state = state_, .width = 48, .height = 27, .identity = identity, .truthSamples = 16};
+    Run result;
+    result.finished = runSweep(plan_, Settings(), scene, subject, store, result.results, progress);
+    result.drawn = subject.drawn;
+    result.timed = subject.timed;
+    return result;
   }
 
-  Settings base_;
   Scene scene_;
   SceneState state_;
   SweepPlan plan_;
 };
 
-// Renders by ray tracing, 16 samples a pixel, so that the depth of recursion is the only error.
-class TracingSubject : public SweepSubject {
- public:
-  TracingSubject(const Scene& scene, const SceneState& state) : tracer_(scene, state) {}
-
-  std::vector<Image8> pictures(const Settings& settings) override {
-    ++drawn;
-    const auto result = tracer_.render(
-        {.width = 48, .height = 27, .samples = 16, .maxDepth = settings.reflection.maxDepth, .minThroughput = 0.0});
-    return std::vector<Image8>(static_cast<size_t>(settings.reflection.updateInterval),
-                               toDisplay(result->image, settings.view.exposure, settings.view.toneMap));
-  }
-  FrameCost cost(const Settings& settings) override {
-    ++timed;
-    const double ms = 1.0 + settings.reflection.maxDepth + 0.01 * (timed % 3);
-    return {ms, 0.1, ms + 1.0};
-  }
-  int drawn = 0;
-  int timed = 0;
-
- private:
-  RayTracer tracer_;
-};
-
-TEST_F(SmallSweep, ErrorFallsWithDepthAsTheThroughputBeyondDoes) {
-  TracingSubject subject(scene_, state_);
-  SweepStore store;
-  SweepResults results;
-  ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, results, {}));
+TEST_F(SmallSweep, ErrorFallsAsTheThroughputBeyondDepth) {
+  const SweepResults results = run({}).results;
   ASSERT_EQ(results.series.size(), 1u);
   const SweepSeries& series = results.series[0];
   for (size_t i = 1; i < series.points.size(); ++i) {
@@ -292,84 +316,51 @@ TEST_F(SmallSweep, ErrorFallsWithDepthAsTheThroughputBeyondDoes) {
   EXPECT_GT(results.floorWhole.flip, 0.0);
   EXPECT_GT(results.truthMs, 0.0);
   EXPECT_EQ(results.points[0].gpuMs.repeats, 15);
-  const bool front = std::any_of(results.points.begin(), results.points.end(), [](auto& p) { return p.onFront; });
-  EXPECT_TRUE(front);
+  EXPECT_TRUE(std::any_of(results.points.begin(), results.points.end(), [](auto& p) { return p.onFront; }));
 }
 
-TEST_F(SmallSweep, GoesOnWhereItStopped) {
-  const fs::path folder = folder_ / "store";
-  SweepResults whole;
-  {
-    TracingSubject subject(scene_, state_);
-    SweepStore store(folder_ / "other");
-    ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, whole, {}));
-  }
-  {
-    TracingSubject subject(scene_, state_);
-    SweepStore store(folder);
-    SweepResults results;
-    const auto untilHalfTimed = [](const SweepStatus& status) {
-      return status.stage != "times" || status.fraction < 0.5;
-    };
-    ASSERT_FALSE(runSweep(plan_, base_, sweepScene(), subject, store, results, untilHalfTimed));
-    EXPECT_TRUE(results.points.empty());
-  }
-  TracingSubject subject(scene_, state_);
-  SweepStore store(folder);
-  SweepResults results;
+TEST_F(SmallSweep, InterruptedSweepContinues) {
+  const SweepResults whole = run(folder_ / "other").results;
+  const Run interrupted = run(
+      folder_ / "store", [](const SweepStatus& status) { return status.stage != "times" || status.fraction < 0.5; });
+  EXPECT_FALSE(interrupted.finished);
+  EXPECT_TRUE(interrupted.results.points.empty());
   bool traced = false;
-  const auto watch = [&](const SweepStatus& status) {
+  const Run rest = run(folder_ / "store", [&](const SweepStatus& status) {
     traced = traced || (status.stage == "ground truth" && status.fraction < 1.0);
     return true;
-  };
-  ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, results, watch));
+  });
+  ASSERT_TRUE(rest.finished);
   EXPECT_FALSE(traced);
-  EXPECT_EQ(subject.drawn, 0);
-  const int all = 15 * static_cast<int>(plan_.configurations.size());
-  EXPECT_GT(subject.timed, 0);
-  EXPECT_LE(subject.timed, all / 2 + 1);
-  for (size_t i = 0; i < results.points.size(); ++i) {
-    EXPECT_EQ(results.points[i].whole.rmse, whole.points[i].whole.rmse) << "stored and traced anew are one";
-    EXPECT_EQ(results.points[i].gpuMs.repeats, 15);
+  EXPECT_EQ(rest.drawn, 0);
+  EXPECT_GT(rest.timed, 0);
+  EXPECT_LE(rest.timed, 15 * static_cast<int>(plan_.configurations.size()) / 2 + 1);
+  for (size_t i = 0; i < whole.points.size(); ++i) {
+    EXPECT_EQ(rest.results.points[i].whole.rmse, whole.points[i].whole.rmse) << "stored and traced anew are equal";
+    EXPECT_EQ(rest.results.points[i].gpuMs.repeats, 15);
   }
 }
 
-TEST_F(SmallSweep, MeasuresAnewWhatDependsOnOtherThings) {
-  const fs::path folder = folder_ / "store";
-  SweepResults results;
-  TracingSubject subject(scene_, state_);
-  SweepStore store(folder);
-  ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, results, {}));
-  const int drawn = subject.drawn;
-  ASSERT_TRUE(runSweep(plan_, base_, sweepScene("another build"), subject, store, results, {}));
-  EXPECT_EQ(subject.drawn, 2 * drawn);
+TEST_F(SmallSweep, ChangedIdentityMeasuresAnew) {
+  const int drawn = run(folder_ / "store").drawn;
+  EXPECT_GT(drawn, 0);
+  EXPECT_EQ(run(folder_ / "store", {}, "another build").drawn, drawn);
 }
 
-TEST_F(SmallSweep, BrokenFilesOfTheStoreAreMeasuredAgain) {
-  const fs::path folder = folder_ / "store";
-  SweepResults first;
-  {
-    TracingSubject subject(scene_, state_);
-    SweepStore store(folder);
-    ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, first, {}));
-  }
-  for (const auto& entry : fs::directory_iterator(folder)) {
+TEST_F(SmallSweep, BrokenFilesAreMeasuredAgain) {
+  const SweepResults first = run(folder_ / "store").results;
+  for (const auto& entry : fs::directory_iterator(folder_ / "store")) {
     std::ofstream(entry.path()) << "{ \"broken";
   }
-  TracingSubject subject(scene_, state_);
-  SweepStore store(folder);
-  SweepResults results;
-  ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, results, {}));
-  EXPECT_EQ(subject.drawn, static_cast<int>(plan_.configurations.size()));
-  EXPECT_EQ(results.points[0].whole.flip, first.points[0].whole.flip);
+  const Run again = run(folder_ / "store");
+  EXPECT_EQ(again.drawn, static_cast<int>(plan_.configurations.size()));
+  EXPECT_EQ(again.results.points[0].whole.flip, first.points[0].whole.flip);
 }
 
 TEST_F(SmallSweep, ResultsSurviveTheirFile) {
-  TracingSubject subject(scene_, state_);
-  SweepStore store(folder_ / "store");
-  SweepResults results{.scene = "a \"scene\"", .title = "t", .sweep = "quick", .device = "d", .driver = "v"};
+  SweepResults results = run(folder_ / "store").results;
+  results.scene = "a \"scene\"";
   results.base = {{"view.samples", "4"}, {"reflection.scale", "1.0"}};
-  ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, results, {}));
   const std::string text = sweepJson(results).dump();
   const SweepResults read = readSweepResults(folder_.write("results.json", text));
   EXPECT_EQ(sweepJson(read).dump(), text);
@@ -381,48 +372,29 @@ TEST_F(SmallSweep, ResultsSurviveTheirFile) {
   EXPECT_EQ(columns(0), columns(csv.find('\n') + 1));
 }
 
-// get<int>() would make something of each.
-TEST_F(SmallSweep, ResultsHoldIntegersThatAreSome) {
-  TracingSubject subject(scene_, state_);
-  SweepStore store(folder_ / "store");
-  SweepResults results;
-  ASSERT_TRUE(runSweep(plan_, base_, sweepScene(), subject, store, results, {}));
-  nlohmann::ordered_json json = sweepJson(results);
+TEST_F(SmallSweep, ResultsRefuseNumbersThatAreNoInt) {
+  nlohmann::ordered_json json = sweepJson(run({}).results);
   for (const char* value : {"1e300", "-1e300", "0.5", "2147483648", "18446744073709551615", "\"1\"", "[]"}) {
     json["ground_truth"]["threads"] = nlohmann::ordered_json::parse(value);
-    const fs::path file = folder_.write("results.json", json.dump());
-    try {
-      readSweepResults(file);
-      ADD_FAILURE() << value;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), file.string() +
-                                  ": ground_truth.threads: missing or of another kind "
-                                  "(a results.json of speculum accuracy is needed)");
-    }
+    EXPECT_EQ(readProblem(json.dump()),
+              "ground_truth.threads: missing or of another kind (a results.json of speculum accuracy is needed)")
+        << value;
   }
   json["ground_truth"]["threads"] = 2;
   json["settings"] = "nested";
   std::string text = json.dump();
   text.replace(text.find("\"nested\""), 8, std::string(5000, '[') + std::string(5000, ']'));
-  EXPECT_THROW(readSweepResults(folder_.write("results.json", text)), InputError);
+  EXPECT_NE(readProblem(text), "nothing");
 }
 
-TEST_F(SweepFiles, ResultsThatAreNoneAreNamed) {
-  const auto says = [&](const std::string& text) -> std::string {
-    try {
-      readSweepResults(folder_.write("r.json", text));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "nothing";
-  };
-  EXPECT_NE(says("no").find("r.json: not JSON"), std::string::npos);
-  EXPECT_NE(says("{}").find("r.json: scene: missing or of another kind"), std::string::npos);
-  EXPECT_NE(says("[1]").find("r.json: scene"), std::string::npos);
+TEST_F(SweepFiles, OtherFilesAreNoResults) {
+  EXPECT_EQ(readProblem("no").substr(0, 8), "not JSON");
+  EXPECT_EQ(readProblem("{}").substr(0, 34), "scene: missing or of another kind ");
+  EXPECT_EQ(readProblem("[1]").substr(0, 5), "scene");
   EXPECT_THROW(readSweepResults(folder_ / "absent.json"), InputError);
 }
 
-TEST(Fingerprints, TellContentApart) {
+TEST(Fingerprint, TellsContentApart) {
   const auto of = [](std::initializer_list<std::string_view> parts) {
     Fingerprint fingerprint;
     for (const std::string_view part : parts) {

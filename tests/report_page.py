@@ -28,6 +28,8 @@ class ReportPage(unittest.TestCase):
         cls.folder.cleanup()
 
     def open(self, name):
+        if name == "empty" and self.browser.driver.current_url.endswith("/empty.html"):
+            return  # Tests of functions leave the page as it is.
         self.browser.open(pathlib.Path(self.folder.name) / f"{name}.html")
 
     def tearDown(self):
@@ -133,7 +135,7 @@ class ReportPage(unittest.TestCase):
     def test_headings_sort_the_table(self):
         self.open("example")
         self.assertEqual(self.column(3), sorted(self.column(3)))
-        self.assertEqual(self.find("th[aria-sort]")[0].text, "GPU [quartiles] ↑".replace(" ↑", ""))
+        self.assertEqual(self.text("th[aria-sort=ascending]"), "GPU [quartiles]")
         self.assertEqual(self.sort_by(5), sorted(self.column(5)))
         self.assertEqual(self.sort_by(5), sorted(self.column(5), reverse=True))
         self.assertEqual(self.sort_by(9), sorted(self.column(9), reverse=True), "the best SSIM first")
@@ -260,7 +262,7 @@ class ReportPage(unittest.TestCase):
 
     def test_labels_of_an_axis_have_one_style(self):
         self.open("empty")
-        labels = lambda *ticks: self.js("return tickLabels(arguments)".replace("arguments", "[...arguments]"), *ticks)
+        labels = lambda *ticks: self.js("return tickLabels([...arguments])", *ticks)
         self.assertEqual(labels(0.0001, 0.01, 1, 1000), ["0.0001", "0.01", "1", "1000"])
         self.assertEqual(labels(-0.2, 0, 0.2), ["−0.2", "0", "0.2"])
         self.assertEqual(labels(1e-5, 2e-4, 1e-2, 1), ["10⁻⁵", "2×10⁻⁴", "10⁻²", "10⁰"])

@@ -87,7 +87,7 @@ struct ContrastTerm {
   double sigma() const { return std::sqrt(b / (2.0 * pi * pi)) * flipPixelsPerDegree; }  // pixels
 };
 
-// Two-dimensional sum of a term's samples, by which the terms of one channel are mixed.
+// Two-dimensional sum of a term's samples: its share in the mix of a channel's terms.
 double termWeight(const ContrastTerm& term, int radius) {
   double sum = 0.0;
   for (int x = -radius; x <= radius; ++x) {
@@ -111,7 +111,7 @@ Plane2d contrastFiltered(const Plane2d& plane, const ContrastTerm& first, const 
   return result;
 }
 
-// What the eye resolves of the picture, as weighted CIELAB.
+// Filters the picture to the detail that the eye resolves; weighted CIELAB.
 std::vector<glm::dvec3> perceivedColors(const Channels& channels) {
   const Plane2d achromatic = contrastFiltered(channels[0], {1.0, 0.0047}, {0.0, 1e-5});
   const Plane2d redGreen = contrastFiltered(channels[1], {1.0, 0.0053}, {0.0, 1e-5});

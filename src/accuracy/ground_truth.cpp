@@ -18,7 +18,7 @@ double milliseconds(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Of a pixel with `count` bounces of `throughput` in all, each is taken to let through the same share.
+// Assumes that each of a pixel's `count` bounces lets the same share of its `throughput` through.
 std::vector<double> throughputBeyond(const TraceResult& trace) {
   std::vector<double> squares;
   double pixels = 0.0;
@@ -36,7 +36,7 @@ std::vector<double> throughputBeyond(const TraceResult& trace) {
   return squares;
 }
 
-// Without the pixels at a mirror's border: their error is the main view's.
+// Leaves out the pixels at a mirror's border, whose error is the main view's.
 std::vector<uint8_t> interior(const std::vector<uint8_t>& mask, int width, int height) {
   std::vector<uint8_t> inner(mask.size(), 0);
   for (int y = 1; y + 1 < height; ++y) {

@@ -4,21 +4,21 @@
 #include <optional>
 
 #include "accuracy/compared_image.hpp"
-#include "accuracy/sweep_json.hpp"
+#include "accuracy/image_metrics.hpp"
 #include "frame/settings.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
 
-// What every configuration of a sweep is compared with.
+// Traced picture that every configuration of a sweep is compared with.
 struct GroundTruth {
   LinearImage image;   // 8x8 samples a pixel, depth 64, throughput 0
   PixelMask mirrors;   // pixels whose centre, and those of all eight neighbours, show a mirror's reflecting side
-  ErrorFigures floor;  // of a 9x9 grid against the 8x8 one, both as the display shows them
-  double ms = 0.0;     // wall clock of the 8x8 one
+  ErrorFigures floor;  // error of a 9x9 grid against the 8x8 one, both as the display shows them
+  double ms = 0.0;     // wall clock time of the 8x8 grid
   int threads = 0;
-  // By depth d: root mean square over the mirrors' pixels of the throughput that reaches beyond d + 1 mirrors in a row,
-  // 0 where none does. Reflections cut at depth d are wrong in proportion to it.
+  // Root mean square, over the mirrors' pixels, of the throughput beyond d + 1 mirrors in a row; by depth d, 0 where
+  // none gets that far. Reflections cut at depth d are wrong in proportion to it.
   std::vector<double> throughputBeyond;
 };
 
@@ -33,12 +33,11 @@ struct TruthRequest {
 // Called with the finished fraction, 0 .. 1; false cancels.
 using FractionCallback = std::function<bool(double)>;
 
-// Nothing if cancelled.
+// Returns nothing if `progress` cancelled. Blocks; may run on any thread.
 std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState& state, const TruthRequest& request,
                                             const FractionCallback& progress);
 
-// Errors of a display picture against the truth shown with the same exposure and tone curve; `map` receives the FLIP
-// map.
+// Compares a display picture with the truth under the same exposure and tone curve; `map` receives the FLIP map.
 ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings,
                            Plane2d* map = nullptr);
 

@@ -97,7 +97,7 @@ void drawLegend(Image8& image, int top, double largest) {
       setPixel(image, x, y, bar ? heatColor(x / std::max(1.0, image.width - 1.0)) : glm::dvec3(0.0));
     }
   }
-  // As many labels as fit with a gap between them, the ends first.
+  // Draws the most labels that fit with a gap between them, at least both ends.
   const int widest = textWidth(label(largest * 0.25), scale) + 8 * scale;
   const int steps = image.width >= 5 * widest ? 4 : image.width >= 3 * widest ? 2 : 1;
   for (int i = 0; i <= steps; ++i) {

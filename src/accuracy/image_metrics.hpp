@@ -20,7 +20,12 @@ struct ImageMetrics {
   double maxDiff = 0.0;       // 1/255, of the channel that differs most
   double p99Diff = 0.0;       // 1/255; 99 % of the pixels differ by no more (nearest rank)
   int64_t pixelsOver = 0;     // pixels that differ by more than the tolerance in any channel
-  int64_t pixels = 0;         // that were looked at
+  int64_t pixels = 0;         // pixels compared
+};
+
+struct ErrorFigures {
+  ImageMetrics whole;
+  std::optional<ImageMetrics> mirrors;  // over the inside of mirrors, if any is in view
 };
 
 struct Comparison {
@@ -41,10 +46,10 @@ Comparison compareImages(const ComparedImage& reference, const ComparedImage& te
 // null stands for it.
 nlohmann::ordered_json metricsJson(const ImageMetrics& metrics);
 
-// Those of the whole picture, and again under "mask" if there is one.
+// metricsJson() of the whole picture, and that of the mask under "mask" if there is one.
 nlohmann::ordered_json comparisonJson(const Comparison& comparison);
 
-// For people: a line per metric, a column for the whole picture and one for the mask.
+// Table for the terminal: a line per metric, a column for the whole picture and one for the mask.
 std::string comparisonTable(const Comparison& comparison, double tolerance);
 
 }  // namespace speculum

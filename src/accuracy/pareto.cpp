@@ -15,7 +15,7 @@ std::string figure(double value) {
   return text;
 }
 
-// What the chosen point differs in from the most accurate one that was measured.
+// Difference between the chosen point and the most accurate one.
 std::string givenUp(const SweepPoint& chosen, const SweepPoint& best) {
   if (&chosen == &best) {
     return "gives up nothing of what was measured";
@@ -28,7 +28,7 @@ std::string described(const SweepPoint& point) {
   return "'" + point.name + "', mean FLIP " + figure(point.whole.flip) + " at " + figure(costMs(point)) + " ms";
 }
 
-// Of candidates with equal errors the first, unless a later one is cheaper beyond the spread. By ascending error.
+// One candidate per error, by ascending error: the first, unless a later one is cheaper beyond the spread.
 std::vector<int> onePerError(const std::vector<FrontCandidate>& candidates) {
   std::vector<int> order(candidates.size());
   std::iota(order.begin(), order.end(), 0);

@@ -13,13 +13,13 @@ struct FrontCandidate {
   Spread cost;
 };
 
-// The candidates that are worth their price. Of equally accurate ones, which are mostly equal pictures, the first given
-// stands for all, unless another is cheaper by more than the spread. Each on the front is cheaper than all more
-// accurate ones that stand for their error, by the median, and than those on the front by more than the spread: its
-// upper quartile is below their lower ones. Indices, cheapest first.
+// Indices of the candidates that are worth their price, cheapest first. Equal errors mostly mean equal pictures: the
+// first candidate stands for all of them, unless another is cheaper by more than the spread. Each candidate on the
+// front has a lower median than every more accurate one, and an upper quartile below the lower ones of those on the
+// front.
 std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates);
 
-// GPU milliseconds a frame; of a device without timestamps, whose gpuMs have no repeats, those of the whole frame.
+// GPU milliseconds a frame. A device without timestamps leaves gpuMs without repeats; then those of the whole frame.
 const Spread& costSpread(const SweepPoint& point);
 double costMs(const SweepPoint& point);  // its median
 
@@ -37,7 +37,7 @@ struct QualityBudget {
   double ms = 0.0;     // GPU milliseconds a frame; 0: no bound. The most accurate point within it is chosen
   double error = 0.0;  // mean FLIP; 0: no bound. The cheapest point within it is chosen; with both, ms decides first
 };
-// Nothing without a bound or without points.
+// Returns nothing without a bound or without points.
 std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget);
 
 }  // namespace speculum

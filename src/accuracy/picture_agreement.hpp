@@ -7,10 +7,10 @@
 
 namespace speculum {
 
-// Whether two pictures agree but for stray pixels along edges.
+// Tells two pictures that agree but for stray pixels along edges from those that differ in a patch.
 struct PictureAgreement {
   int64_t counted = 0;      // pixels that are not excluded
-  int64_t over = 0;         // of these, differing by more than the tolerance in any of R, G, B
+  int64_t over = 0;         // counted pixels that differ by more than the tolerance in any of R, G, B
   int largest = 0;          // difference of a counted pixel, 1/255
   bool solidBlock = false;  // some 3x3 block of counted pixels lies wholly over: not an edge, a patch
   int blockX = -1;          // top left pixel of the first such block

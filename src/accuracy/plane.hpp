@@ -18,7 +18,7 @@ struct Plane2d {
   double at(int x, int y) const { return values[static_cast<size_t>(y) * width + x]; }
 };
 
-// What lies beyond a picture's border: its outermost pixel, or the picture mirrored with the outermost pixel repeated.
+// Values beyond a picture's border: its outermost pixel, or the picture mirrored with the outermost pixel repeated.
 enum class Border { replicate, reflect };
 
 // Correlation with an odd number of weights, along rows or along columns. In parallel over rows; the result does not

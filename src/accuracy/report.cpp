@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "accuracy/pareto.hpp"
+#include "accuracy/sweep_json.hpp"
 #include "frame/settings.hpp"
 #include "image/picture_files.hpp"
 
@@ -55,7 +56,7 @@ int mapHeight(const SweepResults& results, const Image8& map) {
   return results.height > 0 ? std::min(results.height, map.height) : map.height;
 }
 
-// As many points as the budget allows, the first whatever it takes. All heat maps have the same legend.
+// Embeds points while the budget lasts, at least the first. All heat maps have the same legend.
 ordered_json picturesJson(const SweepResults& results, const std::filesystem::path& folder) {
   ordered_json pictures = {{"reference", nullptr}, {"legend", nullptr}, {"shown", ordered_json::array()}};
   if (const auto reference = pictureIn(folder, results.truthPicture)) {

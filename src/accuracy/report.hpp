@@ -16,7 +16,7 @@ namespace speculum {
 // reportJson() embedded.
 std::string reportHtml(const SweepResults& results, const std::filesystem::path& folder);
 
-// What the page shows:
+// Data of the page:
 //   results   as in results.json
 //   fronts    { flip, rmse, mirrors }: indices of points on the front of each error, cheapest first
 //   changed   base settings that are not the program's defaults

@@ -12,9 +12,10 @@ namespace speculum {
 
 namespace {
 
-// A fit takes no point nearer to the floor than this: there the error is no longer the setting's.
-constexpr double floorsAbove = 2.0;
-constexpr double restsAbove = 1.02;  // likewise of what is left at the greatest depth: noise in a difference of squares
+// A fit takes no point below these multiples of the noise floor and of the error left at the greatest depth: there the
+// error is no longer the setting's, and a difference of squares is noise.
+constexpr double leastFloors = 2.0;
+constexpr double leastRests = 1.02;
 
 std::string keyOf(std::initializer_list<std::string_view> parts) {
   Fingerprint fingerprint;
@@ -24,14 +25,14 @@ std::string keyOf(std::initializer_list<std::string_view> parts) {
   return fingerprint.hex();
 }
 
-// Of all that the ground truth and its noise floor depend on.
+// Key of everything that the ground truth and its noise floor depend on.
 std::string truthKey(const SweepScene& scene, const Settings& settings) {
   return keyOf({scene.identity, settingValue(settings, "view.clear_color"), settingValue(settings, "view.exposure"),
                 settingValue(settings, "view.tone_map"), std::to_string(scene.truthSamples),
                 scene.noiseFloor ? "floor" : "", "truth"});
 }
 
-// Over the phases of an update interval: squares where the figure is a root of a mean of squares, means of the rest.
+// Mean over the phases of an update interval; roots of a mean of squares are averaged as squares.
 ImageMetrics meanMetrics(const std::vector<ImageMetrics>& all) {
   ImageMetrics mean{.pixels = all.front().pixels};
   const double share = 1.0 / static_cast<double>(all.size());
@@ -81,7 +82,7 @@ class Sweep {
   SweepStore& store_;
   const SweepProgress& progress_;
   std::vector<Settings> settings_;  // by configuration
-  std::vector<std::string> keys_;   // likewise
+  std::vector<std::string> keys_;   // by configuration
   GroundTruth truth_;
 };
 
@@ -163,8 +164,8 @@ bool Sweep::time() {
   return true;
 }
 
-// In natural logarithms, over the points that stand clear of the noise floor. What is left at the greatest depth of
-// recursion is the error of everything else; independent errors add as squares, so it is taken off as a square.
+// Fits natural logarithms over the points that stand clear of the noise floor. The error left at the greatest recursion
+// depth comes from everything else; independent errors add as squares, so it is taken off as a square.
 void Sweep::fit(SweepSeries& series, const PlannedSeries& planned, const SweepResults& results) const {
   const bool depths = planned.theory == PlannedSeries::Theory::depth;
   const double floor = results.floorMirrors ? results.floorMirrors->rmse : results.floorWhole.rmse;
@@ -173,7 +174,7 @@ void Sweep::fit(SweepSeries& series, const PlannedSeries& planned, const SweepRe
   std::vector<Sample2d> expected;
   for (size_t i = 0; i < series.points.size(); ++i) {
     const double error = seriesError(results.points[series.points[i]]);
-    if (!(error > floorsAbove * floor && error > restsAbove * rest && series.x[i] <= planned.fitUpTo)) {
+    if (!(error > leastFloors * floor && error > leastRests * rest && series.x[i] <= planned.fitUpTo)) {
       continue;
     }
     const double x = series.axis == SweepSeries::Axis::linear ? series.x[i] : std::log(series.x[i]);

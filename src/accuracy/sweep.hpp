@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/sweep_plan.hpp"
+#include "accuracy/sweep_planner.hpp"
 #include "accuracy/sweep_store.hpp"
 
 namespace speculum {
@@ -32,21 +32,21 @@ struct SweepScene {
   SceneState state;
   int width = 0;  // pixels
   int height = 0;
-  std::string identity;  // of all that pictures and times depend on beside the settings: program, device, scene, time
+  std::string identity;  // fingerprint of all but the settings: program, device, scene, time
   bool noiseFloor = true;
   int truthSamples = 64;  // a square
 };
 
 struct SweepStatus {
-  std::string stage;      // for people, such as "ground truth"
-  double fraction = 0.0;  // of the stage, 0 .. 1
+  std::string stage;      // name to show, such as "ground truth"
+  double fraction = 0.0;  // finished part of the stage, 0 .. 1
 };
 using SweepProgress = std::function<bool(const SweepStatus&)>;  // false cancels
 
 // Traces the ground truth, draws every configuration and compares it, then takes the times: in rounds through all
-// configurations, so that what disturbs the machine for a while disturbs all alike. What `store` has is not measured
-// again; what is new is saved as it comes. Fills what is measured in `results`: truth, points with their front, series
-// with their fits. False if cancelled.
+// configurations, so that a disturbance of the machine meets all alike. Measurements in `store` are used again; new
+// ones are saved at once. Fills the truth, the points with their front and the series with their fits in `results`.
+// Blocks; calls `subject` on the caller's thread. Returns false if cancelled.
 bool runSweep(const SweepPlan& plan, const Settings& base, const SweepScene& scene, SweepSubject& subject,
               SweepStore& store, SweepResults& results, const SweepProgress& progress);
 

@@ -1,9 +1,10 @@
+#include "accuracy/sweep_plan_file.hpp"
+
 #include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "accuracy/sweep_plan.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/toml_file.hpp"
 
@@ -30,7 +31,7 @@ std::string valueText(const TableReader& table, Key key, const toml::node& node)
                            : nlohmann::json(node.as_floating_point()->get()).dump();
 }
 
-// The values of a key, of which a plain one is the only one.
+// Values of a key; a plain value counts as a list of one.
 std::vector<std::string> valueTexts(const TableReader& table, Key key, const toml::node& node) {
   std::vector<std::string> texts;
   if (const toml::array* array = node.as_array()) {
@@ -100,7 +101,7 @@ void readSeries(const TableReader& table, SweepPlanner& planner) {
   }
 }
 
-// What setSetting says of a bad key or value, with the table it stands in.
+// Adds the table's line to the message of setSetting() about a bad key or value.
 template <typename Add>
 void checked(const TableReader& table, const Add& add) {
   try {

@@ -2,54 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "accuracy/sweep_json.hpp"
-
 namespace speculum {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json changesJson(const std::vector<SettingChange>& changes) {
-  ordered_json json = ordered_json::object();
-  for (const SettingChange& change : changes) {
-    json[change.key] = change.value;
-  }
-  return json;
-}
-
-ordered_json spreadJson(const Spread& spread) {
-  return {{"median", spread.median},
-          {"min", spread.minimum},
-          {"q1", spread.lowerQuartile},
-          {"q3", spread.upperQuartile},
-          {"repeats", spread.repeats}};
-}
-
-ordered_json pointJson(const SweepPoint& point) {
-  return {{"name", point.name},
-          {"settings", changesJson(point.changes)},
-          {"on_front", point.onFront},
-          {"error", errorsJson(point.whole, point.mirrors)},
-          {"gpu_ms", spreadJson(point.gpuMs)},
-          {"cpu_ms", spreadJson(point.cpuMs)},
-          {"frame_ms", spreadJson(point.frameMs)},
-          {"picture", point.picture},
-          {"heat_map", point.heatMap}};
-}
-
-ordered_json seriesJson(const SweepSeries& series) {
-  ordered_json json = {{"key", series.key},
-                       {"name", series.name},
-                       {"axis", series.axis == SweepSeries::Axis::linear ? "linear" : "logarithmic"},
-                       {"x", series.x},
-                       {"points", series.points},
-                       {"note", series.note},
-                       {"theory_slope", series.theorySlope},
-                       {"fitted", series.fitted}};
-  json["fit"] = series.fit ? ordered_json{{"slope", series.fit->slope}, {"offset", series.fit->offset}} : nullptr;
-  return json;
-}
 
 std::string csvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) {
@@ -77,17 +34,6 @@ void appendSpread(std::string& line, const Spread& spread) {
 
 }  // namespace
 
-ordered_json errorsJson(const ImageMetrics& whole, const std::optional<ImageMetrics>& mirrors) {
-  const auto counted = [](const ImageMetrics& metrics) {
-    ordered_json json = metricsJson(metrics);
-    json["pixels"] = metrics.pixels;
-    return json;
-  };
-  ordered_json json = {{"whole", counted(whole)}};
-  json["mirrors"] = mirrors ? counted(*mirrors) : ordered_json(nullptr);
-  return json;
-}
-
 std::string settingsText(const std::vector<SettingChange>& changes) {
   std::string text;
   for (const SettingChange& change : changes) {
@@ -98,36 +44,6 @@ std::string settingsText(const std::vector<SettingChange>& changes) {
 
 double seriesError(const SweepPoint& point) {
   return point.mirrors ? point.mirrors->rmse : point.whole.rmse;
-}
-
-ordered_json sweepJson(const SweepResults& r) {
-  ordered_json json = {{"scene", r.scene},
-                       {"title", r.title},
-                       {"sweep", r.sweep},
-                       {"size", {r.width, r.height}},
-                       {"time", r.time},
-                       {"device", r.device},
-                       {"driver", r.driver},
-                       {"render_path", r.renderPath},
-                       {"machine", r.machine},
-                       {"version", r.version},
-                       {"date", r.date},
-                       {"settings", changesJson(r.base)},
-                       {"ground_truth",
-                        {{"samples", r.truthSamples},
-                         {"ms", r.truthMs},
-                         {"threads", r.truthThreads},
-                         {"noise_floor", errorsJson(r.floorWhole, r.floorMirrors)},
-                         {"picture", r.truthPicture}}}};
-  json["points"] = ordered_json::array();
-  for (const SweepPoint& point : r.points) {
-    json["points"].push_back(pointJson(point));
-  }
-  json["series"] = ordered_json::array();
-  for (const SweepSeries& series : r.series) {
-    json["series"].push_back(seriesJson(series));
-  }
-  return json;
 }
 
 std::string sweepCsv(const SweepResults& results) {

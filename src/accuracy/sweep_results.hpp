@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,35 +21,35 @@ std::string settingsText(const std::vector<SettingChange>& changes);
 // One configuration of a sweep: its error against the ground truth and its price.
 struct SweepPoint {
   std::string name;                     // unique within the sweep
-  std::vector<SettingChange> changes;   // from the sweep's base settings
-  ImageMetrics whole;                   // of the display picture; means over the phases of reflection.update_interval
+  std::vector<SettingChange> changes;   // settings that differ from the sweep's base
+  ImageMetrics whole;                   // display picture; means over the phases of reflection.update_interval
   std::optional<ImageMetrics> mirrors;  // over the inside of mirrors (GroundTruth::mirrors), if any is in view
   Spread gpuMs;                         // milliseconds a frame
   Spread cpuMs;
   Spread frameMs;
-  bool onFront = false;  // of mean FLIP against gpuMs; see pareto.hpp
+  bool onFront = false;  // front of mean FLIP against gpuMs; see pareto.hpp
   std::string picture;   // PNG, relative to the results' folder; empty if it was not kept
-  std::string heatMap;   // likewise, of the FLIP error
+  std::string heatMap;   // PNG of the FLIP error, likewise
 };
 
 // Points that differ in one setting, in ascending order of it, and what theory says of their error.
 struct SweepSeries {
-  enum class Axis { logarithmic, linear };  // of the setting; the error's is logarithmic
+  enum class Axis { logarithmic, linear };  // axis of the setting; the error's is logarithmic
 
-  std::string key;   // of the setting
-  std::string name;  // for people
+  std::string key;   // setting
+  std::string name;  // title
   Axis axis = Axis::logarithmic;
   std::vector<double> x;    // values of the setting
   std::vector<int> points;  // indices into SweepResults::points, as many
   std::string note;         // where the theoretical slope comes from
-  // Of log(error) over log(x), or over x on a linear axis, 0 where theory says nothing. Errors are RMSE over mirrors,
-  // or over the whole picture without mirrors in view.
+  // Slope of log(error) over log(x), or over x on a linear axis; 0 where theory gives none. Errors are RMSE over
+  // mirrors, or over the whole picture without mirrors in view.
   double theorySlope = 0.0;
-  std::optional<LineFit> fit;  // of the points, natural logarithms, the same axes; over those of `fitted`
-  std::vector<int> fitted;     // places in `points` that the fit takes: above the floor of what else is wrong
+  std::optional<LineFit> fit;  // natural logarithms, same axes, over the points of `fitted`
+  std::vector<int> fitted;     // indices into `points` that the fit takes: those above the floor of other errors
 };
 
-// The error that series are about.
+// Error of a point in series.
 double seriesError(const SweepPoint& point);
 
 // A sweep over one scene, one size, one time, one machine.
@@ -66,7 +64,7 @@ struct SweepResults {
   std::string driver;
   std::string renderPath;
   std::string machine;              // processor and operating system
-  std::string version;              // of Speculum
+  std::string version;              // Speculum's
   std::string date;                 // UTC, ISO 8601
   std::vector<SettingChange> base;  // every setting that a point's changes are relative to
 
@@ -74,18 +72,13 @@ struct SweepResults {
   int truthSamples = 64;
   double truthMs = 0.0;  // wall clock
   int truthThreads = 0;
-  ImageMetrics floorWhole;  // of a reference with one more sample a side of the grid: errors below say nothing
+  ImageMetrics floorWhole;  // error of a grid with one more sample a side: smaller errors mean nothing
   std::optional<ImageMetrics> floorMirrors;
   std::string truthPicture;  // PNG, relative to the results' folder; empty if it was not kept
 
   std::vector<SweepPoint> points;
   std::vector<SweepSeries> series;
 };
-
-nlohmann::ordered_json sweepJson(const SweepResults& results);
-
-// Throws InputError "FILE: key: what is wrong (what would be right)" for a file that is no sweep's results.json.
-SweepResults readSweepResults(const std::filesystem::path& file);
 
 // A header line, then a line per point. RFC 4180.
 std::string sweepCsv(const SweepResults& results);

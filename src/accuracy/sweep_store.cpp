@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "accuracy/sweep_json.hpp"
 #include "image/exr.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-// Nothing for a file that is absent or broken: what it held is measured again.
+// Returns nothing for a file that is absent or broken: its contents are measured again.
 std::optional<ordered_json> readJson(const fs::path& file) {
   if (!fs::exists(file)) {
     return std::nullopt;
@@ -39,14 +40,14 @@ Image8 maskImage(const PixelMask& mask) {
 }
 
 Measurement readMeasurement(const fs::path& file, const ordered_json& json) {
-  const JsonReader reader(file, json, "");
+  const JsonReader reader(file, json);
   Measurement m{.picture = reader.get<std::string>("picture"),
                 .heatMap = reader.get<std::string>("heat_map"),
                 .gpuMs = reader.get<std::vector<double>>("gpu_ms"),
                 .cpuMs = reader.get<std::vector<double>>("cpu_ms"),
                 .frameMs = reader.get<std::vector<double>>("frame_ms")};
   if (!reader.null("error")) {
-    m.errors = readErrors(reader.at("error"));
+    m.errors = reader.errors("error");
   }
   return m;
 }
@@ -95,7 +96,7 @@ void SweepStore::save() const {
     json[key] = {{"picture", m.picture}, {"heat_map", m.heatMap}, {"gpu_ms", m.gpuMs},
                  {"cpu_ms", m.cpuMs},    {"frame_ms", m.frameMs}, {"error", nullptr}};
     if (m.errors) {
-      json[key]["error"] = errorsJson(m.errors->whole, m.errors->mirrors);
+      json[key]["error"] = errorsJson(*m.errors);
     }
   }
   replaceFile(folder_ / "measurements.json", json.dump());
@@ -108,10 +109,10 @@ std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
     return std::nullopt;
   }
   try {
-    const JsonReader reader(base, *json, "");
+    const JsonReader reader(base, *json);
     GroundTruth truth{.image = readExr(base.string() + ".exr"),
                       .mirrors = readPixelMask(base.string() + "-mirrors.png"),
-                      .floor = readErrors(reader.at("floor")),
+                      .floor = reader.errors("floor"),
                       .ms = reader.get<double>("ms"),
                       .threads = reader.get<int>("threads"),
                       .throughputBeyond = reader.get<std::vector<double>>("throughput_beyond")};
@@ -129,7 +130,7 @@ void SweepStore::keepTruth(const std::string& key, const GroundTruth& truth) con
   const std::string base = (folder_ / ("truth-" + key)).string();
   writeExr(base + ".exr", truth.image);
   writePng(base + "-mirrors.png", maskImage(truth.mirrors));
-  const ordered_json json = {{"floor", errorsJson(truth.floor.whole, truth.floor.mirrors)},
+  const ordered_json json = {{"floor", errorsJson(truth.floor)},
                              {"ms", truth.ms},
                              {"threads", truth.threads},
                              {"throughput_beyond", truth.throughputBeyond}};

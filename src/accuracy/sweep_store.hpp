@@ -9,21 +9,21 @@
 
 namespace speculum {
 
-// What was measured of one configuration so far.
+// Measurements of one configuration so far.
 struct Measurement {
   std::optional<ErrorFigures> errors;
-  std::string picture;  // files in the store's folder; empty if not kept
+  std::string picture;  // file in the store's folder; empty if not kept
   std::string heatMap;
   std::vector<double> gpuMs;  // one value a round, as many in each
   std::vector<double> cpuMs;
   std::vector<double> frameMs;
 };
 
-// A sweep's measurements by the fingerprint of all that they depend on, kept in a folder so that a sweep that was
-// interrupted goes on where it stopped. Every write replaces a whole file; a file that cannot be read counts as absent.
+// A sweep's measurements by the fingerprint of all that they depend on, kept in a folder so that an interrupted sweep
+// continues. Every write replaces a whole file; a file that cannot be read counts as absent.
 class SweepStore {
  public:
-  // In memory only without a folder. Creates the folder; throws std::runtime_error if that fails.
+  // Creates the folder; throws std::runtime_error if that fails. Without a folder the store is in memory only.
   explicit SweepStore(std::filesystem::path folder = {});
 
   Measurement& at(const std::string& key) { return measurements_[key]; }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.hpp"
+#include "accuracy/sweep_json.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/session_subject.hpp"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "accuracy/heat_map.hpp"
+#include "accuracy/sweep_json.hpp"
 #include "app/quality.hpp"
 #include "image/color.hpp"
 

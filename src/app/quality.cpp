@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "accuracy/sweep_json.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/scene_loader.hpp"
 

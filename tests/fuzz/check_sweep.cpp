@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "accuracy/sweep_plan.hpp"
-#include "accuracy/sweep_results.hpp"
+#include "accuracy/sweep_json.hpp"
+#include "accuracy/sweep_plan_file.hpp"
 #include "fuzz_support.hpp"
 
 namespace speculum::fuzz {

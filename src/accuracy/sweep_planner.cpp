@@ -1,0 +1,135 @@
+#include "accuracy/sweep_planner.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "frame/setting_fields.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr size_t mostConfigurations = 1000;
+constexpr int longestInterval = 16;  // it takes 1.5 times its square of frames to see every age of every image
+
+std::string shortName(const SweepPlanner::Changes& changes) {
+  std::string name;
+  for (const SettingChange& change : changes) {
+    const std::string_view key = change.key;
+    const std::string_view reflection = "reflection.";
+    std::string words(key.starts_with(reflection) ? key.substr(reflection.size()) : key);
+    std::replace(words.begin(), words.end(), '.', ' ');
+    std::replace(words.begin(), words.end(), '_', ' ');
+    const bool whole = change.value.ends_with(".0");
+    name += (name.empty() ? "" : ", ") + words + " " + change.value.substr(0, change.value.size() - (whole ? 2 : 0));
+  }
+  return name.empty() ? "base" : name;
+}
+
+}  // namespace
+
+SweepPlanner::Changes joined(SweepPlanner::Changes first, const SweepPlanner::Changes& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+Settings settingsWith(const Settings& base, const std::vector<SettingChange>& changes) {
+  Settings settings = base;
+  for (const SettingChange& change : changes) {
+    if (const auto problem = setSetting(settings, change.key, change.value)) {
+      throw std::invalid_argument(*problem);
+    }
+  }
+  return settings;
+}
+
+SweepPlanner::SweepPlanner(std::string name, const SweepContext& context) : base_(context.base) {
+  plan.name = std::move(name);
+  add({});
+}
+
+int SweepPlanner::add(const Changes& changes, const std::string& name) {
+  for (const SettingChange& change : changes) {
+    const SettingField* field = findSettingField(change.key);
+    if (change.key.starts_with("quality.") || change.key.starts_with("debug.") || (field && field->subject)) {
+      throw std::invalid_argument(change.key + ": cannot be swept");
+    }
+  }
+  if (plan.configurations.size() >= mostConfigurations) {
+    throw std::invalid_argument("more than " + std::to_string(mostConfigurations) + " configurations");
+  }
+  const Settings settings = settingsWith(base_, changes);
+  if (settings.reflection.updateInterval > longestInterval) {
+    throw std::invalid_argument("reflection.update_interval: a sweep takes intervals up to " +
+                                std::to_string(longestInterval));
+  }
+  SweepConfiguration configuration{.name = name};
+  for (const SettingField& field : settingFields()) {
+    const std::string value = settingValue(settings, field.key);
+    if (value != settingValue(base_, field.key)) {
+      configuration.changes.push_back({std::string(field.key), value});
+    }
+  }
+  auto& all = plan.configurations;
+  const auto same = std::find_if(all.begin(), all.end(),
+                                 [&](const SweepConfiguration& c) { return c.changes == configuration.changes; });
+  if (same != all.end()) {
+    return static_cast<int>(same - all.begin());
+  }
+  if (name.empty()) {
+    configuration.name = shortName(configuration.changes);
+  }
+  const auto taken = [&](const SweepConfiguration& c) { return c.name == configuration.name; };
+  while (std::any_of(all.begin(), all.end(), taken)) {
+    configuration.name += " (" + std::to_string(all.size()) + ")";
+  }
+  all.push_back(std::move(configuration));
+  return static_cast<int>(all.size()) - 1;
+}
+
+void SweepPlanner::grid(const std::vector<std::pair<std::string, std::vector<std::string>>>& axes) {
+  std::vector<Changes> combinations{{}};
+  for (const auto& [key, values] : axes) {
+    std::vector<Changes> next;
+    if (combinations.size() * values.size() > mostConfigurations) {
+      throw std::invalid_argument("more than " + std::to_string(mostConfigurations) + " combinations");
+    }
+    for (const Changes& combination : combinations) {
+      for (const std::string& value : values) {
+        next.push_back(joined(combination, {{key, value}}));
+      }
+    }
+    combinations = std::move(next);
+  }
+  for (const Changes& combination : combinations) {
+    add(combination);
+  }
+}
+
+void SweepPlanner::series(PlannedSeries planned, const std::vector<std::string>& values, const Changes& fixed) {
+  std::vector<Changes> each;
+  for (const std::string& value : values) {
+    each.push_back(joined(fixed, {{planned.series.key, value}}));
+  }
+  series(std::move(planned), values, each);
+}
+
+void SweepPlanner::series(PlannedSeries planned, const std::vector<std::string>& values,
+                          const std::vector<Changes>& each) {
+  for (size_t i = 0; i < values.size(); ++i) {
+    double x = 0.0;
+    std::from_chars(values[i].data(), values[i].data() + values[i].size(), x);
+    const int point = add(each[i]);
+    const auto& points = planned.series.points;
+    if (std::find(points.begin(), points.end(), point) == points.end()) {
+      planned.series.x.push_back(x);
+      planned.series.points.push_back(point);
+    }
+  }
+  if (planned.series.points.size() > 1) {
+    plan.series.push_back(std::move(planned));
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "accuracy/sweep_results.hpp"
+#include "frame/settings.hpp"
+
+namespace speculum {
+
+struct SweepConfiguration {
+  std::string name;
+  std::vector<SettingChange> changes;  // settings that differ from the base
+};
+
+// A series of SweepResults before it is measured.
+struct PlannedSeries {
+  // Source of the theoretical slope; `depth` computes it from the mirrors in view.
+  enum class Theory { none, fixed, depth };
+
+  SweepSeries series;  // key, name, axis, x, points (indices into SweepPlan::configurations), note, theorySlope
+  Theory theory = Theory::none;
+  double fitUpTo = std::numeric_limits<double>::infinity();  // greatest x of the fit; another law holds beyond
+};
+
+struct SweepPlan {
+  static constexpr int leastRepeats = 15;
+
+  std::string name;
+  int repeats = leastRepeats;                      // timed frames of each configuration
+  std::vector<SweepConfiguration> configurations;  // the first is the base itself
+  std::vector<PlannedSeries> series;
+};
+
+// Scene and device that a sweep is planned for.
+struct SweepContext {
+  Settings base;
+  std::vector<int> sampleCounts{1, 4};  // supported by the device
+  bool mirrors = true;                  // the scene has mirrors
+  bool animated = false;                // something moves
+  bool rough = false;                   // a mirror is rough
+  std::vector<std::string> effects{};   // switches of the effects that the scene uses, such as effects.shadows
+};
+
+// Collects configurations, each once.
+class SweepPlanner {
+ public:
+  using Changes = std::vector<SettingChange>;
+
+  SweepPlanner(std::string name, const SweepContext& context);
+
+  // Index of the configuration; an earlier one with the same settings is found again. Throws std::invalid_argument with
+  // what setSetting says.
+  int add(const Changes& changes, const std::string& name = {});
+  void grid(const std::vector<std::pair<std::string, std::vector<std::string>>>& axes);
+  // One configuration for each value. Series of less than two different configurations are left out.
+  void series(PlannedSeries planned, const std::vector<std::string>& values, const Changes& fixed);
+  // Same, with the changes of each value in `each`.
+  void series(PlannedSeries planned, const std::vector<std::string>& values, const std::vector<Changes>& each);
+
+  SweepPlan plan;
+
+ private:
+  Settings base_;
+};
+
+// The changes of `first`, then those of `second`.
+SweepPlanner::Changes joined(SweepPlanner::Changes first, const SweepPlanner::Changes& second);
+
+// Base settings with a configuration's changes. Throws std::invalid_argument with what setSetting says.
+Settings settingsWith(const Settings& base, const std::vector<SettingChange>& changes);
+
+}  // namespace speculum
