@@ -1,5 +1,7 @@
 #include "accuracy/fingerprint.hpp"
 
+#include <cstdio>
+
 #include "platform/files.hpp"
 
 namespace speculum {
@@ -41,11 +43,8 @@ void Fingerprint::add(std::string_view text) {
 }
 
 std::string Fingerprint::hex() const {
-  static constexpr std::string_view digits = "0123456789abcdef";
-  std::string text;
-  for (int shift = 60; shift >= 0; shift -= 4) {
-    text += digits[(state_ >> shift) & 15u];
-  }
+  char text[17];
+  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(state_));
   return text;
 }
 

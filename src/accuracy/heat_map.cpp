@@ -1,9 +1,10 @@
 #include "accuracy/heat_map.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -83,12 +84,6 @@ void drawText(Image8& image, int x, int y, const std::string& text, int scale) {
   }
 }
 
-std::string label(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
-}
-
 void drawLegend(Image8& image, int top, double largest) {
   const int scale = textScale(image.width);
   for (int y = top; y < image.height; ++y) {
@@ -98,10 +93,10 @@ void drawLegend(Image8& image, int top, double largest) {
     }
   }
   // Draws the most labels that fit with a gap between them, at least both ends.
-  const int widest = textWidth(label(largest * 0.25), scale) + 8 * scale;
+  const int widest = textWidth(fmt::format("{:.3g}", largest * 0.25), scale) + 8 * scale;
   const int steps = image.width >= 5 * widest ? 4 : image.width >= 3 * widest ? 2 : 1;
   for (int i = 0; i <= steps; ++i) {
-    const std::string text = label(largest * i / steps);
+    const std::string text = fmt::format("{:.3g}", largest * i / steps);
     const int width = textWidth(text, scale);
     const int x = std::clamp((image.width - 1) * i / steps - width / 2, 1, std::max(1, image.width - 1 - width));
     drawText(image, x, top + margin + barHeight + margin, text, scale);

@@ -1,8 +1,9 @@
 #include "accuracy/image_metrics.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -91,16 +92,8 @@ std::vector<size_t> selectedPixels(size_t count, const PixelMask* mask) {
   return pixels;
 }
 
-std::string cell(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
-
-std::string tableLine(const std::string& label, const std::string& whole, const std::optional<std::string>& masked) {
-  char text[160];
-  std::snprintf(text, sizeof(text), "%-22s %14s %14s", label.c_str(), whole.c_str(), masked ? masked->c_str() : "");
-  std::string line(text);
+std::string tableLine(const std::string& label, const std::string& whole, const std::string& masked) {
+  std::string line = fmt::format("{:<22} {:>14} {:>14}", label, whole, masked);
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
 }
@@ -147,21 +140,20 @@ nlohmann::ordered_json comparisonJson(const Comparison& comparison) {
 
 std::string comparisonTable(const Comparison& comparison, double tolerance) {
   const auto line = [&](const std::string& label, const char* format, auto&& value) {
-    return tableLine(label, cell(format, value(comparison.whole)),
-                     comparison.masked ? std::optional(cell(format, value(*comparison.masked))) : std::nullopt);
+    const auto cell = [&](const ImageMetrics& metrics) { return fmt::format(fmt::runtime(format), value(metrics)); };
+    return tableLine(label, cell(comparison.whole), comparison.masked ? cell(*comparison.masked) : "");
   };
   using M = ImageMetrics;
-  return tableLine("", "whole", comparison.masked ? std::optional<std::string>("mask") : std::nullopt) +
-         line("pixels", "%.0f", [](const M& m) { return static_cast<double>(m.pixels); }) +
-         line("RMSE (linear)", "%.6f", [](const M& m) { return m.rmse; }) +
-         line("relative RMSE", "%.6f", [](const M& m) { return m.relativeRmse; }) +
-         line("PSNR (dB)", "%.3f", [](const M& m) { return m.psnr; }) +
-         line("SSIM", "%.6f", [](const M& m) { return m.ssim; }) +
-         line("FLIP", "%.6f", [](const M& m) { return m.flip; }) +
-         line("largest (1/255)", "%.4g", [](const M& m) { return m.maxDiff; }) +
-         line("99th perc. (1/255)", "%.4g", [](const M& m) { return m.p99Diff; }) +
-         line("pixels over " + cell("%g", tolerance) + "/255", "%.0f",
-              [](const M& m) { return static_cast<double>(m.pixelsOver); });
+  return tableLine("", "whole", comparison.masked ? "mask" : "") +
+         line("pixels", "{}", [](const M& m) { return m.pixels; }) +
+         line("RMSE (linear)", "{:.6f}", [](const M& m) { return m.rmse; }) +
+         line("relative RMSE", "{:.6f}", [](const M& m) { return m.relativeRmse; }) +
+         line("PSNR (dB)", "{:.3f}", [](const M& m) { return m.psnr; }) +
+         line("SSIM", "{:.6f}", [](const M& m) { return m.ssim; }) +
+         line("FLIP", "{:.6f}", [](const M& m) { return m.flip; }) +
+         line("largest (1/255)", "{:.4g}", [](const M& m) { return m.maxDiff; }) +
+         line("99th perc. (1/255)", "{:.4g}", [](const M& m) { return m.p99Diff; }) +
+         line(fmt::format("pixels over {:g}/255", tolerance), "{}", [](const M& m) { return m.pixelsOver; });
 }
 
 }  // namespace speculum

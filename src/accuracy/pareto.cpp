@@ -1,7 +1,8 @@
 #include "accuracy/pareto.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 
@@ -9,23 +10,13 @@ namespace speculum {
 
 namespace {
 
-std::string figure(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
-}
-
 // Difference between the chosen point and the most accurate one.
 std::string givenUp(const SweepPoint& chosen, const SweepPoint& best) {
   if (&chosen == &best) {
     return "gives up nothing of what was measured";
   }
-  return "gives up " + figure(chosen.whole.flip - best.whole.flip) + " of mean FLIP against '" + best.name + "' (" +
-         figure(best.whole.flip) + " at " + figure(costMs(best)) + " ms)";
-}
-
-std::string described(const SweepPoint& point) {
-  return "'" + point.name + "', mean FLIP " + figure(point.whole.flip) + " at " + figure(costMs(point)) + " ms";
+  return fmt::format("gives up {:.3g} of mean FLIP against '{}' ({:.3g} at {:.3g} ms)",
+                     chosen.whole.flip - best.whole.flip, best.name, best.whole.flip, costMs(best));
 }
 
 // One candidate per error, by ascending error: the first, unless a later one is cheaper beyond the spread.
@@ -106,12 +97,14 @@ std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const Q
     choice.point = dear == front.begin() ? front.front() : *(dear - 1);
   }
   choice.met = affordable(choice.point) && exact(choice.point);
-  choice.why = described(points[choice.point]) + "; " + givenUp(points[choice.point], best);
+  const SweepPoint& chosen = points[choice.point];
+  choice.why = fmt::format("'{}', mean FLIP {:.3g} at {:.3g} ms; {}", chosen.name, chosen.whole.flip, costMs(chosen),
+                           givenUp(chosen, best));
   if (!affordable(choice.point)) {
-    choice.why += "; no point of the front fits " + figure(budget.ms) + " ms";
+    choice.why += fmt::format("; no point of the front fits {:.3g} ms", budget.ms);
   }
   if (!exact(choice.point)) {
-    choice.why += "; the error bound " + figure(budget.error) + " is not met";
+    choice.why += fmt::format("; the error bound {:.3g} is not met", budget.error);
   }
   return choice;
 }

@@ -8,11 +8,12 @@ namespace {
 
 using Changes = SweepPlanner::Changes;
 using Theory = PlannedSeries::Theory;
+using Values = std::vector<std::string>;
 
 constexpr const char* greatestDepth = "32";
 
-std::vector<std::string> texts(const std::vector<int>& values) {
-  std::vector<std::string> list;
+Values texts(const std::vector<int>& values) {
+  Values list;
   for (const int value : values) {
     list.push_back(std::to_string(value));
   }
@@ -30,10 +31,8 @@ Changes best(const SweepContext& context) {
 }
 
 void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
-  std::vector<std::string> coarse = {"0.125", "0.25", "0.5", "1"};
-  if (full) {
-    coarse = {"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"};
-  }
+  const Values coarse =
+      full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.125", "0.25", "0.5", "1"};
   planner.series(
       {.series = {.key = "reflection.scale",
                   .name = "Resolution of mirror images, up to the screen's",
@@ -43,10 +42,7 @@ void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool ful
        .theory = Theory::fixed,
        .fitUpTo = 0.99},
       coarse, best(context));
-  std::vector<std::string> fine = {"1", "1.5", "2"};
-  if (full) {
-    fine = {"1", "1.5", "2", "3", "4"};
-  }
+  const Values fine = full ? Values{"1", "1.5", "2", "3", "4"} : Values{"1", "1.5", "2"};
   planner.series({.series = {.key = "reflection.scale",
                              .name = "Resolution above the screen's, one sample a texel",
                              .note = "Regular N samples an edge of any slope: N^-0.75, with N = scale^2",
@@ -59,10 +55,7 @@ void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool ful
 }
 
 void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
-  std::vector<std::string> rays = {"1", "4", "16", "64"};
-  if (full) {
-    rays = {"1", "2", "4", "8", "16", "32", "64", "128", "256"};
-  }
+  const Values rays = full ? Values{"1", "2", "4", "8", "16", "32", "64", "128", "256"} : Values{"1", "4", "16", "64"};
   planner.series({.series = {.key = "effects.rough_samples",
                              .name = "Rays a pixel of rough mirrors",
                              .note = "Random rays err by N^-0.5; a shifted lattice does better where what is seen is "
@@ -78,7 +71,7 @@ void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool ful
 }
 
 void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
-  const std::vector<std::string> counts = texts(context.sampleCounts);
+  const Values counts = texts(context.sampleCounts);
   PlannedSeries msaa{.series = {.key = "view.samples",
                                 .name = "Samples a pixel, of view and mirror images alike",
                                 .note = "Edges N^-0.75; texture, highlights and shading edges gain nothing",
@@ -97,10 +90,8 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
     return;
   }
   addScaleSeries(planner, context, full);
-  std::vector<std::string> depths = {"0", "1", "2", "3", "4", "8", greatestDepth};
-  if (full) {
-    depths = {"0", "1", "2", "3", "4", "5", "6", "8", "12", "16", greatestDepth};
-  }
+  const Values depths = full ? Values{"0", "1", "2", "3", "4", "5", "6", "8", "12", "16", greatestDepth}
+                             : Values{"0", "1", "2", "3", "4", "8", greatestDepth};
   planner.series(
       {.series = {.key = "reflection.max_depth",
                   .name = "Depth of mirrors in mirrors",
@@ -161,10 +152,8 @@ SweepPlan builtIn(const std::string& name, const SweepContext& context) {
   if (!context.mirrors) {
     return std::move(planner.plan);
   }
-  const std::vector<std::string> scales =
-      full ? std::vector<std::string>{"0.25", "0.5", "0.75", "1", "1.5", "2"} : std::vector<std::string>{"0.5", "1"};
-  const std::vector<std::string> depths =
-      full ? std::vector<std::string>{"1", "2", "3", "4", "8"} : std::vector<std::string>{"1", "2", "4"};
+  const Values scales = full ? Values{"0.25", "0.5", "0.75", "1", "1.5", "2"} : Values{"0.5", "1"};
+  const Values depths = full ? Values{"1", "2", "3", "4", "8"} : Values{"1", "2", "4"};
   for (const std::string& count : texts(context.sampleCounts)) {
     planner.grid({{"reflection.scale", scales},
                   {"reflection.max_depth", depths},
