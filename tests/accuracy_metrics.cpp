@@ -72,7 +72,7 @@ TEST(ImageMetrics, ConstantPicturesFollowTheFormulas) {
   EXPECT_EQ(m.pixelsOver, 1024);
 }
 
-TEST(ImageMetrics, CountsPixelsAndPercentilesOfTheWorstChannel) {
+TEST(ImageMetrics, CountsAndPercentilesTakeTheWorstChannel) {
   const Image8 a = gray(20, 10, 100);
   Image8 b = a;
   b.at(3, 2)[1] = 102;
@@ -136,7 +136,7 @@ TEST(ImageMetrics, RefusesPicturesThatCannotBeCompared) {
   EXPECT_THROW(readComparedImage("/no/such/file.png"), std::runtime_error);
 }
 
-TEST(ImageMetrics, JsonHasTheFixedKeysAndNullForInfinity) {
+TEST(ImageMetrics, JsonHasFixedKeysAndNullForInfinity) {
   const Image8 a = gray(16, 16, 90);
   const PixelMask mask{16, 16, std::vector<uint8_t>(256, 1)};
   const nlohmann::ordered_json json = comparisonJson(compare(a, a, {.mask = &mask}));
@@ -151,7 +151,7 @@ TEST(ImageMetrics, JsonHasTheFixedKeysAndNullForInfinity) {
   EXPECT_TRUE(json["pixels_over"].is_number_integer());
 }
 
-TEST(ImageMetrics, TheTableNamesEveryMetric) {
+TEST(ImageMetrics, TableNamesEveryMetric) {
   const std::string table = comparisonTable(compare(gray(16, 16, 90), gray(16, 16, 95)), 2.0);
   for (const char* word : {"RMSE", "relative", "PSNR", "SSIM", "FLIP", "largest", "99th", "pixels over 2/255", "256"}) {
     EXPECT_NE(table.find(word), std::string::npos) << word << " in\n" << table;

@@ -22,7 +22,7 @@ TEST(PictureAgreement, CountsPixelsOverTheTolerance) {
   EXPECT_FALSE(agreement.holds(1.0));
 }
 
-TEST(PictureAgreement, ASolidBlockIsADisagreementHoweverSmall) {
+TEST(PictureAgreement, SmallSolidBlockIsADisagreement) {
   const Image8 a(400, 300);
   Image8 b = a;
   for (int y = 20; y < 23; ++y) {
