@@ -137,8 +137,8 @@ Triangle triangleAt(const glm::dvec3& point, const glm::dvec3& normal, double ex
   const glm::dvec3 first = turned(normal, size);
   const glm::dvec3 second = glm::cross(normal, first);
   Triangle triangle{.center = point + turned(normal, uniform(0.0, std::max(extent - 2.0 * size, 0.0)))};
-  const glm::dvec3 place = point - triangle.center;
-  triangle.corners = {place + first, place - 0.5 * first + 0.9 * second, place - 0.5 * first - 0.9 * second};
+  const glm::dvec3 middle = point - triangle.center;
+  triangle.corners = {middle + first, middle - 0.5 * first + 0.9 * second, middle - 0.5 * first - 0.9 * second};
   return triangle;
 }
 

@@ -56,7 +56,7 @@ TEST(Jpeg, QualityIsPaidForInBytes) {
   EXPECT_EQ(high, encodeJpeg(image, 95));
 }
 
-TEST(Jpeg, WhatCannotBeEncodedIsTold) {
+TEST(Jpeg, RefusesImpossibleSizesAndQualities) {
   EXPECT_THROW(encodeJpeg(Image8(), 88), std::runtime_error);
   EXPECT_THROW(encodeJpeg(Image8(65536, 1), 88), std::runtime_error);
   EXPECT_THROW(encodeJpeg(Image8(8, 8), 0), std::runtime_error);

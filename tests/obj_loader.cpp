@@ -229,7 +229,7 @@ TEST_F(ObjLoader, MissingFilesAndFoldersAreRefused) {
 struct ObjFault {
   const char* name;
   std::string text;
-  const char* place;    // line and key
+  const char* line;     // and key
   const char* message;  // part of it
 };
 
@@ -241,7 +241,7 @@ class ObjFaults : public ObjTest, public testing::WithParamInterface<ObjFault> {
 
 TEST_P(ObjFaults, NameTheirLine) {
   const std::string fault = faultOf(GetParam().text);
-  EXPECT_TRUE(fault.starts_with("m.obj:" + std::string(GetParam().place) + " ")) << fault;
+  EXPECT_TRUE(fault.starts_with("m.obj:" + std::string(GetParam().line) + " ")) << fault;
   EXPECT_NE(fault.find(GetParam().message), std::string::npos) << fault;
   EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
 }

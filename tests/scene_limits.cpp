@@ -32,12 +32,12 @@ std::string polygonOf(int vertices) {
 
 TEST(SceneLimits, KeysOfManyPartsAreNotParsed) {
   const std::string deep = repeated("a.", 200'000) + "a";
-  const std::string told = " toml: a key has too many parts (no key of a scene file has more than 3)";
-  EXPECT_EQ(faultOf("[settings]\n" + deep + " = 1\n"), "5:" + told);
-  EXPECT_EQ(faultOf("[" + deep + "]\n"), "4:" + told);
-  EXPECT_EQ(faultOf("\n[[" + deep + "]]\n"), "5:" + told);
-  EXPECT_EQ(faultOf("[settings]\nx = { " + deep + " = 1 }\n"), "5:" + told);
-  EXPECT_EQ(faultOf("[settings]\n" + repeated("\"a\" . ", 200'000) + "b = 1\n"), "5:" + told);
+  const std::string fault = " toml: a key has too many parts (no key of a scene file has more than 3)";
+  EXPECT_EQ(faultOf("[settings]\n" + deep + " = 1\n"), "5:" + fault);
+  EXPECT_EQ(faultOf("[" + deep + "]\n"), "4:" + fault);
+  EXPECT_EQ(faultOf("\n[[" + deep + "]]\n"), "5:" + fault);
+  EXPECT_EQ(faultOf("[settings]\nx = { " + deep + " = 1 }\n"), "5:" + fault);
+  EXPECT_EQ(faultOf("[settings]\n" + repeated("\"a\" . ", 200'000) + "b = 1\n"), "5:" + fault);
 }
 
 TEST(TomlDepth, CountsThePartsOfOneKey) {
@@ -68,19 +68,19 @@ TEST(TomlDepth, StringsHideNothingBehindThem) {
 }
 
 TEST(SceneLimits, CharactersBeyondAsciiStandInQuotationMarks) {
-  const std::string told =
+  const std::string fault =
       " toml: a character that is not ASCII stands outside quotation marks (a TOML 1.0 file is needed, which quotes "
       "such "
       "keys and texts)";
-  EXPECT_EQ(faultOf("near = 1 \xc3\xa9\n"), "4:" + told);
-  EXPECT_EQ(faultOf("\n\"\" # \xc3\xa9\n\xc2\xa0near = 1\n"), "6:" + told);
-  EXPECT_EQ(faultOf("near = [1,\n\xd0\xa2\n"), "5:" + told);
+  EXPECT_EQ(faultOf("near = 1 \xc3\xa9\n"), "4:" + fault);
+  EXPECT_EQ(faultOf("\n\"\" # \xc3\xa9\n\xc2\xa0near = 1\n"), "6:" + fault);
+  EXPECT_EQ(faultOf("near = [1,\n\xd0\xa2\n"), "5:" + fault);
   EXPECT_EQ(faultOf("# \xc3\xa9\n[[light]]\nname = \"\xc3\xa9\" # \xc3\xa9\nposition = [0, 0, 0]\n"),
             "no InputError was thrown");
   EXPECT_EQ(lineOfStrayCharacter("a = 1\n\"\"\"\n\xc3\xa9\"\"\"\n'\xc3\xa9'\n\xff"), 5);
 }
 
-TEST(SceneLimits, NestedValuesAreTold) {
+TEST(SceneLimits, DeeplyNestedValuesAreRefused) {
   EXPECT_NE(faultOf("x = " + repeated("{ a = ", 100'000)).find("4: toml: "), std::string::npos);
 }
 

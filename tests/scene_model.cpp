@@ -97,17 +97,17 @@ fs::path twoModels(const TemporaryFolder& folder) {
 
 TEST(LoadProgress, RisesFileByFile) {
   const TemporaryFolder folder;
-  std::vector<std::pair<std::string, double>> told;
+  std::vector<std::pair<std::string, double>> reports;
   loadScene(twoModels(folder),
-            [&](const fs::path& file, double done) { told.emplace_back(file.filename().string(), done); });
-  ASSERT_GT(told.size(), 6u) << "a large model is told of more than once";
-  EXPECT_EQ(told.front(), (std::pair<std::string, double>{"large.obj", 0.0}));
-  EXPECT_EQ(told.back().first, "small.obj");
-  for (size_t i = 1; i < told.size(); ++i) {
-    EXPECT_GE(told[i].second, told[i - 1].second);
-    EXPECT_LE(told[i].second, 1.0);
+            [&](const fs::path& file, double done) { reports.emplace_back(file.filename().string(), done); });
+  ASSERT_GT(reports.size(), 6u) << "a large model reports more than once";
+  EXPECT_EQ(reports.front(), (std::pair<std::string, double>{"large.obj", 0.0}));
+  EXPECT_EQ(reports.back().first, "small.obj");
+  for (size_t i = 1; i < reports.size(); ++i) {
+    EXPECT_GE(reports[i].second, reports[i - 1].second);
+    EXPECT_LE(reports[i].second, 1.0);
   }
-  EXPECT_GT(told.back().second, 0.99) << "the large one is nearly all";
+  EXPECT_GT(reports.back().second, 0.99) << "the large one is nearly all";
 }
 
 TEST(LoadProgress, ExceptionsEndTheLoading) {
