@@ -168,7 +168,7 @@ using SettingList = std::vector<std::pair<std::string, std::string>>;
 // Two pictures, the second a moment later, with all new memory (lavapipe's images are in it) filled with one byte.
 std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string& scene, const SettingList& settings) {
   ::mallopt(M_PERTURB, fill);
-  Options options = headless(sourceFile("scenes/" + scene + ".toml"), size);
+  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {160, 90});
   set(options, settings);
   std::vector<std::vector<uint8_t>> pictures;
   {
@@ -185,15 +185,14 @@ std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string
 
 TEST(MirrorPictures, DoNotDependOnUnwrittenMemory) {
   const SettingList small = {{"reflection.samples", "1"}, {"reflection.scale", "0.53"}};
-  std::vector<std::pair<std::string, SettingList>> cases;
-  for (const std::string scene : {"single_plane", "mirror_maze", "outdoors", "gallery"}) {
-    cases.emplace_back(scene, small);
-  }
-  cases.push_back({"single_plane", {{"reflection.samples", "1"}, {"reflection.scale", "1.7"}}});
-  cases.push_back({"gallery", {{"reflection.samples", "4"}, {"reflection.scale", "0.53"}}});
-  cases.push_back({"gallery", {{"reflection.update_interval", "3"}, {"reflection.scale", "0.7"}}});
-  cases.push_back({"rough", {{"effects.rough_lookup", "image"}, {"reflection.scale", "0.7"}}});
-  cases.push_back({"mirror_ball", {{"effects.curved_lookup", "environment"}}});
+  const std::vector<std::pair<std::string, SettingList>> cases = {
+      {"single_plane", small},
+      {"mirror_maze", small},
+      {"outdoors", small},
+      {"gallery", small},
+      {"single_plane", {{"reflection.samples", "1"}, {"reflection.scale", "1.7"}}},
+      {"gallery", {{"reflection.update_interval", "3"}, {"reflection.scale", "0.7"}}},
+      {"rough", {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}, {"reflection.scale", "0.7"}}}};
   for (const auto& [scene, settings] : cases) {
     const auto dark = picturesInMemoryOf(1, scene, settings);
     const auto bright = picturesInMemoryOf(255, scene, settings);

@@ -163,7 +163,8 @@ std::filesystem::path shapesScene(std::mt19937& engine) {
     return std::uniform_real_distribution<double>(low, high)(engine);
   };
   std::ostringstream toml;
-  toml << "[environment]\nambient = [0.4, 0.4, 0.4]\n[settings]\n\"reflection.max_passes\" = 4000\n";
+  toml << "[environment]\nambient = [0.4, 0.4, 0.4]\n[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, "
+          "0]\n[settings]\n\"reflection.max_passes\" = 4000\n";
   for (int i = 0; i < 14; ++i) {
     const std::string file = "shape" + std::to_string(i) + ".obj";
     std::ofstream(sceneDirectory() / file) << randomShape(engine).obj();

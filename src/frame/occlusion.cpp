@@ -11,9 +11,9 @@ namespace speculum {
 
 namespace {
 
-// Part of the size of what is drawn; floats are off by about 1e-7 of it.
+// Rounding of what is drawn on the GPU, as a part of its size; floats are off by 1e-7 of it.
 constexpr double roundingPart = 1e-5;
-// Most pieces that several occluders may leave of a polygon, and most occluders that are tried together.
+// Limits of the search for several occluders: pieces of the polygon that are not hidden yet, and occluders.
 constexpr size_t mostPieces = 24;
 constexpr size_t mostOccluders = 64;
 
@@ -33,11 +33,11 @@ double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points)
   return radius;
 }
 
-// Selects the occluders that are worth testing: those that look large enough and stand before a corner of the polygon
-// or its middle. An occluder that covers all of it always does.
-class Prospects {
+// Finds occluders that are worth a closer look: they look large enough and stand before a corner or the middle of a
+// polygon, as every occluder of all of it does.
+class Prefilter {
  public:
-  Prospects(const glm::dvec3& eye, std::span<const glm::dvec3> polygon)
+  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon)
       : eye_(eye), center_(vertexMean(polygon)), polygon_(polygon) {
     constexpr double least = 0.4;  // of the polygon's own angle
     width_ = least * radiusAbout(center_, polygon) / glm::length(center_ - eye);
@@ -53,7 +53,7 @@ class Prospects {
   }
   bool looksLarge(double radius, double nearest) const { return nearest <= 0.0 || radius >= width_ * nearest; }
   // Says whether a corner lies beyond a plane.
-  bool farther(const Plane& plane) const {
+  bool reachesBeyond(const Plane& plane) const {
     const double side = plane.distance(eye_);
     return std::any_of(polygon_.begin(), polygon_.end(),
                        [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
@@ -76,7 +76,7 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
     for (const glm::dvec3& p : mirror.polygon) {
       size = std::max(size, glm::length(p - mirror.polygon[0]));
     }
-    mirrors_.push_back(occluder(mirror.polygon, size));
+    mirrors_.push_back(flatOccluder(mirror.polygon, size));
   }
   for (const Mesh& mesh : scene.meshes) {
     double largest = 0.0;
@@ -87,7 +87,7 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
   }
 }
 
-FlatOccluder Occlusion::occluder(std::vector<glm::dvec3> polygon, double size) {
+FlatOccluder Occlusion::flatOccluder(std::vector<glm::dvec3> polygon, double size) {
   FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
   for (const glm::dvec3& p : polygon) {
     made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
@@ -98,7 +98,7 @@ FlatOccluder Occlusion::occluder(std::vector<glm::dvec3> polygon, double size) {
   return made;
 }
 
-BodyOccluder Occlusion::wholeOf(const ConvexMesh& mesh, const InstanceState& state) {
+BodyOccluder Occlusion::bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
   BodyOccluder whole{.mesh = &mesh, .slack = roundingPart * state.radius};
   for (const glm::dvec3& p : mesh.points) {
     whole.points.push_back(state.worldFromMesh.point(p));
@@ -116,7 +116,7 @@ const Occlusion::Body& Occlusion::bodyOf(int instance) {
     const InstanceState& state = state_.instances[static_cast<size_t>(instance)];
     const Mesh& mesh = scene_.meshes[state.mesh];
     if (!mesh.convex.triangles.empty()) {
-      body->whole = wholeOf(mesh.convex, state);
+      body->whole = bodyOccluder(mesh.convex, state);
     }
     for (const std::vector<glm::dvec3>& face : mesh.faces) {
       std::vector<glm::dvec3> polygon;
@@ -124,16 +124,16 @@ const Occlusion::Body& Occlusion::bodyOf(int instance) {
         polygon.push_back(state.worldFromMesh.point(p));
       }
       if (std::isnormal(polygonArea(polygon))) {
-        body->faces.push_back(occluder(std::move(polygon), state.radius));
+        body->faces.push_back(flatOccluder(std::move(polygon), state.radius));
       }
     }
   }
   return *body;
 }
 
-// Adds a region that holds a part of the polygon; returns whether it holds all of it.
-bool Occlusion::Hiders::add(std::optional<OccludedRegion> region, const Hider& of, const glm::dvec3& eye,
-                            std::span<const glm::dvec3> polygon) {
+// Adds a region that holds a part of the polygon. Returns whether it holds all of it.
+bool Occlusion::Occluders::add(std::optional<OccludedRegion> region, const Occluder& of, const glm::dvec3& eye,
+                               std::span<const glm::dvec3> polygon) {
   if (!region) {
     return false;
   }
@@ -155,17 +155,18 @@ bool Occlusion::Hiders::add(std::optional<OccludedRegion> region, const Hider& o
   return all;
 }
 
-// Finds the first occluder that hides all of `polygon`, a part of `mirror`, or else all that hide a part of it.
-Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> instances, int mirror,
-                                    std::span<const glm::dvec3> polygon) {
-  Hiders found;
-  const Prospects prospects(view.eye, polygon);
-  const auto addFace = [&](const FlatOccluder& face, const Hider& of) {
-    return prospects.farther(face.plane) && found.add(hiddenByFace(face, view, projection_), of, view.eye, polygon);
+// Finds the first occluder that hides all of `polygon`, a part of `mirror`, or else those that hide a part of it.
+Occlusion::Occluders Occlusion::occludersOf(const View& view, std::span<const int> instances, int mirror,
+                                            std::span<const glm::dvec3> polygon) {
+  Occluders found;
+  const Prefilter prefilter(view.eye, polygon);
+  const auto addFace = [&](const FlatOccluder& face, const Occluder& of) {
+    return prefilter.reachesBeyond(face.plane) &&
+           found.add(hiddenByFace(face, view, projection_), of, view.eye, polygon);
   };
   for (size_t i = 0; i < mirrors_.size(); ++i) {
-    // A mirror beside what the view shows is not drawn, though it may stand in the margin that is read around it.
-    if (static_cast<int>(i) != mirror && prospects.include(mirrors_[i].center, mirrors_[i].radius) &&
+    // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
+    if (static_cast<int>(i) != mirror && prefilter.include(mirrors_[i].center, mirrors_[i].radius) &&
         !visiblePart(view, mirrors_[i].polygon).empty() &&
         addFace(mirrors_[i], {.isMirror = true, .index = static_cast<int>(i)})) {
       return found;
@@ -177,9 +178,9 @@ Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> insta
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const double nearest = glm::length(instance.center - view.eye) - instance.radius;
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
-    // Mesh levels have other outlines than the mesh.
-    if ((simplifies && mayHaveLevels(mesh)) || !prospects.looksLarge(widest, nearest) ||
-        !prospects.include(instance.center, instance.radius)) {
+    // Levels of a mesh have other outlines.
+    if ((simplifies && mayHaveLevels(mesh)) || !prefilter.looksLarge(widest, nearest) ||
+        !prefilter.include(instance.center, instance.radius)) {
       continue;
     }
     const Body& body = bodyOf(i);
@@ -188,7 +189,7 @@ Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> insta
       return found;
     }
     if (std::any_of(body.faces.begin(), body.faces.end(), [&](const FlatOccluder& face) {
-          return prospects.include(face.center, face.radius) && addFace(face, {.index = i});
+          return prefilter.include(face.center, face.radius) && addFace(face, {.index = i});
         })) {
       return found;
     }
@@ -196,37 +197,37 @@ Occlusion::Hiders Occlusion::hiders(const View& view, std::span<const int> insta
   return found;
 }
 
-std::string Occlusion::nameOfHider(const Hider& hider) const {
-  if (hider.isMirror) {
-    return nameOf("mirror", scene_.mirrors[static_cast<size_t>(hider.index)].name, hider.index);
+std::string Occlusion::nameOfOccluder(const Occluder& occluder) const {
+  if (occluder.isMirror) {
+    return nameOf("mirror", scene_.mirrors[static_cast<size_t>(occluder.index)].name, occluder.index);
   }
-  const int object = state_.instances[static_cast<size_t>(hider.index)].object;
+  const int object = state_.instances[static_cast<size_t>(occluder.index)].object;
   return nameOf("object", scene_.objects[static_cast<size_t>(object)].name, object);
 }
 
 std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const int> instances, int mirror,
                                                std::span<const glm::dvec3> polygon) {
-  // It is not known here what an oblique depth buffer keeps in order.
+  // The order that an oblique depth buffer keeps is not known here.
   const bool oblique = settings_.reflection.clip == ClipMethod::oblique && view.clip;
   if (!settings_.debug.skipHidden || settings_.view.wireframe || oblique || polygon.empty()) {
     return std::nullopt;
   }
-  const Hiders found = hiders(view, instances, mirror, polygon);
-  return found.whole ? nameOfHider(*found.whole) : hiddenTogether(found.parts, view, polygon);
+  const Occluders found = occludersOf(view, instances, mirror, polygon);
+  return found.whole ? nameOfOccluder(*found.whole) : hiddenTogether(found.parts, view, polygon);
 }
 
-// Takes the regions of all occluders away one after the other and names them if nothing is left of the polygon.
-std::optional<std::string> Occlusion::hiddenTogether(std::span<const Hider> hiders, const View& view,
+// Takes the regions away from the polygon one after the other, until no piece is left.
+std::optional<std::string> Occlusion::hiddenTogether(std::span<const Occluder> occluders, const View& view,
                                                      std::span<const glm::dvec3> polygon) const {
   std::vector<std::vector<glm::dvec3>> pieces = {{polygon.begin(), polygon.end()}};
   std::vector<std::string> names;
-  for (const Hider& hider : hiders.first(std::min(hiders.size(), mostOccluders))) {
-    std::vector<std::vector<glm::dvec3>> left = outside(hider.region, view.eye, pieces);
+  for (const Occluder& occluder : occluders.first(std::min(occluders.size(), mostOccluders))) {
+    std::vector<std::vector<glm::dvec3>> left = outside(occluder.region, view.eye, pieces);
     if (left == pieces || left.size() > mostPieces) {
       continue;
     }
     pieces = std::move(left);
-    const std::string name = nameOfHider(hider);
+    const std::string name = nameOfOccluder(occluder);
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       names.push_back(name);
     }

@@ -22,7 +22,7 @@ bool asksForRays(const Scene& scene) {
                      [](const Mirror& m) { return m.roughness > 0.0 || m.ripple || m.castsLight; });
 }
 
-// What light falls on among all that the passes draw.
+// Surfaces in the passes that light falls on.
 struct Lit {
   std::vector<bool> instances;  // by index into SceneState::instances
   bool anyInstance = false;
