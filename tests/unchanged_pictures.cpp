@@ -8,6 +8,7 @@
 #include "app/stats.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
+#include "reuse_support.hpp"
 
 namespace speculum {
 namespace {
