@@ -42,7 +42,7 @@ class WindowTest : public testing::TestWithParam<RenderPath> {
   Window window_{WindowOptions{.title = "core test", .width = 320, .height = 200}};
 };
 
-TEST_P(WindowTest, DrawsFramesWithoutAMessageAndReadsThemBack) {
+TEST_P(WindowTest, DrawnFramesAreReadBack) {
   Device device(deviceFor(window_, GetParam()));
   Renderer renderer(device, inWindow(window_));
   SmallScene scene(renderer, renderer.displayExtent(), 4);
@@ -59,7 +59,7 @@ TEST_P(WindowTest, DrawsFramesWithoutAMessageAndReadsThemBack) {
   EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
 }
 
-TEST_P(WindowTest, TwoHundredResizesDownToOnePixelLeakNothing) {
+TEST_P(WindowTest, ResizesDownToOnePixelLeakNothing) {
   Device device(deviceFor(window_, GetParam()));
   Renderer renderer(device, inWindow(window_));
   SmallScene scene(renderer, renderer.displayExtent(), 4);
@@ -116,7 +116,7 @@ TEST_P(WindowTest, IconifiedDrawsNothingAndComesBack) {
 INSTANTIATE_TEST_SUITE_P(Paths, WindowTest, testing::Values(RenderPath::dynamic, RenderPath::renderPass),
                          [](const auto& info) { return std::string(renderPathName(info.param)); });
 
-TEST(WindowBarriers, PresentingIsMissedWhenItsBarrierIsLeftOut) {
+TEST(WindowBarriers, MissingPresentBarrierIsReported) {
   const VirtualDisplay display;
   Window window(WindowOptions{.width = 64, .height = 48});
   Device device(deviceFor(window, RenderPath::renderPass));
@@ -132,7 +132,7 @@ TEST(WindowBarriers, PresentingIsMissedWhenItsBarrierIsLeftOut) {
   EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
 }
 
-TEST(WindowOptions, FifoIsAlwaysThere) {
+TEST(WindowOptions, FifoIsAlwaysOffered) {
   const VirtualDisplay display;
   Window window(WindowOptions{.width = 64, .height = 48});
   Device device(deviceFor(window));
@@ -142,8 +142,8 @@ TEST(WindowOptions, FifoIsAlwaysThere) {
   EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
 }
 
-// By what a German, a French, an American and a Russian keyboard say.
-TEST(WindowKeys, LettersGoByWhatIsPrintedAndFlyingByPlace) {
+// Characters as a German, a French, an American and a Russian keyboard have them.
+TEST(WindowKeys, LettersFollowThePrintFlyKeysThePlace) {
   EXPECT_EQ(keyMeant(Key::y, "z", true, "wasdqe"), Key::z);
   EXPECT_EQ(keyMeant(Key::z, "y", true, "wasdqe"), Key::y);
   EXPECT_EQ(keyMeant(Key::z, "w", true, "wasdqe"), Key::w);
@@ -176,7 +176,7 @@ Key keyAt(char american) {
   return keyMeant(Key::unknown, std::string(1, american), true, flyingKeys);
 }
 
-TEST(WindowKeys, OnNoLayoutAKeyFliesAndDoesAnotherThingAndNoShortcutIsMissing) {
+TEST(WindowKeys, ShortcutsAvoidFlyKeysOnEveryLayout) {
   for (const KeyboardLayout& layout : layouts) {
     const std::string& places = layouts[0].printed;
     std::string flying;
@@ -205,15 +205,15 @@ TEST(WindowKeys, OnNoLayoutAKeyFliesAndDoesAnotherThingAndNoShortcutIsMissing) {
   }
 }
 
-TEST(WindowMonitors, AWindowThatNoneShowsIsBroughtBack) {
+TEST(WindowMonitors, WindowsThatNoMonitorShowsAreRescued) {
   const std::vector<ScreenRect> two{{0, 30, 1920, 1050}, {1920, 0, 1280, 1024}};
-  EXPECT_FALSE(broughtBack({100, 100, 800, 600}, two));
-  EXPECT_FALSE(broughtBack({3100, 900, 800, 600}, two)) << "there is enough to take hold of";
-  EXPECT_FALSE(broughtBack({5000, 100, 800, 600}, {})) << "nowhere to go";
+  EXPECT_FALSE(rescuedWindow({100, 100, 800, 600}, two));
+  EXPECT_FALSE(rescuedWindow({3100, 900, 800, 600}, two)) << "there is enough to take hold of";
+  EXPECT_FALSE(rescuedWindow({5000, 100, 800, 600}, {})) << "nowhere to go";
   const std::vector<ScreenRect> one{two.front()};
-  EXPECT_EQ(broughtBack({2000, 100, 800, 600}, one), (ScreenRect{560, 255, 800, 600}));
-  EXPECT_EQ(broughtBack({1910, 100, 800, 600}, one), (ScreenRect{560, 255, 800, 600})) << "a sliver";
-  EXPECT_EQ(broughtBack({0, -5000, 4000, 3000}, one), one.front()) << "no larger than what is there";
+  EXPECT_EQ(rescuedWindow({2000, 100, 800, 600}, one), (ScreenRect{560, 255, 800, 600}));
+  EXPECT_EQ(rescuedWindow({1910, 100, 800, 600}, one), (ScreenRect{560, 255, 800, 600})) << "a sliver";
+  EXPECT_EQ(rescuedWindow({0, -5000, 4000, 3000}, one), one.front()) << "no larger than what is there";
 }
 
 TEST(WindowMonitors, FullScreenEndsWithItsMonitor) {
@@ -226,7 +226,7 @@ TEST(WindowMonitors, FullScreenEndsWithItsMonitor) {
   ASSERT_TRUE(sized(320, 200));
   window.setFullScreen(true);
   ASSERT_TRUE(sized(1280, 900));
-  // What GLFW does when a monitor goes, before it tells.
+  // GLFW does this when a monitor goes, before it reports it.
   glfwSetWindowMonitor(window.native(), nullptr, 0, 0, 1280, 900, GLFW_DONT_CARE);
   ASSERT_FALSE(window.fullScreen());
   window.takeActivity();

@@ -3,13 +3,8 @@ speculum_test(finite_watch_tests SOURCES finite_watch.cpp LIBRARIES picture_supp
 speculum_test(mirror_tests SOURCES mirror_image.cpp mirror_pictures.cpp target_views.cpp
               LIBRARIES picture_support LABELS pictures)
 speculum_test(skipping_tests SOURCES skipping_pictures.cpp occluder_shapes.cpp LIBRARIES picture_support LABELS pictures)
-speculum_test(demo_window_tests SOURCES demo_window.cpp demo_gallery.cpp demo_settings.cpp demo_performance.cpp
-              demo_panels.cpp demo_accuracy.cpp demo_idle.cpp demo_keys.cpp demo_camera.cpp demo_random_input.cpp
-              demo_copy.cpp demo_look.cpp demo_open.cpp
-              LIBRARIES picture_support display_support ext::spdlog LABELS window)
 speculum_test(command_line_tests SOURCES command_line.cpp completion.cpp LIBRARIES picture_support LABELS command_line)
 add_dependencies(command_line_tests speculum)
-add_dependencies(demo_window_tests speculum)
 speculum_test(truth_tests SOURCES truth_tests.cpp LIBRARIES picture_support LABELS pictures)
 speculum_test(accuracy_command_tests SOURCES accuracy_command.cpp
               LIBRARIES picture_support LABELS command_line)

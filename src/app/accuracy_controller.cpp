@@ -22,125 +22,112 @@ std::string aboutText(const SweepResults& results) {
 
 }  // namespace
 
-AccuracyController::AccuracyController(const Options& options, const Settings& settings, UiModel& model) {
+AccuracyController::AccuracyController(const Options& options, const Settings& loaded, const std::string& choice) {
   for (int i = 0; i < heatBarSteps; ++i) {
-    model.accuracy.heatBar.emplace_back(heatColor((i + 0.5) / heatBarSteps));
+    view_.heatBar.emplace_back(heatColor((i + 0.5) / heatBarSteps));
   }
   if (!options.sweepResults.empty()) {
-    results_ = readSweepResults(options.sweepResults);
+    setResults(readSweepResults(options.sweepResults));
     Settings scratch;
     for (size_t i = 0; i < results_.points.size(); ++i) {
-      applyPoint(results_, static_cast<int>(i), {}, scratch);  // so that none fails later
+      applyPoint(static_cast<int>(i), scratch);  // so that none fails later
     }
-    showResults(model);
-    model.accuracy.about = aboutText(results_);
-    budget_ = {settings.quality.budgetMs, settings.quality.maxError};
+    view_.about = aboutText(results_);
+    budget_ = {loaded.quality.budgetMs, loaded.quality.maxError};
   }
+  view_.choice = choice;
 }
 
-void AccuracyController::showResults(UiModel& model) {
-  UiAccuracy& accuracy = model.accuracy;
-  accuracy.points.clear();
+void AccuracyController::setResults(SweepResults results) {
+  results_ = std::move(results);
+  view_.points.clear();
   pointSettings_.clear();
   for (size_t i = 0; i < results_.points.size(); ++i) {
     const SweepPoint& point = results_.points[i];
     const Spread& spread = costSpread(point);
-    accuracy.points.push_back(
-        {point.name, point.whole.flip, spread.median, spread.lowerQuartile, spread.upperQuartile});
+    view_.points.push_back({point.name, point.whole.flip, spread.median, spread.lowerQuartile, spread.upperQuartile});
     pointSettings_.push_back(settingsOfPoint(results_, static_cast<int>(i)));
   }
-  accuracy.front = paretoFront(results_.points);
-  accuracy.noiseFloor = results_.floorWhole.flip;
-  accuracy.about.clear();
+  view_.front = paretoFront(results_.points);
+  view_.noiseFloor = results_.floorWhole.flip;
+  view_.about.clear();
   budget_ = {};
   chosen_ = -1;
   settings_.clear();
 }
 
-void AccuracyController::applyBudget(UiModel& model) {
-  const QualitySettings& quality = model.settings.quality;
-  if (quality.budgetMs == budget_.ms && quality.maxError == budget_.error) {
+void AccuracyController::measure(SweepRequest request) {
+  sweep_.start({"starting", 0.0}, [request = std::move(request)](const SweepProgress& progress) {
+    return measureView(request, progress);
+  });
+}
+
+void AccuracyController::applyPoint(int point, Settings& settings) const {
+  if (point >= 0 && point < static_cast<int>(results_.points.size())) {
+    speculum::applyPoint(results_, point, {}, settings);
+  }
+}
+
+void AccuracyController::beforeFrame(Settings& settings) {
+  if (std::optional<SweepResults> results = sweep_.takeResult()) {
+    setResults(std::move(*results));
+    view_.about = aboutText(results_) + "; times taken while the window was drawing";
+  }
+  if (settings.quality.budgetMs == budget_.ms && settings.quality.maxError == budget_.error) {
     return;
   }
-  budget_ = {quality.budgetMs, quality.maxError};
-  const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_);
-  if (choice) {
-    applyPoint(results_, choice->point, {}, model.settings);
-    model.accuracy.choice = choice->why;
+  budget_ = {settings.quality.budgetMs, settings.quality.maxError};
+  if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
+    applyPoint(choice->point, settings);
+    view_.choice = choice->why;
     chosen_ = choice->point;
   } else {
     const bool bounded = budget_.ms > 0.0 || budget_.error > 0.0;
-    model.accuracy.choice = bounded ? "measure this view, or start with --sweep-results, to choose from" : "";
+    view_.choice = bounded ? "measure this view, or start with --sweep-results, to choose from" : "";
   }
 }
 
-void AccuracyController::apply(UiModel& model, const std::function<SweepRequest()>& view) {
-  UiAccuracy& accuracy = model.accuracy;
-  if (accuracy.cancel) {
-    sweep_.cancel();
-  }
-  if (accuracy.measure) {
-    sweep_.start({"starting", 0.0},
-                 [request = view()](const SweepProgress& progress) { return measureView(request, progress); });
-  }
-  if (std::optional<SweepResults> results = sweep_.takeResult()) {
-    results_ = std::move(*results);
-    showResults(model);
-    accuracy.about = aboutText(results_) + "; times taken while the window was drawing";
-  }
-  if (accuracy.apply >= 0 && accuracy.apply < static_cast<int>(results_.points.size())) {
-    applyPoint(results_, accuracy.apply, {}, model.settings);
-  }
-  applyBudget(model);
-}
-
-void AccuracyController::findCurrentPoint(UiModel& model) {
-  std::string settings = settingsKey(model.settings);
-  if (settings == settings_) {
+void AccuracyController::findCurrentPoint(const Settings& settings) {
+  std::string key = settingsKey(settings);
+  if (key == settings_) {
     return;
   }
-  settings_ = std::move(settings);
+  settings_ = std::move(key);
   const auto at = std::find_if(pointSettings_.begin(), pointSettings_.end(),
-                               [&](const auto& point) { return isAtPoint(model.settings, point); });
-  UiAccuracy& accuracy = model.accuracy;
-  accuracy.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
-  if (accuracy.current != chosen_) {
-    accuracy.choice.clear();
+                               [&](const auto& point) { return isAtPoint(settings, point); });
+  view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
+  if (view_.current != chosen_) {
+    view_.choice.clear();
     chosen_ = -1;
   }
 }
 
-void AccuracyController::update(UiModel& model, const ShownPicture& shown, SceneRenderer& sceneRenderer) {
-  UiAccuracy& accuracy = model.accuracy;
+void AccuracyController::afterFrame(const ShownPicture& shown, const std::function<Image8()>& image) {
   const std::optional<SweepStatus> status = sweep_.progress();
-  accuracy.stage = status ? status->stage : "";
-  accuracy.progress = status ? status->fraction : 0.0;
-  if (const std::optional<std::string> error = sweep_.takeError()) {
-    accuracy.about = *error;
-  }
-  findCurrentPoint(model);
-  const auto picture = [&] {
-    return toDisplay(sceneRenderer.radiance(), shown.settings.view.exposure, shown.settings.view.toneMap);
-  };
-  const bool changed =
-      accuracy.open && accuracy.showDifference ? difference_.update(shown, picture) : difference_.reset();
-  if (changed) {
-    sceneRenderer.setCover(difference_.heatMap());
-  }
-  accuracy.difference = difference_.status();
+  view_.measuring = status.has_value();
+  view_.stage = status ? status->stage : "";
+  view_.progress = status ? status->fraction : 0.0;
+  view_.about = sweep_.takeError().value_or(view_.about);
+  findCurrentPoint(shown.settings);
+  const bool changed = view_.showsDifference ? difference_.update(shown, image) : difference_.reset();
+  coverChanged_ = coverChanged_ || changed;
+  view_.difference = difference_.status();
 }
 
-bool AccuracyController::working(const UiModel& model) const {
-  const UiAccuracy& accuracy = model.accuracy;
-  return !accuracy.stage.empty() || (accuracy.open && accuracy.showDifference && difference_.working());
+std::optional<Image8> AccuracyController::takeCover() {
+  return std::exchange(coverChanged_, false) ? std::optional(difference_.heatMap()) : std::nullopt;
 }
 
-void AccuracyController::forgetScene(UiModel& model) {
+bool AccuracyController::working() const {
+  return sweep_.busy() || coverChanged_ || (view_.showsDifference && difference_.working());
+}
+
+void AccuracyController::forgetScene() {
   sweep_.cancel();
+  coverChanged_ = difference_.reset() || coverChanged_;
   difference_.stop();
-  results_ = {};
-  showResults(model);
-  model.accuracy.choice.clear();
+  setResults({});
+  view_.choice.clear();
 }
 
 }  // namespace speculum

@@ -1,40 +1,44 @@
 #pragma once
 
-#include <string>
-
 #include "accuracy/pareto.hpp"
 #include "app/difference_view.hpp"
 #include "app/view_sweep.hpp"
-#include "systems/scene_renderer.hpp"
-#include "ui/ui_model.hpp"
+#include "ui/views.hpp"
 
 namespace speculum {
 
-// What is behind the accuracy panel: measurements of the view, the points that settings are taken from, the budget, the
-// difference view.
+// Accuracy of the view: measurements, the points that settings are taken from, the budget, the difference view.
 class AccuracyController {
  public:
-  // Begins with the points of --sweep-results, if there are any, of which `settings` are one already if they have
-  // bounds. Throws InputError for a file that is none.
-  AccuracyController(const Options& options, const Settings& settings, UiModel& model);
+  // Begins with the points of --sweep-results, if there are any. `loaded` are the scene's settings, to which their
+  // bounds have been applied for the reason `choice`. Throws InputError for a file that holds no sweep.
+  AccuracyController(const Options& options, const Settings& loaded, const std::string& choice);
 
-  // After the panel was laid out and before the frame is drawn: does what the person asked for. `view` gives what a
-  // measurement would measure.
-  void apply(UiModel& model, const std::function<SweepRequest()>& view);
-  // After the frame is drawn: fills the panel's figures and keeps the renderer's cover up to date.
-  void update(UiModel& model, const ShownPicture& shown, SceneRenderer& sceneRenderer);
-  // Whether update() has more to show although nothing changes.
-  bool working(const UiModel& model) const;
-  // Before the scene goes away.
-  void forgetScene(UiModel& model);
+  void measure(SweepRequest request);
+  void cancel() { sweep_.cancel(); }
+  void setProblem(const std::string& problem) { view_.about = problem; }
+  void applyPoint(int point, Settings& settings) const;
+  void showDifference(bool shown) { view_.showsDifference = shown; }
+
+  // Before a frame: takes results that have come, and applies quality.* where it has changed.
+  void beforeFrame(Settings& settings);
+  // After a frame is drawn. `image` returns its pixels.
+  void afterFrame(const ShownPicture& shown, const std::function<Image8()>& image);
+  // The picture that from now on covers the scene, if that changed; without pixels for none.
+  std::optional<Image8> takeCover();
+  bool working() const;  // afterFrame() has more to show although nothing changes
+  void forgetScene();    // before the scene changes or goes away
+
+  const AccuracyView& view() const { return view_; }
 
  private:
-  void showResults(UiModel& model);
-  void applyBudget(UiModel& model);
-  void findCurrentPoint(UiModel& model);
+  void setResults(SweepResults results);
+  void findCurrentPoint(const Settings& settings);
 
+  AccuracyView view_;
   BackgroundJob<SweepResults, SweepStatus> sweep_;
   DifferenceView difference_;
+  bool coverChanged_ = false;
   SweepResults results_;
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
   std::string settings_;                                   // that the current point was looked for with

@@ -143,7 +143,7 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
   target_ += step;
 }
 
-// Of the picture, in radians.
+// Half the picture's angle, in radians, along its narrower side.
 double CameraController::narrowerHalfAngle(double aspect) const {
   const double vertical = 0.5 * glm::radians(spec_.verticalFov);
   return std::min(vertical, std::atan(std::tan(vertical) * aspect));

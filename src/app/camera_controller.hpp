@@ -2,7 +2,7 @@
 
 #include "edit/selection.hpp"
 #include "scene/scene_state.hpp"
-#include "ui/ui_model.hpp"
+#include "ui/commands.hpp"
 
 namespace speculum {
 
@@ -37,7 +37,6 @@ class CameraController {
 
   // Stands behind the mirror or at its surface, before its middle, and looks where its front looks. From behind it is
   // as far off as shows all of its back. `aspect` as above.
-  enum class MirrorSide { back, front };
   void lookFrom(const MirrorState& mirror, MirrorSide side, double aspect);
 
   // Where it stands by hand; nothing while it is the scene's.

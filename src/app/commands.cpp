@@ -48,7 +48,7 @@ int runScenes() {
     }
   }
   for (const auto& [file, title] : titles) {
-    // What --scene takes: hard/corner for a scene in a folder.
+    // The name that --scene takes: hard/corner for a scene in a folder.
     const std::filesystem::path name = std::filesystem::path(file).lexically_relative(dataDirectory("scenes"));
     std::printf("%-24s %s\n%25s%s\n", std::filesystem::path(name).replace_extension().c_str(), title.c_str(), "",
                 file.c_str());

@@ -12,7 +12,7 @@ namespace speculum {
 
 namespace {
 
-// What exceeds the limits that were given, or an empty text.
+// The measures that exceed the given limits, or an empty text.
 std::string exceeded(const ImageMetrics& metrics, const Options& options) {
   std::string text;
   if (options.maxFlip && metrics.flip > *options.maxFlip) {

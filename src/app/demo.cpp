@@ -3,233 +3,268 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <utility>
 
-#include "app/pass_outlines.hpp"
+#include "app/device_view.hpp"
 #include "app/screenshot.hpp"
-#include "frame/scene_names.hpp"
-#include "image/picture_files.hpp"
 #include "platform/process.hpp"
-#include "ui/panels.hpp"
+#include "ui/input_map.hpp"
 
 namespace speculum {
 
 namespace {
 
-constexpr double smoothing = 0.05;  // of the CPU time shown
+constexpr double longestStep = 0.1;  // seconds: the animation does not make up for a pause of the program
+constexpr double idleSeconds = 0.1;  // between looks at a window in which nothing changes
 
 }  // namespace
 
 Demo::Demo(const Options& options)
     : options_(options),
-      loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
+      workspace_(options, *this),
       window_({.title = "Speculum", .width = options.size.width, .height = options.size.height}),
       device_(deviceOptions(options, &window_)),
       renderer_(device_, rendererOptions(options, &window_)),
-      sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, loaded_->scene)),
+      sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, workspace_.scene())),
       planner_(device_),
-      accuracy_(options, loaded_->settings, model_) {
-  applyDebugSettings(loaded_->settings, device_);
+      deviceView_(deviceView(renderer_, device_)),
+      last_(Clock::now()) {
+  applyDebugSettings(workspace_.settings(), device_);
   installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
-  findScenes();
-  findModels();
-  model_.settings = loaded_->settings;
-  model_.sceneSettings = loaded_->settings;
-  showDevice();
-  model_.accuracy.choice = loaded_->quality ? loaded_->quality->why : "";
-  camera_.reset(loaded_->scene.camera);
-  startEditing();
-  last_ = Clock::now();
+  scenesListed();
 }
 
-void Demo::applyModel() {
-  if (model_.resetSettings) {
-    model_.settings = loaded_->settings;
+bool Demo::step() {
+  window_.pollEvents();
+  takeGamepad();
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  if (window_.paused()) {
+    window_.waitEvents(idleSeconds);
+    return !shouldClose();
   }
-  if (model_.resetCamera) {
-    camera_.reset(loaded_->scene.camera);
+  if (changing()) {
+    pacer_.change(workspace_.settings());
   }
-  applyEdit();
-  applyBookmarks();
-  if (model_.scene != shownScene_) {
-    chooseScene(std::exchange(model_.scene, shownScene_));
+  if (!pacer_.due() && !idle()) {
+    return !shouldClose();
   }
-  followLoading();
-  if (model_.copyCommand) {
-    copyCommand();
-  }
-  if (model_.screenshot) {
-    shot_ = Shot::window;
-  }
-  if (model_.copyHistory) {
-    window_.setClipboard(model_.history.csv());
-  }
-  if (model_.copyLog) {
-    window_.setClipboard(logText(shownLog(model_)));
-  }
-  applyPresentMode();
-  if (model_.seek) {
-    goTo(*model_.seek);
-  }
-  std::filesystem::path measured;
-  if (model_.accuracy.measure) {
-    measured = fileOfView(model_.accuracy.about);
-    model_.accuracy.measure = !measured.empty();
-  }
-  accuracy_.apply(model_, [&] { return sweepRequest(measured); });
-}
-
-void Demo::saveShot() {
-  if (recorder_.running()) {
-    recorder_.add(pictureOf(renderer_.readback()));
-    show(recorder_.message());
-  }
-  if (std::exchange(shot_, Shot::none) == Shot::none) {
-    return;
-  }
+  const double sinceLastMs = pacer_.beginFrame(seconds);
+  const double frameSeconds = workspace_.frameSeconds(std::min(seconds, longestStep));
+  // The one place where a failure of a frame ends.
   try {
-    const std::filesystem::path file = newPictureFile(loaded_->scene.file.stem().string());
-    writePng(file, pictureOf(renderer_.readback()));
-    tell("saved " + file.string());
-  } catch (const std::exception& error) {
-    tell("not saved: " + std::string(error.what()));
+    updateUi(frameSeconds);
+    drawFrame(sinceLastMs);
+  } catch (...) {
+    workspace_.keepUnsavedWork();
+    throw;
   }
+  return !shouldClose();
 }
 
-void Demo::drawFrame(double seconds) {
-  seconds = recorder_.running() ? 1.0 / Recorder::framesPerSecond : seconds;
-  moveCamera(seconds);
-  showEdit(seconds);
-  followStatus();
-  ui_->build(model_);
-  applyModel();
-  time_ += model_.paused ? 0.0 : seconds * model_.timeSpeed;
+void Demo::updateUi(double seconds) {
+  const bool navigating = ui_->navigating();
+  workspace_.moveCamera(heldDirection(), navigating ? GamepadState{} : gamepad_, seconds);
+  workspace_.prepareView(seconds, !overPanels());
+  output_ = ui_->build(view());
+  for (const Command& command : std::exchange(output_.commands, {})) {
+    workspace_.apply(command);
+  }
+  workspace_.update();
+  workspace_.advance(seconds);
+}
+
+void Demo::drawFrame(double sinceLastMs) {
   const Clock::time_point start = Clock::now();
-  renderer_.setTimerDetail(ui_->visible() ? TimerDetail::passes : TimerDetail::frame);
+  renderer_.setTimerDetail(ui_->windows().visible() ? TimerDetail::passes : TimerDetail::frame);
   std::optional<Frame> frame = renderer_.beginFrame();
   if (!frame) {
     return;
   }
-  SceneState state = evaluate(loaded_->scene, time_);
-  state.camera = camera_.pose(state.camera);
-  Settings settings = model_.settings;
-  if (settings.debug.checkFinite) {
-    settings.reflection.skipUnchanged = false;  // so that what is found names the mirror in every frame
+  if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
+    sceneRenderer_->setCover(*cover);
   }
-  watched_ = model_.debugPass >= 0 ? std::optional(model_.passes[model_.debugPass].path) : std::nullopt;
-  if (watched_ && !watched_->empty()) {
-    settings.reflection.updateInterval = 1;  // the image is there to be shown in every frame
-    settings.reflection.skipUnchanged = false;
-  }
-  const FittedPlan fitted = planAndUpload(*frame, state, settings);
+  const SceneState state = workspace_.state(workspace_.time());
+  const std::optional<TargetRequest>& target = output_.target;
+  const FittedPlan fitted = planner_.plan(*frame, *sceneRenderer_, workspace_.scene(), state, settingsOfFrame(),
+                                          target && target->path.empty(), ui_->holdsWidget());
   const FramePlan& plan = fitted.plan;
-  const bool bare = shot_ == Shot::picture || recorder_.bare();
-  sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debugView(plan, fitted.settings));
+  const std::optional<DebugView> debug =
+      target ? workspace_.report().target(*target, plan, fitted.settings, device_.limits().standardSampleLocations)
+             : std::nullopt;
+  const bool bare = workspace_.capture().bare();
+  sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debug);
   if (!bare) {
-    const PassScope scope = renderer_.beginOverlay(*frame);
-    ui_->record(scope);
+    ui_->record(renderer_.beginOverlay(*frame));
   }
   const double cpuMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  model_.cpuMs += smoothing * (cpuMs - model_.cpuMs);
-  noteTimes(frame->number, cpuMs);
-  frame->capture = capture_ || shot_ != Shot::none || recorder_.running();
+  const bool captured = workspace_.capture().wanted();
+  frame->capture = capture_ || captured;
+  const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
-  saveShot();
   ++framesDrawn_;
-  framesDue_ = std::max(0, framesDue_ - 1);
-  fillModel(plan, state, fitted.settings);
-  accuracy_.update(model_, {loaded_->scene, state, fitted.settings, plan.width, plan.height}, *sceneRenderer_);
-}
-
-// Lists the passes of as many frames as it takes to render each image, and those that cached images replace: a list
-// that changed from frame to frame could not be read.
-void Demo::fillPasses(const FramePlan& plan, const SceneState& state, int updateInterval) {
-  const FrameTimings& timings = renderer_.timings();
-  const auto isShown = [&](const UiPass& row) {
-    return (plan.mainReused && row.kind == PassKind::main) ||
-           std::any_of(plan.reused.begin(), plan.reused.end(),
-                       [&](const PlannedPass& p) { return p.view.path == row.path; });
+  pacer_.frameDrawn();
+  workspace_.report().update({workspace_.scene(), state, fitted.settings, plan, number, cpuMs, sinceLastMs}, renderer_,
+                             *sceneRenderer_, output_.hoveredSkipped);
+  const auto radiance = [&] {
+    const ViewSettings& view = fitted.settings.view;
+    return toDisplay(sceneRenderer_->radiance(), view.exposure, view.toneMap);
   };
-  std::vector<UiPass> rows;
-  if (updateInterval > 1 || !plan.reused.empty() || plan.mainReused) {
-    rows = std::move(model_.passes);
-  }
-  for (UiPass& row : rows) {
-    ++row.framesAgo;
-  }
-  std::ptrdiff_t place = 0;
-  for (const RecordedPass& pass : sceneRenderer_->passes()) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const UiPass& r) { return r.id == pass; });
-    if (row == rows.end()) {
-      row =
-          rows.insert(rows.begin() + place,
-                      UiPass{.name = pass.name, .path = pass.path, .depth = pass.depth, .kind = pass.kind, .id = pass});
-    }
-    row->areaPx = pass.areaPx;
-    row->draws = pass.draws;
-    const auto planned = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                      [&](const PlannedPass& p) { return p.view.path == pass.path; });
-    row->resolution =
-        planned != plan.passes.end() ? depthReadout(*planned, plan.projection, loaded_->scene, state) : std::nullopt;
-    row->outline = outlineOf(plan, pass.path, plan.width, plan.height);
-    row->framesAgo = 0;
-    place = row - rows.begin() + 1;
-  }
-  std::erase_if(rows, [&](const UiPass& row) { return row.framesAgo >= updateInterval && !isShown(row); });
-  // The times are of an earlier frame, whose plan may have differed.
-  const std::span<const RecordedPass> timed = sceneRenderer_->passesOf(timings.frame);
-  for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const UiPass& r) { return r.id == timed[i]; });
-    if (row != rows.end()) {
-      row->gpuMs = timings.passes[i].gpuMs;
-    }
-  }
-  model_.passes = std::move(rows);
-  const auto shown = std::find_if(model_.passes.begin(), model_.passes.end(), [&](const UiPass& row) {
-    return watched_ && panels::hasTarget(row) && row.path == *watched_;
-  });
-  model_.debugPass = shown != model_.passes.end() ? static_cast<int>(shown - model_.passes.begin()) : -1;
+  const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
+  workspace_.frameDrawn({workspace_.scene(), state, fitted.settings, plan.width, plan.height}, radiance,
+                        picture ? &*picture : nullptr);
+  message_ = currentMessage();
 }
 
-void Demo::fillEffects(const FramePlan& plan, const SceneState& state, const Settings& drawn) {
-  model_.effects.clear();
-  const EffectLedger& ledger = sceneRenderer_->ledger();
-  for (const Effect& effect : effectsOf(loaded_->scene, state, drawn, plan)) {
-    const EffectCost& cost = ledger[static_cast<EffectKind>(model_.effects.size())];
-    model_.effects.push_back({effect.name, effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
-  }
+Settings Demo::settingsOfFrame() const {
+  Settings settings = workspace_.settings();
+  // A value that is not finite is reported with its mirror in every frame; a target that is shown exists in every
+  // frame.
+  const bool watched = output_.target && !output_.target->path.empty();
+  settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite && !watched;
+  settings.reflection.updateInterval = watched ? 1 : settings.reflection.updateInterval;
+  return settings;
 }
 
-void Demo::fillModel(const FramePlan& plan, const SceneState& state, const Settings& drawn) {
-  const FrameTimings& timings = renderer_.timings();
-  model_.sceneBackground = glm::vec3(loaded_->scene.environment.background);
-  model_.sceneSky = loaded_->scene.environment.sky.has_value();
-  model_.gpuMs = timings.gpuMs;
-  model_.deviceBytes = device_.allocatedBytes();
-  showMemory();
-  model_.validationMessages = device_.validation() ? device_.validationMessages() : -1;
-  model_.message = sceneError_.empty() ? renderer_.pipelines().errors() : sceneError_;
+std::string Demo::currentMessage() {
+  if (!workspace_.problem().empty()) {
+    return workspace_.problem();
+  }
+  if (!renderer_.pipelines().errors().empty()) {
+    return renderer_.pipelines().errors();
+  }
   const FiniteWatch& watch = sceneRenderer_->finiteWatch();
-  if (model_.message.empty() && watch.findingsFrame() > 0 && watch.findingsFrame() == timings.frame) {
-    model_.message = describe(watch.findings().front());
+  if (watch.findingsFrame() > 0 && watch.findingsFrame() == renderer_.timings().frame) {
+    return describe(watch.findings().front());
   }
-  if (model_.message.empty()) {
-    model_.message = texturesRefused_ ? texturesRefused_->problem : "";
-    model_.message += !model_.message.empty() && !planner_.message().empty() ? "; " : "";
-    model_.message += planner_.message();
+  return planner_.message();
+}
+
+// Whether the next frame could differ from the last one.
+bool Demo::changing() {
+  const bool rebuilt = renderer_.reloadShaders();
+  const std::string& errors = renderer_.pipelines().errors();
+  const bool shaders = std::exchange(shaderErrors_, errors) != errors || rebuilt;
+  const bool working = workspace_.working();
+  const bool finished = std::exchange(working_, working) && !working;
+  return window_.takeActivity() || shaders || finished || gamepadChanged_ || gamepad_.used() ||
+         workspace_.capture().recording() || heldDirection() != glm::dvec3(0.0) ||
+         workspace_.settings().view.continuous || options_.frames > 0 || workspace_.animates();
+}
+
+// Nothing changes: sleeps. True if a frame is to be drawn all the same, for what changes slowly.
+bool Demo::idle() {
+  pacer_.idle();
+  window_.waitEvents(idleSeconds);
+  return ui_->wantsFrames() || working_ || workspace_.statusFades();
+}
+
+// The window stays while the prompt about unsaved changes is open.
+bool Demo::shouldClose() {
+  if (!window_.shouldClose() || closeAfterPrompt_) {
+    return window_.shouldClose();
   }
-  model_.time = time_;
-  fillPasses(plan, state, drawn.reflection.updateInterval);
-  fillEffects(plan, state, drawn);
-  showTexel(plan);
-  outlineSkipped(plan, state);
-  skipped_ = plan.skipped;
-  model_.skipped.clear();
-  for (const SkippedMirror& skip : plan.skipped) {
-    model_.skipped.push_back(
-        {mirrorPathName(loaded_->scene, skip.path), std::string(skipReasonName(skip.reason)), skip.detail, skip.path});
+  window_.refuseClose();
+  workspace_.apply(Quit{});
+  if (!closeAfterPrompt_) {
+    if (window_.iconified()) {
+      window_.restore();
+    }
+    pacer_.requestFrames(4);
   }
+  return closeAfterPrompt_;
+}
+
+void Demo::close() {
+  closeAfterPrompt_ = true;
+  window_.requestClose();
+}
+
+void Demo::useScene(const Scene& scene) {
+  renderer_.waitIdle();
+  nonFinite_ = nonFinite();
+  sceneRenderer_.reset();
+  planner_.forgetScene();
+  output_ = {};  // the panels asked for a target of the scene before
+  sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, scene);
+}
+
+glm::ivec2 Demo::pictureSize() const {
+  const VkExtent2D extent = renderer_.displayExtent();
+  return {static_cast<int>(extent.width), static_cast<int>(extent.height)};
+}
+
+void Demo::setPresentMode(size_t index) {
+  deviceView_.presentMode = index;
+  renderer_.setPresentMode(renderer_.presentModes().at(index));
+}
+
+// Before the panels are made, whose callbacks then run first and pass everything on.
+void Demo::installInput() {
+  WindowCallbacks callbacks;
+  callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
+  callbacks.mouseButton = [this](const MouseButtonEvent& event) { workspace_.pointerButton(event, overPanels()); };
+  callbacks.cursor = [this](double x, double y) {
+    const VkExtent2D size = window_.size();
+    workspace_.pointerMoved({x, y}, {size.width, size.height}, controlHeld());
+  };
+  callbacks.scroll = [this](double, double dy) {
+    if (!overPanels()) {
+      workspace_.scrolled(dy);
+    }
+  };
+  callbacks.drop = [this](const std::vector<std::filesystem::path>& files) { apply(OpenDropped{files}); };
+  window_.setCallbacks(std::move(callbacks));
+}
+
+bool Demo::overPanels() const {
+  const glm::dvec2& position = workspace_.pointer().position();
+  return !ui_ || ui_->takesPointer(position.x, position.y);
+}
+
+// While a prompt is open all keys are its own.
+void Demo::handleKey(const KeyEvent& event) {
+  const std::optional<Command> command = event.pressed && ui_ ? commandOf(event) : std::nullopt;
+  if (!command) {
+    return;
+  }
+  if (workspace_.prompting()) {
+    return std::holds_alternative<Escape>(*command) ? apply(CancelPrompt{}) : void();
+  }
+  const bool typed = ui_->wantsKeyboard() && !std::holds_alternative<Quit>(*command);
+  const bool presses = ui_->navigating() && std::holds_alternative<TogglePaused>(*command);
+  if (!typed && !presses) {
+    apply(*command);
+  }
+}
+
+// The direction pad goes to the panels (Dear ImGui's navigation); while it is there, sticks and buttons are theirs too.
+void Demo::takeGamepad() {
+  const GamepadState before = std::exchange(gamepad_, gamepadSource_().value_or(GamepadState{}));
+  gamepadChanged_ = gamepad_ != before;
+  for (int i = 0; i < static_cast<int>(GamepadButton::count); ++i) {
+    const auto button = static_cast<GamepadButton>(i);
+    const GamepadCommand bound = commandOf(button);
+    if (gamepad_.down(button) && !before.down(button) && (bound.inPanels || !ui_->navigating())) {
+      apply(bound.command);
+    }
+  }
+}
+
+bool Demo::controlHeld() const {
+  return window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl);
+}
+
+// Along right, up and backwards of the view.
+glm::dvec3 Demo::heldDirection() const {
+  if (ui_->wantsKeyboard() || controlHeld()) {
+    return glm::dvec3(0.0);
+  }
+  const auto axis = [&](Key positive, Key negative) {
+    return static_cast<double>(window_.keyDown(positive)) - static_cast<double>(window_.keyDown(negative));
+  };
+  return {axis(Key::d, Key::a), axis(Key::e, Key::q), axis(Key::s, Key::w)};
 }
 
 int runDemo(const Options& options) {

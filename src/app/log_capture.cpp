@@ -11,18 +11,18 @@ namespace {
 
 class HistorySink : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  explicit HistorySink(std::shared_ptr<LogHistory> history) : history_(std::move(history)) {}
+  explicit HistorySink(LogHistory& history) : history_(history) {}
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
     const LogLevel level = message.level >= spdlog::level::err    ? LogLevel::error
                            : message.level >= spdlog::level::warn ? LogLevel::warning
                                                                   : LogLevel::info;
-    history_->add(level, std::string(message.payload.begin(), message.payload.end()));
+    history_.add(level, std::string(message.payload.begin(), message.payload.end()));
   }
   void flush_() override {}
 
-  std::shared_ptr<LogHistory> history_;
+  LogHistory& history_;
 };
 
 }  // namespace
@@ -33,10 +33,9 @@ struct LogCapture::Before {
   spdlog::sink_ptr sink;
 };
 
-LogCapture::LogCapture(std::shared_ptr<LogHistory> history) {
+LogCapture::LogCapture(LogHistory& history) {
   const std::shared_ptr<spdlog::logger> logger = spdlog::default_logger();
-  before_ =
-      std::make_unique<Before>(Before{logger, logger->level(), std::make_shared<HistorySink>(std::move(history))});
+  before_ = std::make_unique<Before>(Before{logger, logger->level(), std::make_shared<HistorySink>(history)});
   for (const spdlog::sink_ptr& sink : logger->sinks()) {
     sink->set_level(std::max(sink->level(), logger->level()));
   }

@@ -6,11 +6,11 @@
 
 namespace speculum {
 
-// While it lives, what is logged from level info on is kept in a history as well; where the log went before, it says no
-// more than it did. Not while other threads log.
+// While it lives, lines of level info and above are added to a history as well, which must outlive it; where the log
+// went before, it says no more than it did. Make and destroy it while no other thread logs.
 class LogCapture {
  public:
-  explicit LogCapture(std::shared_ptr<LogHistory> history);
+  explicit LogCapture(LogHistory& history);
   ~LogCapture();
   LogCapture(const LogCapture&) = delete;
   LogCapture& operator=(const LogCapture&) = delete;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "edit/outline.hpp"
 #include "scene/input_error.hpp"
@@ -13,35 +12,16 @@ namespace speculum {
 namespace {
 
 constexpr double armPixels = 92.0;     // of the handles
-constexpr double handleReach = 7.0;    // pixels within which one is taken hold of
+constexpr double handleReach = 7.0;    // pixels within which one is gripped
 constexpr double sameSpot = 4.0;       // pixels within which a click repeats the last one
 constexpr double objectAhead = 2.5;    // half diagonals of a model, to stand before it and not in it
-constexpr double farthestAhead = 4.0;  // metres from the eye to where things are added
-
-std::vector<Selection> allThings(const Scene& scene) {
-  std::vector<Selection> things;
-  const auto add = [&](Selection::Kind kind, size_t count) {
-    for (size_t i = 0; i < count; ++i) {
-      things.push_back({kind, static_cast<int>(i)});
-    }
-  };
-  add(Selection::Kind::mirror, scene.mirrors.size());
-  add(Selection::Kind::light, scene.lights.size());
-  add(Selection::Kind::object, scene.objects.size());
-  return things;
-}
+constexpr double farthestAhead = 4.0;  // metres from the eye to where nodes are added
 
 template <typename Item>
-void replace(std::vector<Item>& items, int index, const Thing& thing) {
-  if (const Item* item = std::get_if<Item>(&thing)) {
+void replaceItem(std::vector<Item>& items, int index, const Thing& node) {
+  if (const Item* item = std::get_if<Item>(&node)) {
     items.at(static_cast<size_t>(index)) = *item;
   }
-}
-
-std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, a, b, c);
-  return buffer.data();
 }
 
 }  // namespace
@@ -62,17 +42,13 @@ Picker& SceneEditor::picker() {
   return *picker_;
 }
 
-void SceneEditor::put(const std::string& verb, std::span<const Placed> things) {
-  beforeChange_();
-  const std::string what =
-      things.size() == 1 ? describe(document_.scene(), things[0].first) : std::to_string(things.size()) + " things";
-  document_.change(verb + " " + what, things[0].first, [&](Scene& scene) {
-    for (const auto& [selection, thing] : things) {
-      replace(scene.objects, selection.index, thing);
-      replace(scene.lights, selection.index, thing);
-      replace(scene.mirrors, selection.index, thing);
-    }
-  });
+std::vector<Selection> SceneEditor::selected() const {
+  std::vector<Selection> nodes;
+  if (document_.selection()) {
+    nodes.push_back(document_.selection());
+    nodes.insert(nodes.end(), others_.begin(), others_.end());
+  }
+  return nodes;
 }
 
 void SceneEditor::forgetPath() {
@@ -80,26 +56,47 @@ void SceneEditor::forgetPath() {
   clicked_.reset();
 }
 
-void SceneEditor::select(const Selection& selection) {
+void SceneEditor::select(const Selection& node) {
+  release();
+  document_.endGesture();
   forgetPath();
   others_.clear();
-  document_.select(selection);
+  document_.select(node);
 }
 
 void SceneEditor::selectNext(int step) {
-  const std::vector<Selection> things = allThings(document_.scene());
-  if (things.empty()) {
+  const std::vector<Selection> nodes = allNodes(document_.scene());
+  if (nodes.empty()) {
     return;
   }
-  const auto now = std::find_if(things.begin(), things.end(),
-                                [&](const Selection& thing) { return sameThing(thing, document_.selection()); });
-  const auto count = static_cast<int>(things.size());
-  const int start = now != things.end() ? static_cast<int>(now - things.begin()) : step > 0 ? -1 : 0;
-  select(things[static_cast<size_t>((start + step + count) % count)]);
+  const auto now = std::find_if(nodes.begin(), nodes.end(),
+                                [&](const Selection& node) { return sameThing(node, document_.selection()); });
+  const auto count = static_cast<int>(nodes.size());
+  const int start = now != nodes.end() ? static_cast<int>(now - nodes.begin()) : step > 0 ? -1 : 0;
+  select(nodes[static_cast<size_t>((start + step + count) % count)]);
 }
 
-void SceneEditor::click(const Look& look, const glm::dvec2& pixel) {
-  Clicked next{.found = picker().at(look.state, look.picture, pixel, look.limits), .pixel = pixel};
+void SceneEditor::toggle(const Selection& node) {
+  release();
+  document_.endGesture();
+  forgetPath();
+  const Selection first = document_.selection();
+  const auto other =
+      std::find_if(others_.begin(), others_.end(), [&](const Selection& other) { return sameThing(other, node); });
+  if (!first) {
+    document_.select(node);
+  } else if (other != others_.end()) {
+    others_.erase(other);
+  } else if (!sameThing(first, node)) {
+    others_.push_back({.kind = node.kind, .index = node.index});
+  } else {
+    document_.select(others_.empty() ? Selection() : others_.front());
+    others_.erase(others_.begin(), others_.begin() + (others_.empty() ? 0 : 1));
+  }
+}
+
+void SceneEditor::click(const SceneView& view, const glm::dvec2& pixel) {
+  Clicked next{.found = picker().at(view.state, view.picture, pixel, view.limits), .pixel = pixel};
   if (next.found.empty()) {
     return select({});
   }
@@ -114,55 +111,50 @@ void SceneEditor::click(const Look& look, const glm::dvec2& pixel) {
   clicked_ = std::move(next);
 }
 
-// The image that was clicked, as long as any of it can be seen; otherwise the picture itself.
-PictureView SceneEditor::clickedImage(const Look& look) const {
-  const auto image = look.picture.through(document_.scene(), look.state, path_);
-  const Selection& selected = document_.selection();
-  // A thing that is dragged out of the mirror is held on to.
-  const bool seen = image && (drag_ || image->sees(pivotOf(document_.scene(), look.state, selected),
-                                                   reachOf(document_.scene(), look.state, selected)));
-  return seen ? *image : look.picture;
+void SceneEditor::clickAlso(const SceneView& view, const glm::dvec2& pixel) {
+  const std::vector<Picked> found = picker().at(view.state, view.picture, pixel, view.limits);
+  if (!found.empty()) {
+    toggle(found.back().what);
+  }
 }
 
-Gizmo SceneEditor::gizmo(const Look& look) const {
+// The image that was clicked, as long as any of it can be seen; otherwise the picture itself.
+PictureView SceneEditor::clickedImage(const SceneView& view) const {
+  const auto image = view.picture.through(document_.scene(), view.state, path_);
+  const Selection& selected = document_.selection();
+  // A node that is dragged out of the mirror stays gripped.
+  const bool seen = image && (drag_ || image->sees(pivotOf(document_.scene(), view.state, selected),
+                                                   reachOf(document_.scene(), view.state, selected)));
+  return seen ? *image : view.picture;
+}
+
+Gizmo SceneEditor::gizmo(const SceneView& view) const {
   const Selection& selected = document_.selection();
   const bool turns = selected.kind != Selection::Kind::light || !others_.empty();
   const GizmoMode mode = turns ? mode_ : GizmoMode::move;
-  return {mode, pivotOf(document_.scene(), look.state, selected), armPixels * look.scale};
+  return {mode, pivotOf(document_.scene(), view.state, selected), armPixels * view.scale};
 }
 
-bool SceneEditor::press(const Look& look, const glm::dvec2& pixel) {
-  const Selection selected = document_.selection();
-  if (!selected) {
+bool SceneEditor::press(const SceneView& view, const glm::dvec2& pixel) {
+  if (!document_.selection()) {
     return false;
   }
-  const PictureView picture = clickedImage(look);
-  const Gizmo handles = gizmo(look);
-  const Grip handle = handles.at(picture, pixel, handleReach * look.scale);
+  const PictureView picture = clickedImage(view);
+  const Gizmo handles = gizmo(view);
+  const Grip handle = handles.at(picture, pixel, handleReach * view.scale);
   if (handle == Grip::none) {
     return false;
   }
   document_.endGesture();
   document_.beginGesture();
-  drag_ = Drag{.gizmo = GizmoDrag(picture, handles, handle, pixel), .time = look.state.time, .pixel = pixel};
-  const Scene& scene = document_.scene();
-  for (const Selection& thing : this->selected()) {
-    drag_->held.push_back({thing, thingOf(scene, thing), pivotOf(scene, look.state, thing)});
-  }
+  drag_.emplace(GizmoDrag(picture, handles, handle, pixel), document_.scene(), view.state, selected(), pixel);
   return true;
 }
 
 void SceneEditor::drag(const glm::dvec2& pixel, bool snap) {
-  if (!drag_) {
-    return;
+  if (drag_) {
+    replace(drag_->turns() ? "rotate" : "move", drag_->to(pixel, snap));
   }
-  drag_->pixel = pixel;
-  drag_->change = drag_->gizmo.to(pixel, snap);
-  std::vector<Placed> things;
-  for (const Held& held : drag_->held) {
-    things.emplace_back(held.what, dragged(held));
-  }
-  put(drag_->gizmo.handle() >= Grip::turnX ? "turn" : "move", things);
 }
 
 void SceneEditor::release() {
@@ -181,23 +173,138 @@ void SceneEditor::cancelDrag() {
   }
 }
 
-// On the way to what the middle of the picture shows.
-glm::dvec3 SceneEditor::placeAhead(const Look& look, double part, double least) {
-  const glm::dvec2 middle = 0.5 * look.picture.view().pictureSize;
-  const std::vector<Picked> found = picker().at(look.state, look.picture, middle, {.maxDepth = 0});
-  const double far = found.empty() ? farthestAhead : look.picture.depth(found[0].point);
-  const double ahead = std::max(std::min(part * far, farthestAhead), least);
-  const double perMetre = std::pow(10.0, std::ceil(2.0 - std::log10(ahead)));  // hundredths of it, for short numbers
-  return glm::round((look.picture.eye() + look.picture.forward() * ahead) * perMetre) / perMetre;
+void SceneEditor::replace(const std::string& verb, std::span<const PlacedNode> nodes) {
+  beforeChange_();
+  std::vector<Selection> selections;
+  for (const PlacedNode& node : nodes) {
+    selections.push_back(node.first);
+  }
+  document_.change(verb + " " + describe(document_.scene(), selections), selections.front(), [&](Scene& scene) {
+    for (const auto& [selection, node] : nodes) {
+      replaceItem(scene.objects, selection.index, node);
+      replaceItem(scene.lights, selection.index, node);
+      replaceItem(scene.mirrors, selection.index, node);
+    }
+  });
 }
 
-std::filesystem::path SceneEditor::chosenModel(const UiEdit& edit) const {
-  const auto chosen = static_cast<size_t>(edit.model);
-  if (chosen < models_.size()) {
-    return models_[chosen];
+void SceneEditor::edit(const Thing& node, bool continued) {
+  const Selection selected = document_.selection();
+  if (!selected) {
+    return;
   }
-  const std::filesystem::path typed = edit.modelFile;
-  const std::filesystem::path file = (document_.scene().file.parent_path() / typed).lexically_normal();
+  if (continued && !document_.inGesture()) {
+    document_.beginGesture();
+  }
+  replace("edit", std::array{PlacedNode(selected, node)});
+  if (!continued) {
+    endEdit();
+  }
+}
+
+void SceneEditor::endEdit() {
+  if (!drag_ && document_.inGesture()) {
+    document_.endGesture();
+  }
+}
+
+void SceneEditor::beginChange() {
+  release();
+  beforeChange_();
+}
+
+// On the way to what the middle of the picture shows.
+glm::dvec3 SceneEditor::pointAhead(const SceneView& view, double part, double least) {
+  const glm::dvec2 middle = 0.5 * view.picture.view().pictureSize;
+  const std::vector<Picked> found = picker().at(view.state, view.picture, middle, {.maxDepth = 0});
+  const double far = found.empty() ? farthestAhead : view.picture.depth(found[0].point);
+  const double ahead = std::max(std::min(part * far, farthestAhead), least);
+  const double perMetre = std::pow(10.0, std::ceil(2.0 - std::log10(ahead)));  // hundredths of it, for short numbers
+  return glm::round((view.picture.eye() + view.picture.forward() * ahead) * perMetre) / perMetre;
+}
+
+void SceneEditor::addMirror(const SceneView& view) {
+  beginChange();
+  select(document_.addMirror(pointAhead(view, 0.6), view.picture.eye()));
+}
+
+void SceneEditor::addLight(const SceneView& view) {
+  beginChange();
+  select(document_.addLight(pointAhead(view, 0.6), view.picture.eye()));
+}
+
+void SceneEditor::addObject(const SceneView& view, int mesh) {
+  beginChange();
+  const double size = glm::length(document_.scene().meshes.at(static_cast<size_t>(mesh)).halfExtent);
+  select(document_.addObject(mesh, pointAhead(view, 0.9, objectAhead * size)));
+}
+
+void SceneEditor::duplicate() {
+  const std::vector<Selection> nodes = selected();
+  if (nodes.empty()) {
+    return;
+  }
+  beginChange();
+  if (nodes.size() == 1) {
+    return select(document_.duplicate(nodes.front()));
+  }
+  const std::vector<Selection> copies = document_.duplicate(std::span(nodes));
+  select(copies.front());
+  others_.assign(copies.begin() + 1, copies.end());
+}
+
+void SceneEditor::remove() {
+  const std::vector<Selection> nodes = selected();
+  if (nodes.empty()) {
+    return;
+  }
+  beginChange();
+  others_.clear();
+  nodes.size() == 1 ? document_.remove(nodes.front()) : document_.remove(std::span(nodes));
+  forgetPath();
+}
+
+void SceneEditor::addBookmark(Bookmark bookmark) {
+  release();
+  document_.addBookmark(std::move(bookmark));
+}
+
+void SceneEditor::removeBookmark(size_t index) {
+  release();
+  document_.removeBookmark(index);
+}
+
+void SceneEditor::undo() {
+  release();
+  if (document_.canUndo()) {
+    step(&SceneDocument::undo);
+  }
+}
+
+void SceneEditor::redo() {
+  release();
+  if (document_.canRedo()) {
+    step(&SceneDocument::redo);
+  }
+}
+
+// Nodes stay selected together as long as all of them keep their indices.
+void SceneEditor::step(void (SceneDocument::*way)()) {
+  beforeChange_();
+  const uint64_t structure = document_.structureRevision();
+  const Selection first = document_.selection();
+  (document_.*way)();
+  forgetPath();
+  if (document_.structureRevision() != structure || !sameThing(document_.selection(), first)) {
+    others_.clear();
+  }
+}
+
+std::filesystem::path SceneEditor::modelFile(const std::filesystem::path& model) const {
+  if (std::find(models_.begin(), models_.end(), model) != models_.end()) {
+    return model;
+  }
+  const std::filesystem::path file = (document_.scene().file.parent_path() / model).lexically_normal();
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) {
     throw InputError(oneLine(file.string() + ": there is no such file (name a Wavefront OBJ file)"));
@@ -210,155 +317,70 @@ void SceneEditor::modelsChanged() {
   for (const Mesh& mesh : document_.scene().meshes) {
     models_.push_back(mesh.source);
   }
-  const size_t own = models_.size();
+  const std::vector<std::filesystem::path> own = models_;
   std::error_code none;
-  for (const std::filesystem::path& file : shipped_) {
-    if (std::none_of(
-            models_.begin(), models_.begin() + static_cast<std::ptrdiff_t>(own),
-            [&](const std::filesystem::path& model) { return std::filesystem::equivalent(model, file, none); })) {
-      models_.push_back(file);
-    }
-  }
+  std::copy_if(shipped_.begin(), shipped_.end(), std::back_inserter(models_), [&](const std::filesystem::path& file) {
+    return std::none_of(own.begin(), own.end(), [&](const std::filesystem::path& model) {
+      return std::filesystem::equivalent(model, file, none);
+    });
+  });
   picker_.reset();
   outlines_.clear();
 }
 
-void SceneEditor::add(const Look& look, EditAction kind, int mesh) {
-  release();
-  if (kind == EditAction::addObject && mesh < 0) {
-    return;
-  }
-  beforeChange_();
-  const glm::dvec3& eye = look.picture.eye();
-  if (kind == EditAction::addMirror) {
-    select(document_.addMirror(placeAhead(look, 0.6), eye));
-  } else if (kind == EditAction::addLight) {
-    select(document_.addLight(placeAhead(look, 0.6), eye));
-  } else {
-    const double size = glm::length(document_.scene().meshes.at(static_cast<size_t>(mesh)).halfExtent);
-    select(document_.addObject(mesh, placeAhead(look, 0.9, objectAhead * size)));
-  }
+void SceneEditor::fill(EditView& view) const {
+  view.scene = &document_.scene();
+  view.selected = document_.selection();
+  view.others = others_;
+  view.through = path_;
+  view.mode = mode_;
+  view.models = models_;
+  view.undo = document_.undoLabel();
+  view.redo = document_.redoLabel();
+  view.unsaved = document_.modified();
 }
 
-void SceneEditor::bookmark(Bookmark view) {
-  release();
-  document_.addBookmark(std::move(view));
-}
-
-void SceneEditor::removeBookmark(size_t index) {
-  release();
-  document_.removeBookmark(index);
-}
-
-void SceneEditor::showThings(UiEdit& edit) const {
-  const Scene& scene = document_.scene();
-  edit.things.clear();
-  for (const Selection& thing : allThings(scene)) {
-    edit.things.emplace_back(thing, describe(scene, thing));
-  }
-  edit.models.clear();
-  for (const std::filesystem::path& model : models_) {
-    edit.models.push_back(model.stem().string());
-  }
-  edit.model = std::clamp(edit.model, 0, static_cast<int>(edit.models.size()));
-  edit.through.clear();
-  for (const int mirror : path_) {
-    edit.through.push_back(describe(scene, {Selection::Kind::mirror, mirror}));
-  }
-  edit.throughMirrors = path_;
-}
-
-void SceneEditor::show(UiEdit& edit) const {
-  const Scene& scene = document_.scene();
-  edit.overlay = {};
-  edit.selected = document_.selection();
-  edit.others = others_;
-  edit.thing = thingOf(scene, edit.selected);
-  edit.mode = mode_;
-  edit.undo = document_.undoLabel();
-  edit.redo = document_.redoLabel();
-  edit.file = scene.file.string();
-  edit.unsaved = document_.modified();
-  if (edit.open) {
-    showThings(edit);
-  }
-}
-
-const MeshOutline& SceneEditor::meshOutline(const Selection& thing) {
+const MeshOutline& SceneEditor::meshOutline(const Selection& node) {
   static const MeshOutline none;
-  if (thing.kind != Selection::Kind::object) {
+  if (node.kind != Selection::Kind::object) {
     return none;
   }
   const Scene& scene = document_.scene();
-  const int mesh = scene.objects.at(static_cast<size_t>(thing.index)).mesh;
+  const int mesh = scene.objects.at(static_cast<size_t>(node.index)).mesh;
   const auto known = outlines_.find(mesh);
   return known != outlines_.end()
              ? known->second
              : outlines_.emplace(mesh, speculum::meshOutline(scene.meshes.at(static_cast<size_t>(mesh)))).first->second;
 }
 
-UiOverlay SceneEditor::overlay(const Look& look, const std::optional<glm::dvec2>& pointer) {
+OverlayView SceneEditor::overlay(const SceneView& view, const std::optional<glm::dvec2>& pointer) {
   const Scene& scene = document_.scene();
   Selection selected = document_.selection();
-  if (selected.kind == Selection::Kind::object && !instanceOf(look.state, selected)) {
+  if (selected.kind == Selection::Kind::object && !instanceOf(view.state, selected)) {
     selected.copy = 0;  // the object has fewer copies now
     document_.select(selected);
   }
-  UiOverlay overlay;
+  OverlayView overlay;
   const MeshOutline& shape = meshOutline(selected);
-  const PictureView image = clickedImage(look);
-  overlay.outline = outlineOf(scene, look.state, selected, image, shape);
+  const PictureView image = clickedImage(view);
+  overlay.outline = outlineOf(scene, view.state, selected, image, shape);
   if (!image.path().empty()) {
-    overlay.itself = outlineOf(scene, look.state, selected, look.picture, shape);
+    overlay.itself = outlineOf(scene, view.state, selected, view.picture, shape);
   }
   for (const Selection& other : others_) {
-    const std::vector<PixelLine> lines = outlineOf(scene, look.state, other, look.picture, meshOutline(other));
+    const std::vector<PixelLine> lines = outlineOf(scene, view.state, other, view.picture, meshOutline(other));
     overlay.outline.insert(overlay.outline.end(), lines.begin(), lines.end());
   }
-  const Gizmo handles = gizmo(look);
+  const Gizmo handles = gizmo(view);
   overlay.gizmo = handles.shapes(image);
   if (drag_) {
-    overlay.active = drag_->gizmo.handle();
-    overlay.label = dragLabel();
-    overlay.labelAt = drag_->pixel;
+    overlay.active = drag_->handle();
+    overlay.label = drag_->label();
+    overlay.labelAt = drag_->pixel();
   } else if (pointer) {
-    overlay.active = handles.at(image, *pointer, handleReach * look.scale);
+    overlay.active = handles.at(image, *pointer, handleReach * view.scale);
   }
   return overlay;
-}
-
-std::string SceneEditor::dragLabel() const {
-  const GizmoDrag::Change& change = drag_->change;
-  const Grip handle = drag_->gizmo.handle();
-  const int axis = axisOf(handle);
-  if (handle >= Grip::turnX) {
-    return std::string(1, "XYZ"[axis]) + text("  %+.1f deg", change.degrees);
-  }
-  if (handle <= Grip::moveZ) {
-    return std::string(1, "XYZ"[axis]) + text("  %+.3f m", change.translation[axis]);
-  }
-  return text("%+.3f  %+.3f  %+.3f m", change.translation.x, change.translation.y, change.translation.z);
-}
-
-void SceneEditor::apply(const UiEdit& edit) {
-  mode_ = edit.mode;
-  if (edit.toggled) {
-    return toggle(*edit.toggled);
-  }
-  if (!sameThing(edit.selected, document_.selection())) {
-    release();
-    document_.endGesture();
-    return select(edit.selected);
-  }
-  if (edit.edited && edit.selected) {
-    if (edit.held && !document_.inGesture()) {
-      document_.beginGesture();
-    }
-    put("edit", std::array{Placed(edit.selected, edit.thing)});
-  }
-  if (!edit.held && !drag_ && document_.inGesture()) {
-    document_.endGesture();
-  }
 }
 
 }  // namespace speculum

@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// What a sweep measures: a session's scene at one time.
+// A session's scene at one time, for a sweep to measure.
 class SessionSubject : public SweepSubject {
  public:
   // Keeps the session, which must outlive it.
@@ -24,7 +24,7 @@ class SessionSubject : public SweepSubject {
   double time_;
 };
 
-// Of 1, 2, 4 and 8, those that the device has.
+// The sample counts among 1, 2, 4 and 8 that the device has.
 std::vector<int> sampleCountsOf(const Device& device);
 
 }  // namespace speculum

@@ -31,7 +31,7 @@ ordered_json metres(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-// Of the mirror pass with that path; null for other passes and where only the background is seen.
+// Depth resolution of the mirror pass with that path; null for other passes and where only the background is seen.
 ordered_json depthJson(const Session& session, const std::vector<int>& path) {
   const DrawnFrame& frame = session.lastFrame();
   const auto pass = std::find_if(frame.plan.passes.begin(), frame.plan.passes.end(),

@@ -5,7 +5,7 @@
 
 namespace speculum {
 
-// What a sweep over the session's scene can vary.
+// The settings that a sweep over the session's scene can vary.
 SweepContext sweepContext(Session& session);
 
 // Results with all that is known before anything is measured: scene, machine, device, date, base settings.

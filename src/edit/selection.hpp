@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "scene/scene.hpp"
 
@@ -22,6 +23,7 @@ struct Selection {
 // "mirror 'floor'"; "nothing" for none.
 std::string describe(const Scene& scene, const Selection& selection);
 std::string describe(const Scene& scene, std::span<const Selection> things);  // "3 things"; of one as above
+std::vector<Selection> allNodes(const Scene& scene);  // mirrors, lights, objects: the order of the lists
 // Whatever copy of it.
 bool sameThing(const Selection& a, const Selection& b);
 

@@ -7,7 +7,7 @@ namespace speculum {
 
 namespace {
 
-constexpr float rest = 0.25f;  // of a stick's way
+constexpr float deadZone = 0.25f;
 
 }  // namespace
 
@@ -15,8 +15,8 @@ bool GamepadState::used() const {
   return *this != GamepadState{};
 }
 
-float outOfRest(float axis) {
-  return std::copysign(std::clamp((std::abs(axis) - rest) / (1.0f - rest), 0.0f, 1.0f), axis) + 0.0f;
+float withoutDeadZone(float axis) {
+  return std::copysign(std::clamp((std::abs(axis) - deadZone) / (1.0f - deadZone), 0.0f, 1.0f), axis) + 0.0f;
 }
 
 }  // namespace speculum

@@ -5,12 +5,12 @@
 
 namespace speculum {
 
-// As on an Xbox controller.
+// Named as on an Xbox controller.
 enum class GamepadButton { a, b, x, y, leftBumper, rightBumper, back, start, leftStick, rightStick, count };
 
-// What a gamepad's person holds at one moment.
+// Sticks, triggers and buttons of a gamepad at one moment.
 struct GamepadState {
-  // -1 .. 1, right and down positive; 0 in the rest of a stick.
+  // -1 .. 1, right and down positive; 0 within the dead zone.
   float leftX = 0.0f;
   float leftY = 0.0f;
   float rightX = 0.0f;
@@ -21,11 +21,11 @@ struct GamepadState {
   bool directionPad = false;  // any of its four
 
   bool down(GamepadButton button) const { return buttons[static_cast<size_t>(button)]; }
-  bool used() const;  // anything is
+  bool used() const;  // anything is pressed or pushed
   bool operator==(const GamepadState&) const = default;
 };
 
-// Of a stick's axis, -1 .. 1: 0 within the rest that worn sticks come back to, and from there on without a jump.
-float outOfRest(float axis);
+// The value of a stick's axis, -1 .. 1, without the dead zone that worn sticks come back to; it begins without a jump.
+float withoutDeadZone(float axis);
 
 }  // namespace speculum

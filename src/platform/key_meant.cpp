@@ -4,7 +4,7 @@ namespace speculum {
 
 namespace {
 
-// In the order of the keys from Key::w to Key::rightBracket; those that fly come first.
+// Characters of the keys from Key::w to Key::rightBracket; those that fly come first.
 constexpr std::string_view printedKeys = "wasdqebmrfgnyz,.[]";
 constexpr size_t flying = 6;
 
@@ -12,7 +12,7 @@ bool flies(Key key) {
   return key >= Key::w && key <= Key::e;
 }
 
-// What an American keyboard prints there; 0 for keys without a meaning of their own.
+// The character that an American keyboard has there; 0 for keys without a meaning of their own.
 char americanPrint(Key place) {
   return place >= Key::w && place <= Key::rightBracket
              ? printedKeys[static_cast<size_t>(place) - static_cast<size_t>(Key::w)]

@@ -6,22 +6,22 @@ namespace speculum {
 
 namespace {
 
-constexpr int hold = 48;  // as much of a window, each way, can be taken hold of
+constexpr int grip = 48;  // pixels of a window, each way, by which it can be moved
 
 int overlap(int a, int aSize, int b, int bSize) {
   return std::min(a + aSize, b + bSize) - std::max(a, b);
 }
 
-bool canBeHeld(const ScreenRect& window, const ScreenRect& area) {
-  return overlap(window.x, window.width, area.x, area.width) >= std::min(hold, window.width) &&
-         overlap(window.y, window.height, area.y, area.height) >= std::min(hold, window.height);
+bool canBeGripped(const ScreenRect& window, const ScreenRect& area) {
+  return overlap(window.x, window.width, area.x, area.width) >= std::min(grip, window.width) &&
+         overlap(window.y, window.height, area.y, area.height) >= std::min(grip, window.height);
 }
 
 }  // namespace
 
-std::optional<ScreenRect> broughtBack(const ScreenRect& window, std::span<const ScreenRect> workAreas) {
+std::optional<ScreenRect> rescuedWindow(const ScreenRect& window, std::span<const ScreenRect> workAreas) {
   if (workAreas.empty() || std::any_of(workAreas.begin(), workAreas.end(),
-                                       [&](const ScreenRect& area) { return canBeHeld(window, area); })) {
+                                       [&](const ScreenRect& area) { return canBeGripped(window, area); })) {
     return std::nullopt;
   }
   const ScreenRect& area = workAreas.front();

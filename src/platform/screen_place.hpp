@@ -5,7 +5,7 @@
 
 namespace speculum {
 
-// In screen coordinates of the desktop.
+// A rectangle in screen coordinates of the desktop.
 struct ScreenRect {
   int x = 0;
   int y = 0;
@@ -15,8 +15,8 @@ struct ScreenRect {
   bool operator==(const ScreenRect&) const = default;
 };
 
-// Where a window goes of which too little lies on any of the monitors' work areas to take hold of it: into the middle
-// of the first, no larger than that. Nothing if it may stay, or if there is no monitor.
-std::optional<ScreenRect> broughtBack(const ScreenRect& window, std::span<const ScreenRect> workAreas);
+// Moves a window that cannot be gripped because too little of it lies on any monitor's work area: into the middle of
+// the first, no larger than that. Nothing if it may stay, or if there is no monitor.
+std::optional<ScreenRect> rescuedWindow(const ScreenRect& window, std::span<const ScreenRect> workAreas);
 
 }  // namespace speculum

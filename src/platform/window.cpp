@@ -11,7 +11,7 @@ namespace speculum {
 
 namespace {
 
-// In the order of GamepadButton.
+// GLFW's codes in the order of GamepadButton.
 constexpr std::array<int, static_cast<size_t>(GamepadButton::count)> buttonCodes{
     GLFW_GAMEPAD_BUTTON_A,          GLFW_GAMEPAD_BUTTON_B,           GLFW_GAMEPAD_BUTTON_X,
     GLFW_GAMEPAD_BUTTON_Y,          GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER,
@@ -62,14 +62,14 @@ Key keyOf(int code) {
   return Key::unknown;
 }
 
-// Of a key that stands for a character; empty for others.
+// The character on a key; empty for keys without one.
 std::string_view printedOn(int code, int scancode) {
   const bool character = code >= GLFW_KEY_SPACE && code <= GLFW_KEY_WORLD_2;
   const char* name = character ? glfwGetKeyName(code, scancode) : nullptr;
   return name ? name : "";
 }
 
-// Of the layout that is in use now.
+// Characters on the keys that fly, in the layout that is in use now.
 std::string printedWhereFlying() {
   std::string printed;
   for (const int code : {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S, GLFW_KEY_D, GLFW_KEY_Q, GLFW_KEY_E}) {
@@ -89,7 +89,7 @@ std::vector<ScreenRect> workAreas() {
   return areas;
 }
 
-// GLFW tells of monitors without a window.
+// GLFW reports monitors without naming a window.
 std::vector<Window*>& openWindows() {
   static std::vector<Window*> windows;
   return windows;
@@ -268,8 +268,8 @@ void Window::setFullScreen(bool on) {
   }
   covers_ = false;
   if (!on) {
-    // The monitor that it was on may have gone meanwhile.
-    return setPlace(broughtBack(windowed_, workAreas()).value_or(windowed_));
+    // Its monitor may have gone meanwhile.
+    return setPlace(rescuedWindow(windowed_, workAreas()).value_or(windowed_));
   }
   windowed_ = place();
   GLFWmonitor* monitor = monitorAt(windowed_.x + windowed_.width / 2, windowed_.y + windowed_.height / 2);
@@ -280,7 +280,7 @@ void Window::setFullScreen(bool on) {
   }
 }
 
-// GLFW has made a window of one whose monitor is gone by then, as large as that was.
+// By then GLFW has turned a full screen window whose monitor is gone into a window of the monitor's size.
 void Window::followMonitors(std::span<const ScreenRect> workAreas) {
   active_ = true;
   if (fullScreen()) {
@@ -288,7 +288,7 @@ void Window::followMonitors(std::span<const ScreenRect> workAreas) {
   }
   const bool left = std::exchange(covers_, false);
   const ScreenRect wanted = left ? windowed_ : place();
-  if (const auto back = broughtBack(wanted, workAreas)) {
+  if (const auto back = rescuedWindow(wanted, workAreas)) {
     setPlace(*back);
   } else if (left) {
     setPlace(wanted);
@@ -330,9 +330,9 @@ std::optional<GamepadState> Window::gamepad() const {
   if (!glfwGetGamepadState(GLFW_JOYSTICK_1, &state)) {
     return std::nullopt;
   }
-  const auto stick = [&](int axis) { return outOfRest(state.axes[axis]); };
-  // Rests at -1.
-  const auto trigger = [&](int axis) { return outOfRest(0.5f * (state.axes[axis] + 1.0f)); };
+  const auto stick = [&](int axis) { return withoutDeadZone(state.axes[axis]); };
+  // A released trigger is at -1.
+  const auto trigger = [&](int axis) { return withoutDeadZone(0.5f * (state.axes[axis] + 1.0f)); };
   GamepadState pad{.leftX = stick(GLFW_GAMEPAD_AXIS_LEFT_X),
                    .leftY = stick(GLFW_GAMEPAD_AXIS_LEFT_Y),
                    .rightX = stick(GLFW_GAMEPAD_AXIS_RIGHT_X),

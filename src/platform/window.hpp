@@ -54,10 +54,10 @@ enum class Key {
   f11,
   f12
 };
-// What the key at `place` of an American keyboard means on which `printed` stands (empty: none, or not known). Those
-// that fly keep their places; others go by their letter, with Control all. Where that is not one of the Latin alphabet
-// the place counts. `printedWhereFlying`: what stands on the six that fly; a shortcut among it gives way to flying and
-// is where an American keyboard has it, unless another is printed there.
+// The meaning of the key at `place` of an American keyboard with the character `printed` on it (empty: none, or not
+// known). The six keys that fly go by their place; all others by their character, and with Control all do. Characters
+// outside the Latin alphabet leave the place to decide. `printedWhereFlying`: characters on the six; a shortcut printed
+// there yields to flying and stays where an American keyboard has it, unless another shortcut is printed there.
 Key keyMeant(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying);
 
 enum class MouseButton { left, right, middle };
@@ -104,13 +104,12 @@ class Window {
   void waitEvents(double timeoutSeconds);  // sleeps until something happens
   bool shouldClose() const;
   void requestClose();
-  void refuseClose();  // takes back what asked for it
+  void refuseClose();  // takes back a request to close
 
   VkExtent2D framebufferExtent() const;  // pixels; 0x0 is possible
   VkExtent2D size() const;               // screen coordinates
   void resize(int width, int height);    // screen coordinates
-  // Covers the monitor that holds the window's centre, or goes back to place and size as they were. Nothing while the
-  // window is iconified.
+  // Covers the monitor under the window's centre, or restores position and size. Does nothing while iconified.
   void setFullScreen(bool on);
   bool fullScreen() const;
   void iconify();
@@ -121,18 +120,18 @@ class Window {
   bool takeResized();   // whether the framebuffer changed its size since the last call
   // Whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
   bool takeActivity();
-  std::optional<GamepadState> gamepad() const;  // the first one; nothing if there is none
+  std::optional<GamepadState> gamepad() const;  // the first one, if there is any
   float contentScale() const { return contentScale_; }
-  // Monitors came, went or changed: takes a window that none shows to one that does, and one that covered a monitor
-  // that is gone back to its place. `workAreas` of those that are there.
+  // Call when monitors came, went or changed: moves a window that none shows to one that does, and ends full screen on
+  // a monitor that is gone. `workAreas`: of the monitors that are there.
   void followMonitors(std::span<const ScreenRect> workAreas);
-  void followContentScale(float scale);  // the monitor asks for another
+  void followContentScale(float scale);  // the window is on a monitor of another scale
   void setTitle(const std::string& title);
   bool keyDown(Key key) const;
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text
   void setCallbacks(WindowCallbacks callbacks);
-  // As if they had been dropped on the window.
+  // Handles files as if they had been dropped on the window.
   void dropFiles(const std::vector<std::filesystem::path>& files);
 
   GLFWwindow* native() const { return window_.get(); }
@@ -156,7 +155,7 @@ class Window {
   std::unique_ptr<GLFWwindow, Destroy> window_;
   WindowCallbacks callbacks_;
   ScreenRect windowed_;  // before full screen
-  bool covers_ = false;  // a monitor, as was asked for
+  bool covers_ = false;  // a monitor, because full screen was asked for
   float contentScale_ = 1.0f;
   bool resized_ = false;
   bool active_ = true;

@@ -31,12 +31,12 @@ struct Plot {
   float y(double error) const {
     return corner.y + size.y * (1.0f - part(std::clamp(error, lowError, highError), lowError, highError));
   }
-  ImVec2 at(const UiAccuracyPoint& point) const { return {x(point.ms), y(point.error)}; }
+  ImVec2 at(const PointView& point) const { return {x(point.ms), y(point.error)}; }
 };
 
-Plot plotOf(const UiAccuracy& accuracy, const ImVec2& corner, const ImVec2& size) {
+Plot plotOf(const AccuracyView& accuracy, const ImVec2& corner, const ImVec2& size) {
   Plot plot{corner, size, DBL_MAX, 0.0, DBL_MAX, 0.0};
-  for (const UiAccuracyPoint& point : accuracy.points) {
+  for (const PointView& point : accuracy.points) {
     plot.lowMs = std::min(plot.lowMs, point.lowerMs);
     plot.highMs = std::max(plot.highMs, point.upperMs);
     plot.lowError = std::min(plot.lowError, std::max(point.error, leastError));
@@ -97,13 +97,13 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   }
 }
 
-void drawPoints(ImDrawList& list, const Plot& plot, const UiAccuracy& accuracy, int hovered) {
+void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy, int hovered) {
   for (size_t i = 1; i < accuracy.front.size(); ++i) {
     list.AddLine(plot.at(accuracy.points[accuracy.front[i - 1]]), plot.at(accuracy.points[accuracy.front[i]]),
                  frontColor, 1.5f);
   }
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
-    const UiAccuracyPoint& point = accuracy.points[i];
+    const PointView& point = accuracy.points[i];
     const bool front = std::find(accuracy.front.begin(), accuracy.front.end(), i) != accuracy.front.end();
     const ImU32 color = front ? frontColor : otherColor;
     const ImVec2 place = plot.at(point);
@@ -115,7 +115,7 @@ void drawPoints(ImDrawList& list, const Plot& plot, const UiAccuracy& accuracy, 
   }
 }
 
-int nearestPoint(const Plot& plot, const UiAccuracy& accuracy, const ImVec2& mouse) {
+int nearestPoint(const Plot& plot, const AccuracyView& accuracy, const ImVec2& mouse) {
   int nearest = -1;
   float best = 12.0f;
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
@@ -130,12 +130,12 @@ int nearestPoint(const Plot& plot, const UiAccuracy& accuracy, const ImVec2& mou
 }
 
 // Error against milliseconds; a click on a point applies it.
-void plot(UiModel& model) {
-  UiAccuracy& accuracy = model.accuracy;
+void plot(PanelContext& ui) {
+  const AccuracyView& accuracy = ui.view.accuracy;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 15.0f * ImGui::GetFontSize());
   ImGui::InvisibleButton("plot", size);
-  notePlace(model, "accuracy.plot");
+  notePlace(ui, "accuracy.plot");
   const Plot plot = plotOf(accuracy, corner, size);
   const int hovered = ImGui::IsItemHovered() ? nearestPoint(plot, accuracy, ImGui::GetMousePos()) : -1;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -145,49 +145,49 @@ void plot(UiModel& model) {
   list.PopClipRect();
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
     const ImVec2 place = plot.at(accuracy.points[i]);
-    model.widgets.emplace_back("accuracy.point " + accuracy.points[i].name,
-                               PixelRect{static_cast<int>(place.x) - 2, static_cast<int>(place.y) - 2, 4, 4});
+    ui.state.widgets.emplace_back("accuracy.point " + accuracy.points[i].name,
+                                  PixelRect{static_cast<int>(place.x) - 2, static_cast<int>(place.y) - 2, 4, 4});
   }
   if (hovered >= 0) {
-    const UiAccuracyPoint& point = accuracy.points[hovered];
+    const PointView& point = accuracy.points[hovered];
     ImGui::SetTooltip("%s\nmean FLIP %s, %s ms (%s .. %s)", point.name.c_str(), figure(point.error).c_str(),
                       figure(point.ms).c_str(), figure(point.lowerMs).c_str(), figure(point.upperMs).c_str());
     if (ImGui::IsItemClicked()) {
-      accuracy.apply = hovered;
+      ui.send(ApplyPoint{hovered});
     }
   }
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("mean FLIP (up) against GPU ms, both logarithmic; click a point to use it");
+  ImGui::TextWrapped("Mean FLIP (up) over GPU ms, both logarithmic. Click a point to apply it.");
   ImGui::PopStyleColor();
 }
 
-void frontSlider(UiModel& model) {
-  UiAccuracy& accuracy = model.accuracy;
+void frontSlider(PanelContext& ui) {
+  const AccuracyView& accuracy = ui.view.accuracy;
   const int last = static_cast<int>(accuracy.front.size()) - 1;
   const auto place = std::find(accuracy.front.begin(), accuracy.front.end(), accuracy.current);
   const bool onFront = place != accuracy.front.end();
   int index = onFront ? static_cast<int>(place - accuracy.front.begin()) : 0;
   const std::string text = onFront ? accuracy.points[accuracy.current].name : "not on the front";
-  ImGui::TextUnformatted("faster");
+  ImGui::TextUnformatted("fast");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-8.0f * ImGui::GetFontSize());
   // '%' in a name would be taken for a format.
-  if (ImGui::SliderInt("more accurate", &index, 0, std::max(last, 0),
+  if (ImGui::SliderInt("accurate", &index, 0, std::max(last, 0),
                        text.find('%') == std::string::npos ? text.c_str() : "") &&
       last >= 0) {
-    accuracy.apply = accuracy.front[index];
+    ui.send(ApplyPoint{accuracy.front[index]});
   }
-  notePlace(model, "accuracy.slider");
+  notePlace(ui, "accuracy.slider");
 }
 
-void budget(UiModel& model) {
-  QualitySettings& quality = model.settings.quality;
+void budget(PanelContext& ui) {
+  QualitySettings& quality = ui.settings.quality;
   const auto bound = [&](double& value, double usual, const char* format, const char* key) {
     bool active = value > 0.0;
     if (ImGui::Checkbox(findSettingField(key)->label, &active)) {
       value = active ? usual : 0.0;
     }
-    notePlace(model, key);
+    notePlace(ui, key);
     tip(settingHelp(key).c_str());
     if (active) {
       ImGui::SameLine();
@@ -202,16 +202,16 @@ void budget(UiModel& model) {
   };
   bound(quality.budgetMs, 16.0, "%.2f", "quality.budget_ms");
   bound(quality.maxError, 0.05, "%.4f", "quality.max_error");
-  if (!model.accuracy.choice.empty()) {
-    ImGui::TextWrapped("%s", model.accuracy.choice.c_str());
+  if (!ui.view.accuracy.choice.empty()) {
+    ImGui::TextWrapped("%s", ui.view.accuracy.choice.c_str());
   }
 }
 
-void differenceView(UiModel& model) {
-  UiAccuracy& accuracy = model.accuracy;
-  ImGui::Checkbox("difference from the reference", &accuracy.showDifference);
-  notePlace(model, "accuracy.difference");
-  if (!accuracy.showDifference) {
+void differenceView(PanelContext& ui) {
+  const AccuracyView& accuracy = ui.view.accuracy;
+  ImGui::Checkbox("Show difference from the reference", &ui.state.showDifference);
+  notePlace(ui, "accuracy.difference");
+  if (!ui.state.showDifference) {
     return;
   }
   ImGui::TextWrapped("%s", accuracy.difference.c_str());
@@ -231,15 +231,16 @@ void differenceView(UiModel& model) {
 
 }  // namespace
 
-void accuracy(UiModel& model) {
-  UiAccuracy& accuracy = model.accuracy;
-  if (accuracy.stage.empty()) {
-    accuracy.measure = ImGui::Button("measure this view");
-    notePlace(model, "accuracy.measure");
-    tip("unsaved changes are measured too, in a copy of the scene");
+void accuracy(PanelContext& ui) {
+  const AccuracyView& accuracy = ui.view.accuracy;
+  if (!accuracy.measuring) {
+    if (button(ui, "Measure this view", "accuracy.measure", "With unsaved changes, from a copy of the scene")) {
+      ui.send(MeasureAccuracy{});
+    }
   } else {
-    accuracy.cancel = ImGui::Button("cancel");
-    notePlace(model, "accuracy.cancel");
+    if (button(ui, "Cancel", "accuracy.cancel", "")) {
+      ui.send(CancelMeasurement{});
+    }
     ImGui::SameLine();
     ImGui::ProgressBar(static_cast<float>(accuracy.progress), ImVec2(-1.0f, 0.0f), accuracy.stage.c_str());
   }
@@ -247,13 +248,13 @@ void accuracy(UiModel& model) {
     ImGui::TextWrapped("%s", accuracy.about.c_str());
   }
   if (!accuracy.points.empty()) {
-    plot(model);
-    frontSlider(model);
+    plot(ui);
+    frontSlider(ui);
   }
   ImGui::Separator();
-  budget(model);
+  budget(ui);
   ImGui::Separator();
-  differenceView(model);
+  differenceView(ui);
 }
 
 }  // namespace speculum::panels

@@ -32,8 +32,9 @@ bool beginFacts(const char* id) {
 
 }  // namespace
 
-void device(UiModel& model) {
-  const UiDevice& device = model.device;
+void device(PanelContext& ui) {
+  const DeviceView& device = ui.view.device;
+  const FrameView& frame = ui.view.frame;
   if (beginFacts("device")) {
     fact("device", device.name);
     fact("kind", device.kind);
@@ -41,22 +42,22 @@ void device(UiModel& model) {
     fact("Vulkan", device.vulkan);
     fact("render path", device.renderPath);
     fact("samples a pixel", device.samples);
-    fact("memory in use here", mebibytes(model.deviceBytes));
-    fact("memory of the process", mebibytes(device.usedBytes));
-    fact("memory offered", mebibytes(device.budgetBytes));
+    fact("memory in use here", mebibytes(frame.deviceBytes));
+    fact("memory of the process", mebibytes(frame.usedBytes));
+    fact("memory offered", mebibytes(frame.budgetBytes));
     fact("validation layer",
-         model.validationMessages < 0 ? "off" : std::to_string(model.validationMessages) + " messages");
+         frame.validationMessages < 0 ? "off" : std::to_string(frame.validationMessages) + " messages");
     ImGui::EndTable();
   }
   ImGui::Separator();
   if (beginFacts("features")) {
-    for (const UiFeature& feature : device.features) {
+    for (const FeatureView& feature : device.features) {
       fact(feature.name.c_str(), (feature.present ? "" : "missing: ") + feature.about);
     }
     ImGui::EndTable();
   }
   ImGui::Separator();
-  settingRows(model, "debug.");
+  settingRows(ui, "debug.");
 }
 
 }  // namespace speculum::panels

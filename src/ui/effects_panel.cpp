@@ -15,16 +15,16 @@ std::string mebibytes(uint64_t bytes) {
 
 }  // namespace
 
-void effects(UiModel& model) {
+void effects(PanelContext& ui) {
   int called = 0;
-  for (const UiEffect& effect : model.effects) {
+  for (const EffectView& effect : ui.view.frame.effects) {
     called += effect.calledFor;
   }
-  const std::string title = "Effects (" + std::to_string(called) + " called for)###effects";
+  const std::string title = "Effects (" + std::to_string(called) + " in use)###effects";
   if (!ImGui::CollapsingHeader(title.c_str())) {
     return;
   }
-  settingRows(model, "effects.");
+  settingRows(ui, "effects.");
   if (!ImGui::BeginTable("effects", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
     return;
   }
@@ -32,7 +32,7 @@ void effects(UiModel& model) {
     ImGui::TableSetupColumn(column);
   }
   ImGui::TableHeadersRow();
-  for (const UiEffect& effect : model.effects) {
+  for (const EffectView& effect : ui.view.frame.effects) {
     const bool on = effect.calledFor;
     ImGui::TableNextRow();
     for (const std::string& text :

@@ -19,7 +19,7 @@ class FrameHistory {
 
   // Numbers ascend. `frameMs` is the time since the frame before, NaN if nothing was drawn for a while.
   void add(uint64_t number, double frameMs, double cpuMs);
-  // Of a frame that was added; one that is not there any more, or whose figures are there, is passed over. Times of
+  // The frame must have been added; one that has been dropped, or has its figures, is ignored. Times of
   // passes of one name add up.
   void addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes);
   void clear();

@@ -20,46 +20,46 @@ void textWithin(const std::string& text, const ImVec2& low, const ImVec2& high, 
   ImGui::PopClipRect();
 }
 
-void tile(UiModel& model, const Thumbnails& thumbnails, int scene, const ImVec2& size) {
+void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const ImVec2& size) {
+  const SceneEntry& scene = ui.view.browser.scenes[index];
+  const bool shown = index == ui.view.browser.shown;
   const float titleHeight = 1.35f * ImGui::GetFontSize();
-  const std::string& name = model.scenes[static_cast<size_t>(scene)];
-  const std::string& title = model.sceneTitles[static_cast<size_t>(scene)];
-  ImGui::PushID(scene);
-  if (ImGui::InvisibleButton("scene", {size.x, size.y + titleHeight})) {
-    model.scene = scene;
+  ImGui::PushID(static_cast<int>(index));
+  if (ImGui::InvisibleButton("scene", {size.x, size.y + titleHeight}) && !shown) {
+    ui.send(OpenScene{scene.file});
   }
-  notePlace(model, "gallery." + name);
+  notePlace(ui, "gallery." + scene.name);
   const bool hot = ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible);
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s\n%s", name.c_str(), model.scenePaths[static_cast<size_t>(scene)].c_str());
+    ImGui::SetTooltip("%s\n%s", scene.name.c_str(), scene.file.c_str());
   }
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high(low.x + size.x, low.y + size.y);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (!thumbnails.draw(static_cast<size_t>(scene), {low.x, low.y}, {high.x, high.y})) {
+  if (!thumbnails.draw(index, {low.x, low.y}, {high.x, high.y})) {
     list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), ImGui::GetStyle().FrameRounding);
-    textWithin(name, low, high, 0.5f);
+    textWithin(scene.name, low, high, 0.5f);
   }
-  if (hot || scene == model.scene) {
+  if (hot || shown) {
     const ImGuiCol color = hot ? ImGuiCol_ButtonHovered : ImGuiCol_CheckMark;
     list.AddRect(low, high, ImGui::GetColorU32(color), ImGui::GetStyle().FrameRounding, 0,
                  0.17f * ImGui::GetFontSize());
   }
-  textWithin(title.empty() ? name : title, {low.x, high.y}, {high.x, high.y + titleHeight}, 0.0f);
+  textWithin(scene.title.empty() ? scene.name : scene.title, {low.x, high.y}, {high.x, high.y + titleHeight}, 0.0f);
   ImGui::PopID();
 }
 
 }  // namespace
 
-void gallery(UiModel& model, const Thumbnails& thumbnails) {
+void gallery(PanelContext& ui, const Thumbnails& thumbnails) {
   const float width = tileEms * ImGui::GetFontSize();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const int columns = std::max(1, static_cast<int>((ImGui::GetContentRegionAvail().x + gap) / (width + gap)));
-  for (int i = 0; i < static_cast<int>(model.scenes.size()); ++i) {
-    if (i % columns > 0) {
+  for (size_t i = 0; i < ui.view.browser.scenes.size(); ++i) {
+    if (i % static_cast<size_t>(columns) > 0) {
       ImGui::SameLine();
     }
-    tile(model, thumbnails, i, {width, width / tileAspect});
+    tile(ui, thumbnails, i, {width, width / tileAspect});
   }
 }
 

@@ -15,12 +15,12 @@ struct InputEvent {
   double y = 0.0;
 };
 
-// Input in the order in which it came, for a panel that looks at the state of keys and buttons once a frame: what goes
-// down and up between two frames is seen down in one and up in the next, where the pointer was then.
+// Input in the order in which it came, for panels that look at the state of keys and buttons once a frame: a key or
+// button that goes down and up between two frames is down in one and up in the next, where the pointer was then.
 class InputQueue {
  public:
   void push(const InputEvent& event);
-  // What the next frame may see at once.
+  // The events that the next frame may see together.
   std::vector<InputEvent> take();
   bool empty() const { return events_.empty(); }
 

@@ -6,151 +6,128 @@
 #include <cfloat>
 #include <utility>
 
-#include "ui/gizmo_overlay.hpp"
 #include "ui/inspector_parts.hpp"
-#include "ui/panels.hpp"
 
 namespace speculum::panels {
 
-void actionButton(UiModel& model, const char* label, const char* key, EditAction action, bool enabled,
-                  const std::string& tip) {
-  ImGui::BeginDisabled(!enabled);
-  if (ImGui::Button(label)) {
-    model.edit.action = action;
-  }
-  ImGui::EndDisabled();
-  notePlace(model, std::string("edit.") + key);
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip("%s", tip.c_str());
-  }
-}
-
 namespace {
 
-void thingList(UiModel& model) {
-  UiEdit& edit = model.edit;
-  const float line = ImGui::GetTextLineHeightWithSpacing();
-  if (std::exchange(edit.focus, false)) {
+void nodeList(PanelContext& ui) {
+  const EditView& edit = ui.view.edit;
+  if (std::exchange(ui.state.focusNodes, false)) {
     ImGui::SetNextWindowFocus();
   }
-  ImGui::BeginChild("things", ImVec2(0.0f, 7.5f * line), true);
-  int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // what was scrolled to
-  for (size_t i = 0; i < edit.things.size(); ++i) {
-    const auto& [thing, name] = edit.things[i];
-    const bool selected = sameThing(thing, edit.selected);
+  ImGui::BeginChild("nodes", ImVec2(0.0f, 7.5f * ImGui::GetTextLineHeightWithSpacing()), true);
+  int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the row that was scrolled to
+  int row = 0;
+  for (const Selection& node : allNodes(*edit.scene)) {
+    const bool selected = sameThing(node, edit.selected);
     const bool other = std::any_of(edit.others.begin(), edit.others.end(),
-                                   [&, &thing = thing](const Selection& o) { return sameThing(o, thing); });
-    ImGui::PushID(static_cast<int>(i));
-    if (ImGui::Selectable(name.c_str(), selected || other)) {
+                                   [&](const Selection& selection) { return sameThing(selection, node); });
+    ImGui::PushID(row);
+    if (ImGui::Selectable(describe(*edit.scene, node).c_str(), selected || other)) {
       const ImGuiIO& io = ImGui::GetIO();
-      if (io.KeyShift || io.KeyCtrl) {
-        edit.toggled = thing;
-      } else {
-        edit.selected = thing;
-      }
+      ui.send(io.KeyShift || io.KeyCtrl ? Command(ToggleNode{node}) : Command(SelectNode{node}));
     }
-    if (selected && std::exchange(*shown, static_cast<int>(i)) != static_cast<int>(i)) {
+    if (selected && std::exchange(*shown, row) != row) {
       ImGui::SetScrollHereY();
     }
-    notePlace(model, "edit.thing." + std::to_string(i));
+    notePlace(ui, "edit.node." + std::to_string(row));
     ImGui::PopID();
+    ++row;
   }
   ImGui::EndChild();
 }
 
-void modelChoice(UiModel& model) {
-  UiEdit& edit = model.edit;
-  const auto count = static_cast<int>(edit.models.size());
-  const auto name = [&](int i) { return i < count ? edit.models[static_cast<size_t>(i)].c_str() : "a file ..."; };
+void modelChoice(PanelContext& ui) {
+  const std::vector<std::filesystem::path>& models = ui.view.edit.models;
+  std::optional<std::filesystem::path>& chosen = ui.state.model;
+  if (std::exchange(ui.state.modelsOf, ui.view.edit.scene) != ui.view.edit.scene) {
+    chosen = models.empty() ? std::nullopt : std::optional(models.front());
+  }
+  constexpr const char* fileName = "a file ...";
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const bool open = ImGui::BeginCombo("##model", name(edit.model), ImGuiComboFlags_HeightLargest);
-  notePlace(model, "edit.model");
+  const bool open =
+      ImGui::BeginCombo("##model", chosen ? chosen->stem().c_str() : fileName, ImGuiComboFlags_HeightLargest);
+  notePlace(ui, "edit.model");
   if (open) {
-    for (int i = 0; i <= count; ++i) {
-      ImGui::PushID(i);  // names may repeat
-      if (ImGui::Selectable(name(i), i == edit.model)) {
-        edit.model = i;
+    for (size_t i = 0; i <= models.size(); ++i) {
+      ImGui::PushID(static_cast<int>(i));  // names may repeat
+      const auto model = i < models.size() ? std::optional(models[i]) : std::nullopt;
+      const std::string name = model ? model->stem().string() : fileName;
+      if (ImGui::Selectable(name.c_str(), model == chosen)) {
+        chosen = model;
       }
-      notePlace(model, std::string("edit.model.") + (i < count ? name(i) : "file"));
+      notePlace(ui, "edit.model." + (model ? name : "file"));
       ImGui::PopID();
     }
     ImGui::EndCombo();
   }
-  if (edit.model == count) {
+  if (!chosen) {
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##model file", "OBJ file, absolute or from the scene's folder", &edit.modelFile);
-    notePlace(model, "edit.model_file");
+    ImGui::InputTextWithHint("##model file", "OBJ file, absolute or from the scene's folder", &ui.state.modelFile);
+    notePlace(ui, "edit.model_file");
   }
 }
 
-void addButtons(UiModel& model) {
-  const UiEdit& edit = model.edit;
-  actionButton(model, "add mirror", "add_mirror", EditAction::addMirror, true, "where the view looks, facing it");
+void addButtons(PanelContext& ui) {
+  if (button(ui, "Add mirror", "edit.add_mirror", "In the middle of the view, facing it")) {
+    ui.send(AddMirror{});
+  }
   ImGui::SameLine();
-  actionButton(model, "add light", "add_light", EditAction::addLight, true, "where the view looks");
-  const bool named = edit.model < static_cast<int>(edit.models.size()) || !edit.modelFile.empty();
-  actionButton(model, "add object", "add_object", EditAction::addObject, named,
-               "where the view looks: a model of the scene, one that comes with the program, or a file");
+  if (button(ui, "Add light", "edit.add_light", "In the middle of the view")) {
+    ui.send(AddLight{});
+  }
+  const bool named = ui.state.model || !ui.state.modelFile.empty();
+  if (button(ui, "Add object", "edit.add_object",
+             "In the middle of the view: a model of the scene, one that comes with the program, or a file", named)) {
+    ui.send(AddObject{ui.state.model.value_or(ui.state.modelFile)});
+  }
   ImGui::SameLine();
-  modelChoice(model);
+  modelChoice(ui);
 }
 
-constexpr const char* undoneIs = "\n(things and bookmarks; settings go back by the arrows at their lines' ends)";
-
-void historyButtons(UiModel& model) {
-  const UiEdit& edit = model.edit;
+void historyButtons(PanelContext& ui) {
+  constexpr const char* scope = "\n(objects, lights, mirrors and bookmarks; settings have a reset arrow each)";
+  const EditView& edit = ui.view.edit;
+  const auto action = [&](const char* label, const char* key, const std::string& tip, bool enabled, Command command) {
+    if (button(ui, label, key, tip.c_str(), enabled)) {
+      ui.send(std::move(command));
+    }
+  };
   const bool any = static_cast<bool>(edit.selected);
-  actionButton(model, "duplicate", "duplicate", EditAction::duplicate, any, "Ctrl+D");
+  action("Duplicate", "edit.duplicate", "Ctrl+D", any, DuplicateSelected{});
   ImGui::SameLine();
-  actionButton(model, "delete", "delete", EditAction::remove, any, "Del");
+  action("Delete", "edit.delete", "Del", any, RemoveSelected{});
   ImGui::SameLine();
-  actionButton(model, "undo", "undo", EditAction::undo, !edit.undo.empty(), "Ctrl+Z   " + edit.undo + undoneIs);
+  action("Undo", "edit.undo", "Ctrl+Z   " + edit.undo + scope, !edit.undo.empty(), Undo{});
   ImGui::SameLine();
-  actionButton(model, "redo", "redo", EditAction::redo, !edit.redo.empty(), "Ctrl+Shift+Z   " + edit.redo + undoneIs);
-  actionButton(model, "save", "save", EditAction::save, edit.unsaved || edit.unsavedSettings, "Ctrl+S   " + edit.file);
+  action("Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo + scope, !edit.redo.empty(), Redo{});
+  action("Save", "edit.save", "Ctrl+S   " + edit.scene->file.string(), edit.unsaved || edit.unsavedSettings, Save{});
   ImGui::SameLine();
-  actionButton(model, "save as ...", "save_as", EditAction::askWhere, true, "Ctrl+Shift+S");
+  action("Save as ...", "edit.save_as", "Ctrl+Shift+S", true, AskWhereToSave{});
   ImGui::SameLine();
   ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : edit.unsavedSettings ? "unsaved settings" : "saved");
 }
 
-void inspector(UiModel& model, PanelDock& dock) {
-  if (model.edit.focus) {
+}  // namespace
+
+void inspector(PanelContext& ui, PanelDock& dock) {
+  if (!ui.state.inspector) {
+    return;
+  }
+  if (ui.state.focusNodes) {
     ImGui::SetNextWindowFocus();
   }
   ImGui::SetNextWindowBgAlpha(1.0f);
-  if (dock.begin(inspectorTitle, &model.edit.open, PanelDock::Edge::right, {25.0f, 46.0f})) {
-    thingList(model);
-    addButtons(model);
-    historyButtons(model);
+  if (dock.begin(inspectorTitle, &ui.state.inspector, PanelDock::Edge::right, {25.0f, 46.0f})) {
+    nodeList(ui);
+    addButtons(ui);
+    historyButtons(ui);
     ImGui::Separator();
-    selectedThing(model);
+    selectedNode(ui);
   }
   ImGui::End();
-}
-
-}  // namespace
-
-void inspectorButton(UiModel& model) {
-  if (ImGui::Button("inspector")) {
-    model.edit.open = !model.edit.open;
-  }
-  notePlace(model, "edit.open");
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("F2: select, move, turn, add and delete what the scene is made of");
-  }
-}
-
-void edit(UiModel& model, PanelDock* dock) {
-  model.edit.edited = false;
-  model.edit.action = EditAction::none;
-  model.edit.toggled.reset();
-  drawOverlay(model.edit.overlay);
-  if (model.edit.open && dock) {
-    inspector(model, *dock);
-  }
-  questions(model);
-  model.edit.held = model.edit.selected && ImGui::IsAnyItemActive();
 }
 
 }  // namespace speculum::panels

@@ -1,4 +1,4 @@
-// The numbers of the selected thing.
+// The fields of the selected node.
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -10,7 +10,6 @@
 #include "image/color.hpp"
 #include "scene/scene_loader.hpp"
 #include "ui/inspector_parts.hpp"
-#include "ui/panels.hpp"
 
 namespace speculum::panels {
 
@@ -19,10 +18,13 @@ namespace {
 constexpr double farthest = 1e15;  // metres and degrees; docs/scene_format.md, Limits
 constexpr double anyColor = 1e6;
 
-// Widgets that edit one thing; each notes its place as "edit.KEY", explains itself, and tells the model of edits.
+// Widgets that edit one node. Each notes its place as "edit.KEY" and explains itself.
 class Fields {
  public:
-  explicit Fields(UiModel& model) : model_(model) {}
+  explicit Fields(PanelContext& ui) : ui_(ui) {}
+
+  bool edited() const { return edited_; }
+  void setEdited() { edited_ = true; }
 
   bool vec(const char* key, const char* label, glm::dvec3& v, double speed, const char* tip) {
     const double low = -farthest;
@@ -100,7 +102,7 @@ class Fields {
 
  private:
   void explain(const char* key, const char* tip) {
-    notePlace(model_, std::string("edit.") + key);
+    notePlace(ui_, std::string("edit.") + key);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
       ImGui::SetTooltip("%s%s", tip, number_ ? "\ndrag, or click to type" : "");
     }
@@ -108,11 +110,12 @@ class Fields {
   }
   bool done(bool changed, const char* key, const char* tip) {
     explain(key, tip);
-    model_.edit.edited = model_.edit.edited || changed;
+    edited_ = edited_ || changed;
     return changed;
   }
 
-  UiModel& model_;
+  PanelContext& ui_;
+  bool edited_ = false;
   bool number_ = false;  // the widget is a number
 };
 
@@ -177,26 +180,26 @@ void lightFields(Fields& fields, PointLight& light) {
 }
 
 // The button between a vertex's numbers and its label.
-bool vertexButton(UiModel& model, const char* label, const std::string& key, bool enabled, const char* about) {
+bool vertexButton(PanelContext& ui, const char* label, const std::string& key, bool enabled, const char* about) {
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label, {ImGui::GetFrameHeight(), 0.0f});
   ImGui::EndDisabled();
-  notePlace(model, "edit." + key);
+  notePlace(ui, "edit." + key);
   tip(about);
   return pressed;
 }
 
 // One row; true if anything was changed.
-bool polygonVertex(UiModel& model, Fields& fields, std::vector<glm::dvec3>& vertices, size_t i) {
+bool polygonVertex(PanelContext& ui, Fields& fields, std::vector<glm::dvec3>& vertices, size_t i) {
   const std::string key = "polygon." + std::to_string(i);
   ImGui::PushID(static_cast<int>(i));
   bool changed = fields.vertex(key.c_str(), "##vertex", vertices[i]);
   const glm::dvec3 middle = 0.5 * (vertices[i] + vertices[(i + 1) % vertices.size()]);
-  if (vertexButton(model, "+", key + ".add", true, "another vertex, halfway to the next one")) {
+  if (vertexButton(ui, "+", key + ".add", true, "another vertex, halfway to the next one")) {
     vertices.insert(vertices.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
     changed = true;
-  } else if (vertexButton(model, "-", key + ".remove", vertices.size() > 3, "without this vertex")) {
+  } else if (vertexButton(ui, "-", key + ".remove", vertices.size() > 3, "without this vertex")) {
     vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(i));
     changed = true;
   }
@@ -205,36 +208,35 @@ bool polygonVertex(UiModel& model, Fields& fields, std::vector<glm::dvec3>& vert
 }
 
 // What is typed becomes the mirror's as soon as a scene file could say it.
-void polygonFields(UiModel& model, Fields& fields, Mirror& mirror) {
-  UiPolygon& polygon = model.edit.polygon;
-  if (polygon.mirror != model.edit.selected.index || polygon.taken != mirror.polygon) {
-    polygon = {.vertices = mirror.polygon, .taken = mirror.polygon, .mirror = model.edit.selected.index};
+void polygonFields(PanelContext& ui, Fields& fields, Mirror& mirror) {
+  PanelState::Polygon& polygon = ui.state.polygon;
+  const int selected = ui.view.edit.selected.index;
+  if (polygon.mirror != selected || polygon.taken != mirror.polygon) {
+    polygon = {.vertices = mirror.polygon, .taken = mirror.polygon, .mirror = selected};
   }
   ImGui::TextDisabled("vertices, m, counter-clockwise in front");
   bool changed = false;
   for (size_t i = 0; i < polygon.vertices.size(); ++i) {
-    changed = polygonVertex(model, fields, polygon.vertices, i) || changed;
+    changed = polygonVertex(ui, fields, polygon.vertices, i) || changed;
   }
   if (changed) {
-    polygon.problem = mirrorPolygonProblem(polygon.vertices).value_or("");
-    if (polygon.problem.empty()) {
+    polygon.problem = mirrorPolygonProblem(polygon.vertices);
+    if (!polygon.problem) {
       mirror.polygon = polygon.taken = polygon.vertices;
-      model.edit.edited = true;
+      fields.setEdited();
     }
   }
-  if (!polygon.problem.empty()) {
+  if (polygon.problem) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
-    ImGui::TextWrapped("not taken yet: %s", polygon.problem.c_str());
+    ImGui::TextWrapped("Not applied: %s", polygon.problem->c_str());
     ImGui::PopStyleColor();
-    if (ImGui::Button("as it was")) {
+    if (button(ui, "Revert", "edit.polygon.reset", "Back to the mirror's vertices")) {
       polygon = {};
     }
-    notePlace(model, "edit.polygon.reset");
-    tip("the vertices that the mirror has");
   }
 }
 
-void mirrorShape(UiModel& model, Fields& fields, Mirror& mirror) {
+void mirrorShape(PanelContext& ui, Fields& fields, Mirror& mirror) {
   if (mirror.polygon.empty()) {
     fields.vec("position", "position, m", mirror.position, 0.01, "of the middle, metres");
     fields.vec("rotation", "rotation, deg", mirror.rotation, 0.5, rotationTip);
@@ -243,12 +245,12 @@ void mirrorShape(UiModel& model, Fields& fields, Mirror& mirror) {
     fields.vec("spin", "spin, deg/s", mirror.spin, 0.5, "degrees per second added to the rotation");
     return;
   }
-  polygonFields(model, fields, mirror);
+  polygonFields(ui, fields, mirror);
 }
 
-void mirrorFields(UiModel& model, Fields& fields, Mirror& mirror) {
+void mirrorFields(PanelContext& ui, Fields& fields, Mirror& mirror) {
   fields.text("name", "name", mirror.name, "what lists, passes and statistics call the mirror");
-  mirrorShape(model, fields, mirror);
+  mirrorShape(ui, fields, mirror);
   fields.color("reflectance", "reflectance", mirror.reflectance,
                "share of light reflected, by channel; at normal incidence with Fresnel");
   fields.fresnel(mirror.fresnel);
@@ -272,64 +274,74 @@ void mirrorFields(UiModel& model, Fields& fields, Mirror& mirror) {
   }
 }
 
-// Each selects the mirror.
-void throughButtons(UiModel& model) {
-  UiEdit& edit = model.edit;
+// The mirrors that the node was picked through; a click selects one.
+void throughButtons(PanelContext& ui) {
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("seen through:");
-  for (size_t i = 0; i < edit.through.size(); ++i) {
+  ImGui::TextUnformatted("seen in:");
+  for (size_t i = 0; i < ui.view.edit.through.size(); ++i) {
+    const Selection mirror{Selection::Kind::mirror, ui.view.edit.through[i]};
     ImGui::SameLine();
     ImGui::PushID(static_cast<int>(i));  // a mirror may come twice
-    if (ImGui::SmallButton(edit.through[i].c_str())) {
-      edit.selected = {Selection::Kind::mirror, edit.throughMirrors[i]};
+    if (ImGui::SmallButton(speculum::describe(*ui.view.edit.scene, mirror).c_str())) {
+      ui.send(SelectNode{mirror});
     }
-    notePlace(model, "edit.through." + std::to_string(i));
+    notePlace(ui, "edit.through." + std::to_string(i));
     ImGui::PopID();
-    tip("select it");
+    tip("Select it");
   }
+}
+
+void gizmoMode(PanelContext& ui) {
+  for (const auto& [label, key, mode] :
+       {std::tuple("Move", "edit.move", GizmoMode::move), std::tuple("Rotate", "edit.rotate", GizmoMode::turn)}) {
+    if (ImGui::RadioButton(label, ui.view.edit.mode == mode)) {
+      ui.send(SetGizmoMode{mode});
+    }
+    notePlace(ui, key);
+    ImGui::SameLine();
+  }
+  ImGui::TextDisabled("  G: switch   Ctrl: snap");
 }
 
 }  // namespace
 
-void selectedThing(UiModel& model) {
-  UiEdit& edit = model.edit;
+void selectedNode(PanelContext& ui) {
+  const EditView& edit = ui.view.edit;
   if (!edit.selected) {
-    ImGui::TextWrapped("Click something in the picture, also in a mirror, or choose it from the list.");
+    ImGui::TextWrapped("Click an object, light or mirror in the picture, or choose it from the list.");
     return;
   }
   if (!edit.others.empty()) {
-    ImGui::TextWrapped("with %d more, which it takes along: the numbers are of the first",
-                       static_cast<int>(edit.others.size()));
+    ImGui::TextWrapped("%d more are selected; the fields show the first", static_cast<int>(edit.others.size()));
   }
   if (!edit.through.empty()) {
-    throughButtons(model);
+    throughButtons(ui);
   }
   if (edit.selected.kind == Selection::Kind::mirror) {
-    actionButton(model, "look out of it", "look_out", EditAction::lookOut, true,
-                 "Shift+B: the view that the mirror has");
+    if (button(ui, "Look out of it", "edit.look_out", "Shift+B: the view that the mirror has")) {
+      ui.send(LookFromMirror{MirrorSide::front});
+    }
     ImGui::SameLine();
-    actionButton(model, "look from behind", "look_behind", EditAction::lookBehind, true,
-                 "B: what the mirror shows, seen through it");
+    if (button(ui, "Look from behind", "edit.look_behind", "B: what the mirror shows, seen through it")) {
+      ui.send(LookFromMirror{MirrorSide::back});
+    }
   }
-  int mode = static_cast<int>(edit.mode);
-  for (const auto& [label, key, value] :
-       {std::tuple("move", "edit.move", GizmoMode::move), std::tuple("turn", "edit.turn", GizmoMode::turn)}) {
-    ImGui::RadioButton(label, &mode, static_cast<int>(value));
-    notePlace(model, key);
-    ImGui::SameLine();
-  }
-  ImGui::TextDisabled("  G: the other   Ctrl: steps");
-  edit.mode = static_cast<GizmoMode>(mode);
+  gizmoMode(ui);
   ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
-  Fields fields(model);
-  if (auto* object = std::get_if<Object>(&edit.thing)) {
+  Fields fields(ui);
+  Thing node = thingOf(*edit.scene, edit.selected);
+  if (auto* object = std::get_if<Object>(&node)) {
     objectFields(fields, *object);
-  } else if (auto* light = std::get_if<PointLight>(&edit.thing)) {
+  } else if (auto* light = std::get_if<PointLight>(&node)) {
     lightFields(fields, *light);
-  } else if (auto* mirror = std::get_if<Mirror>(&edit.thing)) {
-    mirrorFields(model, fields, *mirror);
+  } else if (auto* mirror = std::get_if<Mirror>(&node)) {
+    mirrorFields(ui, fields, *mirror);
   }
   ImGui::PopItemWidth();
+  if (fields.edited()) {
+    ui.state.editing = ImGui::IsAnyItemActive();
+    ui.send(EditNode{std::move(node), ui.state.editing});
+  }
 }
 
 }  // namespace speculum::panels

@@ -6,8 +6,9 @@
 
 namespace speculum::panels {
 
-void loading(UiModel& model) {
-  if (model.loading.empty()) {
+void loading(PanelContext& ui) {
+  const BrowserView& browser = ui.view.browser;
+  if (browser.loading.empty()) {
     return;
   }
   const ImGuiIO& io = ImGui::GetIO();
@@ -18,13 +19,14 @@ void loading(UiModel& model) {
   if (ImGui::Begin("Loading", nullptr,
                    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoFocusOnAppearing)) {
-    ImGui::Text("loading %s", model.loading.c_str());
+    ImGui::Text("Loading %s", browser.loading.c_str());
     char percent[16];
-    std::snprintf(percent, sizeof(percent), "%.0f %%", 100.0 * model.loadingDone);
-    ImGui::ProgressBar(static_cast<float>(model.loadingDone), ImVec2(-5.0f * unit, 0.0f), percent);
+    std::snprintf(percent, sizeof(percent), "%.0f %%", 100.0 * browser.loaded);
+    ImGui::ProgressBar(static_cast<float>(browser.loaded), ImVec2(-5.0f * unit, 0.0f), percent);
     ImGui::SameLine();
-    model.cancelLoading = ImGui::Button("cancel");
-    notePlace(model, "loading.cancel");
+    if (button(ui, "Cancel", "loading.cancel", "")) {
+      ui.send(CancelLoading{});
+    }
   }
   ImGui::End();
 }

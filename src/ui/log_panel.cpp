@@ -20,30 +20,30 @@ ImVec4 colorOf(LogLevel level) {
 
 }  // namespace
 
-void log(UiModel& model) {
-  UiLog& log = model.log;
+void log(PanelContext& ui) {
+  PanelState& state = ui.state;
   ImGui::SetNextItemWidth(11.0f * ImGui::GetFontSize());
-  ImGui::InputTextWithHint("##filter", "filter", log.filter.data(), log.filter.size());
-  notePlace(model, "log.filter");
-  tip("only lines that contain this");
+  ImGui::InputTextWithHint("##filter", "Filter", state.logFilter.data(), state.logFilter.size());
+  notePlace(ui, "log.filter");
+  tip("Only lines that contain this");
   ImGui::SameLine();
-  int least = static_cast<int>(log.least);
+  int least = static_cast<int>(state.logLevel);
   ImGui::SetNextItemWidth(7.0f * ImGui::GetFontSize());
   ImGui::Combo("##least", &least, "info\0warning\0error\0");
-  tip("only lines of this level and above");
-  log.least = static_cast<LogLevel>(least);
+  tip("Only lines of this level and above");
+  state.logLevel = static_cast<LogLevel>(least);
+  const std::vector<LogLine> lines = ui.view.log.lines(state.logLevel, state.logFilter.data());
   ImGui::SameLine();
-  model.copyLog = ImGui::Button("copy");
-  notePlace(model, "log.copy");
-  tip("the lines below, into the clipboard");
-  ImGui::SameLine();
-  if (ImGui::Button("clear")) {
-    log.history->clear();
+  if (button(ui, "Copy", "log.copy", "The lines below, to the clipboard")) {
+    ui.send(CopyText{logText(lines)});
   }
-  notePlace(model, "log.clear");
+  ImGui::SameLine();
+  if (button(ui, "Clear", "log.clear", "")) {
+    ui.send(ClearLog{});
+  }
   ImGui::Separator();
   ImGui::BeginChild("lines");
-  for (const LogLine& line : shownLog(model)) {
+  for (const LogLine& line : lines) {
     ImGui::PushStyleColor(ImGuiCol_Text, colorOf(line.level));
     ImGui::TextWrapped("%s", line.text.c_str());
     ImGui::PopStyleColor();

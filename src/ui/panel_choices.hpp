@@ -19,7 +19,7 @@ struct PanelChoices {
 };
 
 struct PanelName {
-  std::string_view name;  // in the file and for people
+  std::string_view name;  // in the file and on the screen
   bool PanelChoices::*open;
   const char* about;
 };
@@ -31,7 +31,7 @@ inline constexpr std::array<PanelName, 6> panelNames{
      {"Log", &PanelChoices::log, "what the program and the validation layer said"},
      {"Accuracy", &PanelChoices::accuracy, "measures error against milliseconds, walks between them"}}};
 
-// What cannot be read is left at what it is without a file.
+// Choices that cannot be read have their defaults.
 PanelChoices savedPanelChoices();
 void savePanelChoices(const PanelChoices& choices);
 

@@ -141,7 +141,7 @@ void PanelDock::arrange(Edge edge) {
   }
 }
 
-// What the person did to the window that was just begun; what else moved or sized it was the display.
+// Notices that the user moved or sized the window that was just begun. All else that does is the display's size.
 void PanelDock::follow(Panel& panel) {
   const ImGuiContext& context = *ImGui::GetCurrentContext();
   const ImGuiWindow* window = ImGui::GetCurrentWindow();

@@ -8,9 +8,9 @@
 
 namespace speculum {
 
-// Places windows along the left and right edge of the display, those of an edge below each other, until a person moves
+// Places windows along the left and right edge of the display, those of an edge below each other, until the user moves
 // them. What was moved stays where it was put as far as the display shows it; the others follow the display's size and
-// each other. The layout file has what the person did: moved, sized, collapsed.
+// each other. The layout file holds which windows the user moved, sized or collapsed.
 class PanelDock {
  public:
   enum class Edge { left, right };
@@ -24,14 +24,14 @@ class PanelDock {
   // ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. ImGui::End must
   // follow whatever it returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
-  // All windows go back to where they are without a person's doing.
+  // All windows go back to their original places.
   void reset();
 
  private:
   struct Panel {
     bool docked = true;
     bool collapsed = false;
-    WindowRect wish;          // the person's; a docked one's size alone, 0: none
+    WindowRect wish;          // the user's; a docked one's size alone, 0: none
     glm::vec2 display{0.0f};  // that was, when it was put there; as large a one does not move it
     WindowRect given;         // last
     Edge edge = Edge::left;

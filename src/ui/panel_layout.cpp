@@ -36,7 +36,8 @@ std::vector<Column> columnsOf(std::span<const WindowWish> wishes, const WindowRo
   return columns;
 }
 
-// What is wished for, if it fits; else what each can do with and a share of the rest; else a share of what there is.
+// Each window gets the height it wishes for, if all fit; else its least height and a share of the rest; else a share of
+// the room.
 std::vector<float> heightsOf(std::span<const WindowWish> wishes, const Column& column, float height) {
   float wished = 0.0f;
   float least = 0.0f;

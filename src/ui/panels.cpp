@@ -2,136 +2,167 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "ui/setting_help.hpp"
 #include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
 
-void describe(UiModel& model, std::string_view key) {
-  notePlace(model, key);
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", settingHelp(key).c_str());
-  }
-  if (!differs(model.settings, model.sceneSettings, key)) {
-    return;
-  }
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
-  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
-  if (ImGui::ArrowButton(("reset " + std::string(key)).c_str(), ImGuiDir_Left)) {
-    resetSetting(model.settings, model.sceneSettings, key);
-  }
-  ImGui::PopStyleVar();
-  notePlace(model, "reset." + std::string(key));
-  if (ImGui::IsItemHovered()) {
-    const std::string value = settingValue(model.sceneSettings, key);
-    ImGui::SetTooltip("back to the scene's: %s", value.empty() ? "background and sky" : value.c_str());
-  }
-}
-
-void tip(const char* text) {
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", text);
-  }
-}
-
-void notePlace(UiModel& model, std::string_view key) {
-  const ImVec2 low = ImGui::GetItemRectMin();
-  const ImVec2 size = ImGui::GetItemRectSize();
-  model.widgets.emplace_back(key, PixelRect{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(size.x),
-                                            static_cast<int>(size.y)});
-}
-
-void message(const UiModel& model) {
-  if (!model.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
-    ImGui::TextWrapped("%s", model.message.c_str());
-    ImGui::PopStyleColor();
-  }
-}
-
 namespace {
 
-void bookmarks(UiModel& model) {
-  const int shown = model.bookmark;
+void bookmarks(PanelContext& ui) {
+  const CameraView& camera = ui.view.camera;
+  const int shown = camera.bookmark;
   ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
-  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? model.bookmarks[shown].c_str() : "bookmarks");
-  notePlace(model, "bookmarks");
+  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? camera.bookmarks[shown].c_str() : "bookmarks");
+  notePlace(ui, "bookmarks");
   if (open) {
-    for (int i = 0; i < static_cast<int>(model.bookmarks.size()); ++i) {
-      if (ImGui::Selectable(model.bookmarks[i].c_str(), i == shown)) {
-        model.goToBookmark = i;
+    for (size_t i = 0; i < camera.bookmarks.size(); ++i) {
+      if (ImGui::Selectable(camera.bookmarks[i].c_str(), static_cast<int>(i) == shown)) {
+        ui.send(GoToBookmark{i});
       }
-      notePlace(model, "bookmark." + model.bookmarks[i]);
+      notePlace(ui, "bookmark." + camera.bookmarks[i]);
     }
     ImGui::EndCombo();
   }
-  tip("views that the scene keeps; Shift+M: the next one");
+  tip("Views saved with the scene; Shift+M: the next one");
   ImGui::SameLine();
-  model.bookmarkView = ImGui::Button("bookmark view");
-  notePlace(model, "bookmark.add");
-  tip("keeps where the camera stands and looks; saved with the scene");
+  if (button(ui, "Bookmark view", "bookmark.add", "M: saves position and direction of the camera with the scene")) {
+    ui.send(AddBookmark{});
+  }
   if (shown >= 0) {
     ImGui::SameLine();
-    model.removeBookmark = ImGui::Button("remove");
-    notePlace(model, "bookmark.remove");
+    if (button(ui, "Remove", "bookmark.remove", "Removes the bookmark")) {
+      ui.send(RemoveBookmark{static_cast<size_t>(shown)});
+    }
+  }
+}
+
+void sceneChoice(PanelContext& ui) {
+  const BrowserView& browser = ui.view.browser;
+  const SceneEntry& shown = browser.scenes[browser.shown];
+  const bool open = ImGui::BeginCombo("scene", shown.name.c_str(), ImGuiComboFlags_HeightLargest);
+  notePlace(ui, "scene");
+  if (!open) {
+    return tip((shown.file.string() + "\nThe window \"Scenes\" has pictures of all scenes.").c_str());
+  }
+  for (size_t i = 0; i < browser.scenes.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));  // names may repeat
+    if (ImGui::Selectable(browser.scenes[i].name.c_str(), i == browser.shown) && i != browser.shown) {
+      ui.send(OpenScene{browser.scenes[i].file});
+    }
+    ImGui::PopID();
+    notePlace(ui, "scene." + browser.scenes[i].name);
+  }
+  ImGui::EndCombo();
+}
+
+void cameraMode(PanelContext& ui) {
+  for (const auto& [label, mode, about] : {std::tuple("orbit", CameraMode::orbit, "Dragging orbits about the target"),
+                                           std::tuple("fly", CameraMode::fly, "Dragging looks around")}) {
+    if (ImGui::RadioButton(label, ui.view.camera.mode == mode)) {
+      ui.send(SetCameraMode{mode});
+    }
+    tip(about);
+    ImGui::SameLine();
+  }
+  if (button(ui, "Reset camera", "camera.reset", "Back to the scene's camera")) {
+    ui.send(ResetCamera{});
   }
 }
 
 }  // namespace
 
-void scene(UiModel& model) {
-  const bool open = ImGui::BeginCombo("scene", model.scenes[model.scene].c_str(), ImGuiComboFlags_HeightLargest);
-  notePlace(model, "scene");
-  if (open) {
-    for (int i = 0; i < static_cast<int>(model.scenes.size()); ++i) {
-      ImGui::PushID(i);  // names may repeat
-      if (ImGui::Selectable(model.scenes[i].c_str(), i == model.scene)) {
-        model.scene = i;
-      }
-      ImGui::PopID();
-      notePlace(model, "scene." + model.scenes[i]);
-    }
-    ImGui::EndCombo();
+void describe(PanelContext& ui, std::string_view key) {
+  notePlace(ui, key);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s", settingHelp(key).c_str());
   }
-  if (!open) {
-    tip((model.scenePaths[static_cast<size_t>(model.scene)] + "\nScenes has pictures of them").c_str());
+  const Settings& ofScene = ui.view.settings.ofScene;
+  if (!differs(ui.settings, ofScene, key)) {
+    return;
   }
-  int mode = static_cast<int>(model.cameraMode);
-  ImGui::RadioButton("orbit", &mode, static_cast<int>(CameraMode::orbit));
-  tip("dragging turns about what is looked at");
-  ImGui::SameLine();
-  ImGui::RadioButton("fly", &mode, static_cast<int>(CameraMode::fly));
-  tip("dragging turns the head");
-  model.cameraMode = static_cast<CameraMode>(mode);
-  ImGui::SameLine();
-  model.resetCamera = ImGui::Button("reset camera");
-  tip("to where the scene has it");
-  bookmarks(model);
-  time(model);
-  model.copyCommand = ImGui::Button("copy command line");
-  notePlace(model, "copy");
-  tip("the call of speculum render that draws this view to the same bytes, with unsaved changes from a copy of the "
-      "scene");
-  ImGui::SameLine();
-  inspectorButton(model);
-  ImGui::SameLine();
-  model.screenshot = ImGui::Button("screenshot");
-  notePlace(model, "screenshot");
-  tip("F12: save the window as a picture; Shift+F12: without the panel");
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
+  if (ImGui::ArrowButton(("reset " + std::string(key)).c_str(), ImGuiDir_Left)) {
+    resetSetting(ui.settings, ofScene, key);
+  }
+  ImGui::PopStyleVar();
+  notePlace(ui, "reset." + std::string(key));
+  if (ImGui::IsItemHovered()) {
+    const std::string value = settingValue(ofScene, key);
+    ImGui::SetTooltip("Reset to scene: %s", value.empty() ? "background and sky" : value.c_str());
+  }
 }
 
-void settings(UiModel& model) {
+void tip(const char* text) {
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::SetTooltip("%s", text);
+  }
+}
+
+void notePlace(PanelContext& ui, std::string_view key) {
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 size = ImGui::GetItemRectSize();
+  ui.state.widgets.emplace_back(key, PixelRect{static_cast<int>(low.x), static_cast<int>(low.y),
+                                               static_cast<int>(size.x), static_cast<int>(size.y)});
+}
+
+bool button(PanelContext& ui, const char* label, std::string_view key, const char* about, bool enabled) {
+  ImGui::BeginDisabled(!enabled);
+  const bool pressed = ImGui::Button(label);
+  ImGui::EndDisabled();
+  notePlace(ui, key);
+  if (about[0] != '\0') {
+    tip(about);
+  }
+  return pressed;
+}
+
+void message(const PanelContext& ui) {
+  if (!ui.view.message.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
+    ImGui::TextWrapped("%s", ui.view.message.c_str());
+    ImGui::PopStyleColor();
+  }
+}
+
+void scene(PanelContext& ui) {
+  sceneChoice(ui);
+  cameraMode(ui);
+  bookmarks(ui);
+  time(ui);
+  if (button(
+          ui, "Copy command line", "copy",
+          "The call of speculum render that draws this view to the same bytes; unsaved changes are taken from a copy "
+          "of the scene")) {
+    ui.send(CopyCommandLine{});
+  }
+  ImGui::SameLine();
+  if (button(ui, "Inspector", "edit.open", "F2: select, move, rotate, add and delete objects, lights and mirrors")) {
+    ui.state.inspector = !ui.state.inspector;
+  }
+  ImGui::SameLine();
+  if (button(ui, "Screenshot", "screenshot", "F12: saves the window as a picture; Shift+F12: without the panels")) {
+    ui.send(TakeScreenshot{true});
+  }
+}
+
+void settings(PanelContext& ui) {
   if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
-    settingRows(model, "view.");
-    if (model.sceneSky && !model.settings.view.clearColor) {
+    settingRows(ui, "view.");
+    if (ui.view.settings.sky && !ui.settings.view.clearColor) {
       ImGui::TextDisabled("The scene's sky is shown; a clear color replaces it.");
     }
   }
   if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
-    settingRows(model, "reflection.");
+    settingRows(ui, "reflection.");
   }
-  model.resetSettings = ImGui::Button("Reset settings");
-  tip("every setting back to what the scene and the command line have it at");
+  if (button(ui, "Reset settings", "settings.reset", "All settings back to the scene's and the command line's")) {
+    ui.send(ResetSettings{});
+  }
 }
 
 }  // namespace speculum::panels

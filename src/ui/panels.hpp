@@ -1,61 +1,108 @@
 #pragma once
 
-#include <span>
+#include <array>
 
+#include "ui/panel_choices.hpp"
 #include "ui/panel_dock.hpp"
 #include "ui/thumbnails.hpp"
-#include "ui/ui_model.hpp"
+#include "ui/views.hpp"
 
-namespace speculum::panels {
+namespace speculum {
+
+// State of the panels that nothing else needs.
+struct PanelState {
+  PanelChoices choices;
+  bool help = false;
+  bool inspector = false;
+  bool focusNodes = false;  // the list of nodes gets the keyboard once
+  bool editing = false;     // an EditNode that continues has not ended
+  int hoveredPass = -1;     // index into FrameView::passes; -1: none
+  bool showDifference = false;
+
+  struct Targets {
+    std::optional<std::vector<int>> path;  // mirrors from the eye of the pass that is shown
+    enum class Kind { color, depth, mask } kind = Kind::color;
+    double zoom = 0.0;       // pixels of the display a texel; 0: as large as fits
+    double shownZoom = 1.0;  // the same, never 0
+    double halfDistance = 5.0;
+    glm::dvec2 center{0.0};             // texel in the middle
+    std::optional<glm::ivec2> pointed;  // texel under the pointer
+  } targets;
+
+  std::array<char, 64> logFilter{};  // text that a line must contain
+  LogLevel logLevel = LogLevel::info;
+
+  // Vertices of the selected mirror while they are typed: in between they may describe no mirror.
+  struct Polygon {
+    std::vector<glm::dvec3> vertices;    // world, metres
+    std::vector<glm::dvec3> taken;       // the mirror's, as they were when `vertices` came from them or went to them
+    int mirror = -1;                     // whose they are
+    std::optional<std::string> problem;  // why `vertices` are not the mirror's: one line
+  } polygon;
+
+  const Scene* modelsOf = nullptr;             // scene that `model` was chosen for
+  std::optional<std::filesystem::path> model;  // that is added next; none: `modelFile`
+  std::string modelFile;                       // typed
+  std::string saveAs;                          // typed
+
+  std::vector<std::pair<std::string, PixelRect>> widgets;  // of this frame, by name
+};
+
+// Everything that a panel reads and writes while a frame is laid out.
+struct PanelContext {
+  const UiView& view;
+  PanelState& state;
+  Settings settings;  // edited by the widgets
+  UiOutput output;
+
+  void send(Command command) { output.commands.push_back(std::move(command)); }
+};
+
+namespace panels {
 
 inline constexpr const char* helpTitle = "Keys";
 inline constexpr const char* inspectorTitle = "Inspector";
 
-// The sections of the panel, each within the current ImGui window.
-void message(const UiModel& model);
-void scene(UiModel& model);
-void gallery(UiModel& model, const Thumbnails& thumbnails);
-void time(UiModel& model);
-void help(UiModel& model);
-void settings(UiModel& model);
-void passes(UiModel& model);
-// Around the mirror that is pointed at, of a pass or skipped, in the picture behind all windows.
-void passOutline(const UiModel& model);
-void effects(UiModel& model);
-void performance(UiModel& model);
-void device(UiModel& model);
+// Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
+void message(const PanelContext& ui);
+void scene(PanelContext& ui);
+void time(PanelContext& ui);
+void settings(PanelContext& ui);
+void passes(PanelContext& ui);
+void effects(PanelContext& ui);
+void gallery(PanelContext& ui, const Thumbnails& thumbnails);
+void performance(PanelContext& ui);
+void device(PanelContext& ui);
+void log(PanelContext& ui);
+void accuracy(PanelContext& ui);
 // Leaves its lower part to the picture below: the renderer draws the target there.
-void targets(UiModel& model);
-bool hasTarget(const UiPass& pass);  // that can be looked at
-void log(UiModel& model);
-void accuracy(UiModel& model);
-// A window of its own, while something is loaded.
-void loading(UiModel& model);
+void targets(PanelContext& ui);
+bool hasTarget(const PassView& pass);
 
-// What is drawn over the picture, the window that edits the scene, unless `dock` is null, and questions about saving
-// it.
-void edit(UiModel& model, PanelDock* dock);
-void inspectorButton(UiModel& model);
+// Windows of their own.
+void loading(PanelContext& ui);  // while something is loaded
+void help(PanelContext& ui);
+void inspector(PanelContext& ui, PanelDock& dock);
+void prompts(PanelContext& ui);  // over all others, while something is asked
+
+// Drawn over the picture, behind all windows.
+void passOutline(const PanelContext& ui);  // around the mirror that is pointed at, of a pass or skipped
+void editOverlay(const OverlayView& overlay);
 
 // At the lower left edge of the display, over nothing else: PanelDock keeps its place free. `width`: pixels, of the
 // panel; 0 while that is hidden, and the line is as large as its text.
 float statusHeight();  // pixels
-void statusLine(const UiModel& model, float width);
-
-// What a key or a movement of the pointer does in the window.
-struct KeyHelp {
-  const char* keys;
-  const char* what;
-};
-std::span<const KeyHelp> keyHelp();
-std::span<const KeyHelp> gamepadHelp();
+void statusLine(const StatusView& status, float width);
 
 // After each widget of a setting: notes its place, explains it, and at the line's end offers the scene's value if the
 // setting has another. The place of that button is noted as "reset." and the key.
-void describe(UiModel& model, std::string_view key);
-// After a widget: what it does, while the pointer is on it.
+void describe(PanelContext& ui, std::string_view key);
+// After a widget: explains it while the pointer is on it.
 void tip(const char* text);
-// After a widget: notes its place under `key` in the model.
-void notePlace(UiModel& model, std::string_view key);
+// After a widget: records where it stands.
+void notePlace(PanelContext& ui, std::string_view key);
+// Notes the place of a button, and explains it.
+bool button(PanelContext& ui, const char* label, std::string_view key, const char* tip, bool enabled = true);
 
-}  // namespace speculum::panels
+}  // namespace panels
+}  // namespace speculum

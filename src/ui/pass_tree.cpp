@@ -10,11 +10,11 @@ bool isSeenIn(const std::vector<int>& path, const std::vector<int>& parent) {
   return path.size() == parent.size() + 1 && std::equal(parent.begin(), parent.end(), path.begin());
 }
 
-PassNode nodeOf(int pass, std::span<const UiPass> passes, std::span<const UiSkipped> skipped) {
+PassNode nodeOf(int pass, std::span<const PassView> passes, std::span<const SkippedView> skipped) {
   PassNode node{.pass = pass};
   const std::vector<int>& path = passes[static_cast<size_t>(pass)].path;
   for (size_t i = 0; i < skipped.size(); ++i) {
-    if (isSeenIn(skipped[i].mirrors, path)) {
+    if (isSeenIn(skipped[i].path, path)) {
       node.skipped.push_back(static_cast<int>(i));
     }
   }
@@ -28,7 +28,7 @@ PassNode nodeOf(int pass, std::span<const UiPass> passes, std::span<const UiSkip
 
 }  // namespace
 
-std::vector<PassNode> passTree(std::span<const UiPass> passes, std::span<const UiSkipped> skipped) {
+std::vector<PassNode> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped) {
   std::vector<PassNode> roots;
   for (size_t i = 0; i < passes.size(); ++i) {
     if (!passes[i].path.empty()) {

@@ -21,7 +21,7 @@ std::string metres(const std::optional<double>& value) {
   return text.data();
 }
 
-void depthResolution(const UiPass& pass, ClipMethod inUse) {
+void depthResolution(const PassView& pass, ClipMethod inUse) {
   ImGui::TextUnformatted(pass.resolution ? metres(gapWith(*pass.resolution, inUse)).c_str() : "");
   if (!pass.resolution || !ImGui::IsItemHovered()) {
     return;
@@ -56,7 +56,7 @@ void textAcrossColumns(const std::string& text) {
   ImGui::PopClipRect();
 }
 
-void skippedRows(UiModel& model, const PassNode& node) {
+void skippedRows(PanelContext& ui, const PassNode& node) {
   if (node.skipped.empty()) {
     return;
   }
@@ -64,13 +64,13 @@ void skippedRows(UiModel& model, const PassNode& node) {
   ImGui::TableNextColumn();
   const std::string title = std::to_string(node.skipped.size()) + " skipped###skipped";
   const bool open = ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
-  notePlace(model, "skipped in " + model.passes[static_cast<size_t>(node.pass)].name);
+  notePlace(ui, "skipped in " + ui.view.frame.passes[static_cast<size_t>(node.pass)].name);
   if (!open) {
     return;
   }
   for (const int i : node.skipped) {
-    const UiSkipped& skip = model.skipped[static_cast<size_t>(i)];
-    const std::string name = ownName(skip.path);
+    const SkippedView& skip = ui.view.frame.skipped[static_cast<size_t>(i)];
+    const std::string name = ownName(skip.name);
     const std::string why = skip.reason + (skip.detail.empty() ? "" : " (" + skip.detail + ")");
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -78,39 +78,41 @@ void skippedRows(UiModel& model, const PassNode& node) {
     const bool nameHovered = ImGui::IsItemHovered();
     ImGui::TableNextColumn();
     textAcrossColumns(why);
-    notePlace(model, "skipped." + skip.path);
+    notePlace(ui, "skipped." + skip.name);
     if (nameHovered || ImGui::IsItemHovered()) {
-      model.hoveredSkipped = i;
-      ImGui::SetTooltip("%s\n%s", skip.path.c_str(), why.c_str());
+      ui.output.hoveredSkipped = skip.path;
+      ImGui::SetTooltip("%s\n%s", skip.name.c_str(), why.c_str());
     }
   }
   ImGui::TreePop();
 }
 
-void passRow(UiModel& model, const PassNode& node) {
-  const UiPass& pass = model.passes[static_cast<size_t>(node.pass)];
+void passRow(PanelContext& ui, const PassNode& node) {
+  const PassView& pass = ui.view.frame.passes[static_cast<size_t>(node.pass)];
+  std::optional<std::vector<int>>& target = ui.state.targets.path;
+  const bool shown = hasTarget(pass) && target == pass.path;
   const bool leaf = node.children.empty() && node.skipped.empty();
   ImGuiTreeNodeFlags flags =
       ImGuiTreeNodeFlags_SpanFullWidth | ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_DefaultOpen;
   flags |= leaf ? ImGuiTreeNodeFlags_Leaf : 0;
-  flags |= model.debugPass == node.pass ? ImGuiTreeNodeFlags_Selected : 0;
+  flags |= shown ? ImGuiTreeNodeFlags_Selected : 0;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const std::string name = ownName(pass.name);
   const std::string id = pass.name + "/" + std::to_string(node.pass);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
-    model.hoveredPass = node.pass;
+    ui.state.hoveredPass = node.pass;
   }
-  notePlace(model, "pass." + pass.name);
+  notePlace(ui, "pass." + pass.name);
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
-    model.debugPass = model.debugPass == node.pass ? -1 : node.pass;
-    model.passClicked = true;
+    target = shown ? std::nullopt : std::optional(pass.path);
+    ui.state.choices.targets = !shown;
   }
   ImGui::TableNextColumn();
   if (pass.framesAgo > 0) {
     ImGui::TextDisabled("%.3f", pass.gpuMs);
-    tip("nothing in it changed, or it was not its turn: the image of an earlier frame is shown, for nothing");
+    tip("The cached image of an earlier frame is reused: nothing changed, or it was not its turn");
   } else {
     ImGui::Text("%.3f", pass.gpuMs);
   }
@@ -119,14 +121,14 @@ void passRow(UiModel& model, const PassNode& node) {
   ImGui::TableNextColumn();
   ImGui::Text("%.0f", pass.areaPx);
   ImGui::TableNextColumn();
-  depthResolution(pass, model.settings.reflection.clip);
+  depthResolution(pass, ui.settings.reflection.clip);
   if (!open) {
     return;
   }
   for (const PassNode& child : node.children) {
-    passRow(model, child);
+    passRow(ui, child);
   }
-  skippedRows(model, node);
+  skippedRows(ui, node);
   ImGui::TreePop();
 }
 
@@ -138,9 +140,8 @@ void inTwoTones(const Draw& draw) {
   draw(IM_COL32(255, 196, 40, 255), line);
 }
 
-void skippedOutline(const UiModel& model) {
-  const auto hovered = static_cast<size_t>(model.hoveredSkipped);
-  if (hovered >= model.skipped.size() || model.skipped[hovered].mirrors != model.outlinedSkipped) {
+void skippedOutline(const PanelContext& ui) {
+  if (ui.output.hoveredSkipped.empty() || ui.output.hoveredSkipped != ui.view.frame.outlinedSkipped) {
     return;
   }
   const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
@@ -148,7 +149,7 @@ void skippedOutline(const UiModel& model) {
     return ImVec2(static_cast<float>(p.x) / pixels.x, static_cast<float>(p.y) / pixels.y);
   };
   inTwoTones([&](ImU32 color, float thickness) {
-    for (const PixelLine& line : model.skippedOutline) {
+    for (const PixelLine& line : ui.view.frame.skippedOutline) {
       ImGui::GetBackgroundDrawList()->AddLine(onScreen(line.a), onScreen(line.b), color, thickness);
     }
   });
@@ -156,14 +157,14 @@ void skippedOutline(const UiModel& model) {
 
 }  // namespace
 
-void passOutline(const UiModel& model) {
-  skippedOutline(model);
-  if (model.hoveredPass < 0 || model.hoveredPass >= static_cast<int>(model.passes.size())) {
+void passOutline(const PanelContext& ui) {
+  skippedOutline(ui);
+  if (ui.state.hoveredPass < 0) {
     return;
   }
   const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
   std::vector<ImVec2> corners;
-  for (const glm::vec2& corner : model.passes[static_cast<size_t>(model.hoveredPass)].outline) {
+  for (const glm::vec2& corner : ui.view.frame.passes[static_cast<size_t>(ui.state.hoveredPass)].outline) {
     corners.emplace_back(corner.x / pixels.x, corner.y / pixels.y);
   }
   const int count = static_cast<int>(corners.size());
@@ -172,12 +173,13 @@ void passOutline(const UiModel& model) {
   });
 }
 
-void passes(UiModel& model) {
+void passes(PanelContext& ui) {
+  const FrameView& frame = ui.view.frame;
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
   }
-  ImGui::TextWrapped("CPU %.2f ms   GPU %.2f ms   %.1f MiB of device memory", model.cpuMs, model.gpuMs,
-                     static_cast<double>(model.deviceBytes) / (1024.0 * 1024.0));
+  ImGui::TextWrapped("CPU %.2f ms   GPU %.2f ms   %.1f MiB of device memory", frame.cpuMs, frame.gpuMs,
+                     static_cast<double>(frame.deviceBytes) / (1024.0 * 1024.0));
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("passes", 5, flags)) {
     return;
@@ -190,8 +192,8 @@ void passes(UiModel& model) {
   ImGui::TableSetupColumn("depth m", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableHeadersRow();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.6f * ImGui::GetFontSize());
-  for (const PassNode& node : passTree(model.passes, model.skipped)) {
-    passRow(model, node);
+  for (const PassNode& node : passTree(frame.passes, frame.skipped)) {
+    passRow(ui, node);
   }
   ImGui::PopStyleVar();
   ImGui::EndTable();

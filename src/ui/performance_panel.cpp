@@ -32,7 +32,7 @@ void graph(const char* name, std::vector<float> values, float height) {
 }
 
 // One row: name, median, p95 and the graph.
-void row(UiModel& model, const std::string& name, const std::vector<float>& values, float height) {
+void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const std::string own = name.starts_with(mirrorWord) ? name.substr(mirrorWord.size()) : name;
@@ -51,7 +51,7 @@ void row(UiModel& model, const std::string& name, const std::vector<float>& valu
   }
   ImGui::TableNextColumn();
   graph(name.c_str(), values, height);
-  notePlace(model, "graph." + name);
+  notePlace(ui, "graph." + name);
 }
 
 bool beginRows(const char* id) {
@@ -69,34 +69,32 @@ bool beginRows(const char* id) {
 
 }  // namespace
 
-void performance(UiModel& model) {
-  FrameHistory& history = model.history;
+void performance(PanelContext& ui) {
+  const FrameHistory& history = ui.view.frame.history;
   bool paused = history.paused();
-  ImGui::Checkbox("pause", &paused);
-  history.setPaused(paused);
-  notePlace(model, "performance.pause");
-  tip("the graphs stand still");
-  ImGui::SameLine();
-  if (ImGui::Button("clear")) {
-    history.clear();
+  if (ImGui::Checkbox("Pause", &paused)) {
+    ui.send(PauseHistory{paused});
   }
-  notePlace(model, "performance.clear");
-  tip("forget the frames so far");
+  notePlace(ui, "performance.pause");
   ImGui::SameLine();
-  model.copyHistory = ImGui::Button("copy as CSV");
-  notePlace(model, "performance.copy");
-  tip("all figures of the frames below, one line a frame, into the clipboard");
+  if (button(ui, "Clear", "performance.clear", "")) {
+    ui.send(ClearHistory{});
+  }
+  ImGui::SameLine();
+  if (button(ui, "Copy as CSV", "performance.copy", "All figures of the frames below, to the clipboard")) {
+    ui.send(CopyText{history.csv()});
+  }
   ImGui::SameLine();
   ImGui::TextDisabled("%zu frames", history.frames());
   const float em = ImGui::GetFontSize();
   if (!beginRows("times")) {
     return;
   }
-  row(model, "frame", history.series(FrameHistory::Figure::frame), 3.2f * em);
-  row(model, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
-  row(model, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
+  row(ui, "frame", history.series(FrameHistory::Figure::frame), 3.2f * em);
+  row(ui, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
+  row(ui, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
   for (const std::string& pass : history.passNames()) {
-    row(model, pass, history.passSeries(pass), 1.6f * em);
+    row(ui, pass, history.passSeries(pass), 1.6f * em);
   }
   ImGui::EndTable();
 }

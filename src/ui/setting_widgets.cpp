@@ -107,12 +107,12 @@ bool settingWidget(const SettingField& field, Settings& settings, const glm::dve
   return changed;
 }
 
-void settingRows(UiModel& model, std::string_view prefix) {
+void settingRows(PanelContext& ui, std::string_view prefix) {
   for (const SettingField& field : settingFields()) {
-    const bool needed = !field.needs || settingValue(model.settings, field.needs->key) == field.needs->value;
+    const bool needed = !field.needs || settingValue(ui.settings, field.needs->key) == field.needs->value;
     if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {
-      settingWidget(field, model.settings, model.sceneBackground);
-      describe(model, field.key);
+      settingWidget(field, ui.settings, glm::dvec3(ui.view.settings.background));
+      describe(ui, field.key);
     }
   }
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frame/setting_fields.hpp"
-#include "ui/ui_model.hpp"
+#include "ui/panels.hpp"
 
 namespace speculum::panels {
 
@@ -10,6 +10,6 @@ namespace speculum::panels {
 bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background);
 
 // A row for each setting whose key begins with `prefix`, but for those whose need is not met.
-void settingRows(UiModel& model, std::string_view prefix);
+void settingRows(PanelContext& ui, std::string_view prefix);
 
 }  // namespace speculum::panels

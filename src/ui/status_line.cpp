@@ -5,7 +5,13 @@
 
 #include "ui/panels.hpp"
 
-namespace speculum::panels {
+namespace speculum {
+
+float statusAlpha(double age) {
+  return static_cast<float>(std::clamp(statusSeconds - age, 0.0, 1.0));
+}
+
+namespace panels {
 
 namespace {
 
@@ -18,15 +24,15 @@ float statusHeight() {
   return std::floor(lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().FramePadding.y);
 }
 
-void statusLine(const UiModel& model, float width) {
-  const float alpha = statusAlpha(model.status.age);
-  if (model.status.text.empty() || alpha <= 0.0f) {
+void statusLine(const StatusView& status, float width) {
+  const float alpha = statusAlpha(status.age);
+  if (status.text.empty() || alpha <= 0.0f) {
     return;
   }
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
   // Paths have no spaces to wrap at: beyond the panel if need be.
-  const float text = ImGui::CalcTextSize(model.status.text.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
+  const float text = ImGui::CalcTextSize(status.text.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
   const float most = std::max(width, mostWidth * display.x);
   const bool oneLine = width == 0.0f && text <= most;
   const float height = statusHeight() - (oneLine ? ImGui::GetTextLineHeightWithSpacing() : 0.0f);
@@ -38,10 +44,11 @@ void statusLine(const UiModel& model, float width) {
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
   if (ImGui::Begin("##status", nullptr, flags)) {
-    ImGui::TextWrapped("%s", model.status.text.c_str());
+    ImGui::TextWrapped("%s", status.text.c_str());
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
 }
 
-}  // namespace speculum::panels
+}  // namespace panels
+}  // namespace speculum

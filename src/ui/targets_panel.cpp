@@ -29,7 +29,7 @@ void fillAround(const Rect& outer, const Rect& inner, ImU32 color) {
   list.AddRectFilled({inner.high.x, inner.low.y}, {outer.high.x, inner.high.y}, color);
 }
 
-// Of the window without its title bar, behind everything else in it but for the canvas.
+// Fills the window below its title bar but for the canvas.
 void background(const Rect& canvas) {
   const ImVec2 corner = ImGui::GetWindowPos();
   const ImVec2 size = ImGui::GetWindowSize();
@@ -41,63 +41,67 @@ void background(const Rect& canvas) {
   ImGui::PopClipRect();
 }
 
-void passChoice(UiModel& model) {
-  const UiPass* shown = model.debugPass >= 0 ? &model.passes[static_cast<size_t>(model.debugPass)] : nullptr;
+using Targets = PanelState::Targets;
+
+void passChoice(PanelContext& ui, const PassView* shown) {
   ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
   if (ImGui::BeginCombo("##pass", shown ? shown->name.c_str() : "")) {
-    for (int i = 0; i < static_cast<int>(model.passes.size()); ++i) {
-      ImGui::PushID(i);  // names may repeat
-      if (hasTarget(model.passes[static_cast<size_t>(i)]) &&
-          ImGui::Selectable(model.passes[static_cast<size_t>(i)].name.c_str(), i == model.debugPass)) {
-        model.debugPass = i;
+    for (size_t i = 0; i < ui.view.frame.passes.size(); ++i) {
+      const PassView& pass = ui.view.frame.passes[i];
+      ImGui::PushID(static_cast<int>(i));  // names may repeat
+      if (hasTarget(pass) && ImGui::Selectable(pass.name.c_str(), &pass == shown)) {
+        ui.state.targets.path = pass.path;
       }
       ImGui::PopID();
     }
     ImGui::EndCombo();
   }
-  notePlace(model, "targets.pass");
-  tip("whose target is shown");
+  notePlace(ui, "targets.pass");
+  tip("Pass whose target is shown");
 }
 
-void controls(UiModel& model) {
-  UiTargets& targets = model.targets;
-  static constexpr std::array<const char*, 3> kinds{"colour", "depth", "mask"};
-  static constexpr std::array<const char*, 3> about{
-      "what the pass drew, through exposure and tone curve",
-      "metres from the eye: white 0, grey the distance beside, black infinitely far; outside the mask white.\n"
-      "With oblique clipping depth is another and the greys mean nothing.",
-      "grey: what the pass shades; lines: the mirrors that are seen in it"};
-  passChoice(model);
-  for (int i = 0; i < 3; ++i) {
+void controls(PanelContext& ui, const PassView* shown) {
+  struct Choice {
+    Targets::Kind kind;
+    const char* name;
+    const char* about;
+  };
+  static constexpr std::array<Choice, 3> choices{
+      {{Targets::Kind::color, "color", "Radiance, through exposure and tone curve"},
+       {Targets::Kind::depth, "depth",
+        "Metres from the eye: white 0, grey the distance beside, black infinitely far; white outside the mask.\n"
+        "Oblique clipping changes depth, and the greys mean nothing."},
+       {Targets::Kind::mask, "mask", "Grey: pixels that the pass shades; lines: the mirrors seen in it"}}};
+  Targets& targets = ui.state.targets;
+  passChoice(ui, shown);
+  for (const Choice& choice : choices) {
     ImGui::SameLine();
-    ImGui::RadioButton(kinds[static_cast<size_t>(i)], &targets.kind, i);
-    notePlace(model, std::string("targets.") + kinds[static_cast<size_t>(i)]);
-    tip(about[static_cast<size_t>(i)]);
+    if (ImGui::RadioButton(choice.name, targets.kind == choice.kind)) {
+      targets.kind = choice.kind;
+    }
+    notePlace(ui, std::string("targets.") + choice.name);
+    tip(choice.about);
   }
-  if (ImGui::Button("fit")) {
+  if (button(ui, "Fit", "targets.fit", "The whole image")) {
     targets.zoom = 0.0;
   }
-  notePlace(model, "targets.fit");
-  tip("the whole image");
   ImGui::SameLine();
-  if (ImGui::Button("1:1")) {
+  if (button(ui, "1:1", "targets.one", "One texel on one pixel")) {
     targets.zoom = 1.0;
   }
-  notePlace(model, "targets.one");
-  tip("one texel on one pixel");
-  if (targets.kind == 1) {
+  if (targets.kind == Targets::Kind::depth) {
     ImGui::SameLine();
     float half = static_cast<float>(targets.halfDistance);
     ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
     ImGui::SliderFloat("##half", &half, 0.1f, 1000.0f, "grey %.3g m", ImGuiSliderFlags_Logarithmic);
     targets.halfDistance = half;
-    notePlace(model, "targets.half");
-    tip("metres that are shown half bright");
+    notePlace(ui, "targets.half");
+    tip("Distance that is shown half bright");
   }
 }
 
-// Wheel and drag. `pixels` and positions are those of the display.
-void moveView(UiTargets& targets, const glm::dvec2& room, const glm::dvec2& pointer) {
+// Zooms by the wheel and moves by dragging. Sizes and positions are pixels of the display.
+void moveView(Targets& targets, const glm::dvec2& image, const glm::dvec2& room, const glm::dvec2& pointer) {
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) {
     const glm::dvec2 texel = targets.center + (pointer - 0.5 * room) / targets.shownZoom;
@@ -107,16 +111,16 @@ void moveView(UiTargets& targets, const glm::dvec2& room, const glm::dvec2& poin
     targets.zoom = targets.shownZoom;
     targets.center -= glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / targets.zoom;
   }
-  targets.center = glm::clamp(targets.center, glm::dvec2(0.0), glm::dvec2(targets.size));
+  targets.center = glm::clamp(targets.center, glm::dvec2(0.0), image);
+  targets.shownZoom = targets.zoom > 0.0 ? targets.zoom : targets.shownZoom;
 }
 
-// Of the texel under the pointer; "..." until it has come from the GPU.
-std::string valueText(const UiTargets& targets) {
-  if (targets.kind == 2) {
+// Value of the texel under the pointer; "..." until it has come from the GPU.
+std::string valueText(const Targets& targets, const std::optional<TexelView>& value) {
+  if (targets.kind == Targets::Kind::mask) {
     return "";
   }
-  const std::optional<UiTexel>& value = targets.value;
-  if (!value || value->texel != *targets.pointed || value->depth != (targets.kind == 1)) {
+  if (!value || value->texel != *targets.pointed || value->depth != (targets.kind == Targets::Kind::depth)) {
     return "...";
   }
   std::array<char, 128> text{};
@@ -131,21 +135,21 @@ std::string valueText(const UiTargets& targets) {
   return text.data();
 }
 
-void maskImage(const UiTargets& targets, const Rect& canvas, const glm::dvec2& corner) {
+void maskImage(const TargetView& target, double zoom, const Rect& canvas, const glm::dvec2& corner) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto toScreen = [&](const std::vector<glm::vec2>& polygon) {
     std::vector<ImVec2> points;
     for (const glm::vec2& p : polygon) {
-      const glm::dvec2 at = corner + targets.shownZoom * glm::dvec2(p);
+      const glm::dvec2 at = corner + zoom * glm::dvec2(p);
       points.emplace_back(static_cast<float>(at.x), static_cast<float>(at.y));
     }
     return points;
   };
   ImGui::PushClipRect(canvas.low, canvas.high, true);
   list.AddRectFilled(canvas.low, canvas.high, IM_COL32(16, 16, 18, 255));
-  const std::vector<ImVec2> mask = toScreen(targets.mask);
+  const std::vector<ImVec2> mask = toScreen(target.mask);
   list.AddConvexPolyFilled(mask.data(), static_cast<int>(mask.size()), IM_COL32(150, 150, 150, 255));
-  for (const std::vector<glm::vec2>& mirror : targets.mirrors) {
+  for (const std::vector<glm::vec2>& mirror : target.mirrors) {
     const std::vector<ImVec2> points = toScreen(mirror);
     list.AddPolyline(points.data(), static_cast<int>(points.size()), IM_COL32(255, 196, 40, 255), ImDrawFlags_Closed,
                      0.12f * ImGui::GetFontSize());
@@ -153,62 +157,96 @@ void maskImage(const UiTargets& targets, const Rect& canvas, const glm::dvec2& c
   ImGui::PopClipRect();
 }
 
+// Covers the canvas but for the image, whose upper left corner is on `corner` of the screen.
+void coverAround(const Rect& canvas, const glm::dvec2& corner, const glm::dvec2& size) {
+  const glm::dvec2 first(canvas.low.x, canvas.low.y);
+  const glm::dvec2 last(canvas.high.x, canvas.high.y);
+  const glm::dvec2 low = glm::clamp(corner, first, last);
+  const glm::dvec2 high = glm::clamp(corner + size, low, last);
+  fillAround(canvas,
+             {ImVec2(static_cast<float>(std::ceil(low.x - 0.5)), static_cast<float>(std::ceil(low.y - 0.5))),
+              ImVec2(static_cast<float>(std::floor(high.x)), static_cast<float>(std::floor(high.y)))},
+             IM_COL32(16, 16, 18, 255));
+}
+
+PixelRect inPixels(const Rect& rect) {
+  const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+  const auto pixels = [](float position, float by) { return static_cast<int>(position * by); };
+  return {pixels(rect.low.x, scale.x), pixels(rect.low.y, scale.y), pixels(rect.high.x - rect.low.x, scale.x),
+          pixels(rect.high.y - rect.low.y, scale.y)};
+}
+
+// The pass whose target is shown: the chosen one, the main view if that is gone.
+const PassView* shownPass(PanelContext& ui) {
+  const std::vector<PassView>& passes = ui.view.frame.passes;
+  const auto pass = std::find_if(passes.begin(), passes.end(),
+                                 [&](const PassView& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
+  const auto main =
+      std::find_if(passes.begin(), passes.end(), [](const PassView& p) { return p.kind == PassKind::main; });
+  const auto shown = pass != passes.end() ? pass : main;
+  ui.state.targets.path = shown != passes.end() ? std::optional(shown->path) : std::nullopt;
+  return shown != passes.end() ? &*shown : nullptr;
+}
+
+void caption(PanelContext& ui, const Rect& canvas, bool hovered, const glm::dvec2& texel) {
+  const TargetView& target = ui.view.frame.target;
+  Targets& targets = ui.state.targets;
+  ImGui::SetCursorScreenPos({canvas.low.x, canvas.low.y - ImGui::GetTextLineHeightWithSpacing()});
+  if (hovered && texel.x >= 0 && texel.y >= 0 && texel.x < target.size.x && texel.y < target.size.y) {
+    targets.pointed = glm::ivec2(texel);
+    ImGui::Text("%d, %d  %s", targets.pointed->x, targets.pointed->y, valueText(targets, target.value).c_str());
+  } else {
+    ImGui::TextDisabled("%dx%d  %.0f %%  wheel: zoom  drag: pan", target.size.x, target.size.y,
+                        100.0 * targets.shownZoom);
+  }
+}
+
 }  // namespace
 
-bool hasTarget(const UiPass& pass) {
+bool hasTarget(const PassView& pass) {
   return pass.kind == PassKind::mirror || pass.kind == PassKind::main;
 }
 
-void targets(UiModel& model) {
-  UiTargets& targets = model.targets;
-  const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
+void targets(PanelContext& ui) {
+  const TargetView& target = ui.view.frame.target;
+  Targets& targets = ui.state.targets;
   const ImVec2 start = ImGui::GetCursorScreenPos();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float top = start.y + 3.0f * ImGui::GetFrameHeightWithSpacing();
   const Rect canvas{{start.x, top}, {start.x + std::max(room.x, 1.0f), std::max(start.y + room.y, top + 1.0f)}};
   background(canvas);
-  controls(model);
+  const PassView* shown = shownPass(ui);
+  controls(ui, shown);
   const glm::dvec2 size(canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y);
-  const bool there = model.debugPass >= 0 && targets.size.x > 0 && targets.size.y > 0;
-  const glm::dvec2 image = glm::max(glm::dvec2(targets.size), glm::dvec2(1.0));
+  const glm::dvec2 image = glm::max(glm::dvec2(target.size), glm::dvec2(1.0));
   if (targets.zoom == 0.0) {
     targets.center = 0.5 * image;
   }
   targets.shownZoom = targets.zoom > 0.0 ? targets.zoom : std::min(size.x / image.x, size.y / image.y);
   ImGui::SetCursorScreenPos(canvas.low);
   ImGui::InvisibleButton("canvas", {canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y});
-  notePlace(model, "targets.canvas");
+  notePlace(ui, "targets.canvas");
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const glm::dvec2 pointer(mouse.x - canvas.low.x, mouse.y - canvas.low.y);
-  moveView(targets, size, pointer);
-  targets.shownZoom = targets.zoom > 0.0 ? targets.zoom : targets.shownZoom;
+  moveView(targets, glm::dvec2(target.size), size, pointer);
   const glm::dvec2 origin = targets.center - 0.5 * size / targets.shownZoom;
   const glm::dvec2 corner = glm::dvec2(canvas.low.x, canvas.low.y) - targets.shownZoom * origin;
-  if (there && targets.kind == 2) {
-    maskImage(targets, canvas, corner);
-  } else if (there) {
-    model.debugArea = PixelRect{static_cast<int>(canvas.low.x * scale.x), static_cast<int>(canvas.low.y * scale.y),
-                                static_cast<int>(size.x * scale.x), static_cast<int>(size.y * scale.y)};
-    targets.origin = origin;
-    const glm::dvec2 low =
-        glm::clamp(corner, glm::dvec2(canvas.low.x, canvas.low.y), glm::dvec2(canvas.high.x, canvas.high.y));
-    const glm::dvec2 high =
-        glm::clamp(corner + targets.shownZoom * image, low, glm::dvec2(canvas.high.x, canvas.high.y));
-    fillAround(canvas,
-               {ImVec2(static_cast<float>(std::ceil(low.x - 0.5)), static_cast<float>(std::ceil(low.y - 0.5))),
-                ImVec2(static_cast<float>(std::floor(high.x)), static_cast<float>(std::floor(high.y)))},
-               IM_COL32(16, 16, 18, 255));
+  const bool there = shown && target.size.x > 0 && target.size.y > 0;
+  const bool isMask = targets.kind == Targets::Kind::mask;
+  if (there) {
+    isMask ? maskImage(target, targets.shownZoom, canvas, corner)
+           : coverAround(canvas, corner, targets.shownZoom * image);
   }
-  ImGui::SetCursorScreenPos({start.x, top - ImGui::GetTextLineHeightWithSpacing()});
-  const glm::dvec2 texel = glm::floor(origin + pointer / targets.shownZoom);
-  targets.pointed.reset();
-  if (there && hovered && texel.x >= 0 && texel.y >= 0 && texel.x < image.x && texel.y < image.y) {
-    targets.pointed = glm::ivec2(texel);
-    ImGui::Text("%d, %d  %s", targets.pointed->x, targets.pointed->y, valueText(targets).c_str());
-  } else {
-    ImGui::TextDisabled("%dx%d  %.0f %%  wheel: zoom  drag: move", targets.size.x, targets.size.y,
-                        100.0 * targets.shownZoom);
+  caption(ui, canvas, there && hovered, glm::floor(origin + pointer / targets.shownZoom));
+  if (shown) {
+    ui.output.target = {.path = shown->path,
+                        .area = there && !isMask ? std::optional(inPixels(canvas)) : std::nullopt,
+                        .depth = targets.kind == Targets::Kind::depth,
+                        .zoom = targets.shownZoom,
+                        .origin = origin,
+                        .halfDistance = targets.halfDistance,
+                        .probe = isMask ? std::nullopt : targets.pointed};
   }
 }
 

@@ -189,12 +189,12 @@ TEST(TimeSteps, SuspendDoesNotAdvanceAnimation) {
   const test::VirtualDisplay display(1280, 900);
   Demo demo(windowOptions());
   ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > 2; }));
-  const double before = demo.model().time;
+  const double before = demo.view().playback.time;
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   const int drawn = demo.framesDrawn();
   ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > drawn; }));
-  EXPECT_GE(demo.model().time, before);
-  EXPECT_LT(demo.model().time - before, 0.5);
+  EXPECT_GE(demo.view().playback.time, before);
+  EXPECT_LT(demo.view().playback.time - before, 0.5);
 }
 
 TEST(AnySizeOfWindow, OnePixelRunsAndMinimisedPauses) {

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "image/image.hpp"
+
+namespace speculum {
+
+// Screenshots and recordings of the window, in Speculum's folder of the user's pictures. While frames are recorded the
+// animation goes on by the same step from frame to frame, however long drawing and saving take, so that the sequence
+// plays evenly.
+class Capture {
+ public:
+  static constexpr double framesPerSecond = 30.0;
+
+  void takeScreenshot(bool withPanel) { screenshot_ = withPanel ? Screenshot::window : Screenshot::bare; }
+  // Starts recording numbered pictures into a new folder named after the scene and the local time, or stops. Returns a
+  // line for the user, if there is anything to say.
+  std::optional<std::string> toggleRecording(const std::string& scene, bool withPanel);
+
+  bool recording() const { return folder_.has_value(); }
+  bool wanted() const { return recording() || screenshot_ != Screenshot::none; }  // of the frame that is drawn now
+  bool bare() const { return screenshot_ == Screenshot::bare || (recording() && bare_); }  // without panels
+
+  struct Saved {
+    std::string message;
+    bool logged = false;
+  };
+  // Saves the frame, which was wanted. A recorded picture that cannot be written ends the recording.
+  Saved save(const std::string& scene, const Image8& picture);
+
+ private:
+  enum class Screenshot { none, window, bare };
+
+  std::string record(const Image8& picture);
+
+  Screenshot screenshot_ = Screenshot::none;     // of the next frame
+  std::optional<std::filesystem::path> folder_;  // of the recording
+  bool bare_ = false;
+  int frames_ = 0;
+  std::string recorded_;  // what was recorded so far
+};
+
+}  // namespace speculum

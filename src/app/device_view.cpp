@@ -1,0 +1,62 @@
+#include "app/device_view.hpp"
+
+#include <algorithm>
+
+namespace speculum {
+
+namespace {
+
+std::string kindName(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "CPU";
+    default:
+      return "other";
+  }
+}
+
+FeatureView feature(const char* name, bool present, const char* without) {
+  return {name, present, present ? "yes" : without};
+}
+
+}  // namespace
+
+DeviceView deviceView(const Renderer& renderer, const Device& device) {
+  const DeviceInfo& info = device.info();
+  const DeviceCaps& caps = device.caps();
+  DeviceView view;
+  view.name = info.name;
+  view.kind = kindName(info.type);
+  view.driver = info.driver;
+  view.vulkan = std::to_string(VK_API_VERSION_MAJOR(info.apiVersion)) + "." +
+                std::to_string(VK_API_VERSION_MINOR(info.apiVersion)) + "." +
+                std::to_string(VK_API_VERSION_PATCH(info.apiVersion));
+  view.renderPath = renderPathName(device.renderPath());
+  for (int count = 1; count <= 64; count *= 2) {
+    view.samples += caps.sampleCounts & static_cast<VkSampleCountFlags>(count) ? std::to_string(count) + " " : "";
+  }
+  view.features = {feature("dynamic rendering", caps.dynamicRendering, "render passes are used"),
+                   feature("timestamps", caps.timestampValidBits > 0, "no times of passes"),
+                   feature("pipeline statistics", caps.pipelineStatistics, "no triangles and fragments"),
+                   feature("precise occlusion", caps.countsSamples, "samples drawn are not counted"),
+                   feature("geometryShader", caps.primitiveId, "no effect that traces rays"),
+                   feature("sampleRateShading", caps.sampleRateShading, "samples share a shading"),
+                   feature("depthClamp", caps.depthClamp, "the near plane cuts"),
+                   feature("fillModeNonSolid", caps.fillModeNonSolid, "no wireframe"),
+                   feature("memory budget", caps.memoryBudget, "the size of the heaps is used")};
+  const std::vector<PresentMode> modes = renderer.presentModes();
+  for (const PresentMode mode : modes) {
+    view.presentModes.emplace_back(presentModeName(mode));
+  }
+  const auto mode = std::find(modes.begin(), modes.end(), renderer.presentMode());
+  view.presentMode = static_cast<size_t>(mode - modes.begin());
+  return view;
+}
+
+}  // namespace speculum

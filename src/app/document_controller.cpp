@@ -1,0 +1,168 @@
+#include "app/document_controller.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+
+#include "accuracy/fingerprint.hpp"
+#include "edit/save_place.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Whether the file is one of those that come with the program.
+bool isShipped(const fs::path& file) {
+  std::error_code none;
+  const fs::path below = fs::relative(file, dataDirectory("scenes"), none);
+  return !below.empty() && *below.begin() != "..";
+}
+
+// Where scenes are saved unless the user names another place; made when it is needed.
+fs::path ownFolder() {
+  return documentsDir() / "Speculum";
+}
+
+// Removes all but the newest copies, which somebody may still want.
+void keepNewest(const fs::path& folder) {
+  constexpr size_t kept = 100;
+  std::error_code none;
+  std::vector<std::pair<fs::file_time_type, fs::path>> files;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".toml") {
+      files.emplace_back(entry.last_write_time(none), entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end(), std::greater<>());
+  for (size_t i = kept; i < files.size(); ++i) {
+    fs::remove(files[i].second, none);
+  }
+}
+
+}  // namespace
+
+DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::path> shippedModels, bool prompts,
+                                       std::function<void()> beforeChange)
+    : loaded_(loaded),
+      editor_(loaded.scene, shippedModels, std::move(beforeChange)),
+      prompts_(prompts),
+      settingsAtLoad_(loaded.settings) {}
+
+// Settings are in the scene's file too.
+bool DocumentController::hasUnsaved(const Settings& settings) const {
+  return editor_.document().modified() || settingsKey(settings) != settingsKey(loaded_.settings);
+}
+
+bool DocumentController::confirmDiscard(const Settings& settings, std::optional<Command> then) {
+  const bool given = discarded_ && discarded_->revision == editor_.document().revision() &&
+                     settingsKey(discarded_->settings) == settingsKey(settings);
+  if (given || !prompts_ || !hasUnsaved(settings)) {
+    return true;
+  }
+  prompt_ = prompt_ == Prompt::none ? Prompt::unsavedChanges : prompt_;
+  afterPrompt_ = then ? std::move(then) : std::move(afterPrompt_);
+  return false;
+}
+
+// A file that comes with the program is not overwritten unasked.
+std::optional<Command> DocumentController::save(const Settings& settings) {
+  editor_.release();
+  prompt_ = Prompt::none;
+  const fs::path file = editor_.document().usualFile();
+  if (isShipped(file) || !isWritable(file)) {
+    askWhere();
+    return std::nullopt;
+  }
+  if (saveTo(file, settings)) {
+    return discard(settings);
+  }
+  const std::string why = note_;
+  askWhere();
+  note_ = why;
+  return std::nullopt;
+}
+
+void DocumentController::askWhere() {
+  const fs::path file = editor_.document().usualFile();
+  const bool usual = isWritable(file) && !isShipped(file);
+  proposed_ = usual ? file : ownFolder() / file.filename();
+  note_.clear();
+  prompt_ = Prompt::saveAs;
+}
+
+std::optional<Command> DocumentController::saveAs(const fs::path& file, const Settings& settings) {
+  proposed_ = file;
+  return saveTo(file, settings) ? discard(settings) : std::nullopt;
+}
+
+std::optional<Command> DocumentController::discard(const Settings& settings) {
+  prompt_ = Prompt::none;
+  discarded_ = Discarded{editor_.document().revision(), settings};
+  return std::exchange(afterPrompt_, std::nullopt);
+}
+
+void DocumentController::cancelPrompt() {
+  prompt_ = Prompt::none;
+  afterPrompt_.reset();
+  refused_.reset();
+}
+
+bool DocumentController::saveTo(const fs::path& named, const Settings& settings) {
+  fs::path file = named;
+  try {
+    file = sceneFileNamed(named);
+    if (file.parent_path() == ownFolder()) {
+      std::error_code none;
+      fs::create_directories(ownFolder(), none);
+    }
+    requireFolder(file);
+    if (isShipped(file) && file != refused_) {
+      throw SaveError(file.string() + ": not saved: it comes with the program");
+    }
+    editor_.document().save(file, settingChanges(settingsAtLoad_, settings), file == refused_);
+    note_ = "saved " + file.string();
+    loaded_.settings = settings;
+    refused_.reset();
+    saved_ = true;
+    return true;
+  } catch (const SaveError& error) {
+    std::error_code none;
+    const bool overwritable = file.extension() == ".toml" && fs::is_regular_file(file, none);
+    note_ = error.what();
+    note_ += overwritable ? "\nSave once more to overwrite it." : "";
+    refused_ = overwritable ? std::optional(file) : std::nullopt;
+    return false;
+  }
+}
+
+fs::path DocumentController::savedOrCopy() const {
+  const SceneDocument& document = editor_.document();
+  if (!document.modified()) {
+    return loaded_.scene.file;
+  }
+  const fs::path folder = userCacheDir() / "views";
+  std::error_code none;
+  fs::create_directories(folder, none);
+  const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, loaded_.settings));
+  // Other content gets another name, so that commands that were copied before stay right.
+  Fingerprint fingerprint;
+  fingerprint.add(std::string_view(text));
+  const fs::path file = folder / (loaded_.scene.file.stem().string() + "-" + fingerprint.hex() + ".toml");
+  keepNewest(folder);
+  replaceFile(file, std::string_view(text));
+  return file;
+}
+
+void DocumentController::fill(EditView& view, const Settings& settings) const {
+  editor_.fill(view);
+  view.unsavedSettings = settingsKey(settings) != settingsKey(loaded_.settings);
+  view.prompt = prompt_;
+  view.proposedFile = proposed_;
+  view.note = note_;
+}
+
+}  // namespace speculum

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "app/scene_editor.hpp"
+#include "app/session.hpp"
+
+namespace speculum {
+
+// The scene that is shown as a document: its editor, unsaved changes and the prompts about them, saving.
+class DocumentController {
+ public:
+  // Keeps a reference to the scene. Without `prompts` unsaved changes are given up unasked.
+  DocumentController(LoadedScene& loaded, std::span<const std::filesystem::path> shippedModels, bool prompts,
+                     std::function<void()> beforeChange);
+
+  SceneEditor& editor() { return editor_; }
+  const SceneEditor& editor() const { return editor_; }
+
+  // Whether the scene may go: true if nothing would be lost or the user has discarded the changes. Otherwise shows the
+  // prompt, and remembers a command to carry out once it is answered.
+  bool confirmDiscard(const Settings& settings, std::optional<Command> then);
+  bool prompting() const { return prompt_ != Prompt::none; }
+  void forgetDiscard() { discarded_.reset(); }  // asks again
+
+  // Each returns the command that waited for it, if any.
+  std::optional<Command> save(const Settings& settings);
+  std::optional<Command> saveAs(const std::filesystem::path& file, const Settings& settings);
+  std::optional<Command> discard(const Settings& settings);
+  void askWhere();
+  void cancelPrompt();
+
+  bool savedSinceLastCall() { return std::exchange(saved_, false); }
+
+  // A copy of the scene with unsaved changes in the user's cache folder, the scene's own file without any. Throws
+  // std::runtime_error if it cannot be written.
+  std::filesystem::path savedOrCopy() const;
+
+  const std::string& note() const { return note_; }  // result of the last save, or why a model was not added
+  void setNote(const std::string& note) { note_ = note; }
+  // Fills everything but the overlay.
+  void fill(EditView& view, const Settings& settings) const;
+
+ private:
+  struct Discarded {
+    uint64_t revision = 0;
+    Settings settings;
+  };
+
+  bool hasUnsaved(const Settings& settings) const;
+  bool saveTo(const std::filesystem::path& named, const Settings& settings);
+
+  LoadedScene& loaded_;
+  SceneEditor editor_;
+  bool prompts_;
+  Settings settingsAtLoad_;  // before the user changed any
+  Prompt prompt_ = Prompt::none;
+  std::filesystem::path proposed_;  // for Prompt::saveAs
+  std::optional<Command> afterPrompt_;
+  std::optional<Discarded> discarded_;            // changes that were given up
+  std::optional<std::filesystem::path> refused_;  // file that was not overwritten; asked for again, it is
+  std::string note_;
+  bool saved_ = false;
+};
+
+}  // namespace speculum

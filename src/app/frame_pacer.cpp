@@ -1,0 +1,41 @@
+#include "app/frame_pacer.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace speculum {
+
+namespace {
+
+// The panels take up a change in one frame, settle in a second, and show figures of the frame two before.
+constexpr int framesAfterChange = 4;
+constexpr int longestInterval = 3600;  // frames: a map that is reused for longer is meant to stay as it is
+
+// In which every image that is reused is rendered anew.
+int framesUntilFresh(const Settings& settings) {
+  const EffectSettings& effects = settings.effects;
+  const bool maps = effects.curved && effects.curvedLookup == CurvedLookup::environment;
+  return std::max(settings.reflection.updateInterval,
+                  maps ? std::min(effects.environmentInterval, longestInterval) : 0);
+}
+
+}  // namespace
+
+void FramePacer::change(const Settings& settings) {
+  due_ = framesAfterChange + framesUntilFresh(settings);
+}
+
+void FramePacer::requestFrames(int frames) {
+  due_ = std::max(due_, frames);
+}
+
+double FramePacer::beginFrame(double seconds) {
+  return std::exchange(idled_, false) ? std::numeric_limits<double>::quiet_NaN() : 1000.0 * seconds;
+}
+
+void FramePacer::frameDrawn() {
+  due_ = std::max(0, due_ - 1);
+}
+
+}  // namespace speculum

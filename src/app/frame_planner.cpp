@@ -1,0 +1,47 @@
+#include "app/frame_planner.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace speculum {
+
+FittedPlan FramePlanner::plan(Frame& frame, SceneRenderer& sceneRenderer, const Scene& scene, const SceneState& state,
+                              Settings settings, bool rendersMain, bool settingsMove) {
+  const std::string key = settingsKey(settings);
+  std::string known;
+  if (refused_ && !settingsMove && refused_->settings != key) {
+    known = refused_->problem;
+    refused_.reset();
+  }
+  const auto planNow = [&] {
+    settings.effects.textures = settings.effects.textures && !refused_;
+    FrameCache cache = sceneRenderer.cache();
+    if (rendersMain) {
+      cache.main = nullptr;
+    }
+    return planner_.plan(scene, state, settings, static_cast<int>(frame.extent.width),
+                         static_cast<int>(frame.extent.height), cache);
+  };
+  FittedPlan fitted = planNow();
+  try {
+    sceneRenderer.uploadTextures(frame, state, fitted.settings, fitted.plan);
+  } catch (const OutOfMemoryError& error) {
+    if (refused_) {
+      throw;  // it is not for textures
+    }
+    refused_ = {key, "drawn without textures until a setting is changed: " + std::string(error.what())};
+    if (refused_->problem != known) {
+      spdlog::warn("{}", refused_->problem);
+    }
+    fitted = planNow();
+    sceneRenderer.uploadTextures(frame, state, fitted.settings, fitted.plan);
+  }
+  return fitted;
+}
+
+std::string FramePlanner::message() const {
+  std::string message = refused_ ? refused_->problem : "";
+  message += !message.empty() && !planner_.message().empty() ? "; " : "";
+  return message + planner_.message();
+}
+
+}  // namespace speculum

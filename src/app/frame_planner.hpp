@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/session.hpp"
+
+namespace speculum {
+
+// Plans the frames of the window so that they fit the device's memory. Textures for which there is no memory are left
+// out until a setting changes, which may have freed some.
+class FramePlanner {
+ public:
+  explicit FramePlanner(const Device& device) : planner_(device) {}
+
+  // Plans a frame and uploads its textures. `rendersMain`: the main view is not to be reused. While `settingsMove`, say
+  // by a slider that is held, textures are not tried again: each trial waits for the device.
+  FittedPlan plan(Frame& frame, SceneRenderer& sceneRenderer, const Scene& scene, const SceneState& state,
+                  Settings settings, bool rendersMain, bool settingsMove);
+  void forgetScene() { refused_.reset(); }
+  std::string message() const;  // what was lowered or left out; empty if nothing was
+
+ private:
+  struct Refused {
+    std::string settings;  // at which there was no memory for textures
+    std::string problem;
+  };
+
+  BudgetPlanner planner_;
+  std::optional<Refused> refused_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,199 @@
+#include "app/frame_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/pass_outlines.hpp"
+#include "edit/outline.hpp"
+#include "frame/effects.hpp"
+#include "frame/pass_mask.hpp"
+#include "frame/scene_names.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double smoothing = 0.05;  // of the times shown
+
+TargetView targetOf(const FramePlan& plan, const PlannedPass& pass, const Settings& settings,
+                    bool standardSampleLocations) {
+  const View& view = pass.view;
+  const auto texel = [&](const glm::dvec2& device) {
+    return glm::vec2((0.5 * device + 0.5) * view.pictureSize - glm::dvec2(view.rect.x, view.rect.y));
+  };
+  TargetView target{.size = {view.rect.width, view.rect.height}};
+  if (!view.path.empty() && settings.debug.maskPasses) {
+    for (const glm::dvec2& p : passMask(view, plan.projection, lookupReach(settings, standardSampleLocations))) {
+      target.mask.push_back(texel(p));
+    }
+  }
+  if (target.mask.empty()) {
+    const glm::vec2 size(target.size);
+    target.mask = {{0.0f, 0.0f}, {size.x, 0.0f}, size, {0.0f, size.y}};
+  }
+  for (const MirrorDraw& mirror : pass.mirrors) {
+    std::vector<glm::vec2> outline;
+    for (const glm::dvec4& clip : toClip(view, plan.projection, visiblePart(view, mirror.polygon))) {
+      if (clip.w > 1e-12) {
+        outline.push_back(texel(glm::dvec2(clip) / clip.w));
+      }
+    }
+    target.mirrors.push_back(std::move(outline));
+  }
+  return target;
+}
+
+std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const FramePlan& plan) {
+  if (!probed) {
+    return std::nullopt;
+  }
+  return TexelView{.texel = probed->texel,
+                   .depth = probed->depth,
+                   .metres = plan.projection.near / static_cast<double>(probed->storedDepth),
+                   .value = probed->value};
+}
+
+}  // namespace
+
+void FrameReport::clear() {
+  view_.passes.clear();
+  view_.skipped.clear();
+  view_.history.clear();
+  skipped_.clear();
+}
+
+void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
+                         const std::vector<int>& hoveredSkipped) {
+  const FrameTimings& timings = renderer.timings();
+  Device& device = renderer.device();
+  const MemoryBudget budget = device.memoryBudget();
+  view_.deviceBytes = device.allocatedBytes();
+  view_.budgetBytes = budget.budgetBytes;
+  view_.usedBytes = budget.usedBytes;
+  view_.validationMessages = device.validation() ? device.validationMessages() : -1;
+  view_.target.value = texelOf(sceneRenderer.probed(), frame.plan);
+  updateTimes(frame, timings);
+  updatePasses(frame, timings, sceneRenderer);
+  updateEffects(frame, sceneRenderer.ledger());
+  updateSkipped(frame, hoveredSkipped);
+}
+
+void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings) {
+  view_.cpuMs += smoothing * (frame.cpuMs - view_.cpuMs);
+  view_.gpuMs = timings.gpuMs;
+  if (!std::isnan(frame.sinceLastMs)) {
+    view_.frameMs += (view_.frameMs == 0.0 ? 1.0 : smoothing) * (frame.sinceLastMs - view_.frameMs);
+  }
+  view_.history.add(frame.number, frame.sinceLastMs, frame.cpuMs);
+  std::vector<std::pair<std::string, double>> passes;
+  for (const PassTiming& pass : timings.passes) {
+    passes.emplace_back(pass.name, pass.gpuMs);
+  }
+  if (timings.frame > 0) {
+    view_.history.addGpu(timings.frame, timings.gpuMs, passes);
+  }
+}
+
+// While images are reused, lists the passes of as many frames as it takes to render each, and those whose images are
+// reused: a list that changed from frame to frame could not be read.
+void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& timings,
+                               const SceneRenderer& sceneRenderer) {
+  const FramePlan& plan = frame.plan;
+  const int interval = frame.settings.reflection.updateInterval;
+  const auto isReused = [&](const PassView& row) {
+    return (plan.mainReused && row.kind == PassKind::main) ||
+           std::any_of(plan.reused.begin(), plan.reused.end(),
+                       [&](const PlannedPass& p) { return p.view.path == row.path; });
+  };
+  std::vector<PassView> rows;
+  if (interval > 1 || !plan.reused.empty() || plan.mainReused) {
+    rows = std::move(view_.passes);
+  }
+  for (PassView& row : rows) {
+    ++row.framesAgo;
+  }
+  std::ptrdiff_t index = 0;
+  for (const RecordedPass& pass : sceneRenderer.passes()) {
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r.id == pass; });
+    if (row == rows.end()) {
+      row = rows.insert(
+          rows.begin() + index,
+          PassView{.name = pass.name, .path = pass.path, .depth = pass.depth, .kind = pass.kind, .id = pass});
+    }
+    row->areaPx = pass.areaPx;
+    row->draws = pass.draws;
+    const auto planned = std::find_if(plan.passes.begin(), plan.passes.end(),
+                                      [&](const PlannedPass& p) { return p.view.path == pass.path; });
+    row->resolution =
+        planned != plan.passes.end() ? depthReadout(*planned, plan.projection, frame.scene, frame.state) : std::nullopt;
+    row->outline = outlineOf(plan, pass.path, plan.width, plan.height);
+    row->framesAgo = 0;
+    index = row - rows.begin() + 1;
+  }
+  std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
+  // The times are of an earlier frame, whose plan may have differed.
+  const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
+  for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r.id == timed[i]; });
+    if (row != rows.end()) {
+      row->gpuMs = timings.passes[i].gpuMs;
+    }
+  }
+  view_.passes = std::move(rows);
+}
+
+void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& ledger) {
+  view_.effects.clear();
+  for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
+    const EffectCost& cost = ledger[static_cast<EffectKind>(view_.effects.size())];
+    view_.effects.push_back({effect.name, effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
+  }
+}
+
+// A mirror without a pass is outlined where the view it would be seen in shows it.
+void FrameReport::updateSkipped(const RecordedFrame& frame, const std::vector<int>& hovered) {
+  view_.outlinedSkipped.clear();
+  view_.skippedOutline.clear();
+  // The path was pointed at in the last frame: an edit may have taken mirrors away since.
+  const auto exists = [&](int mirror) { return static_cast<size_t>(mirror) < frame.state.mirrors.size(); };
+  if (!hovered.empty() && std::all_of(hovered.begin(), hovered.end(), exists)) {
+    const PictureView picture(frame.state.camera, frame.plan.width, frame.plan.height);
+    const std::span<const int> before = std::span(hovered).first(hovered.size() - 1);
+    if (const auto image = picture.through(frame.scene, frame.state, before)) {
+      view_.outlinedSkipped = hovered;
+      view_.skippedOutline = outlineOf(frame.scene, frame.state, {Selection::Kind::mirror, hovered.back()}, *image, {});
+    }
+  }
+  skipped_ = frame.plan.skipped;
+  view_.skipped.clear();
+  for (const SkippedMirror& skip : skipped_) {
+    view_.skipped.push_back(
+        {mirrorPathName(frame.scene, skip.path), skip.path, std::string(skipReasonName(skip.reason)), skip.detail});
+  }
+}
+
+std::optional<DebugView> FrameReport::target(const TargetRequest& request, const FramePlan& plan,
+                                             const Settings& settings, bool standardSampleLocations) {
+  const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
+                                 [&](const PlannedPass& p) { return p.view.path == request.path; });
+  if (pass == plan.passes.end() && !request.path.empty()) {
+    return std::nullopt;
+  }
+  const std::optional<TexelView> value = std::move(view_.target.value);
+  view_.target = targetOf(plan, request.path.empty() ? plan.main : *pass, settings, standardSampleLocations);
+  view_.target.value = value;
+  if (!request.area) {
+    return std::nullopt;
+  }
+  // The image may be smaller than when it was pointed at.
+  const bool within = request.probe && request.probe->x < view_.target.size.x && request.probe->y < view_.target.size.y;
+  return DebugView{.pass = static_cast<int>(pass - plan.passes.begin()),
+                   .area = *request.area,
+                   .kind = request.depth ? TargetKind::depth : TargetKind::color,
+                   .zoom = request.zoom,
+                   .origin = request.origin,
+                   .halfDistance = request.halfDistance,
+                   .probe = within ? request.probe : std::nullopt};
+}
+
+}  // namespace speculum

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "systems/scene_renderer.hpp"
+#include "ui/views.hpp"
+
+namespace speculum {
+
+// A frame that was recorded.
+struct RecordedFrame {
+  const Scene& scene;
+  const SceneState& state;
+  const Settings& settings;  // that it was planned with
+  const FramePlan& plan;
+  uint64_t number = 0;
+  double cpuMs = 0.0;
+  double sinceLastMs = 0.0;  // NaN after the window was idle
+};
+
+// The figures of frames for the panels.
+class FrameReport {
+ public:
+  void clear();  // the scene is another
+  // `hoveredSkipped`: path of a skipped mirror that is to be outlined. The GPU's figures are those of the last frame
+  // that has finished.
+  void update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
+              const std::vector<int>& hoveredSkipped);
+  // Describes the target that is asked for, and says how to draw it over the picture; nothing if the plan lacks its
+  // pass or it has no place there.
+  std::optional<DebugView> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
+                                  bool standardSampleLocations);
+
+  FrameHistory& history() { return view_.history; }
+  std::span<const SkippedMirror> skipped() const { return skipped_; }  // in the last frame
+  const FrameView& view() const { return view_; }
+
+ private:
+  void updateTimes(const RecordedFrame& frame, const FrameTimings& timings);
+  void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, const SceneRenderer& sceneRenderer);
+  void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
+  void updateSkipped(const RecordedFrame& frame, const std::vector<int>& hovered);
+
+  FrameView view_;
+  std::vector<SkippedMirror> skipped_;
+};
+
+}  // namespace speculum

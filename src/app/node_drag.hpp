@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "edit/gizmo.hpp"
+#include "edit/transform.hpp"
+
+namespace speculum {
+
+using PlacedNode = std::pair<Selection, Thing>;
+
+// Selected nodes that a handle moves or turns together, from press to release.
+class NodeDrag {
+ public:
+  // `nodes` are where they were at the press; all turn about the pivot of the first.
+  NodeDrag(GizmoDrag gizmo, const Scene& scene, const SceneState& state, std::span<const Selection> nodes,
+           const glm::dvec2& pixel);
+
+  // The nodes with the pointer at that pixel.
+  std::vector<PlacedNode> to(const glm::dvec2& pixel, bool snap);
+  Grip handle() const { return gizmo_.handle(); }
+  bool turns() const { return handle() >= Grip::turnX; }
+  std::string label() const;  // how far, for the user
+  const glm::dvec2& pixel() const { return pixel_; }
+
+ private:
+  struct Start {
+    Selection selection;
+    Thing node;
+    glm::dvec3 pivot{0.0};  // world
+  };
+  Thing dragged(const Start& start) const;
+
+  GizmoDrag gizmo_;
+  std::vector<Start> starts_;
+  double time_;  // seconds of animation
+  glm::dvec2 pixel_;
+  GizmoDrag::Change change_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,129 @@
+#include "app/scene_browser.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "image/picture_files.hpp"
+#include "platform/folders.hpp"
+#include "scene/input_error.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr size_t mostListed = 64;      // scenes of one folder
+constexpr int largestThumbnail = 192;  // pixels; scripts/thumbnails makes no larger ones
+
+std::vector<fs::path> filesIn(const fs::path& folder) {
+  std::error_code none;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, none)) {
+    if (entry.path().extension() == ".toml") {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  files.resize(std::min(files.size(), mostListed));
+  return files;
+}
+
+}  // namespace
+
+void SceneBrowser::list(const fs::path& file) {
+  const std::vector<SceneEntry> before = std::exchange(view_.scenes, {});
+  for (const fs::path& own : filesIn(file.parent_path())) {
+    if (isSceneFile(own)) {
+      add(own);
+    }
+  }
+  add(file);
+  for (const fs::path& shipped : filesIn(dataDirectory("scenes"))) {
+    add(shipped);
+  }
+  for (const SceneEntry& entry : before) {
+    add(entry.file);
+  }
+  view_.shown = add(file);
+}
+
+size_t SceneBrowser::add(const fs::path& file) {
+  std::error_code error;
+  const fs::path wanted = fs::weakly_canonical(file, error);
+  const auto found = std::find_if(view_.scenes.begin(), view_.scenes.end(), [&](const SceneEntry& other) {
+    return fs::weakly_canonical(other.file, error) == wanted;
+  });
+  if (found == view_.scenes.end()) {
+    const bool model = isModelFile(file);
+    view_.scenes.push_back({.name = (model ? file.filename() : file.stem()).string(),
+                            .title = model ? std::string() : sceneTitle(file),
+                            .file = fs::absolute(file, error).lexically_normal()});
+    return view_.scenes.size() - 1;
+  }
+  return static_cast<size_t>(found - view_.scenes.begin());
+}
+
+bool SceneBrowser::show(const fs::path& file, bool withFolder) {
+  const size_t known = view_.scenes.size();
+  view_.shown = add(file);
+  const bool fresh = view_.scenes.size() > known;
+  if (fresh && withFolder) {
+    list(file);
+  }
+  return fresh;
+}
+
+std::vector<Image8> SceneBrowser::thumbnails() const {
+  std::vector<Image8> pictures;
+  for (const SceneEntry& entry : view_.scenes) {
+    const fs::path file = entry.file.parent_path() / "thumbnails" / (entry.file.stem().string() + ".jpg");
+    std::error_code none;
+    Image8 picture;
+    try {
+      picture = fs::exists(file, none) ? readImage8(file) : Image8();
+    } catch (const std::runtime_error& error) {
+      spdlog::warn("{}", error.what());
+    }
+    // A large one would take the texture that the fonts need.
+    const bool fits = picture.width <= largestThumbnail && picture.height <= largestThumbnail;
+    pictures.push_back(fits ? std::move(picture) : Image8());
+  }
+  return pictures;
+}
+
+void SceneBrowser::open(const fs::path& file, const Options& options) {
+  load_.start({file, 0.0}, [file, options](const auto& report) {
+    const auto progress = [&](const fs::path& now, double done) {
+      if (!report({now, done})) {
+        throw std::runtime_error("cancelled");
+      }
+    };
+    return std::make_unique<LoadedScene>(loadSceneWithSettings(file, options, progress));
+  });
+}
+
+fs::path SceneBrowser::choose(const std::vector<fs::path>& files) {
+  const auto file = std::find_if(files.begin(), files.end(), [](const fs::path& candidate) {
+    return isModelFile(candidate) || candidate.extension() == ".toml";
+  });
+  if (file == files.end()) {
+    throw InputError((files.empty() ? std::string("nothing") : files.front().string()) +
+                     ": not a scene (a .toml scene or an .obj model is needed)");
+  }
+  return *file;
+}
+
+std::unique_ptr<LoadedScene> SceneBrowser::takeLoaded() {
+  return load_.takeResult().value_or(nullptr);
+}
+
+void SceneBrowser::updateView() {
+  const std::optional<Progress> progress = load_.progress();
+  view_.loading = progress ? progress->file.filename().string() : "";
+  view_.loaded = progress ? progress->done : 0.0;
+}
+
+}  // namespace speculum

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <string>
+
+#include "ui/views.hpp"
+
+namespace speculum {
+
+// The result of the last action, shown for some seconds.
+class StatusLine {
+ public:
+  void set(const std::string& text) {  // and logs it
+    spdlog::info("{}", text);
+    show(text);
+  }
+  void show(const std::string& text) {
+    view_.text = text;
+    since_ = Clock::now();
+  }
+  void clear() { view_.text.clear(); }
+  // Once a frame. `withPanelOnly`: the picture is being saved.
+  void update(bool withPanelOnly) {
+    view_.withPanelOnly = withPanelOnly;
+    view_.age = age();
+    if (statusAlpha(view_.age) <= 0.0f) {
+      clear();
+    }
+  }
+  bool fades() const { return !view_.text.empty() && statusAlpha(age()) < 1.0f; }
+  const StatusView& view() const { return view_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double age() const { return std::chrono::duration<double>(Clock::now() - since_).count(); }
+
+  StatusView view_;
+  Clock::time_point since_;
+};
+
+}  // namespace speculum

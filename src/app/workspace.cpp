@@ -1,0 +1,444 @@
+#include "app/workspace.hpp"
+
+#include <algorithm>
+
+#include "app/screenshot.hpp"
+#include "app/view_command.hpp"
+#include "platform/folders.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+template <typename... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+
+// Models that come with the program, where its scenes look for them.
+std::vector<fs::path> findShippedModels() {
+  std::vector<fs::path> models;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(dataDirectory("scenes").parent_path() / "models", none)) {
+    if (isModelFile(entry.path())) {
+      models.push_back(entry.path());
+    }
+  }
+  std::sort(models.begin(), models.end());
+  return models;
+}
+
+}  // namespace
+
+Workspace::Workspace(const Options& options, WorkspaceHost& host)
+    : options_(options),
+      host_(host),
+      logCapture_(log_),
+      loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
+      shippedModels_(findShippedModels()),
+      accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
+  browser_.list(loaded_->scene.file);
+  startDocument();
+}
+
+void Workspace::startDocument() {
+  // A scene that is being traced in the background must not change meanwhile.
+  document_ = std::make_unique<DocumentController>(*loaded_, shippedModels_, options_.frames == 0,
+                                                   [this] { accuracy_.forgetScene(); });
+  pointer_.cancel();
+  camera_.sceneChanged(scene());
+  report_.clear();
+  const Environment& environment = scene().environment;
+  settings_ = {.current = loaded_->settings,
+               .ofScene = loaded_->settings,
+               .sky = environment.sky.has_value(),
+               .background = glm::vec3(environment.background)};
+  shownStructure_ = document_->editor().document().structureRevision();
+  edit_ = {};
+  document_->fill(edit_, settings_.current);
+}
+
+void Workspace::apply(const Command& command) {
+  std::visit(Overloaded{
+                 [&](const ResetCamera&) { camera_.reset(scene()); },
+                 [&](const ToggleCameraMode&) { camera_.toggleMode(); },
+                 [&](const SetCameraMode& c) { camera_.setMode(c.mode); },
+                 [&](const FrameSelection&) { frameSelection(); },
+                 [&](const LookFromMirror& c) { lookFromMirror(c.side); },
+                 [&](const AddBookmark&) {
+                   editor().addBookmark(camera_.bookmark(state(time()).camera));
+                   camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
+                 },
+                 [&](const GoToBookmark& c) { camera_.goToBookmark(c.index, scene()); },
+                 [&](const GoToNextBookmark&) { camera_.goToNextBookmark(scene()); },
+                 [&](const RemoveBookmark& c) {
+                   if (c.index < scene().bookmarks.size()) {
+                     editor().removeBookmark(c.index);
+                   }
+                 },
+                 [&](const Seek& c) { playback_.seek(c.seconds); },
+                 [&](const StepTime& c) { playback_.step(c.steps); },
+                 [&](const SetPaused& c) { playback_.setPaused(c.paused); },
+                 [&](const TogglePaused&) { playback_.setPaused(!playback_.view().paused); },
+                 [&](const SetTimeSpeed& c) { playback_.setSpeed(c.factor); },
+                 [&](const MultiplyTimeSpeed& c) { playback_.setSpeed(c.factor * playback_.view().speed); },
+                 [&](const SetSettings& c) { settings_.current = c.settings; },
+                 [&](const ResetSettings&) { settings_.current = loaded_->settings; },
+                 [&](const OpenScene& c) { open(c.file); },
+                 [&](const OpenDropped& c) { openDropped(c.files); },
+                 [&](const CancelLoading&) {
+                   browser_.cancelLoading();
+                   document_->forgetDiscard();
+                 },
+                 [&](const Save&) { resume(document_->save(settings_.current)); },
+                 [&](const AskWhereToSave&) { document_->askWhere(); },
+                 [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_.current)); },
+                 [&](const DiscardChanges&) { resume(document_->discard(settings_.current)); },
+                 [&](const CancelPrompt&) {
+                   document_->cancelPrompt();
+                   if (browser_.loaded()) {
+                     browser_.cancelLoading();
+                   }
+                 },
+                 [&](const Quit&) { quit(); },
+                 [&](const SelectNode& c) { editor().select(c.node); },
+                 [&](const ToggleNode& c) { editor().toggle(c.node); },
+                 [&](const SelectNext& c) {
+                   editor().selectNext(c.step);
+                   host_.openInspector();
+                 },
+                 [&](const SetGizmoMode& c) { editor().setMode(c.mode); },
+                 [&](const ToggleGizmoMode&) { editor().toggleMode(); },
+                 [&](const EditNode& c) { editor().edit(c.node, c.continued); },
+                 [&](const EndEdit&) { editor().endEdit(); },
+                 [&](const AddMirror&) {
+                   if (const auto view = sceneView(time())) {
+                     editor().addMirror(*view);
+                   }
+                 },
+                 [&](const AddLight&) {
+                   if (const auto view = sceneView(time())) {
+                     editor().addLight(*view);
+                   }
+                 },
+                 [&](const AddObject& c) { addObject(c.model); },
+                 [&](const DuplicateSelected&) { editor().duplicate(); },
+                 [&](const RemoveSelected&) { editor().remove(); },
+                 [&](const Undo&) { undo(); },
+                 [&](const Redo&) { redo(); },
+                 [&](const MeasureAccuracy&) { measureAccuracy(); },
+                 [&](const CancelMeasurement&) { accuracy_.cancel(); },
+                 [&](const ApplyPoint& c) { accuracy_.applyPoint(c.point, settings_.current); },
+                 [&](const ShowDifference& c) { accuracy_.showDifference(c.shown); },
+                 [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
+                 [&](const ToggleRecording& c) { toggleRecording(c.withPanel); },
+                 [&](const CopyCommandLine&) { copyCommandLine(); },
+                 [&](const CopyText& c) { host_.setClipboard(c.text); },
+                 [&](const SetPresentMode& c) { host_.setPresentMode(c.index); },
+                 [&](const ToggleFullScreen&) { host_.toggleFullScreen(); },
+                 [&](const TogglePanel&) { host_.togglePanels(); },
+                 [&](const ToggleHelp&) { host_.toggleHelp(); },
+                 [&](const ToggleInspector&) { host_.toggleInspector(); },
+                 [&](const Escape&) { escape(); },
+                 [&](const PauseHistory& c) { report_.history().setPaused(c.paused); },
+                 [&](const ClearHistory&) { report_.history().clear(); },
+                 [&](const ClearLog&) { log_.clear(); },
+             },
+             command);
+}
+
+void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
+  const bool clicked = pointer_.button(event, overPanels, editor(), [this] { return sceneView(time()); });
+  if (clicked && editor().document().selection()) {
+    host_.openInspector();
+  }
+}
+
+void Workspace::pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap) {
+  const glm::dvec2 pixelsPerUnit = glm::dvec2(host_.pictureSize()) / glm::max(windowSize, 1.0);
+  pointer_.move(position, pixelsPerUnit, windowSize.y, snap, editor(), camera_.camera());
+}
+
+double Workspace::frameSeconds(double seconds) const {
+  return capture_.recording() ? 1.0 / Capture::framesPerSecond : seconds;
+}
+
+void Workspace::moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds) {
+  camera_.move(direction, pad, seconds);
+}
+
+SceneState Workspace::state(double time) {
+  SceneState state = evaluate(scene(), time);
+  state.camera = camera_.camera().pose(state.camera);
+  return state;
+}
+
+// Nothing while the window has no pixels.
+std::optional<SceneView> Workspace::sceneView(double time) {
+  const glm::ivec2 size = host_.pictureSize();
+  if (size.x == 0 || size.y == 0) {
+    return std::nullopt;
+  }
+  SceneState shown = state(time);
+  const PictureView picture(shown.camera, size.x, size.y);
+  const ReflectionSettings& reflection = settings_.current.reflection;
+  return SceneView{.state = std::move(shown),
+                   .picture = picture,
+                   .limits = {reflection.maxDepth, reflection.minThroughput, report_.skipped()},
+                   .scale = host_.contentScale()};
+}
+
+double Workspace::aspect() const {
+  const glm::ivec2 size = host_.pictureSize();
+  return size.y > 0 ? static_cast<double>(size.x) / size.y : 1.0;
+}
+
+void Workspace::prepareView(double seconds, bool pointerOverPicture) {
+  document_->fill(edit_, settings_.current);
+  edit_.overlay = {};
+  if (edit_.selected) {
+    if (const auto view = sceneView(playback_.after(seconds))) {
+      const bool points = pointerOverPicture && !pointer_.dragging();
+      edit_.overlay = editor().overlay(*view, points ? std::optional(pointer_.pixel()) : std::nullopt);
+    }
+  }
+  camera_.listBookmarks(scene());
+  status_.update(capture_.wanted());
+}
+
+UiView Workspace::view(const DeviceView& device, const std::string& message) const {
+  return {.frame = report_.view(),
+          .device = device,
+          .browser = browser_.view(),
+          .settings = settings_,
+          .camera = camera_.view(),
+          .playback = playback_.view(),
+          .edit = edit_,
+          .accuracy = accuracy_.view(),
+          .status = status_.view(),
+          .log = log_,
+          .message = message};
+}
+
+void Workspace::update() {
+  takeSceneChange();
+  // Changes made while the scene was read are not lost either.
+  if (browser_.loaded() && document_->confirmDiscard(settings_.current, std::nullopt)) {
+    showScene(browser_.takeLoaded());
+  } else if (const std::optional<std::string> error = browser_.takeError()) {
+    problem_ = *error;
+    document_->forgetDiscard();
+  }
+  browser_.updateView();
+  accuracy_.beforeFrame(settings_.current);
+}
+
+// Images that are reused whatever they show would show the scene before the change, and those of mirrors whose indices
+// changed another mirror. All others are compared with what they show.
+void Workspace::takeSceneChange() {
+  if (!editor().changedSinceLastCall()) {
+    return;
+  }
+  const Settings& settings = settings_.current;
+  const uint64_t structure = editor().document().structureRevision();
+  const bool restructured = std::exchange(shownStructure_, structure) != structure;
+  if (restructured || settings.reflection.updateInterval > 1 || settings.effects.environmentInterval > 1) {
+    host_.dropCachedImages();
+  }
+}
+
+void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured) {
+  if (captured) {
+    const Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
+    saved.logged ? status_.set(saved.message) : status_.show(saved.message);
+  }
+  accuracy_.afterFrame(shown, radiance);
+}
+
+// The prompt about unsaved changes comes first; its answer goes on here.
+void Workspace::open(const fs::path& file) {
+  if (document_->confirmDiscard(settings_.current, OpenScene{file})) {
+    Options options = options_;
+    options.sweepResults.clear();  // of the scene that the window began with
+    problem_.clear();
+    browser_.open(file, options);
+  }
+}
+
+void Workspace::openDropped(const std::vector<fs::path>& files) {
+  try {
+    open(SceneBrowser::choose(files));
+  } catch (const InputError& error) {
+    problem_ = error.what();
+  }
+}
+
+void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
+  accuracy_.forgetScene();
+  std::swap(loaded_, scene);
+  try {
+    host_.useScene(loaded_->scene);
+  } catch (const std::exception& error) {
+    problem_ = loaded_->scene.file.string() + ": " + error.what();
+    std::swap(loaded_, scene);
+    document_->forgetDiscard();
+    return host_.useScene(loaded_->scene);
+  }
+  startDocument();
+  playback_.seek(0.0);
+  if (browser_.show(loaded_->scene.file, true)) {
+    host_.scenesListed();
+  }
+}
+
+// A model that the scene does not have is read first. If that fails the scene is as before.
+void Workspace::addObject(const fs::path& model) {
+  const std::optional<SceneView> view = sceneView(time());
+  if (!view) {
+    return;
+  }
+  Scene& scene = loaded_->scene;
+  const auto meshes = static_cast<std::ptrdiff_t>(scene.meshes.size());
+  const auto textures = static_cast<std::ptrdiff_t>(scene.textures.size());
+  const auto grown = [&] { return static_cast<std::ptrdiff_t>(scene.meshes.size()) > meshes; };
+  document_->setNote("");
+  try {
+    const fs::path file = editor().modelFile(model);
+    accuracy_.forgetScene();
+    const int mesh = addModel(scene, file);
+    if (grown()) {
+      useModels();
+    }
+    editor().addObject(*view, mesh);
+  } catch (const std::exception& error) {
+    document_->setNote(error.what());
+    status_.set(error.what());
+    if (grown()) {
+      scene.meshes.erase(scene.meshes.begin() + meshes, scene.meshes.end());
+      scene.textures.erase(scene.textures.begin() + textures, scene.textures.end());
+      useModels();
+    }
+  }
+}
+
+void Workspace::useModels() {
+  host_.useScene(scene());
+  editor().modelsChanged();
+}
+
+void Workspace::resume(const std::optional<Command>& afterPrompt) {
+  if (document_->savedSinceLastCall()) {
+    status_.set(document_->note());
+    settings_.ofScene = settings_.current;
+    if (browser_.show(scene().file, false)) {
+      host_.scenesListed();
+    }
+  }
+  if (afterPrompt) {
+    apply(*afterPrompt);
+  }
+}
+
+void Workspace::quit() {
+  if (document_->confirmDiscard(settings_.current, Quit{})) {
+    host_.close();
+  }
+}
+
+// Ends one state at a time.
+void Workspace::escape() {
+  if (editor().dragging()) {
+    return editor().cancelDrag();
+  }
+  if (host_.closeTopWindow()) {
+    return;
+  }
+  if (editor().document().selection()) {
+    return editor().select({});
+  }
+  status_.clear();
+}
+
+void Workspace::undo() {
+  const std::string step = editor().document().undoLabel();
+  editor().undo();
+  status_.set(step.empty() ? "nothing to undo" : "undone: " + step);
+}
+
+void Workspace::redo() {
+  const std::string step = editor().document().redoLabel();
+  editor().redo();
+  status_.set(step.empty() ? "nothing to redo" : "redone: " + step);
+}
+
+void Workspace::frameSelection() {
+  const Sphere bounds = boundsOf(scene(), evaluate(scene(), time()), editor().document().selection());
+  if (bounds.radius > 0.0) {
+    camera_.camera().frame(bounds, aspect());
+  }
+}
+
+void Workspace::lookFromMirror(MirrorSide side) {
+  camera_.lookFromMirror(side, scene(), evaluate(scene(), time()), editor().document().selection(),
+                         report_.view().passes, aspect());
+}
+
+// The options that draw the present view of the scene in `file`.
+Options Workspace::shownOptions(const fs::path& file) {
+  Options options = options_;
+  const glm::ivec2 size = host_.pictureSize();
+  options.scene = file.string();
+  options.size = {size.x, size.y};
+  options.time = time();
+  return options;
+}
+
+void Workspace::copyCommandLine() {
+  try {
+    const fs::path file = document_->savedOrCopy();
+    Options options = shownOptions(file);
+    if (const auto place = camera_.camera().place()) {
+      options.camera = CameraPlace{place->eye, place->target, std::nullopt};
+    }
+    const std::string command = viewCommand(options, file, scene(), settings_.current);
+    host_.setClipboard(command);
+    const bool copy = file != scene().file;
+    status_.set("copied: " + command + (copy ? "   (of a copy of the scene: it has unsaved changes)" : ""));
+  } catch (const std::runtime_error& error) {
+    status_.set("not copied: " + std::string(error.what()));
+  }
+}
+
+void Workspace::measureAccuracy() {
+  try {
+    SweepRequest request{.options = shownOptions(document_->savedOrCopy()),
+                         .base = settings_.current,
+                         .camera = state(time()).camera,
+                         .time = time()};
+    request.options.gpu = host_.gpu();
+    accuracy_.measure(std::move(request));
+  } catch (const std::runtime_error& error) {
+    accuracy_.setProblem(error.what());
+  }
+}
+
+void Workspace::toggleRecording(bool withPanel) {
+  if (const auto message = capture_.toggleRecording(scene().file.stem().string(), withPanel)) {
+    status_.set(*message);
+  }
+}
+
+void Workspace::keepUnsavedWork() noexcept {
+  try {
+    const fs::path file = document_->savedOrCopy();
+    if (file != scene().file) {
+      spdlog::error("unsaved changes are kept in {}", file.string());
+    }
+  } catch (const std::exception& error) {
+    spdlog::error("unsaved changes are lost: {}", error.what());
+  }
+}
+
+}  // namespace speculum

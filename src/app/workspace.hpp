@@ -1,0 +1,130 @@
+#pragma once
+
+#include "app/accuracy_controller.hpp"
+#include "app/capture.hpp"
+#include "app/document_controller.hpp"
+#include "app/frame_report.hpp"
+#include "app/log_capture.hpp"
+#include "app/playback.hpp"
+#include "app/pointer_controller.hpp"
+#include "app/scene_browser.hpp"
+#include "app/status_line.hpp"
+#include "app/view_controller.hpp"
+
+namespace speculum {
+
+// The window around a workspace, as far as the workspace needs it.
+class WorkspaceHost {
+ public:
+  virtual ~WorkspaceHost() = default;
+
+  // Draws this scene from now on, or the same one with other models. If it throws, another call follows.
+  virtual void useScene(const Scene& scene) = 0;
+  virtual void dropCachedImages() = 0;
+  virtual void scenesListed() = 0;             // the list of scenes has changed
+  virtual glm::ivec2 pictureSize() const = 0;  // pixels; 0 while there is nothing to see
+  virtual double contentScale() const = 0;
+  virtual std::string gpu() const = 0;  // as --gpu names it
+  virtual void setClipboard(const std::string& text) = 0;
+  virtual void close() = 0;
+  virtual void toggleFullScreen() = 0;
+  virtual void setPresentMode(size_t index) = 0;
+  virtual void togglePanels() = 0;
+  virtual void toggleHelp() = 0;
+  virtual void toggleInspector() = 0;
+  virtual void openInspector() = 0;
+  virtual bool closeTopWindow() = 0;  // false if there is none
+};
+
+// The scene that is shown and all that can be done with it: every action of the user comes here as a command, from
+// panels, keys, gamepad and tests alike. Knows neither a window nor a GPU.
+class Workspace {
+ public:
+  // Loads the scene of the options. The host must outlive the workspace, and is not called before the first command.
+  // Throws UsageError and InputError.
+  Workspace(const Options& options, WorkspaceHost& host);
+
+  void apply(const Command& command);
+
+  // The pointer, in screen coordinates of the window; `overPanels`: what it does there is the panels'.
+  void pointerButton(const MouseButtonEvent& event, bool overPanels);
+  void pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap);
+  void scrolled(double notches) { camera_.camera().zoom(notches); }
+
+  // The stages of a frame, in this order. `seconds` since the last frame.
+  double frameSeconds(double seconds) const;  // that the frame takes: fixed while frames are recorded
+  void moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds);
+  // Fills the view for the frame that is `seconds` from now. `pointerOverPicture`: handles below it light up.
+  void prepareView(double seconds, bool pointerOverPicture);
+  UiView view(const DeviceView& device, const std::string& message) const;
+  void update();  // after the frame's commands: takes what came from the background
+  void advance(double seconds) { playback_.advance(seconds); }
+  void frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured);
+
+  // Whether frames are wanted although nothing happens.
+  bool animates() const { return !playback_.view().paused && moves(scene()); }
+  bool working() const { return accuracy_.working() || browser_.loading(); }
+  bool statusFades() const { return status_.fades(); }
+
+  // After an exception that ends the program: keeps unsaved changes in a copy, and logs where.
+  void keepUnsavedWork() noexcept;
+
+  const Scene& scene() const { return loaded_->scene; }
+  Settings& settings() { return settings_.current; }
+  const Settings& settings() const { return settings_.current; }
+  double time() const { return playback_.view().time; }
+  SceneState state(double time);                           // with the camera of the window
+  const std::string& problem() const { return problem_; }  // with the last scene; empty: none
+  AccuracyController& accuracy() { return accuracy_; }
+  SceneBrowser& browser() { return browser_; }
+  const Capture& capture() const { return capture_; }
+  FrameReport& report() { return report_; }
+  const PointerController& pointer() const { return pointer_; }
+  bool prompting() const { return document_->prompting(); }
+  const DocumentController& document() const { return *document_; }
+
+ private:
+  void open(const std::filesystem::path& file);
+  void openDropped(const std::vector<std::filesystem::path>& files);
+  void showScene(std::unique_ptr<LoadedScene> scene);
+  void startDocument();
+  void addObject(const std::filesystem::path& model);
+  void useModels();
+  void resume(const std::optional<Command>& afterPrompt);
+  void quit();
+  void escape();
+  void undo();
+  void redo();
+  void copyCommandLine();
+  void measureAccuracy();
+  void toggleRecording(bool withPanel);
+  void frameSelection();
+  void lookFromMirror(MirrorSide side);
+  void takeSceneChange();
+  std::optional<SceneView> sceneView(double time);
+  Options shownOptions(const std::filesystem::path& file);
+  double aspect() const;
+  SceneEditor& editor() { return document_->editor(); }
+
+  Options options_;
+  WorkspaceHost& host_;
+  LogHistory log_;
+  LogCapture logCapture_;
+  std::unique_ptr<LoadedScene> loaded_;
+  std::vector<std::filesystem::path> shippedModels_;
+  std::unique_ptr<DocumentController> document_;  // of loaded_
+  SceneBrowser browser_;
+  AccuracyController accuracy_;
+  ViewController camera_;
+  PointerController pointer_;
+  Playback playback_;
+  Capture capture_;
+  StatusLine status_;
+  FrameReport report_;
+  SettingsView settings_;
+  EditView edit_;
+  std::string problem_;
+  uint64_t shownStructure_ = 0;  // of the scene, in the last frame
+};
+
+}  // namespace speculum

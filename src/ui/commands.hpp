@@ -1,0 +1,155 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "edit/gizmo.hpp"
+#include "edit/transform.hpp"
+#include "frame/settings.hpp"
+
+namespace speculum {
+
+enum class CameraMode { fly, orbit };
+enum class MirrorSide { back, front };
+
+// Camera.
+struct ResetCamera {};
+struct ToggleCameraMode {};
+struct SetCameraMode {
+  CameraMode mode = CameraMode::orbit;
+};
+struct FrameSelection {};  // looks at the selected node, or at the whole scene
+struct LookFromMirror {    // the selected one, or the one that fills most of the picture
+  MirrorSide side = MirrorSide::back;
+};
+struct AddBookmark {};
+struct GoToBookmark {
+  size_t index = 0;
+};
+struct GoToNextBookmark {};
+struct RemoveBookmark {
+  size_t index = 0;
+};
+
+// Animation.
+struct Seek {
+  double seconds = 0.0;
+};
+struct StepTime {  // pauses
+  int steps = 0;
+};
+struct SetPaused {
+  bool paused = false;
+};
+struct TogglePaused {};
+struct SetTimeSpeed {
+  double factor = 1.0;
+};
+struct MultiplyTimeSpeed {
+  double factor = 1.0;
+};
+
+// Settings.
+struct SetSettings {
+  Settings settings;
+};
+struct ResetSettings {};
+
+// Files.
+struct OpenScene {
+  std::filesystem::path file;
+};
+struct OpenDropped {
+  std::vector<std::filesystem::path> files;
+};
+struct CancelLoading {};
+struct Save {};
+struct AskWhereToSave {};
+struct SaveAs {
+  std::filesystem::path file;
+};
+struct DiscardChanges {};
+struct CancelPrompt {};
+struct Quit {};
+
+// Editing.
+struct SelectNode {
+  Selection node;
+};
+struct ToggleNode {  // adds it to the selected ones, or takes it out
+  Selection node;
+};
+struct SelectNext {
+  int step = 1;
+};
+struct SetGizmoMode {
+  GizmoMode mode = GizmoMode::move;
+};
+struct ToggleGizmoMode {};
+struct EditNode {  // the selected one
+  Thing node;
+  bool continued = false;  // a widget is held: what follows until EndEdit is the same step of undo
+};
+struct EndEdit {};
+struct AddMirror {};
+struct AddLight {};
+struct AddObject {
+  std::filesystem::path model;  // absolute, or from the scene's folder
+};
+struct DuplicateSelected {};
+struct RemoveSelected {};
+struct Undo {};
+struct Redo {};
+
+// Accuracy.
+struct MeasureAccuracy {};
+struct CancelMeasurement {};
+struct ApplyPoint {
+  int point = -1;
+};
+struct ShowDifference {
+  bool shown = false;
+};
+
+// Output.
+struct TakeScreenshot {
+  bool withPanel = true;
+};
+struct ToggleRecording {
+  bool withPanel = true;
+};
+struct CopyCommandLine {};
+struct CopyText {
+  std::string text;
+};
+
+// The window and its panels.
+struct SetPresentMode {
+  size_t index = 0;  // into DeviceView::presentModes
+};
+struct ToggleFullScreen {};
+struct TogglePanel {};
+struct ToggleHelp {};
+struct ToggleInspector {};
+struct Escape {};  // cancels a drag, closes what is on top, deselects, or dismisses the message
+struct PauseHistory {
+  bool paused = false;
+};
+struct ClearHistory {};
+struct ClearLog {};
+
+// One action of the user. Panels, keys and the gamepad make commands; Demo::apply carries them out.
+using Command =
+    std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
+                 GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused, SetTimeSpeed,
+                 MultiplyTimeSpeed, SetSettings, ResetSettings, OpenScene, OpenDropped, CancelLoading, Save,
+                 AskWhereToSave, SaveAs, DiscardChanges, CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext,
+                 SetGizmoMode, ToggleGizmoMode, EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected,
+                 RemoveSelected, Undo, Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, ShowDifference,
+                 TakeScreenshot, ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen,
+                 TogglePanel, ToggleHelp, ToggleInspector, Escape, PauseHistory, ClearHistory, ClearLog>;
+
+}  // namespace speculum

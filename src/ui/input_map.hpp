@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "platform/window.hpp"
+#include "ui/commands.hpp"
+
+namespace speculum {
+
+// A key or a movement of the pointer, and what it does in the window.
+struct Shortcut {
+  const char* keys;  // as the list of keys shows it
+  const char* help;
+  Key key = Key::unknown;
+  bool control = false;
+  bool shift = false;
+  bool repeats = false;
+  std::optional<Command> command = std::nullopt;
+};
+struct ShortcutGroup {
+  const char* name;
+  std::vector<Shortcut> shortcuts;
+};
+std::span<const ShortcutGroup> shortcutGroups();
+std::span<const Shortcut> gamepadHelp();
+
+// The command of a key that goes down. Shift is ignored for keys that have no command of their own with it.
+std::optional<Command> commandOf(const KeyEvent& event);
+
+struct GamepadCommand {
+  Command command;
+  bool inPanels = false;  // also while the panels are navigated
+};
+GamepadCommand commandOf(GamepadButton button);
+
+}  // namespace speculum

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "ui/panels.hpp"
+#include "ui/theme.hpp"
+
+namespace speculum {
+
+// All windows of the user interface in the current Dear ImGui context: what they show comes in as a view, what the user
+// does goes out as commands. Knows no Vulkan and no GLFW.
+class PanelWindows {
+ public:
+  PanelWindows();
+
+  // Once, before the first frame of the ImGui context, which must end before this object.
+  void rememberLayout() { dock_.remember(); }
+  // Lays out everything between ImGui::NewFrame and ImGui::Render.
+  UiOutput build(const UiView& view);
+  void setThumbnails(std::vector<Image8> pictures) { thumbnails_ = Thumbnails(std::move(pictures)); }
+  Thumbnails& thumbnails() { return thumbnails_; }
+
+  const PanelState& state() const { return state_; }
+  Theme theme() const { return theme_; }
+  bool visible() const { return visible_; }
+  void setVisible(bool visible) { visible_ = visible; }
+  void toggleHelp();
+  void toggleInspector();
+  void openInspector() { state_.inspector = true; }
+  bool closeTop();  // the window on top, but for the main panel; false if there is none
+
+ private:
+  void mainPanel(PanelContext& ui);
+  void windowChoices(PanelContext& ui);
+  void themeChoice(PanelContext& ui);
+  void presentModes(PanelContext& ui);
+  void sideWindows(PanelContext& ui);
+  void targetsWindow(PanelContext& ui);
+
+  PanelDock dock_;
+  PanelState state_;
+  PanelChoices savedChoices_;
+  int pendingPercent_;  // while its slider is held
+  Theme theme_;
+  Thumbnails thumbnails_;
+  float statusWidth_ = 0.0f;  // pixels
+  bool visible_ = true;
+  bool showDemoWindow_ = false;
+};
+
+}  // namespace speculum

@@ -1,0 +1,229 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frame/depth_readout.hpp"
+#include "frame/frame_plan.hpp"
+#include "geometry/projection.hpp"
+#include "ui/commands.hpp"
+#include "ui/frame_history.hpp"
+#include "ui/log_history.hpp"
+
+namespace speculum {
+
+struct PassView {
+  std::string name;
+  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
+  int depth = -1;         // -1: not a mirror's
+  PassKind kind = PassKind::mirror;
+  PassId id;
+  int framesAgo = 0;  // since it ran
+  double gpuMs = 0.0;
+  double areaPx = 0.0;
+  uint32_t draws = 0;
+  std::optional<DepthReadout> resolution;  // a mirror's, if it sees anything but the background
+  std::vector<glm::vec2> outline;          // a mirror's: where it is seen, pixels of the picture
+};
+
+struct SkippedView {
+  std::string name;       // mirrors from the eye
+  std::vector<int> path;  // the same, indices into Scene::mirrors
+  std::string reason;
+  std::string detail;
+};
+
+struct EffectView {
+  std::string name;
+  bool calledFor = false;
+  std::string why;
+  uint32_t draws = 0;
+  uint64_t bytes = 0;
+  uint32_t pipelines = 0;
+};
+
+// A value of a target at a texel.
+struct TexelView {
+  glm::ivec2 texel{0};
+  bool depth = false;     // `metres` holds the value, otherwise `value` does
+  double metres = 0.0;    // from the eye along the view; infinite where nothing is
+  glm::dvec4 value{0.0};  // linear radiance; disparity, 1/m
+};
+
+// The target that UiOutput::target asked for.
+struct TargetView {
+  glm::ivec2 size{0};                           // texels
+  std::vector<glm::vec2> mask;                  // texels that the pass shades
+  std::vector<std::vector<glm::vec2>> mirrors;  // visible regions of the mirrors seen in it, texels
+  std::optional<TexelView> value;               // under the pointer, a few frames later
+};
+
+// Figures of the frame that was drawn last.
+struct FrameView {
+  double frameMs = 0.0;  // smoothed
+  double cpuMs = 0.0;
+  double gpuMs = 0.0;
+  FrameHistory history;
+  uint64_t deviceBytes = 0;
+  uint64_t budgetBytes = 0;
+  uint64_t usedBytes = 0;
+  int validationMessages = -1;   // -1: the layer is off
+  std::vector<PassView> passes;  // in the order of recording; with reflection.update_interval, of that many frames
+  std::vector<SkippedView> skipped;
+  std::vector<EffectView> effects;  // all, in a fixed order
+  TargetView target;
+  std::vector<int> outlinedSkipped;       // path of the skipped mirror that is outlined; empty: none
+  std::vector<PixelLine> skippedOutline;  // where it would be seen, on the picture
+};
+
+struct FeatureView {
+  std::string name;
+  bool present = false;
+  std::string about;  // "yes", or what is done without it
+};
+
+struct DeviceView {
+  std::string name;
+  std::string kind;  // e.g. discrete GPU
+  std::string driver;
+  std::string vulkan;  // version
+  std::string renderPath;
+  std::string samples;  // counts that it has
+  std::vector<FeatureView> features;
+  std::vector<std::string> presentModes;  // that the window offers
+  size_t presentMode = 0;                 // index into them
+};
+
+struct SceneEntry {
+  std::string name;
+  std::string title;  // empty for a model
+  std::filesystem::path file;
+};
+
+struct BrowserView {
+  std::vector<SceneEntry> scenes;
+  size_t shown = 0;     // index into them
+  std::string loading;  // file that is read in the background; empty: none
+  double loaded = 0.0;  // share of it, 0 .. 1
+};
+
+struct SettingsView {
+  Settings current;
+  Settings ofScene;            // as the scene and the command line have them: what a reset goes back to
+  bool sky = false;            // the scene has one; shown in the place of the clear color while none is set
+  glm::vec3 background{0.0f};  // linear; shown as the clear color while none is set
+};
+
+struct CameraView {
+  CameraMode mode = CameraMode::orbit;
+  std::vector<std::string> bookmarks;
+  int bookmark = -1;  // the one that was gone to last
+};
+
+inline constexpr double timeStep = 1.0 / 60.0;  // seconds, of a single step
+inline constexpr double slowestTime = 1.0 / 64.0;
+inline constexpr double fastestTime = 64.0;
+
+struct PlaybackView {
+  double time = 0.0;   // seconds of animation
+  double speed = 1.0;  // seconds of animation a second
+  bool paused = false;
+};
+
+// Drawn over the picture, in its pixels.
+struct OverlayView {
+  std::vector<PixelLine> outline;  // of the selected node, or of the image of it that was clicked
+  std::vector<PixelLine> itself;   // of the node, where an image was clicked
+  std::vector<GizmoShape> gizmo;
+  Grip active = Grip::none;  // hovered or dragged
+  std::string label;         // distance or angle of the drag
+  glm::dvec2 labelAt{0.0};
+};
+
+enum class Prompt { none, unsavedChanges, saveAs };
+
+// The scene as it is edited.
+struct EditView {
+  const Scene* scene = nullptr;  // must live as long as the view
+  Selection selected;
+  std::vector<Selection> others;  // selected together with it
+  std::vector<int> through;       // mirrors that it was picked through, from the eye
+  GizmoMode mode = GizmoMode::move;
+  std::vector<std::filesystem::path> models;  // that an object can be added of
+  std::string undo;                           // label of the step; empty: none
+  std::string redo;
+  bool unsaved = false;
+  bool unsavedSettings = false;  // differ from those that were saved or loaded
+  Prompt prompt = Prompt::none;
+  std::filesystem::path proposedFile;  // for Prompt::saveAs
+  std::string note;                    // what was saved, or why it was not
+  OverlayView overlay;
+};
+
+// A measured configuration.
+struct PointView {
+  std::string name;
+  double error = 0.0;  // mean FLIP
+  double ms = 0.0;     // GPU milliseconds a frame: median and quartiles
+  double lowerMs = 0.0;
+  double upperMs = 0.0;
+};
+
+struct AccuracyView {
+  std::vector<PointView> points;
+  std::vector<int> front;   // indices into points, cheapest first
+  int current = -1;         // the point that the settings are at; -1: none
+  double noiseFloor = 0.0;  // mean FLIP
+  std::string about;        // what was measured, where
+  bool measuring = false;
+  std::string stage;       // of the measurement that runs
+  double progress = 0.0;   // of the stage, 0 .. 1
+  std::string choice;      // point that the budget chose, and what it gave up
+  std::string difference;  // error of the picture, or what the difference view waits for
+  bool showsDifference = false;
+  std::vector<glm::vec3> heatBar;  // colors from no error to an error of 1, display sRGB
+};
+
+struct StatusView {
+  std::string text;
+  double age = 0.0;            // seconds
+  bool withPanelOnly = false;  // the window is saved as a picture: hidden with the panel
+};
+inline constexpr double statusSeconds = 8.0;  // that it is shown, fading in the last one
+float statusAlpha(double age);
+
+// Everything that the panels show of the program. It refers to its owners' values and is made anew for every frame.
+struct UiView {
+  const FrameView& frame;
+  const DeviceView& device;
+  const BrowserView& browser;
+  const SettingsView& settings;
+  const CameraView& camera;
+  const PlaybackView& playback;
+  const EditView& edit;
+  const AccuracyView& accuracy;
+  const StatusView& status;
+  const LogHistory& log;
+  std::string message;  // an error to show until the next one, e.g. of a shader or a scene
+};
+
+// The image of a pass that is to be drawn over the picture.
+struct TargetRequest {
+  std::vector<int> path;          // mirrors from the eye; empty: the main view
+  std::optional<PixelRect> area;  // pixels of the display image; none if only TargetView is wanted
+  bool depth = false;
+  double zoom = 1.0;                // pixels of the display a texel
+  glm::dvec2 origin{0.0};           // texel at the upper left corner of `area`
+  double halfDistance = 5.0;        // metres that depth shows half bright
+  std::optional<glm::ivec2> probe;  // texel whose value is wanted
+};
+
+// Commands that the user gave in the panels in one frame, and what the panels need from the next one.
+struct UiOutput {
+  std::vector<Command> commands;
+  std::optional<TargetRequest> target;
+  std::vector<int> hoveredSkipped;  // path of the skipped mirror that is to be outlined; empty: none
+};
+
+}  // namespace speculum

@@ -1,0 +1,177 @@
+// Parts of the window that stand alone.
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "app/background_job.hpp"
+#include "app/camera_controller.hpp"
+#include "app/frame_pacer.hpp"
+#include "platform/gamepad.hpp"
+
+namespace speculum {
+namespace {
+
+template <typename Done>
+bool waitFor(const Done& done) {
+  for (int i = 0; i < 1000 && !done(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return done();
+}
+
+TEST(BackgroundJob, ResultIsTakenOnce) {
+  BackgroundJob<int> job;
+  EXPECT_FALSE(job.busy());
+  std::atomic<bool> go = false;
+  job.start(0.25, [&](const auto& report) {
+    while (!go) {
+      std::this_thread::yield();
+    }
+    EXPECT_TRUE(report(0.5));
+    return 7;
+  });
+  EXPECT_EQ(job.progress(), 0.25);
+  go = true;
+  ASSERT_TRUE(waitFor([&] { return job.hasResult(); }));
+  EXPECT_FALSE(job.progress());
+  EXPECT_FALSE(job.takeError());
+  EXPECT_EQ(job.takeResult(), 7);
+  EXPECT_FALSE(job.takeResult());
+  EXPECT_FALSE(job.busy());
+}
+
+TEST(BackgroundJob, ExceptionsBecomeErrors) {
+  BackgroundJob<int> job;
+  job.start(0.0, [](const auto&) -> int { throw std::runtime_error("no disk"); });
+  ASSERT_TRUE(waitFor([&] { return job.finished(); }));
+  EXPECT_FALSE(job.takeResult());
+  EXPECT_EQ(job.takeError(), "no disk");
+  EXPECT_FALSE(job.takeError());
+}
+
+TEST(BackgroundJob, CancelledWorkIsDropped) {
+  BackgroundJob<int> job;
+  std::atomic<bool> ended = false;
+  const auto work = [&](const auto& report) {
+    while (report(0.0)) {
+      std::this_thread::yield();
+    }
+    ended = true;
+    return 1;
+  };
+  job.start(0.0, work);
+  job.cancel();
+  EXPECT_FALSE(job.running());
+  ASSERT_TRUE(waitFor([&] { return ended.load(); }));
+  EXPECT_FALSE(job.takeResult());
+  ended = false;
+  job.start(0.0, work);
+  job.stop();
+  EXPECT_TRUE(ended) << "stop waits";
+}
+
+TEST(FramePacer, DrawsUntilReusedImagesAreFresh) {
+  FramePacer pacer;
+  EXPECT_FALSE(pacer.due());
+  Settings settings;
+  settings.reflection.updateInterval = 9;
+  pacer.change(settings);
+  int frames = 0;
+  for (; pacer.due(); ++frames) {
+    pacer.frameDrawn();
+  }
+  EXPECT_EQ(frames, 4 + 9);
+  pacer.requestFrames(2);
+  pacer.requestFrames(1);
+  pacer.frameDrawn();
+  EXPECT_TRUE(pacer.due());
+}
+
+TEST(FramePacer, IdleTimeIsNoFrameTime) {
+  FramePacer pacer;
+  EXPECT_TRUE(std::isnan(pacer.beginFrame(3.0)));
+  EXPECT_EQ(pacer.beginFrame(0.5), 500.0);
+  pacer.idle();
+  EXPECT_TRUE(std::isnan(pacer.beginFrame(0.5)));
+}
+
+TEST(CameraControl, FramesSpheresInAnyPictureShape) {
+  CameraSpec spec;
+  spec.position = {1.0, 2.0, 3.0};
+  spec.target = {0.0, 0.5, 0.0};
+  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
+  const Sphere sphere{{5.0, -2.0, 1.0}, 3.0};
+  for (const double aspect : {0.25, 1.0, 4.0}) {
+    CameraController camera;
+    camera.reset(spec);
+    camera.pose(start);
+    camera.frame(sphere, aspect);
+    const CameraPose pose = camera.pose(start);
+    const glm::dvec3 seen = pose.worldToView * (sphere.center - pose.eye);
+    EXPECT_NEAR(seen.x, 0.0, 1e-9);
+    EXPECT_NEAR(seen.y, 0.0, 1e-9);
+    // The sphere touches the nearer pair of the frustum's sides.
+    const double half = 0.5 * pose.verticalFov;
+    const double narrower = std::min(half, std::atan(std::tan(half) * aspect));
+    EXPECT_NEAR(-seen.z * std::sin(narrower), sphere.radius, 1e-9);
+    EXPECT_NEAR(glm::distance(pose.worldToView[0], start.worldToView[0]), 0.0, 1e-9) << "the direction stays";
+  }
+}
+
+TEST(CameraControl, DragsTurnModeratelyAndStopAtThePole) {
+  CameraSpec spec;
+  spec.position = {0.0, 2.0, 4.0};
+  spec.target = {0.0, 1.0, 0.0};
+  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
+  for (const CameraMode mode : {CameraMode::orbit, CameraMode::fly}) {
+    CameraController camera;
+    camera.setMode(mode);
+    camera.reset(spec);
+    const auto forward = [&] { return -glm::dvec3(glm::transpose(camera.pose(start).worldToView)[2]); };
+    const glm::dvec3 before = forward();
+    camera.drag(0.0, 90.0);
+    const double turned = glm::degrees(std::acos(glm::dot(before, forward())));
+    EXPECT_GT(turned, 5.0);
+    EXPECT_LT(turned, 30.0);
+    for (const double way : {1.0, -1.0}) {
+      camera.drag(0.0, way * 5000.0);
+      const double pitch = glm::degrees(std::asin(forward().y));
+      EXPECT_GT(std::abs(pitch), 80.0) << "as far as it goes, in one large step too";
+      EXPECT_LT(std::abs(pitch), 89.0);
+      EXPECT_LT(pitch * way, 0.0) << "down to look up, in both modes";
+    }
+  }
+}
+
+TEST(CameraControl, FloorMirrorLeansWhereTheCameraLooks) {
+  CameraSpec spec;
+  spec.position = {0.0, 2.0, 5.0};
+  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
+  MirrorState floor;
+  floor.polygon = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+  floor.normal = {0, 1, 0};
+  for (const auto side : {MirrorSide::back, MirrorSide::front}) {
+    CameraController camera;
+    camera.reset(spec);
+    camera.pose(start);
+    camera.lookFrom(floor, side, 1.5);
+    const CameraPose pose = camera.pose(start);
+    EXPECT_EQ(pose.eye.y > 0.0, side == MirrorSide::front);
+    EXPECT_GT(pose.worldToView[1][2], -1.0);
+    const glm::dvec3 forward = -glm::dvec3(glm::transpose(pose.worldToView)[2]);
+    EXPECT_GT(forward.y, 0.9);
+    EXPECT_LT(forward.z, -0.1) << "the top of the picture is towards where the camera came from";
+  }
+}
+
+TEST(Gamepad, StickBeginsWithoutAJump) {
+  EXPECT_EQ(withoutDeadZone(0.2f), 0.0f);
+  EXPECT_EQ(withoutDeadZone(-0.25f), 0.0f);
+  EXPECT_FALSE(std::signbit(withoutDeadZone(-0.1f)));
+  EXPECT_NEAR(withoutDeadZone(0.26f), 0.0133f, 1e-3f);
+  EXPECT_EQ(withoutDeadZone(1.0f), 1.0f);
+  EXPECT_EQ(withoutDeadZone(-1.0f), -1.0f);
+}
+
+}  // namespace
+}  // namespace speculum

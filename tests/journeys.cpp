@@ -1,0 +1,620 @@
+// The window as a user drives it: real X events under a window manager, pictures compared. What single commands and
+// panels do is tested without a display.
+#include <random>
+
+#include "core/handle.hpp"
+#include "journeys_support.hpp"
+#include "scene/scene_loader.hpp"
+#include "test_paths.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+size_t at(int x, int y) {
+  return 4 * (static_cast<size_t>(y) * width + static_cast<size_t>(x));
+}
+
+TEST_F(Journey, KeysHideThePanelsAndQuit) {
+  const Image8 with = picture();
+  press("Tab");
+  const Image8 without = picture();
+  EXPECT_NE(with.rgba[at(30, 300)], without.rgba[at(30, 300)]);
+  press("Tab");
+  EXPECT_EQ(picture().rgba[at(30, 300)], with.rgba[at(30, 300)]);
+  press("F1");
+  const Image8 help = picture();
+  EXPECT_FALSE(
+      std::equal(with.rgba.begin() + at(450, 350), with.rgba.begin() + at(460, 350), help.rgba.begin() + at(450, 350)));
+  press("Escape");
+  EXPECT_FALSE(demo_->panels().help);
+  press("Escape");
+  EXPECT_FALSE(demo_->window().shouldClose()) << "Esc never quits";
+  xdotool({"key", "--window", window_, "ctrl+q"});
+  EXPECT_TRUE(waitForClose());
+  expectQuiet();
+}
+
+TEST_F(Journey, ClearColorReachesPictureAndReflections) {
+  const Image8 before = picture();
+  const PixelRect color = widget("view.clear_color");
+  dragFrom(color.x + 0.1 * color.width, color.y + color.height / 2.0, 120, 0);
+  run(3);
+  const Image8 after = picture();
+  ASSERT_TRUE(view().settings.current.view.clearColor);
+  const uint8_t* corner = after.at(width - 20, 20);
+  EXPECT_GT(corner[0], before.at(width - 20, 20)[0] + 20) << "the red field was dragged to the right";
+  EXPECT_EQ(corner[1], before.at(width - 20, 20)[1]);
+  EXPECT_NEAR(corner[0], 255.0 * srgbEncode(view().settings.current.view.clearColor->x), 1.0);
+  // The mirror reflects the background as well.
+  EXPECT_GT(after.at(width - 160, height / 2 - 60)[0], before.at(width - 160, height / 2 - 60)[0] + 10);
+  setSetting("reflection.max_depth", "0");
+  ASSERT_EQ(view().frame.skipped.size(), 1u);
+  EXPECT_EQ(view().frame.skipped[0].reason, "max_depth");
+  expectQuiet();
+}
+
+const std::string corridor = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 1.5]
+target = [0, 1, -2]
+[settings]
+"view.samples" = 1
+"reflection.samples" = 1
+[[object]]
+name = "ball"
+model = "MODELS/sphere.obj"
+position = [0.3, 1, 0.5]
+scale = 0.2
+[[light]]
+position = [-0.5, 1.5, 0]
+intensity = 4
+[[mirror]]
+name = "ahead"
+position = [0, 1, -2]
+size = [3, 2]
+[[mirror]]
+name = "behind"
+position = [0, 1, 2]
+rotation = [0, 180, 0]
+size = [3, 2]
+)";
+
+class EditJourney : public Journey {
+ protected:
+  EditJourney() : Journey(corridor) { press("Tab"); }
+
+  static constexpr double focalPixels = 0.5 * height * 1.7320508075688772;
+  const Object& ball() const { return view().edit.scene->objects.at(0); }
+};
+
+TEST_F(EditJourney, HandlesAreDraggedInAMirrorImage) {
+  const Image8 before = picture();
+  const glm::dvec2 image(width / 2.0 + focalPixels * 0.3 / 6.0, height / 2.0);
+  clickAt(image.x + 4, image.y);
+  ASSERT_EQ(view().edit.selected, (Selection{Selection::Kind::object, 0}));
+  ASSERT_EQ(view().edit.through, std::vector<int>{0});
+  // Upwards in the image as well; six metres away a pixel is more.
+  dragFrom(image.x, image.y - 60, 0, -30);
+  EXPECT_NEAR(ball().position.y, 1.0 + 6.0 * 30 / focalPixels, 2e-2);
+  EXPECT_EQ(ball().position.x, 0.3);
+  demo_->apply(SelectNode{});
+  const Image8 moved = barePicture();
+  EXPECT_NE(moved.rgba, before.rgba);
+  // By the printed letter of a German keyboard, where an American one has Y.
+  ASSERT_EQ(runProcess({"setxkbmap", "de"}).exitCode, 0);
+  run(3);
+  press("ctrl+z");
+  EXPECT_EQ(ball().position.y, 1.0);
+  demo_->apply(SelectNode{});
+  demo_->apply(TogglePanel{});
+  demo_->apply(Escape{});
+  run(4);
+  EXPECT_TRUE(picture().rgba == before.rgba) << "undone to the pixel";
+  expectQuiet();
+}
+
+// On Dvorak the comma stands where W is, and flies.
+TEST_F(Journey, ShortcutsAvoidFlyKeysOnDvorak) {
+  ASSERT_EQ(runProcess({"setxkbmap", "us", "-variant", "dvorak"}).exitCode, 0);
+  run(3);
+  press("space");
+  ASSERT_TRUE(view().playback.paused);
+  press("v");  // where an American keyboard has the full stop
+  const double time = view().playback.time;
+  press("w");  // where it has the comma
+  EXPECT_NEAR(view().playback.time, time - timeStep, 1e-12);
+  const glm::dvec3 before = demo_->camera().eye;
+  xdotool({"keydown", "--window", window_, "comma"});
+  run(4);
+  xdotool({"keyup", "--window", window_, "comma"});
+  run(2);
+  EXPECT_LT(demo_->camera().eye.z, before.z - 1e-3) << "forward";
+  EXPECT_NEAR(view().playback.time, time - timeStep, 1e-12);
+  expectQuiet();
+}
+
+TEST_F(Journey, RandomResizesLeakNothing) {
+  std::mt19937 random(42);
+  std::uniform_int_distribution<int> side(1, 500);
+  const auto resizeTo = [&](int w, int h) {
+    demo_->window().resize(w, h);
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_TRUE(demo_->step());
+    }
+  };
+  demo_->setCapture(false);
+  const auto settle = [&] {
+    resizeTo(300, 200);
+    run(20);
+    demo_->renderer().waitIdle();
+  };
+  resizeTo(1, 1);  // where mirrors are too small for passes, which is another pipeline
+  settle();
+  const auto objects = liveObjects();
+  for (int i = 0; i < 100; ++i) {
+    resizeTo(i % 20 == 0 ? 1 : side(random), i % 20 == 0 ? 1 : side(random));
+  }
+  settle();
+  EXPECT_EQ(liveObjects(), objects);
+  expectQuiet();
+}
+
+TEST_F(Journey, IconifiesAndFillsTheScreen) {
+  press("F11");
+  EXPECT_TRUE(waitFor([&] { return demo_->renderer().displayExtent().width == 1280; }));
+  EXPECT_TRUE(demo_->window().fullScreen());
+  press("F11");
+  EXPECT_TRUE(waitFor([&] { return demo_->renderer().displayExtent().width == uint32_t(width); }));
+  EXPECT_EQ(demo_->renderer().displayExtent().height, uint32_t(height));
+  demo_->window().iconify();
+  ASSERT_TRUE(waitFor([&] { return demo_->window().paused(); }));
+  const int drawn = demo_->framesDrawn();
+  for (int i = 0; i < 5; ++i) {
+    demo_->step();
+  }
+  EXPECT_EQ(demo_->framesDrawn(), drawn);
+  demo_->window().restore();
+  run(3);
+  expectQuiet();
+}
+
+TEST_F(Journey, CloseButtonAsksAndSaves) {
+  demo_->apply(SelectNode{{Selection::Kind::object, 0}});
+  press("Delete");
+  const auto close = [&] {
+    ASSERT_EQ(runProcess({"wmctrl", "-c", "Speculum"}).exitCode, 0);
+    ASSERT_TRUE(waitFor([&] { return view().edit.prompt == Prompt::unsavedChanges; }));
+    run(4);
+  };
+  close();
+  press("Escape");
+  EXPECT_EQ(view().edit.prompt, Prompt::none);
+  EXPECT_FALSE(demo_->window().shouldClose());
+  close();
+  xdotool({"key", "--window", window_, "Return"});  // the button that has the keyboard
+  EXPECT_TRUE(waitForClose());
+  EXPECT_TRUE(loadScene(options_.scene).objects.empty());
+  expectQuiet();
+}
+
+TEST_F(Journey, TapsBetweenTwoFramesReachTheTextField) {
+  press("ctrl+shift+s");
+  run(4);
+  // All of it before the next frame.
+  xdotool({"type", "--window", window_, "--delay", "1", "abcd"});
+  xdotool({"key", "--window", window_, "--delay", "1", "BackSpace", "BackSpace", "Left", "x"});
+  EXPECT_TRUE(waitFor([&] { return demo_->panels().saveAs == "axb"; })) << demo_->panels().saveAs;
+  press("Escape");
+  EXPECT_EQ(view().edit.prompt, Prompt::none);
+  expectQuiet();
+}
+
+TEST_F(Journey, ClickBelongsToItsOwnPosition) {
+  press("n");
+  ASSERT_TRUE(view().edit.selected);
+  const PixelRect box = widget("pause");
+  moveTo(width / 2, 30);
+  // All before the next frame.
+  xdotool({"mousemove", "--window", window_, std::to_string(box.x + 10), std::to_string(box.y + box.height / 2),
+           "mousedown", "1", "mouseup", "1", "mousemove", "--window", window_, std::to_string(width / 2), "30"});
+  run(5);
+  EXPECT_TRUE(view().edit.selected) << "no click into the picture";
+  EXPECT_TRUE(view().playback.paused);
+  expectQuiet();
+}
+
+TEST_F(Journey, ScreenshotsShowTheWindowWithAndWithoutPanels) {
+  press("space");
+  press("F12");
+  press("shift+F12");
+  ASSERT_EQ(pictures().size(), 2u);
+  const Image8 window = readImage8(pictures()[0]);
+  const Image8 bare = readImage8(pictures()[1]);
+  ASSERT_EQ(window.width, width);
+  EXPECT_NE(window.rgba, bare.rgba);
+  EXPECT_TRUE(barePicture().rgba == bare.rgba);
+  press("Tab");
+  press("F10");
+  press("F10");
+  EXPECT_NE(view().status.text.find("recorded "), std::string::npos);
+  EXPECT_TRUE(readImage8(pictures().back() / "00001.png").rgba == bare.rgba) << "the message is in no picture";
+  expectQuiet();
+}
+
+TEST_F(Journey, MessagesAreSmallAndFade) {
+  press("space");
+  press("Tab");
+  const Image8 before = picture();
+  press("ctrl+z");
+  ASSERT_EQ(view().status.text, "nothing to undo");
+  const Image8 with = picture();
+  int right = 0;
+  int top = height;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!std::equal(with.at(x, y), with.at(x, y) + 3, before.at(x, y))) {
+        right = std::max(right, x);
+        top = std::min(top, y);
+      }
+    }
+  }
+  EXPECT_LT(right, 200) << "no wider than it needs to be";
+  EXPECT_GT(right, 100);
+  EXPECT_GT(top, height - 40);
+  bool faded = false;
+  EXPECT_TRUE(waitFor([&] {
+    const Image8 now = picture();
+    faded = faded || (now.rgba != with.rgba && now.rgba != before.rgba);
+    return view().status.text.empty();
+  }));
+  run(2);
+  EXPECT_TRUE(faded) << "little by little";
+  EXPECT_TRUE(before.rgba == picture().rgba);
+  expectQuiet();
+}
+
+TEST_F(Journey, CopiedCommandDrawsTheSamePicture) {
+  press("space");
+  dragFrom(width - 100, 80, -80, 30);
+  setSetting("view.exposure", "0.5");
+  demo_->apply(SelectNode{{Selection::Kind::object, 0}});
+  demo_->apply(RemoveSelected{});
+  demo_->apply(StepTime{6});
+  const Image8 shown = barePicture();
+  click("copy");
+  const std::string command = demo_->window().clipboard();
+  const ProcessResult result = runProcess(
+      {"bash", "-c", "cd '" + home_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
+  ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
+  EXPECT_TRUE(readImage8(home_.path() / "journey.png").rgba == shown.rgba) << command;
+  expectQuiet();
+}
+
+TEST_F(Journey, SceneIsReadWhileTheWindowGoesOn) {
+  const std::filesystem::path model = home_.path() / "large.obj";
+  std::ofstream large(model);
+  for (int i = 0; i < 1000000; ++i) {
+    large << "v 0 0 0\n";
+  }
+  large << "v 1 0 0\nv 0 1 0\nf -3 -2 -1\n" << std::flush;
+  demo_->apply(OpenDropped{{"/notes.txt", model}});
+  const int drawn = demo_->framesDrawn();
+  run(2);
+  EXPECT_EQ(view().browser.loading, "large.obj");
+  EXPECT_EQ(view().browser.scenes[view().browser.shown].name, "journey") << "the scene stays meanwhile";
+  EXPECT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "large.obj"; }));
+  EXPECT_GT(demo_->framesDrawn(), drawn + 2);
+  run(3);
+  EXPECT_EQ(view().message, "");
+  expectQuiet();
+}
+
+TEST_F(Journey, GalleryShowsAndLoadsScenes) {
+  click("panel.Scenes");
+  run(3);
+  PixelRect tile = widget("gallery.bounced_light");
+  tile.height = tile.width * 108 / 192;  // without the title
+  const Image8 shown = picture();
+  const auto meanDifference = [&](const char* name) {
+    const Image8 thumbnail = readImage8(sourceFile("scenes/thumbnails/" + std::string(name) + ".jpg"));
+    double sum = 0.0;
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        const uint8_t* a = shown.at(tile.x + x, tile.y + y);
+        const uint8_t* b = thumbnail.at(x * thumbnail.width / tile.width, y * thumbnail.height / tile.height);
+        sum += std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+      }
+    }
+    return sum / (3.0 * tile.width * tile.height);
+  };
+  EXPECT_LT(meanDifference("bounced_light"), 10.0);
+  EXPECT_GT(meanDifference("facing_mirrors"), 20.0);
+  click("gallery.facing_mirrors");
+  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "facing_mirrors"; }));
+  run(3);
+  EXPECT_EQ(view().browser.scenes[view().browser.shown].title, "Facing mirrors");
+  const auto passes = view().frame.passes;
+  EXPECT_TRUE(std::any_of(passes.begin(), passes.end(), [](const PassView& p) { return p.depth > 0; }))
+      << "mirrors in mirrors are drawn";
+  expectQuiet();
+}
+
+TEST_F(Journey, GamepadMovesAndPresses) {
+  std::optional<GamepadState> pad = GamepadState{.leftY = -1.0f};
+  demo_->setGamepadSource([&] { return pad; });
+  const glm::dvec3 before = demo_->camera().eye;
+  run(4);
+  EXPECT_LT(demo_->camera().eye.z, before.z) << "forward";
+  pad = GamepadState{};
+  pad->buttons[static_cast<size_t>(GamepadButton::leftStick)] = true;
+  run(3);
+  EXPECT_EQ(demo_->camera().eye, before) << "back to the scene's camera";
+  pad = GamepadState{};
+  pad->buttons[static_cast<size_t>(GamepadButton::back)] = true;
+  const Image8 with = picture();
+  run(3);
+  EXPECT_NE(picture().rgba[at(30, 300)], with.rgba[at(30, 300)]) << "the panels are hidden";
+  demo_->setGamepadSource([] { return std::nullopt; });
+  expectQuiet();
+}
+
+TEST_F(Journey, TimesOfFramesAreComplete) {
+  click("panel.Performance");
+  run(12);
+  const FrameHistory& history = view().frame.history;
+  EXPECT_EQ(history.passNames(), (std::vector<std::string>{"mirror wall", "main view", "display", "overlay"}));
+  const std::vector<float> gpu = history.series(FrameHistory::Figure::gpu);
+  const auto passes = history.passSeries("main view");
+  int complete = 0;
+  for (size_t i = 0; i < gpu.size(); ++i) {
+    complete += gpu[i] > 0.0f && passes[i] > 0.0f && passes[i] < gpu[i] + 0.001f;
+  }
+  EXPECT_GT(complete, 6) << "those of the newest frames are still to come";
+  ASSERT_TRUE(view().frame.passes[0].resolution);
+  EXPECT_GT(view().frame.passes[0].resolution->distance, 6.0) << "the light, seen in the mirror";
+  press("Tab");
+  run(4);
+  EXPECT_TRUE(demo_->renderer().timings().passes.empty()) << "no panel shows them";
+  EXPECT_GT(demo_->renderer().timings().gpuMs, 0.0);
+  const DeviceView& device = view().device;
+  EXPECT_EQ(device.name, demo_->device().info().name);
+  EXPECT_EQ(device.renderPath, renderPathName(demo_->device().renderPath()));
+  EXPECT_EQ(device.samples.find("1 "), 0u);
+  EXPECT_GT(view().frame.deviceBytes, 1u << 20);
+  EXPECT_GE(view().frame.budgetBytes, view().frame.usedBytes);
+  for (const FeatureView& feature : device.features) {
+    EXPECT_FALSE(feature.about.empty()) << feature.name;
+  }
+  EXPECT_EQ(demo_->renderer().presentMode(), PresentMode::immediate);
+  demo_->apply(SetPresentMode{0});
+  run(4);
+  EXPECT_EQ(demo_->renderer().presentMode(), demo_->renderer().presentModes()[0]);
+  expectQuiet();
+}
+
+// The wall mirror shows the door, whose back is seen directly.
+class TwoMirrors : public Journey {
+ protected:
+  TwoMirrors()
+      : Journey(windowScene + R"(
+[[mirror]]
+name = "door"
+position = [1.6, 1.2, 0.5]
+rotation = [0, 200, 0]
+size = [1, 1.6]
+)") {}
+
+  void scrollTo(const std::string& name) {
+    const auto within = [&] {
+      for (const auto& [known, rect] : demo_->panels().widgets) {
+        if (known == name && rect.y > 40 && rect.y + rect.height < height - 70) {
+          return true;
+        }
+      }
+      return false;
+    };
+    moveTo(25, 400);
+    for (int i = 0; i < 30 && !within(); ++i) {
+      xdotool({"click", "5"});
+      run(2);
+    }
+    ASSERT_TRUE(within()) << name;
+  }
+  // That the picture differs from `without` along these lines, and nowhere else.
+  void expectOutline(const Image8& without, const std::vector<PixelLine>& lines, const std::string& name) {
+    const Image8 with = picture();
+    int changed = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 440; x < width; ++x) {
+        if (std::equal(with.at(x, y), with.at(x, y) + 3, without.at(x, y))) {
+          continue;
+        }
+        ++changed;
+        double nearest = 1e9;
+        for (const PixelLine& line : lines) {
+          const glm::dvec2 along = line.b - line.a;
+          const glm::dvec2 p = glm::dvec2(x, y) + 0.5 - line.a;
+          const double t = std::clamp(glm::dot(p, along) / std::max(glm::dot(along, along), 1e-6), 0.0, 1.0);
+          nearest = std::min(nearest, glm::length(p - t * along));
+        }
+        ASSERT_LT(nearest, 6.0) << name << ": " << x << " " << y;
+      }
+    }
+    EXPECT_GT(changed, 100) << name;
+  }
+};
+
+TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
+  press("space");
+  scrollTo("pass.mirror wall > door");
+  moveTo(200, 22);  // the title bar
+  const Image8 without = picture();
+  const PixelRect row = widget("pass.mirror wall > door");
+  moveTo(row.x + row.width / 2, row.y + row.height / 2);
+  run(2);
+  const auto passes = view().frame.passes;
+  const auto pass =
+      std::find_if(passes.begin(), passes.end(), [](const PassView& p) { return p.name == "mirror wall > door"; });
+  ASSERT_NE(pass, passes.end());
+  std::vector<PixelLine> lines;
+  for (size_t i = 0; i < pass->outline.size(); ++i) {
+    lines.push_back({pass->outline[i], pass->outline[(i + 1) % pass->outline.size()]});
+  }
+  expectOutline(without, lines, pass->name);
+  scrollTo("skipped in main view");
+  click("skipped in main view");
+  scrollTo("skipped.door");
+  const PixelRect door = widget("skipped.door");
+  moveTo(door.x + door.width / 2, door.y + door.height / 2);
+  run(3);
+  ASSERT_EQ(view().frame.outlinedSkipped, std::vector<int>{1});
+  expectOutline(without, view().frame.skippedOutline, "door");
+  // Its corners: 0.5 m beside and 0.8 m above and below the middle, turned by 200 degrees, four metres from the eye.
+  const double turn = glm::radians(200.0);
+  const std::vector<PixelLine> outline = view().frame.skippedOutline;
+  for (const double x : {-0.5, 0.5}) {
+    for (const double y : {-0.8, 0.8}) {
+      const glm::dvec3 p(1.6 + x * std::cos(turn), 0.2 + y, 4.0 - (0.5 - x * std::sin(turn)));
+      const glm::dvec2 corner =
+          0.5 * glm::dvec2(width, height) + 0.5 * height * std::sqrt(3.0) * glm::dvec2(p.x, -p.y) / p.z;
+      const auto meets = [&](const PixelLine& line) {
+        return std::min(glm::distance(line.a, corner), glm::distance(line.b, corner)) < 0.01;
+      };
+      const bool inside = corner.x > 0.0 && corner.x < width && corner.y > 0.0 && corner.y < height;
+      EXPECT_EQ(std::any_of(outline.begin(), outline.end(), meets), inside) << corner.x << " " << corner.y;
+    }
+  }
+  // Between the command and the next frame's list the row is one of a mirror that is gone.
+  demo_->apply(SelectNode{{Selection::Kind::mirror, 1}});
+  demo_->apply(RemoveSelected{});
+  for (int i = 0; i < 4; ++i) {
+    run(1);
+    EXPECT_TRUE(view().frame.skippedOutline.empty());
+  }
+  expectQuiet();
+}
+
+TEST_F(TwoMirrors, NoOutlineOutlivesItsScene) {
+  scrollTo("skipped in main view");
+  click("skipped in main view");
+  scrollTo("skipped.door");
+  const PixelRect door = widget("skipped.door");
+  moveTo(door.x + door.width / 2, door.y + door.height / 2);
+  ASSERT_TRUE(waitFor([&] { return !view().frame.skippedOutline.empty(); }));
+  demo_->apply(OpenScene{writeScene("other", windowScene)});
+  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; }));
+  EXPECT_TRUE(view().frame.skippedOutline.empty());
+  run(2);
+  EXPECT_TRUE(view().frame.skippedOutline.empty());
+  expectQuiet();
+}
+
+TEST_F(Journey, TargetsShowTexelsOfThePicture) {
+  press("space");
+  click("panel.Targets");
+  run(3);
+  click("targets.one");
+  const PixelRect canvas = widget("targets.canvas");
+  const int x = canvas.x + canvas.width / 2;
+  const int y = canvas.y + canvas.height / 2;
+  moveTo(x, y);
+  ASSERT_TRUE(waitFor([&] { return view().frame.target.value.has_value(); }));
+  run(4);
+  const TexelView value = *view().frame.target.value;
+  EXPECT_EQ(view().frame.target.size, glm::ivec2(width, height));
+  EXPECT_EQ(view().frame.target.mirrors.size(), 1u);
+  EXPECT_FALSE(value.depth);
+  const Image8 plain = barePicture();
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(plain.at(value.texel.x, value.texel.y)[i], 255.0 * srgbEncode(std::clamp(value.value[i], 0.0, 1.0)),
+                0.6);
+  }
+  click("targets.depth");
+  moveTo(x, y);
+  run(5);
+  ASSERT_TRUE(view().frame.target.value && view().frame.target.value->depth);
+  EXPECT_NEAR(view().frame.target.value->metres, 6.0, 0.01) << "the mirror";
+  const Image8 depth = picture();
+  EXPECT_EQ(depth.at(x, y)[0], depth.at(x, y)[1]) << "grey";
+  EXPECT_EQ(depth.at(x, y)[1], depth.at(x, y)[2]);
+  expectQuiet();
+}
+
+TEST_F(Journey, ReusedImagesSurviveMovesAndResizes) {
+  setSetting("reflection.update_interval", "4");
+  int reused = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    ASSERT_TRUE(demo_->step());
+    const auto skipped = view().frame.skipped;
+    reused += std::any_of(skipped.begin(), skipped.end(), [](const auto& s) { return s.reason == "unchanged"; });
+    ASSERT_EQ(view().frame.passes.size(), 4u) << "the pass of a reused image stays in the list";
+  }
+  EXPECT_GE(reused, 4);
+  dragFrom(width - 100, 80, -40, 10);
+  for (int i = 0; i < 8; ++i) {
+    demo_->window().resize(width - 30 * i, height - 20 * (i % 5));
+    for (int frame = 0; frame < 3; ++frame) {
+      ASSERT_TRUE(demo_->step());
+    }
+  }
+  expectQuiet();
+}
+
+struct OwnShaders {
+  explicit OwnShaders(const std::string& appended) { writeShaders(shaders.path(), "scene_shading.glsl", appended); }
+  Options options() const { return {.shaderDir = shaders.path()}; }
+  // As if edited a second later.
+  void touch(const std::filesystem::path& file) const {
+    std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(1));
+  }
+  TemporaryDirectory shaders;
+};
+
+class NegativeLight : protected OwnShaders, public Journey {
+ protected:
+  NegativeLight() : OwnShaders("  color.b = -1.0;\n"), Journey(windowScene, options()) {}
+};
+
+TEST_F(NegativeLight, IsLocatedUntilItIsGone) {
+  EXPECT_TRUE(waitFor([&] { return !view().message.empty(); }));
+  EXPECT_EQ(view().message.rfind("mirror wall: pixel ", 0), 0u) << view().message;
+  EXPECT_GT(demo_->nonFinite(), 0u);
+  const std::filesystem::path shader = shaders.path() / "scene_shading.glsl";
+  std::filesystem::copy_file(sourceFile("shaders/scene_shading.glsl"), shader,
+                             std::filesystem::copy_options::overwrite_existing);
+  touch(shader);
+  EXPECT_TRUE(waitFor([&] { return view().message.empty(); }));
+  run(3);
+  const uint64_t found = demo_->nonFinite();
+  run(3);
+  EXPECT_EQ(demo_->nonFinite(), found);
+  std::ofstream(shaders.path() / "scene.frag", std::ios::app) << "\nthis is not GLSL\n";
+  touch(shaders.path() / "scene.frag");
+  EXPECT_TRUE(waitFor([&] { return view().message.find("scene.frag") != std::string::npos; })) << view().message;
+  EXPECT_EQ(demo_->device().validationMessages(), 0);
+}
+
+TEST_F(Journey, SizesFollowTheScaleOfTheMonitor) {
+  const PixelRect before = widget("time");
+  demo_.reset();
+  const ProcessResult set =
+      runProcess({"xprop", "-root", "-f", "RESOURCE_MANAGER", "8s", "-set", "RESOURCE_MANAGER", "Xft.dpi:\t192\n"});
+  ASSERT_EQ(set.exitCode, 0) << set.output;
+  start();
+  ASSERT_EQ(demo_->window().contentScale(), 2.0f);
+  EXPECT_NEAR(widget("time").height, 2 * before.height, 2);
+  demo_->window().followContentScale(1.0f);  // to another monitor
+  run(3);
+  EXPECT_EQ(widget("time").height, before.height);
+  EXPECT_TRUE(std::filesystem::exists(home_.path() / "XDG_CONFIG_HOME" / "speculum" / "layout.ini"));
+  EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
+  expectQuiet();
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,203 @@
+// The window draws when something changes, and only then; what it measures meanwhile.
+#include "journeys_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+class IdleWindow : public Journey {
+ protected:
+  explicit IdleWindow(const std::string& toml = windowScene) : Journey(toml, idle()) { settle(); }
+
+  static Options idle() {
+    Options options;
+    // With checks every frame would be rendered.
+    options.settings = {{"view.continuous", "false"}, {"debug.check_finite", "false"}};
+    return options;
+  }
+  // Frames drawn and steps made within so many seconds.
+  std::pair<int, int> during(double seconds) {
+    const int before = demo_->framesDrawn();
+    int steps = 0;
+    for (const auto end = Clock::now() + std::chrono::duration<double>(seconds); Clock::now() < end; ++steps) {
+      EXPECT_TRUE(demo_->step());
+    }
+    return {demo_->framesDrawn() - before, steps};
+  }
+  // Until half a second has gone by without a frame.
+  void settle() {
+    const auto end = Clock::now() + std::chrono::seconds(20);
+    while (during(0.5).first > 0) {
+      ASSERT_LT(Clock::now(), end) << "something goes on drawing";
+    }
+  }
+  void pointAt(int x, int y) { xdotool({"mousemove", "--window", window_, std::to_string(x), std::to_string(y)}); }
+  PassView mainView() {
+    const std::vector<PassView>& passes = view().frame.passes;
+    return *std::find_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.kind == PassKind::main; });
+  }
+  // Without the figures of the panel, which differ from frame to frame.
+  std::vector<uint8_t> rightOfThePanel() {
+    const Image8 image = picture();
+    std::vector<uint8_t> right;
+    for (int y = 0; y < image.height; ++y) {
+      right.insert(right.end(), image.at(450, y), image.at(450, y) + static_cast<size_t>(4) * (image.width - 450));
+    }
+    return right;
+  }
+};
+
+TEST_F(IdleWindow, DrawsNothingUntilSomethingHappens) {
+  const auto [frames, steps] = during(1.0);
+  EXPECT_EQ(frames, 0);
+  EXPECT_LE(steps, 30) << "it must sleep, not spin";
+  const PixelRect box = widget("view.wireframe");
+  const std::vector<uint8_t> before = rightOfThePanel();
+  pointAt(box.x + 5, box.y + 5);
+  run(2);
+  EXPECT_GT(mainView().framesAgo, 0) << "only the panel is drawn";
+  EXPECT_GT(mainView().gpuMs, 0.0) << "its price is known all the same";
+  pointAt(width - 100, 80);
+  settle();
+  EXPECT_TRUE(rightOfThePanel() == before);
+  xdotool({"keydown", "--window", window_, "d"});
+  run(12);
+  xdotool({"keyup", "--window", window_, "d"});
+  settle();
+  EXPECT_FALSE(rightOfThePanel() == before) << "the camera moves as long as the key is held";
+  std::optional<GamepadState> pad = GamepadState{};
+  demo_->setGamepadSource([&] { return pad; });
+  EXPECT_EQ(during(0.3).first, 0) << "a gamepad at rest";
+  pad->leftX = 1.0f;
+  run(12);
+  pad.reset();
+  settle();
+  demo_->setGamepadSource([] { return std::nullopt; });
+  expectQuiet();
+}
+
+TEST_F(IdleWindow, MainViewIsRenderedWhileItsDepthIsShown) {
+  click("panel.Targets");
+  click("targets.depth");
+  const PixelRect canvas = widget("targets.canvas");
+  for (const int left : {0, 10, 20}) {
+    pointAt(canvas.x + canvas.width / 2 - left, canvas.y + canvas.height / 2);
+    run(4);
+    EXPECT_EQ(mainView().framesAgo, 0);
+    const std::optional<TexelView>& value = view().frame.target.value;
+    ASSERT_TRUE(value && value->depth);
+    EXPECT_NEAR(value->metres, 6.0, 0.01) << "without the scene there is no depth";
+  }
+  click("panel.Targets");
+  settle();
+  pointAt(60, 60);
+  run(2);
+  EXPECT_GT(mainView().framesAgo, 0) << "nobody looks at it any more";
+  expectQuiet();
+}
+
+TEST_F(IdleWindow, OtherSizesAndScenesAreRendered) {
+  press("Tab");
+  settle();
+  const auto expectAsRendered = [&](const std::filesystem::path& file, PictureSize size) {
+    EXPECT_TRUE(picture().rgba == draw(headless(file, size)).rgba) << file << " at " << size.width;
+  };
+  demo_->window().resize(500, 400);
+  run(1);
+  settle();
+  expectAsRendered(options_.scene, {500, 400});
+  std::string toml = windowScene;
+  toml.replace(toml.find("[0.9, 1, 0]"), 11, "[-0.9, 1, 0]");
+  const std::filesystem::path other = writeScene("other", toml);
+  demo_->apply(OpenScene{other});
+  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; }));
+  settle();
+  expectAsRendered(other, {500, 400});
+  expectQuiet();
+}
+
+TEST_F(IdleWindow, ReusedImagesAreFreshBeforeItIdles) {
+  demo_->apply(SetSettings{[&] {
+    Settings settings = view().settings.current;
+    settings.reflection.updateInterval = 8;
+    return settings;
+  }()});
+  pointAt(width - 100, 80);
+  settle();
+  xdotool({"mousedown", "1"});
+  during(0.2);
+  pointAt(width - 160, 100);
+  xdotool({"mouseup", "1"});
+  settle();
+  const std::vector<uint8_t> idled = rightOfThePanel();
+  pointAt(width - 161, 100);
+  settle();
+  EXPECT_TRUE(idled == rightOfThePanel()) << "the mirror's image was not the newest";
+  expectQuiet();
+}
+
+TEST_F(IdleWindow, AnimationDrawsUntilItIsPaused) {
+  demo_->apply(OpenScene{writeScene("turning", windowScene + "spin = [0, 90, 0]\n")});
+  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "turning"; }));
+  run(15);
+  press("space");
+  ASSERT_TRUE(view().playback.paused);
+  settle();
+  expectQuiet();
+}
+
+// Without a mirror there is little to vary, and the measurement is soon done.
+class AccuracyJourney : public Journey {
+ protected:
+  AccuracyJourney() : Journey(windowScene.substr(0, windowScene.find("[[mirror]]"))) { click("panel.Accuracy"); }
+};
+
+TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
+  click("accuracy.measure");
+  ASSERT_TRUE(waitFor([&] { return view().accuracy.measuring; }));
+  demo_->apply(CancelMeasurement{});
+  ASSERT_TRUE(waitFor([&] { return !view().accuracy.measuring; }));
+  EXPECT_TRUE(view().accuracy.points.empty());
+  const int before = demo_->framesDrawn();
+  click("accuracy.measure");
+  ASSERT_TRUE(waitFor([&] { return !view().accuracy.points.empty(); })) << view().accuracy.about;
+  EXPECT_GT(demo_->framesDrawn(), before + 5) << "the window goes on meanwhile";
+  run(3);
+  const AccuracyView& measured = view().accuracy;
+  ASSERT_EQ(measured.points.size(), 2u) << "one sample and four";
+  ASSERT_FALSE(measured.front.empty());
+  EXPECT_GT(measured.noiseFloor, 0.0);
+  EXPECT_GT(measured.points[0].ms, 0.0);
+  // The most accurate point takes four samples; the window began with one.
+  const int best = measured.front.back();
+  EXPECT_NE(measured.current, best);
+  click("accuracy.point " + measured.points[static_cast<size_t>(best)].name);
+  EXPECT_EQ(measured.current, best);
+  EXPECT_EQ(view().settings.current.view.samples, 4);
+  setSetting("quality.max_error", "0.5");
+  run(2);
+  EXPECT_NE(measured.choice.find("mean FLIP"), std::string::npos) << measured.choice;
+  EXPECT_EQ(measured.current, measured.front.front()) << "the cheapest that keeps the bound";
+
+  press("space");
+  const Image8 plain = picture();
+  click("accuracy.difference");
+  ASSERT_TRUE(waitFor([&] { return measured.difference.find("mean FLIP") == 0; })) << measured.difference;
+  run(3);
+  // The background is right: the darkest colour of the map, at the window's left edge below the panel.
+  const Image8 heat = picture();
+  const uint8_t* corner = heat.at(3, height - 3);
+  EXPECT_NE(corner[0], plain.at(3, height - 3)[0]);
+  EXPECT_LT(corner[0] + corner[1] + corner[2], 90);
+  const std::string first = measured.difference;
+  setSetting("view.exposure", "0.5");
+  EXPECT_TRUE(waitFor([&] { return measured.difference != first; })) << "another setting, another difference";
+  click("accuracy.difference");
+  run(3);
+  EXPECT_GT(picture().at(3, height - 3)[2], 60) << "the picture is back";
+  expectQuiet();
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,84 @@
+// A window whose device runs out of memory goes on with less.
+#include "journeys_support.hpp"
+#include "scarce_memory.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+// A texture of 256 x 256 RGBA16F texels with its levels takes 683 KiB and what the driver adds; nothing else of the
+// scene is of such a size.
+constexpr uint64_t fewest = 690'000;
+constexpr uint64_t most = 760'000;
+
+const std::string textured = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[settings]
+"view.samples" = 1
+[[object]]
+model = "MODELS/column.obj"
+)";
+
+class ScarceMemory : public Journey {
+ protected:
+  ~ScarceMemory() override { giveMemory(); }
+
+  std::filesystem::path open(const std::string& name) {
+    const std::filesystem::path file = writeScene(name, textured);
+    demo_->apply(OpenScene{file});
+    EXPECT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == name; }));
+    run(6);
+    return file;
+  }
+  Image8 expected(const std::filesystem::path& file, const std::string& textures) {
+    Options options = headless(file, {width, height});
+    set(options,
+        {{"effects.textures", textures}, {"view.exposure", settingValue(view().settings.current, "view.exposure")}});
+    return draw(options);
+  }
+};
+
+TEST_F(ScarceMemory, TexturesThatDoNotFitAreLeftOut) {
+  press("space");
+  refuseMemory(fewest, most);
+  const std::filesystem::path file = open("scarce");
+  EXPECT_GT(refusedAllocations(), 0);
+  const std::string message = view().message;
+  EXPECT_EQ(message.find("drawn without textures until a setting is changed: allocate "), 0u) << message;
+  EXPECT_NE(message.find("VK_ERROR_OUT_OF_DEVICE_MEMORY"), std::string::npos) << message;
+  EXPECT_NE(view().log.lines().back().text.find(message), std::string::npos);
+  EXPECT_TRUE(view().settings.current.effects.textures) << "the user's choice stays";
+  const int refused = refusedAllocations();
+  const Image8 without = barePicture();
+  EXPECT_EQ(refusedAllocations(), refused) << "not tried in every frame";
+  EXPECT_EQ(without.rgba, expected(file, "false").rgba);
+  const auto told = [&] {
+    const std::vector<LogLine>& lines = view().log.lines();
+    return std::count_if(lines.begin(), lines.end(),
+                         [&](const LogLine& line) { return line.text.find(message) != std::string::npos; });
+  };
+  EXPECT_EQ(told(), 1);
+  const PixelRect slider = widget("view.exposure");
+  dragFrom(slider.x + slider.width / 2.0, slider.y + slider.height / 2.0, 40, 0);
+  EXPECT_EQ(refusedAllocations(), 2 * refused) << "tried once the slider was let go";
+  EXPECT_EQ(told(), 1) << "the same again";
+  giveMemory();
+  run(5);
+  EXPECT_NE(view().message, "") << "nothing was changed";
+  setSetting("view.exposure", "1.5");
+  run(5);
+  EXPECT_EQ(view().message, "");
+  const Image8 with = barePicture();
+  EXPECT_EQ(with.rgba, expected(file, "true").rgba);
+  EXPECT_NE(with.rgba, expected(file, "false").rgba);
+  expectQuiet();
+}
+
+}  // namespace
+}  // namespace speculum

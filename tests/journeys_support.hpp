@@ -1,0 +1,185 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "app/demo.hpp"
+#include "app/screenshot.hpp"
+#include "image/color.hpp"
+#include "image/picture_files.hpp"
+#include "picture_support.hpp"
+#include "platform/platform.hpp"
+#include "virtual_display.hpp"
+
+namespace speculum::testing_support {
+
+using Clock = std::chrono::steady_clock;
+
+inline constexpr int width = 900;
+inline constexpr int height = 700;
+
+inline const std::string windowScene = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[settings]
+"view.samples" = 1
+"reflection.samples" = 1
+[[object]]
+name = "ball"
+model = "MODELS/sphere.obj"
+position = [0.9, 1, 0]
+[[light]]
+position = [0, 3, 3]
+intensity = 10
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [5, 3]
+)";
+
+// A window on a virtual display, driven by X events.
+class Journey : public testing::Test {
+ protected:
+  explicit Journey(const std::string& toml = windowScene, const Options& more = {}) : options_(more) {
+    // Settings and pictures of the user must neither be used nor written.
+    for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_DATA_HOME", "HOME"}) {
+      environment_.emplace_back(name, environment(name));
+      setEnvironment(name, (home_.path() / name).string());
+    }
+    options_.scene = writeScene("journey", toml).string();
+    options_.size = {width, height};
+    options_.validation = true;
+    options_.presentMode = PresentMode::immediate;
+    // Drawing continuously lets run() count frames.
+    options_.settings.insert(options_.settings.begin(), {{"view.continuous", "true"}, {"debug.check_finite", "true"}});
+    start();
+  }
+  ~Journey() override {
+    demo_.reset();
+    for (const auto& [name, value] : environment_) {
+      setEnvironment(name, value);
+    }
+  }
+
+  void start() {
+    demo_ = std::make_unique<Demo>(options_);
+    demo_->setCapture(true);
+    ASSERT_TRUE(waitFor([&] { return demo_->framesDrawn() >= 4; }));
+    window_ = runProcess({"xdotool", "search", "--name", "^Speculum$"}).output;
+    window_ = window_.substr(0, window_.find('\n'));
+  }
+  void run(int frames) {
+    const int last = demo_->framesDrawn() + frames;
+    ASSERT_TRUE(waitFor([&] { return demo_->framesDrawn() >= last; }));
+  }
+  template <typename Done>
+  bool waitFor(const Done& done) {
+    const auto end = Clock::now() + std::chrono::seconds(60);  // only what hangs takes that long
+    while (!done() && Clock::now() < end) {
+      EXPECT_TRUE(demo_->step());
+    }
+    return done();
+  }
+  bool waitForClose() {
+    const auto end = Clock::now() + std::chrono::seconds(20);
+    while (Clock::now() < end) {
+      if (!demo_->step()) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void xdotool(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "xdotool");
+    const ProcessResult result = runProcess(arguments);
+    ASSERT_EQ(result.exitCode, 0) << result.output;
+  }
+  void press(const std::string& key) {
+    xdotool({"key", "--window", window_, key});
+    run(3);
+  }
+  void moveTo(double x, double y) {
+    xdotool({"mousemove", "--window", window_, std::to_string(std::lround(x)), std::to_string(std::lround(y))});
+    run(2);
+  }
+  void button(bool down) {
+    xdotool({down ? "mousedown" : "mouseup", "1"});
+    run(3);
+  }
+  void clickAt(double x, double y) {
+    moveTo(x, y);
+    button(true);
+    button(false);
+  }
+  void dragFrom(double x, double y, double dx, double dy) {
+    moveTo(x, y);
+    button(true);
+    moveTo(x + 0.5 * dx, y + 0.5 * dy);
+    moveTo(x + dx, y + dy);
+    button(false);
+  }
+  PixelRect widget(const std::string& name) {
+    for (const auto& [known, rect] : demo_->panels().widgets) {
+      if (known == name) {
+        return rect;
+      }
+    }
+    ADD_FAILURE() << "no widget " << name;
+    return {};
+  }
+  void click(const std::string& name) {
+    const PixelRect rect = widget(name);
+    clickAt(rect.x + std::min(rect.width / 2, 40), rect.y + rect.height / 2);
+  }
+  // Settings need no widget to be set.
+  void setSetting(const std::string& key, const std::string& value) {
+    Settings settings = view().settings.current;
+    ASSERT_FALSE(speculum::setSetting(settings, key, value));
+    demo_->apply(SetSettings{settings});
+    run(3);
+  }
+
+  UiView view() const { return demo_->view(); }
+  Image8 picture() { return pictureOf(demo_->renderer().readback()); }
+  // Without panels and messages.
+  Image8 barePicture() {
+    demo_->apply(TogglePanel{});
+    while (!view().status.text.empty()) {
+      demo_->apply(Escape{});
+    }
+    run(3);
+    Image8 image = picture();
+    demo_->apply(TogglePanel{});
+    run(3);
+    return image;
+  }
+  std::vector<std::filesystem::path> pictures() {
+    std::error_code none;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(picturesDir() / "Speculum", none)) {
+      files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+  void expectQuiet() {
+    EXPECT_EQ(demo_->device().validationMessages(), 0);
+    EXPECT_EQ(demo_->nonFinite(), 0u);
+  }
+
+  test::VirtualDisplay display_{1280, 900};
+  TemporaryDirectory home_;
+  std::vector<std::pair<std::string, std::string>> environment_;
+  Options options_;
+  std::unique_ptr<Demo> demo_;
+  std::string window_;  // its id
+};
+
+}  // namespace speculum::testing_support

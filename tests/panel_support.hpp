@@ -1,0 +1,195 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include "image/picture_files.hpp"
+#include "picture_support.hpp"
+#include "platform/platform.hpp"
+#include "scene/scene_loader.hpp"
+#include "ui/panel_windows.hpp"
+
+namespace speculum::testing_support {
+
+// The panels laid out without a window, a GPU or a display: a pointer and keys act on them, commands come out.
+class PanelTest : public testing::Test {
+ protected:
+  PanelTest() : configHome_(environment("XDG_CONFIG_HOME")) {
+    setEnvironment("XDG_CONFIG_HOME", config_.path().string());
+    scene_ = loadScene(sourceFile("scenes/facing_mirrors.toml"));
+    browser_.scenes = {{"one", "One", "/scenes/one.toml"}, {"two", "", "/scenes/two.obj"}};
+    edit_.scene = &scene_;
+    start();
+  }
+  ~PanelTest() override {
+    stop();
+    setEnvironment("XDG_CONFIG_HOME", configHome_);
+  }
+
+  // A session of the program, with the layout that the last one left.
+  void start() {
+    windows_ = std::make_unique<PanelWindows>();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    iniFile_ = (config_.path() / "layout.ini").string();
+    io.IniFilename = iniFile_.c_str();
+    io.DisplaySize = {900.0f, 700.0f};
+    io.DeltaTime = 1.0f / 60.0f;
+    io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    io.ConfigDragClickToInputText = true;
+    unsigned char* texels = nullptr;
+    int width = 0;
+    int height = 0;
+    io.Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
+#if IMGUI_VERSION_NUM < 18700
+    for (int i = 0; i < ImGuiKey_COUNT; ++i) {
+      io.KeyMap[i] = i;
+    }
+#endif
+    windows_->rememberLayout();
+    run(4);
+  }
+  void stop() {
+    if (windows_) {
+      ImGui::DestroyContext();
+      windows_.reset();
+    }
+  }
+
+  const UiOutput& run(int frames = 1) {
+    for (int i = 0; i < frames; ++i) {
+      ImGui::NewFrame();
+      const UiView view{.frame = frame_,
+                        .device = device_,
+                        .browser = browser_,
+                        .settings = settings_,
+                        .camera = camera_,
+                        .playback = playback_,
+                        .edit = edit_,
+                        .accuracy = accuracy_,
+                        .status = status_,
+                        .log = log_,
+                        .message = message_};
+      output_ = windows_->build(view);
+      ImGui::Render();
+      for (const Command& command : output_.commands) {
+        commands_.push_back(command);
+        if (const auto* set = std::get_if<SetSettings>(&command)) {
+          settings_.current = set->settings;
+        }
+      }
+    }
+    return output_;
+  }
+
+  bool has(const std::string& name) const {
+    return find(name) != nullptr;
+  }
+  PixelRect widget(const std::string& name) const {
+    const PixelRect* rect = find(name);
+    EXPECT_TRUE(rect) << "no widget " << name;
+    return rect ? *rect : PixelRect{};
+  }
+  void moveTo(double x, double y) {
+    ImGui::GetIO().MousePos = {static_cast<float>(x), static_cast<float>(y)};
+    run(2);
+  }
+  void hover(const std::string& name, double part = 0.5) {
+    const PixelRect rect = widget(name);
+    moveTo(rect.x + rect.width * part, rect.y + rect.height / 2.0);
+  }
+  void hold(bool down) {
+    ImGui::GetIO().MouseDown[0] = down;
+    run(2);
+  }
+  // The commands that a click on the widget makes.
+  std::vector<Command> click(const std::string& name, double part = 0.5) {
+    hover(name, part);
+    commands_.clear();
+    hold(true);
+    hold(false);
+    return commands_;
+  }
+  // Presses at a part of the widget's width, moves, releases.
+  std::vector<Command> drag(const std::string& name, double part, double dx, double dy = 0.0) {
+    hover(name, part);
+    const ImVec2 from = ImGui::GetIO().MousePos;
+    commands_.clear();
+    hold(true);
+    for (int i = 1; i <= 4; ++i) {
+      moveTo(from.x + dx * i / 4, from.y + dy * i / 4);
+    }
+    hold(false);
+    return commands_;
+  }
+  void wheel(double notches) {
+    ImGui::GetIO().MouseWheel = static_cast<float>(notches);
+    run(3);
+  }
+  void type(const std::string& text) {
+    ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
+    run(2);
+  }
+  void tap(ImGuiKey_ key) {
+    for (const bool down : {true, false}) {
+#if IMGUI_VERSION_NUM < 18700
+      ImGui::GetIO().KeysDown[key] = down;
+#else
+      ImGui::GetIO().AddKeyEvent(key, down);
+#endif
+      run(2);
+    }
+  }
+
+  // The only command of that kind among the last ones.
+  template <typename Kind>
+  const Kind& only() const {
+    static const Kind none{};
+    const Kind* found = nullptr;
+    for (const Command& command : commands_) {
+      if (const Kind* match = std::get_if<Kind>(&command)) {
+        EXPECT_FALSE(found) << "more than one";
+        found = match;
+      }
+    }
+    EXPECT_TRUE(found) << "no such command";
+    return found ? *found : none;
+  }
+  template <typename Kind>
+  bool sent() const {
+    return std::any_of(commands_.begin(), commands_.end(),
+                       [](const Command& command) { return std::holds_alternative<Kind>(command); });
+  }
+
+  TemporaryDirectory config_;
+  std::string configHome_;
+  std::string iniFile_;
+  Scene scene_;
+  FrameView frame_;
+  DeviceView device_;
+  BrowserView browser_;
+  SettingsView settings_;
+  CameraView camera_;
+  PlaybackView playback_;
+  EditView edit_;
+  AccuracyView accuracy_;
+  StatusView status_;
+  LogHistory log_;
+  std::string message_;
+  std::unique_ptr<PanelWindows> windows_;
+  UiOutput output_;  // of the last frame
+  std::vector<Command> commands_;
+
+ private:
+  const PixelRect* find(const std::string& name) const {
+    for (const auto& [known, rect] : windows_->state().widgets) {
+      if (known == name) {
+        return &rect;
+      }
+    }
+    return nullptr;
+  }
+};
+
+}  // namespace speculum::testing_support

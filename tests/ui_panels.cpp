@@ -1,0 +1,518 @@
+// What clicks on the panels ask for, and what the panels keep to themselves.
+#include "panel_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+TEST_F(PanelTest, SettingsAreEditedAndReset) {
+  EXPECT_FALSE(has("reset.view.exposure"));
+  drag("view.exposure", 0.5, 60);
+  EXPECT_GT(settings_.current.view.exposure, 1.5);
+  drag("view.clear_color", 0.1, 60);
+  ASSERT_TRUE(settings_.current.view.clearColor);
+  const PixelRect slider = widget("view.exposure");
+  const PixelRect arrow = widget("reset.view.exposure");
+  EXPECT_EQ(arrow.y, slider.y);
+  EXPECT_GT(arrow.x, slider.x + slider.width);
+  EXPECT_LT(arrow.x + arrow.width, 12 + 420) << "within the panel";
+  click("reset.view.exposure");
+  EXPECT_EQ(settings_.current.view.exposure, 1.0);
+  EXPECT_TRUE(settings_.current.view.clearColor) << "only one is reset";
+  EXPECT_FALSE(has("reset.view.exposure"));
+  click("reset.view.clear_color");
+  EXPECT_FALSE(settings_.current.view.clearColor);
+  click("view.exposure");
+  commands_.clear();
+  run(3);
+  EXPECT_TRUE(commands_.empty()) << "nothing is sent unless something was done";
+}
+
+TEST_F(PanelTest, ResetArrowIsReachedByKeyboard) {
+  drag("reflection.max_depth", 0.2, 60);
+  ASSERT_NE(settings_.current.reflection.maxDepth, 4);
+  // The slider was chosen by the pointer; the arrow stands to its right.
+  tap(ImGuiKey_RightArrow);
+  tap(ImGuiKey_RightArrow);
+  tap(ImGuiKey_Space);
+  EXPECT_EQ(settings_.current.reflection.maxDepth, 4);
+}
+
+TEST_F(PanelTest, TimeRowScrubsAndSteps) {
+  drag("time", 0.05, 150);
+  ASSERT_TRUE(sent<Seek>());
+  EXPECT_NEAR(std::get<Seek>(commands_.back()).seconds, 11.0, 5.0);
+  click("time.on");
+  EXPECT_EQ(only<StepTime>().steps, 1);
+  click("time.back");
+  EXPECT_EQ(only<StepTime>().steps, -1);
+  click("pause", 0.1);
+  EXPECT_TRUE(only<SetPaused>().paused);
+  drag("time.speed", 0.5, 30);
+  EXPECT_GT(std::get<SetTimeSpeed>(commands_.back()).factor, 1.0);
+}
+
+TEST_F(PanelTest, ButtonsSendTheirCommands) {
+  camera_.bookmarks = {"door", "sky"};
+  camera_.bookmark = 1;
+  run(2);
+  click("copy");
+  EXPECT_TRUE(sent<CopyCommandLine>());
+  click("screenshot");
+  EXPECT_TRUE(only<TakeScreenshot>().withPanel);
+  click("camera.reset");
+  EXPECT_TRUE(sent<ResetCamera>());
+  click("bookmark.add");
+  EXPECT_TRUE(sent<AddBookmark>());
+  click("bookmark.remove");
+  EXPECT_EQ(only<RemoveBookmark>().index, 1u);
+  click("bookmarks");
+  click("bookmark.door");
+  EXPECT_EQ(only<GoToBookmark>().index, 0u);
+  click("scene");
+  click("scene.two");
+  EXPECT_EQ(only<OpenScene>().file, "/scenes/two.obj");
+  browser_.loading = "two.obj";
+  run(2);
+  click("loading.cancel");
+  EXPECT_TRUE(sent<CancelLoading>());
+}
+
+TEST_F(PanelTest, GalleryOpensScenes) {
+  click("panel.Scenes", 0.1);
+  run(2);
+  click("gallery.two");
+  EXPECT_EQ(only<OpenScene>().file, "/scenes/two.obj");
+  click("gallery.one");
+  EXPECT_FALSE(sent<OpenScene>()) << "it is shown";
+}
+
+TEST_F(PanelTest, OpenWindowsAreRemembered) {
+  click("panel.Scenes", 0.1);
+  run(2);
+  const PixelRect before = widget("gallery.two");
+  stop();
+  start();
+  EXPECT_EQ(widget("gallery.two"), before);
+  click("panel.Scenes", 0.1);
+  stop();
+  start();
+  EXPECT_FALSE(has("gallery.two"));
+}
+
+TEST_F(PanelTest, LayoutIsKeptInTheUsersFolder) {
+  const PixelRect before = widget("time");
+  moveTo(200, 22);
+  hold(true);
+  moveTo(260, 62);
+  moveTo(330, 102);
+  hold(false);
+  const PixelRect moved = widget("time");
+  EXPECT_EQ(moved.x - before.x, 130);
+  EXPECT_EQ(moved.y - before.y, 80);
+  click("panel.Performance", 0.1);
+  run(2);
+  const PixelRect pause = widget("performance.pause");
+  moveTo(pause.x + 4, pause.y - 18);  // the arrow of its title
+  hold(true);
+  hold(false);
+  EXPECT_FALSE(has("performance.pause")) << "collapsed";
+  click("panel.Log", 0.1);
+  stop();
+  EXPECT_TRUE(std::filesystem::exists(iniFile_));
+  start();
+  EXPECT_EQ(widget("time"), moved);
+  EXPECT_FALSE(has("performance.pause")) << "still";
+  EXPECT_TRUE(has("log.copy")) << "the other is not";
+}
+
+TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
+  windows_->toggleInspector();
+  click("panel.Performance", 0.1);
+  click("panel.Log", 0.1);
+  run(3);
+  const PixelRect list = widget("edit.add_mirror");
+  const PixelRect copy = widget("log.copy");
+  const PixelRect csv = widget("performance.copy");
+  EXPECT_LT(list.y + list.height, csv.y);
+  EXPECT_LT(csv.y + csv.height, copy.y);
+  EXPECT_LT(copy.y + copy.height, 700);
+  const auto resize = [&](float w, float h) {
+    ImGui::GetIO().DisplaySize = {w, h};
+    run(5);
+  };
+  resize(300, 200);
+  resize(900, 700);
+  EXPECT_EQ(widget("log.copy"), copy);
+  moveTo(copy.x - 100, copy.y - 16);  // its title
+  hold(true);
+  moveTo(copy.x - 200, copy.y - 116);
+  hold(false);
+  const PixelRect moved = widget("log.copy");
+  EXPECT_EQ(moved.x, copy.x - 100);
+  resize(500, 300);
+  EXPECT_LT(widget("log.copy").x, 500);
+  EXPECT_LT(widget("log.copy").y, 300);
+  resize(900, 700);
+  EXPECT_EQ(widget("log.copy"), moved) << "what a tiny window forced is forgotten";
+  resize(1050, 700);
+  EXPECT_EQ(widget("performance.copy").x, csv.x + 150) << "docked windows follow the edge";
+  resize(900, 700);
+  click("section.window", 0.1);
+  run(2);
+  click("window.reset");
+  run(3);
+  EXPECT_GT(widget("log.copy").x, moved.x + 50);
+}
+
+TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
+  click("section.window", 0.1);
+  click("theme.light", 0.1);
+  EXPECT_EQ(windows_->theme(), Theme::light);
+  drag("window.size", 0.2, 40);
+  EXPECT_GT(windows_->state().choices.percent, 110);
+  const int percent = windows_->state().choices.percent;
+  run(2);
+  saveTheme(windows_->theme());
+  stop();
+  start();
+  EXPECT_EQ(windows_->theme(), Theme::light);
+  EXPECT_EQ(windows_->state().choices.percent, percent);
+}
+
+TEST_F(PanelTest, PresentModesAreThoseOffered) {
+  device_.presentModes = {"fifo", "immediate"};
+  click("section.window", 0.1);
+  click("present.immediate", 0.1);
+  EXPECT_EQ(only<SetPresentMode>().index, 1u);
+}
+
+TEST_F(PanelTest, LogIsFilteredCopiedAndCleared) {
+  log_.add(LogLevel::info, "the quick brown fox");
+  log_.add(LogLevel::error, "a lazy dog");
+  click("panel.Log", 0.1);
+  run(2);
+  click("log.copy");
+  EXPECT_EQ(only<CopyText>().text, "info: the quick brown fox\nerror: a lazy dog\n");
+  click("log.filter");
+  type("dog");
+  click("log.copy");
+  EXPECT_EQ(only<CopyText>().text, "error: a lazy dog\n");
+  click("log.clear");
+  EXPECT_TRUE(sent<ClearLog>());
+}
+
+TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
+  frame_.history.add(4, 1.0, 0.5);
+  click("panel.Performance", 0.1);
+  run(2);
+  EXPECT_TRUE(has("graph.frame"));
+  click("performance.copy");
+  EXPECT_EQ(only<CopyText>().text, frame_.history.csv());
+  click("performance.pause", 0.1);
+  EXPECT_TRUE(only<PauseHistory>().paused);
+  click("performance.clear");
+  EXPECT_TRUE(sent<ClearHistory>());
+}
+
+TEST_F(PanelTest, EscapeClosesWindowsFromTheTop) {
+  windows_->toggleInspector();
+  run(3);
+  windows_->toggleHelp();
+  run(3);
+  EXPECT_TRUE(windows_->closeTop());
+  EXPECT_FALSE(windows_->state().help);
+  EXPECT_TRUE(windows_->state().inspector);
+  EXPECT_TRUE(windows_->closeTop());
+  EXPECT_FALSE(windows_->state().inspector);
+  EXPECT_FALSE(windows_->closeTop()) << "the main panel stays";
+  windows_->setVisible(false);
+  windows_->toggleInspector();
+  EXPECT_TRUE(windows_->visible());
+}
+
+class Inspector : public PanelTest {
+ protected:
+  Inspector() {
+    edit_.models = {"/models/ball.obj", "/models/vase.obj"};
+    windows_->toggleInspector();
+    run(3);
+  }
+  void select(const Selection& node) {
+    edit_.selected = node;
+    run(3);
+  }
+  void selectMirror(int index) { select({Selection::Kind::mirror, index}); }
+  // One of the three numbers of a row, typed after a click on it.
+  void typeNumber(const std::string& row, int part, const std::string& number) {
+    click(row, (2 * part + 1) / 6.0);
+    ImGui::GetIO().KeyCtrl = true;
+    tap(ImGuiKey_A);
+    ImGui::GetIO().KeyCtrl = false;
+    type(number);
+    commands_.clear();
+    tap(ImGuiKey_Enter);
+    for (const Command& command : commands_) {
+      if (const auto* edit = std::get_if<EditNode>(&command)) {
+        scene_.mirrors.at(static_cast<size_t>(edit_.selected.index)) = std::get<Mirror>(edit->node);
+      }
+    }
+    run(2);
+  }
+};
+
+TEST_F(Inspector, ListSelectsAndToggles) {
+  click("edit.node.1");
+  EXPECT_EQ(only<SelectNode>().node, (Selection{Selection::Kind::mirror, 1}));
+  ImGui::GetIO().KeyShift = true;
+  click("edit.node.0");
+  EXPECT_EQ(only<ToggleNode>().node, (Selection{Selection::Kind::mirror, 0}));
+  ImGui::GetIO().KeyShift = false;
+  ImGui::GetIO().KeyCtrl = true;
+  click("edit.node.0");
+  EXPECT_TRUE(sent<ToggleNode>());
+}
+
+TEST_F(Inspector, NodesAreAddedOfTheChosenModel) {
+  click("edit.add_mirror");
+  EXPECT_TRUE(sent<AddMirror>());
+  click("edit.add_light");
+  EXPECT_TRUE(sent<AddLight>());
+  click("edit.add_object");
+  EXPECT_EQ(only<AddObject>().model, "/models/ball.obj");
+  click("edit.model");
+  click("edit.model.vase");
+  click("edit.add_object");
+  EXPECT_EQ(only<AddObject>().model, "/models/vase.obj");
+  click("edit.model");
+  click("edit.model.file");
+  run(2);
+  click("edit.add_object");
+  EXPECT_FALSE(sent<AddObject>()) << "no file is named";
+  click("edit.model_file");
+  type("own.obj");
+  click("edit.add_object");
+  EXPECT_EQ(only<AddObject>().model, "own.obj");
+}
+
+TEST_F(Inspector, HistoryButtonsNeedSomethingToDo) {
+  for (const char* name : {"edit.delete", "edit.undo", "edit.save"}) {
+    EXPECT_TRUE(click(name).empty()) << name;
+  }
+  edit_.undo = "move mirror 'left'";
+  edit_.unsaved = true;
+  selectMirror(0);
+  click("edit.delete");
+  EXPECT_TRUE(sent<RemoveSelected>());
+  click("edit.duplicate");
+  EXPECT_TRUE(sent<DuplicateSelected>());
+  click("edit.undo");
+  EXPECT_TRUE(sent<Undo>());
+  click("edit.save");
+  EXPECT_TRUE(sent<Save>());
+  click("edit.save_as");
+  EXPECT_TRUE(sent<AskWhereToSave>());
+}
+
+TEST_F(Inspector, DraggedNumbersAreOneContinuedEdit) {
+  selectMirror(0);
+  drag("edit.position", 0.1, 40);
+  ASSERT_TRUE(sent<EditNode>());
+  const auto& first = std::get<EditNode>(commands_.front());
+  EXPECT_TRUE(first.continued);
+  EXPECT_GT(std::get<Mirror>(first.node).position.x, scene_.mirrors[0].position.x);
+  EXPECT_TRUE(sent<EndEdit>());
+  click("edit.two_sided", 0.1);
+  EXPECT_NE(std::get<Mirror>(only<EditNode>().node).twoSided, scene_.mirrors[0].twoSided);
+}
+
+TEST_F(Inspector, ClickedNumbersAreTyped) {
+  selectMirror(0);
+  const glm::dvec3 before = scene_.mirrors[0].position;
+  typeNumber("edit.position", 1, "1.75");
+  EXPECT_EQ(scene_.mirrors[0].position, glm::dvec3(before.x, 1.75, before.z)) << "what was there is replaced";
+}
+
+TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
+  edit_.through = {1, 0};
+  selectMirror(0);
+  click("edit.look_behind");
+  EXPECT_EQ(only<LookFromMirror>().side, MirrorSide::back);
+  click("edit.look_out");
+  EXPECT_EQ(only<LookFromMirror>().side, MirrorSide::front);
+  click("edit.through.0");
+  EXPECT_EQ(only<SelectNode>().node, (Selection{Selection::Kind::mirror, 1}));
+  click("edit.rotate", 0.1);
+  EXPECT_EQ(only<SetGizmoMode>().mode, GizmoMode::turn);
+  select({Selection::Kind::light, 0});
+  EXPECT_FALSE(has("edit.look_out"));
+}
+
+TEST_F(Inspector, VerticesAreAppliedOnceTheyAreAPolygon) {
+  Mirror sail;
+  sail.name = "sail";
+  sail.polygon = {{-0.8, 0.5, -1}, {0.8, 0.5, -1}, {0.8, 1.6, -1}, {-0.8, 1.6, -1}};
+  scene_.mirrors = {sail};
+  selectMirror(0);
+  const std::vector<glm::dvec3>& polygon = scene_.mirrors[0].polygon;
+  const auto& problem = windows_->state().polygon.problem;
+  typeNumber("edit.polygon.2", 0, "0.55");
+  EXPECT_EQ(polygon[2], glm::dvec3(0.55, 1.6, -1.0)) << problem.value_or("");
+  const std::vector<glm::dvec3> narrowed = polygon;
+  typeNumber("edit.polygon.2", 2, "-0.5");
+  EXPECT_EQ(polygon, narrowed);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->find("polygon: is not planar (a planar, convex polygon"), 0u) << *problem;
+  typeNumber("edit.polygon.3", 2, "-0.5");
+  EXPECT_FALSE(problem) << "both upper vertices are nearer now";
+  EXPECT_EQ(polygon[2], glm::dvec3(0.55, 1.6, -0.5));
+  typeNumber("edit.polygon.1", 0, "-2");
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->find("polygon: is not convex"), 0u) << *problem;
+  click("edit.polygon.reset");
+  EXPECT_FALSE(problem);
+  click("edit.polygon.1.add");
+  const std::vector<glm::dvec3> five = std::get<Mirror>(only<EditNode>().node).polygon;
+  ASSERT_EQ(five.size(), 5u);
+  EXPECT_EQ(five[2], 0.5 * (five[1] + five[3]));
+  scene_.mirrors[0].polygon = five;
+  run(2);
+  click("edit.polygon.0.remove");
+  EXPECT_EQ(std::get<Mirror>(only<EditNode>().node).polygon.size(), 4u);
+}
+
+TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
+  edit_.prompt = Prompt::unsavedChanges;
+  run(3);
+  click("ask.discard");
+  EXPECT_TRUE(sent<DiscardChanges>());
+  run(3);
+  click("ask.save_as");
+  EXPECT_TRUE(sent<AskWhereToSave>());
+  edit_.prompt = Prompt::saveAs;
+  edit_.proposedFile = "/home/scene.toml";
+  run(4);
+  EXPECT_EQ(windows_->state().saveAs, "/home/scene.toml");
+  type("/other");
+  EXPECT_EQ(windows_->state().saveAs, "/other") << "the path is selected";
+  commands_.clear();
+  tap(ImGuiKey_Enter);
+  EXPECT_EQ(only<SaveAs>().file, "/other");
+  run(3);
+  click("where.cancel");
+  EXPECT_TRUE(sent<CancelPrompt>());
+  edit_.prompt = Prompt::none;
+  run(3);
+  EXPECT_FALSE(has("where.cancel"));
+}
+
+class AccuracyWindow : public PanelTest {
+ protected:
+  AccuracyWindow() {
+    accuracy_.points = {{"cheap", 0.1, 1.0, 0.9, 1.1}, {"exact", 0.001, 8.0, 7.0, 9.0}, {"bad", 0.2, 9.0, 8.0, 9.5}};
+    accuracy_.front = {0, 1};
+    click("panel.Accuracy", 0.1);
+    run(2);
+  }
+};
+
+TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
+  click("accuracy.point exact");
+  EXPECT_EQ(only<ApplyPoint>().point, 1);
+  accuracy_.current = 1;
+  drag("accuracy.slider", 0.9, -0.8 * widget("accuracy.slider").width);
+  ASSERT_TRUE(sent<ApplyPoint>());
+  EXPECT_EQ(std::get<ApplyPoint>(commands_.front()).point, 0);
+  click("quality.max_error", 0.1);
+  EXPECT_GT(settings_.current.quality.maxError, 0.0);
+}
+
+TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
+  click("accuracy.measure");
+  EXPECT_TRUE(sent<MeasureAccuracy>());
+  accuracy_.measuring = true;
+  accuracy_.stage = "tracing";
+  run(2);
+  EXPECT_FALSE(has("accuracy.measure"));
+  click("accuracy.cancel");
+  EXPECT_TRUE(sent<CancelMeasurement>());
+}
+
+TEST_F(AccuracyWindow, DifferenceIsShownWhileTheWindowIsOpen) {
+  click("accuracy.difference", 0.05);
+  ASSERT_TRUE(sent<ShowDifference>());
+  EXPECT_TRUE(std::get<ShowDifference>(commands_.front()).shown);
+  accuracy_.showsDifference = true;
+  run(2);
+  click("panel.Accuracy", 0.1);
+  ASSERT_TRUE(sent<ShowDifference>());
+  EXPECT_FALSE(std::get<ShowDifference>(commands_.front()).shown);
+}
+
+class TargetsWindow : public PanelTest {
+ protected:
+  TargetsWindow() {
+    PassView mirror{.name = "mirror wall", .path = {0}, .depth = 0};
+    mirror.outline = {{450, 100}, {600, 100}, {600, 200}};
+    PassView main{.name = "main view", .kind = PassKind::main};
+    frame_.passes = {mirror, main};
+    frame_.skipped = {{.name = "mirror door", .path = {1}, .reason = "backface"}};
+    frame_.target.size = {900, 700};
+    run(3);
+  }
+  const std::optional<TargetRequest>& target() const { return output_.target; }
+};
+
+TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
+  click("panel.Targets", 0.1);
+  run(3);
+  ASSERT_TRUE(target() && target()->area);
+  EXPECT_TRUE(target()->path.empty());
+  const PixelRect canvas = widget("targets.canvas");
+  EXPECT_NEAR(target()->zoom, std::min(canvas.width / 900.0, canvas.height / 700.0), 1e-6);
+  click("targets.one");
+  EXPECT_EQ(target()->zoom, 1.0);
+  const glm::dvec2 before = windows_->state().targets.center;
+  drag("targets.canvas", 0.5, -20, -10);
+  EXPECT_NEAR(windows_->state().targets.center.x - before.x, 20.0, 1e-6);
+  EXPECT_NEAR(windows_->state().targets.center.y - before.y, 10.0, 1e-6);
+  wheel(1.0);
+  EXPECT_GT(target()->zoom, 1.1);
+  ASSERT_TRUE(target()->probe) << "the pointer is on it";
+  click("targets.depth", 0.1);
+  EXPECT_TRUE(target()->depth);
+  EXPECT_FALSE(target()->probe);
+  click("targets.mask", 0.1);
+  EXPECT_FALSE(target()->area) << "the panel draws it";
+  click("targets.fit");
+  EXPECT_EQ(windows_->state().targets.zoom, 0.0);
+  click("panel.Targets", 0.1);
+  EXPECT_FALSE(target());
+}
+
+TEST_F(TargetsWindow, ClickedPassOpensAndClosesIt) {
+  click("pass.mirror wall", 0.3);
+  run(2);
+  ASSERT_TRUE(target());
+  EXPECT_EQ(target()->path, std::vector<int>{0});
+  EXPECT_EQ(windows_->state().hoveredPass, 0);
+  frame_.passes.erase(frame_.passes.begin());
+  run(2);
+  EXPECT_TRUE(target()->path.empty()) << "the main view takes the place of a pass that is gone";
+  click("pass.main view", 0.3);
+  run(2);
+  EXPECT_FALSE(target());
+}
+
+TEST_F(TargetsWindow, PointedSkippedMirrorsAreReported) {
+  click("skipped in main view", 0.1);
+  run(2);
+  hover("skipped.mirror door", 0.1);
+  EXPECT_EQ(output_.hoveredSkipped, std::vector<int>{1});
+  moveTo(700, 600);
+  EXPECT_TRUE(output_.hoveredSkipped.empty());
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,10 @@
+# Controllers and panels of the window, without a display.
+speculum_test(workspace_tests SOURCES workspace_editing.cpp workspace_saving.cpp workspace_view.cpp app_units.cpp
+              LIBRARIES picture_support)
+speculum_test(panel_tests SOURCES ui_panels.cpp ui_input_map.cpp LIBRARIES picture_support ext::imgui)
+speculum_test(thumbnail_tests SOURCES thumbnails.cpp LIBRARIES picture_support LABELS pictures)
+
+# Journeys through the window, on a display of their own.
+speculum_test(journeys SOURCES journeys.cpp journeys_idle.cpp journeys_random.cpp
+              LIBRARIES picture_support display_support LABELS window)
+add_dependencies(journeys speculum)

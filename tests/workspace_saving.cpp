@@ -1,0 +1,290 @@
+// Saving, the prompts about unsaved changes, and what is copied of them.
+#include "test_paths.hpp"
+#include "workspace_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+namespace fs = std::filesystem;
+
+class Saving : public WorkspaceTest {
+ protected:
+  explicit Saving(const Options& more = {}) : WorkspaceTest(corridor, more) {}
+
+  void removeBall() {
+    send(SelectNode{ball});
+    send(RemoveSelected{});
+    ASSERT_TRUE(edit().unsaved);
+  }
+};
+
+TEST_F(Saving, SavedSceneLoadsAsEdited) {
+  clickBall();
+  drag(pixel({0.3, 1.0, 0.5}) + glm::dvec2(60.0, 0.0), {33.0, 0.0});
+  send(DuplicateSelected{});
+  EXPECT_TRUE(edit().unsaved);
+  send(Save{});
+  EXPECT_FALSE(edit().unsaved) << edit().note;
+  EXPECT_EQ(status(), "saved " + options_.scene);
+  const Scene saved = onDisk();
+  ASSERT_EQ(saved.objects.size(), 2u);
+  EXPECT_NEAR(saved.objects[0].position.x, 0.3 + 33.0 / focalPixels, 2e-4);
+  EXPECT_NE(contents(options_.scene).find("# In front of the eye."), std::string::npos) << "comments stay";
+}
+
+TEST_F(Saving, QuitAsksAboutUnsavedChanges) {
+  removeBall();
+  send(Quit{});
+  EXPECT_EQ(edit().prompt, Prompt::unsavedChanges);
+  EXPECT_FALSE(host_.closed);
+  send(CancelPrompt{});
+  EXPECT_EQ(edit().prompt, Prompt::none);
+  EXPECT_FALSE(host_.closed);
+  send(Quit{});
+  send(DiscardChanges{});
+  EXPECT_TRUE(host_.closed);
+  EXPECT_EQ(onDisk().objects.size(), 1u) << "nothing was saved";
+}
+
+TEST_F(Saving, SavingAtThePromptWritesAndQuits) {
+  removeBall();
+  send(Quit{});
+  send(Save{});
+  EXPECT_TRUE(host_.closed);
+  EXPECT_TRUE(onDisk().objects.empty());
+}
+
+TEST_F(Saving, UnsavedSettingsAreAskedAbout) {
+  setExposure(2.0);
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_TRUE(edit().unsavedSettings);
+  send(Quit{});
+  send(CancelPrompt{});
+  EXPECT_FALSE(host_.closed);
+  setExposure(0.5);
+  send(Quit{});
+  EXPECT_EQ(edit().prompt, Prompt::unsavedChanges);
+}
+
+class LimitedFrames : public Saving {
+ protected:
+  LimitedFrames() : Saving({.frames = 10}) {}
+};
+
+TEST_F(LimitedFrames, QuitNeverAsks) {
+  removeBall();
+  send(Quit{});
+  EXPECT_TRUE(host_.closed);
+  EXPECT_EQ(edit().prompt, Prompt::none);
+}
+
+TEST_F(Saving, SavedAsAnotherFileTheSceneStaysThere) {
+  const fs::path other = fs::path(options_.scene).replace_filename("other.toml");
+  std::ofstream(other) << "somebody's";
+  clickBall();
+  send(DuplicateSelected{});
+  send(AskWhereToSave{});
+  ASSERT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_EQ(edit().proposedFile, options_.scene);
+  send(SaveAs{other});
+  EXPECT_EQ(edit().prompt, Prompt::saveAs) << "a file that is there is not overwritten unasked";
+  EXPECT_EQ(edit().proposedFile, other);
+  EXPECT_TRUE(edit().unsaved);
+  send(SaveAs{other});
+  EXPECT_EQ(edit().prompt, Prompt::none) << edit().note;
+  EXPECT_EQ(loadScene(other).objects.size(), 2u);
+  EXPECT_EQ(onDisk().objects.size(), 1u);
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_EQ(scene().file, other);
+  EXPECT_EQ(shownScene(), "other");
+}
+
+TEST_F(Saving, OverwriteIsRefusedAgainAfterCancel) {
+  const fs::path other = home_.path() / "other.toml";
+  std::ofstream(other) << "somebody's";
+  removeBall();
+  for (int i = 0; i < 2; ++i) {
+    send(AskWhereToSave{});
+    send(SaveAs{other});
+    EXPECT_EQ(edit().prompt, Prompt::saveAs);
+    EXPECT_NE(edit().note.find("Save once more to overwrite it."), std::string::npos) << edit().note;
+    send(CancelPrompt{});
+  }
+  EXPECT_EQ(contents(other), "somebody's");
+}
+
+TEST_F(Saving, MissingFoldersAreNamed) {
+  send(AskWhereToSave{});
+  const fs::path folder = home_.path() / "missing";
+  send(SaveAs{folder / "scene"});
+  EXPECT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_NE(edit().note.find("no folder " + folder.string() + " "), std::string::npos) << edit().note;
+  send(SaveAs{home_.path() / "named"});
+  EXPECT_EQ(edit().prompt, Prompt::none) << edit().note;
+  EXPECT_EQ(scene().file, home_.path() / "named.toml");
+}
+
+TEST_F(Saving, SecondSaveKeepsTheSettingsOfTheFirst) {
+  setExposure(2.0);
+  send(Save{});
+  EXPECT_FALSE(edit().unsavedSettings);
+  EXPECT_EQ(settingsOf(onDisk()).view.exposure, 2.0);
+  EXPECT_EQ(view().settings.ofScene.view.exposure, 2.0) << "resets go back to it";
+  removeBall();
+  send(Save{});
+  EXPECT_TRUE(onDisk().objects.empty());
+  EXPECT_EQ(settingsOf(onDisk()).view.exposure, 2.0);
+}
+
+TEST_F(Saving, ForeignChangesAreNotOverwrittenUnasked) {
+  removeBall();
+  std::ofstream(options_.scene, std::ios::app) << "# written meanwhile\n";
+  send(Save{});
+  EXPECT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_NE(edit().note, "");
+  EXPECT_EQ(onDisk().objects.size(), 1u);
+  send(CancelPrompt{});
+  EXPECT_TRUE(edit().unsaved);
+}
+
+TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
+  removeBall();
+  const OpenScene other{sourceFile("scenes/no_mirror.toml")};
+  send(other);
+  ASSERT_EQ(edit().prompt, Prompt::unsavedChanges);
+  send(CancelPrompt{});
+  EXPECT_TRUE(edit().unsaved);
+  EXPECT_FALSE(workspace_->working()) << "nothing is read";
+  send(other);
+  send(DiscardChanges{});
+  waitFor([&] { return shownScene() == "no_mirror"; });
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_EQ(edit().undo, "");
+  EXPECT_FALSE(edit().selected) << "it does not outlive its scene";
+}
+
+// Changes made while a scene is read are asked about when it has come.
+TEST_F(Saving, ChangesDuringLoadingAreAskedAbout) {
+  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  removeBall();
+  waitFor([&] { return edit().prompt == Prompt::unsavedChanges; });
+  EXPECT_EQ(shownScene(), "workspace");
+  send(CancelPrompt{});
+  frame();
+  EXPECT_EQ(shownScene(), "workspace");
+  EXPECT_TRUE(edit().unsaved);
+}
+
+class ShippedScene : public Saving {
+ protected:
+  ShippedScene() {
+    workspace_->apply(OpenScene{shipped_});
+    waitFor([&] { return shownScene() == "no_mirror"; });
+  }
+  ~ShippedScene() override {
+    if (contents(shipped_) != text_) {
+      std::ofstream(shipped_) << text_;  // a failure must not last
+    }
+  }
+  void removeFirst() {
+    send(SelectNext{});
+    send(RemoveSelected{});
+  }
+
+  const fs::path shipped_ = dataDirectory("scenes") / "no_mirror.toml";
+  const std::string text_ = contents(shipped_);
+};
+
+TEST_F(ShippedScene, IsSavedToTheUsersFolder) {
+  const fs::path own = documentsDir() / "Speculum" / "no_mirror.toml";
+  removeFirst();
+  const size_t nodes = allNodes(scene()).size();
+  send(Save{});
+  ASSERT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_EQ(edit().proposedFile, own);
+  send(SaveAs{own});
+  ASSERT_EQ(edit().prompt, Prompt::none) << edit().note;
+  EXPECT_EQ(scene().file, own);
+  EXPECT_EQ(allNodes(loadScene(own)).size(), nodes);
+  removeFirst();
+  send(Save{});
+  EXPECT_EQ(edit().prompt, Prompt::none) << "the second time unasked";
+  EXPECT_EQ(allNodes(loadScene(own)).size(), nodes - 1);
+  EXPECT_EQ(contents(shipped_), text_);
+}
+
+// Saved once more it would be overwritten, which is not for a test to do.
+TEST_F(ShippedScene, OwnFileIsRefusedAtFirst) {
+  removeFirst();
+  send(AskWhereToSave{});
+  send(SaveAs{shipped_});
+  EXPECT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_NE(edit().note.find("it comes with the program\nSave once more to overwrite it."), std::string::npos)
+      << edit().note;
+  EXPECT_TRUE(edit().unsaved);
+  EXPECT_EQ(contents(shipped_), text_);
+}
+
+class CopiedCommand : public Saving {
+ protected:
+  std::string command() {
+    send(CopyCommandLine{});
+    EXPECT_EQ(status().find("copied: " + host_.clipboard), 0u) << status();
+    return host_.clipboard;
+  }
+  // The scene that the command draws.
+  Scene drawnScene() {
+    const std::string text = command();
+    const size_t begin = text.find("--scene ") + 8;
+    return loadScene(text.substr(begin, text.find(' ', begin) - begin));
+  }
+};
+
+TEST_F(CopiedCommand, SaysTimeSizeCameraAndSettings) {
+  EXPECT_EQ(command().find("--camera"), std::string::npos) << "the camera is the scene's";
+  send(StepTime{30});
+  drag({700, 500}, {60, 10});
+  setExposure(0.5);
+  host_.size = {777, 555};
+  const std::string text = command();
+  for (const char* part : {"speculum render", "--size 777x555", "--time 0.5", "--camera ", "view.exposure=0.5"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+  }
+  Settings settings = workspace_->settings();
+  settings.view.continuous = true;
+  send(SetSettings{settings});
+  EXPECT_EQ(command(), text) << "that is the window's own";
+}
+
+TEST_F(CopiedCommand, NamesACopyWithUnsavedChanges) {
+  removeBall();
+  EXPECT_TRUE(drawnScene().objects.empty());
+  EXPECT_NE(status().find("unsaved changes"), std::string::npos) << status();
+  EXPECT_EQ(onDisk().objects.size(), 1u) << "the scene's own file is as it was";
+  send(Undo{});
+  EXPECT_EQ(drawnScene().file, options_.scene);
+  EXPECT_EQ(status(), "copied: " + host_.clipboard);
+}
+
+TEST_F(CopiedCommand, LeavesSavedSettingsToTheFile) {
+  setExposure(0.5);
+  send(Save{});
+  EXPECT_EQ(command().find("view.exposure"), std::string::npos);
+  removeBall();
+  EXPECT_EQ(settingsOf(drawnScene()).view.exposure, 0.5) << "the copy has them";
+}
+
+TEST_F(Saving, FailuresKeepUnsavedWorkInACopy) {
+  workspace_->keepUnsavedWork();
+  EXPECT_TRUE(view().log.lines(LogLevel::error).empty()) << "there is none";
+  removeBall();
+  workspace_->keepUnsavedWork();
+  const std::string line = view().log.lines(LogLevel::error).back().text;
+  const std::string start = "unsaved changes are kept in ";
+  ASSERT_EQ(line.find(start), 0u) << line;
+  EXPECT_TRUE(loadScene(line.substr(start.size())).objects.empty());
+}
+
+}  // namespace
+}  // namespace speculum

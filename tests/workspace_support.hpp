@@ -1,0 +1,221 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "app/workspace.hpp"
+#include "image/picture_files.hpp"
+#include "picture_support.hpp"
+#include "platform/platform.hpp"
+#include "scene/scene_loader.hpp"
+
+namespace speculum::testing_support {
+
+inline constexpr int width = 900;
+inline constexpr int height = 700;
+
+// The eye between two mirrors that face each other; the ball is seen directly, in one mirror and in both.
+inline const std::string corridor = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 1.5]
+target = [0, 1, -2]
+[settings]
+"view.samples" = 1
+"reflection.samples" = 1
+[[object]]
+name = "ball"
+model = "MODELS/sphere.obj"
+position = [0.3, 1, 0.5]
+scale = 0.2
+[[light]]
+name = "lamp"
+position = [-0.5, 1.5, 0]
+radius = 0.05
+intensity = 4
+# In front of the eye.
+[[mirror]]
+name = "ahead"
+position = [0, 1, -2]
+size = [3, 2]
+[[mirror]]
+name = "behind"
+position = [0, 1, 2]
+rotation = [0, 180, 0]
+size = [3, 2]
+)";
+
+inline constexpr double focalPixels = 0.5 * height * 1.7320508075688772;  // of 60 degrees
+
+inline const Selection ball{Selection::Kind::object, 0};
+inline const Selection lamp{Selection::Kind::light, 0};
+inline const Selection ahead{Selection::Kind::mirror, 0};
+inline const Selection behind{Selection::Kind::mirror, 1};
+
+// A window without a screen.
+class FakeHost : public WorkspaceHost {
+ public:
+  void useScene(const Scene&) override {
+    ++scenesUsed;
+    if (std::exchange(failsNext, false)) {
+      throw std::runtime_error("no memory");
+    }
+  }
+  void dropCachedImages() override { ++drops; }
+  void scenesListed() override { ++lists; }
+  glm::ivec2 pictureSize() const override { return size; }
+  double contentScale() const override { return 1.0; }
+  std::string gpu() const override { return "0"; }
+  void setClipboard(const std::string& text) override { clipboard = text; }
+  void close() override { closed = true; }
+  void toggleFullScreen() override {}
+  void setPresentMode(size_t) override {}
+  void togglePanels() override {}
+  void toggleHelp() override {}
+  void toggleInspector() override { inspector = !inspector; }
+  void openInspector() override { inspector = true; }
+  bool closeTopWindow() override { return std::exchange(inspector, false); }
+
+  int scenesUsed = 0;
+  bool failsNext = false;
+  int drops = 0;
+  int lists = 0;
+  glm::ivec2 size{width, height};
+  std::string clipboard;
+  bool closed = false;
+  bool inspector = false;
+};
+
+// A workspace driven by commands, with folders of its own for what it writes.
+class WorkspaceTest : public testing::Test {
+ protected:
+  explicit WorkspaceTest(const std::string& toml = corridor, const Options& more = {}) : options_(more) {
+    for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_CACHE_HOME"}) {
+      environment_.emplace_back(name, environment(name));
+      setEnvironment(name, (home_.path() / name).string());
+    }
+    options_.scene = writeScene("workspace", toml).string();
+    options_.size = {width, height};
+    start();
+  }
+  ~WorkspaceTest() override {
+    workspace_.reset();
+    for (const auto& [name, value] : environment_) {
+      setEnvironment(name, value);
+    }
+  }
+
+  void start() {
+    workspace_ = std::make_unique<Workspace>(options_, host_);
+    frame();
+  }
+  // A frame without a picture.
+  void frame(double seconds = 0.0) {
+    workspace_->prepareView(seconds, true);
+    workspace_->update();
+    workspace_->advance(seconds);
+    workspace_->prepareView(0.0, true);
+  }
+  void send(const Command& command) {
+    workspace_->apply(command);
+    frame();
+  }
+  template <typename Done>
+  void waitFor(const Done& done) {
+    for (int i = 0; i < 2000 && !done(); ++i) {
+      frame();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_TRUE(done());
+  }
+
+  void moveTo(const glm::dvec2& at, bool snap = false) { workspace_->pointerMoved(at, {width, height}, snap); }
+  void press(bool down, bool shift = false, MouseButton button = MouseButton::left, bool overPanels = false) {
+    workspace_->pointerButton({.button = button, .pressed = down, .shift = shift}, overPanels);
+  }
+  void click(const glm::dvec2& at, bool shift = false) {
+    moveTo(at);
+    press(true, shift);
+    press(false, shift);
+    frame();
+  }
+  void drag(const glm::dvec2& from, const glm::dvec2& by, MouseButton button = MouseButton::left) {
+    moveTo(from);
+    press(true, false, button);
+    for (int i = 1; i <= 5; ++i) {
+      moveTo(from + by * (i / 5.0));
+    }
+    press(false, false, button);
+    frame();
+  }
+  // Along a ring of the handles, by degrees from the right, counter-clockwise.
+  void dragRing(const glm::dvec2& center, std::initializer_list<double> degrees, bool snap) {
+    const auto onRing = [&](double angle) {
+      return center + 92.0 * glm::dvec2(std::cos(glm::radians(angle)), -std::sin(glm::radians(angle)));
+    };
+    moveTo(onRing(*degrees.begin()), snap);
+    press(true);
+    for (const double angle : degrees) {
+      moveTo(onRing(angle), snap);
+    }
+    press(false);
+    frame();
+  }
+  // Of a point of the world, whose reflections have been unfolded.
+  static glm::dvec2 pixel(const glm::dvec3& world) {
+    return glm::dvec2(width, height) / 2.0 + focalPixels * glm::dvec2(world.x, 1.0 - world.y) / (1.5 - world.z);
+  }
+  void clickBall() { click(pixel({0.3, 1.0, 0.5})); }
+
+  UiView view() const { return workspace_->view(device_, workspace_->problem()); }
+  EditView edit() const { return view().edit; }
+  const Scene& scene() const { return workspace_->scene(); }
+  Object object() const { return std::get<Object>(thingOf(scene(), edit().selected)); }
+  std::string status() const { return view().status.text; }
+  std::string shownScene() const { return view().browser.scenes.at(view().browser.shown).name; }
+  Scene onDisk() const { return loadScene(options_.scene); }
+  CameraPose camera() { return workspace_->state(workspace_->time()).camera; }
+  glm::dvec3 eye() { return camera().eye; }
+  glm::dvec3 forward() { return -glm::dvec3(glm::transpose(camera().worldToView)[2]); }
+  void setExposure(double exposure) {
+    Settings settings = workspace_->settings();
+    settings.view.exposure = exposure;
+    send(SetSettings{settings});
+  }
+  std::vector<std::filesystem::path> pictures() const {
+    std::error_code none;
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(picturesDir() / "Speculum", none)) {
+      paths.push_back(entry.path());
+    }
+    return paths;
+  }
+  // As if a frame of that picture had been drawn and, if it is wanted, read back.
+  void drawFrame(const Image8& picture = Image8(4, 4)) {
+    const SceneState state = workspace_->state(workspace_->time());
+    workspace_->frameDrawn(
+        {scene(), state, workspace_->settings(), width, height}, [&] { return picture; },
+        workspace_->capture().wanted() ? &picture : nullptr);
+    frame();
+  }
+  static std::string contents(const std::filesystem::path& file) {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
+
+  TemporaryDirectory home_;
+  std::vector<std::pair<std::string, std::string>> environment_;
+  Options options_;
+  FakeHost host_;
+  DeviceView device_;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace speculum::testing_support

@@ -1,0 +1,277 @@
+// Camera, bookmarks, time, captures and files of the window, by commands.
+#include "app/screenshot.hpp"
+#include "workspace_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+namespace fs = std::filesystem;
+
+// A mirror behind a ball, before the eye.
+const std::string wallScene = R"(
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.9, 1, 0]
+[[light]]
+position = [0, 3, 3]
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [5, 3]
+)";
+
+class WindowView : public WorkspaceTest {
+ protected:
+  WindowView() : WorkspaceTest(wallScene) {}
+
+  // Whether the whole wall is in the picture.
+  bool seesWall() {
+    const CameraPose pose = camera();
+    const double half = std::tan(0.5 * pose.verticalFov);
+    for (const glm::dvec3& corner : {glm::dvec3(-2.5, -0.5, -2.0), glm::dvec3(2.5, 2.5, -2.0)}) {
+      const glm::dvec3 seen = pose.worldToView * (corner - pose.eye);
+      if (seen.z >= 0.0 || std::abs(seen.y / seen.z) >= half || std::abs(seen.x / seen.z) >= half * width / height) {
+        return false;
+      }
+    }
+    return true;
+  }
+};
+
+TEST_F(WindowView, MiddleButtonPans) {
+  const glm::dvec3 before = eye();
+  const glm::dvec3 looked = forward();
+  drag({600, 400}, {100, -50}, MouseButton::middle);
+  // The target is 4 m away and the picture 700 pixels high at 60 degrees.
+  const double metresPerPixel = 2.0 * std::tan(glm::radians(30.0)) * 4.0 / height;
+  EXPECT_NEAR(glm::distance(eye(), before + glm::dvec3(-100.0, -50.0, 0.0) * metresPerPixel), 0.0, 1e-9);
+  EXPECT_NEAR(glm::distance(forward(), looked), 0.0, 1e-9);
+  const glm::dvec3 panned = eye();
+  moveTo({600, 400});
+  EXPECT_EQ(eye(), panned) << "let go";
+}
+
+TEST_F(WindowView, SticksMoveAndTurn) {
+  const glm::dvec3 before = eye();
+  workspace_->moveCamera({}, {.leftY = -1.0f}, 0.1);
+  EXPECT_LT(eye().z, before.z) << "forward";
+  EXPECT_NEAR(eye().x, before.x, 1e-9);
+  workspace_->moveCamera({}, {.rightTrigger = 1.0f}, 0.1);
+  EXPECT_GT(eye().y, before.y) << "up";
+  send(ResetCamera{});
+  EXPECT_EQ(eye(), before);
+  send(ToggleCameraMode{});
+  EXPECT_EQ(view().camera.mode, CameraMode::fly);
+  workspace_->moveCamera({}, {.rightX = 1.0f}, 0.1);
+  EXPECT_GT(forward().x, 0.0) << "to the right";
+  EXPECT_NEAR(glm::distance(eye(), before), 0.0, 1e-9);
+  workspace_->moveCamera({0.0, 0.0, -1.0}, {}, 0.1);
+  EXPECT_GT(glm::distance(eye(), before), 0.01) << "keys as well";
+}
+
+TEST_F(WindowView, MirrorsAreLookedFromBothSides) {
+  send(LookFromMirror{MirrorSide::back});
+  EXPECT_LT(eye().z, -2.0);
+  EXPECT_NEAR(glm::distance(forward(), glm::dvec3(0.0, 0.0, 1.0)), 0.0, 1e-9);
+  EXPECT_TRUE(seesWall());
+  send(LookFromMirror{MirrorSide::front});
+  EXPECT_NEAR(eye().z, -2.0 + 0.01, 1e-9);
+  EXPECT_NEAR(forward().z, 1.0, 1e-9);
+}
+
+TEST_F(WindowView, FrameShowsTheSceneOrTheSelection) {
+  const glm::dvec3 before = eye();
+  send(FrameSelection{});
+  EXPECT_GT(glm::distance(eye(), before), 0.1);
+  EXPECT_TRUE(seesWall());
+  send(SelectNode{ball});
+  const glm::dvec3 all = eye();
+  send(FrameSelection{});
+  EXPECT_LT(glm::distance(eye(), glm::dvec3(0.9, 1.0, 0.0)), glm::distance(all, glm::dvec3(0.9, 1.0, 0.0)));
+}
+
+TEST_F(WindowView, BookmarksAreGoneToAndSaved) {
+  send(FrameSelection{});
+  const CameraPose framed = camera();
+  send(AddBookmark{});
+  send(LookFromMirror{MirrorSide::back});
+  send(AddBookmark{});
+  ASSERT_EQ(view().camera.bookmarks.size(), 2u);
+  EXPECT_NE(view().camera.bookmarks[0], view().camera.bookmarks[1]);
+  send(GoToNextBookmark{});
+  EXPECT_EQ(view().camera.bookmark, 0);
+  EXPECT_NEAR(glm::distance(eye(), framed.eye), 0.0, 1e-9);
+  EXPECT_NEAR(glm::distance(camera().worldToView[0], framed.worldToView[0]), 0.0, 1e-9);
+  send(Save{});
+  const Scene saved = onDisk();
+  ASSERT_EQ(saved.bookmarks.size(), 2u);
+  EXPECT_EQ(saved.bookmarks[0].position, framed.eye);
+  send(RemoveBookmark{0});
+  EXPECT_EQ(view().camera.bookmarks.size(), 1u);
+  send(GoToBookmark{5});
+  EXPECT_EQ(view().camera.bookmark, 0) << "there is none";
+}
+
+TEST_F(WindowView, TimeIsPausedSteppedAndScaled) {
+  const PlaybackView& playback = view().playback;
+  frame(2.0);
+  EXPECT_EQ(playback.time, 2.0);
+  send(TogglePaused{});
+  frame(1.0);
+  EXPECT_EQ(playback.time, 2.0);
+  send(StepTime{2});
+  EXPECT_NEAR(playback.time, 2.0 + 2.0 * timeStep, 1e-12);
+  send(MultiplyTimeSpeed{0.5});
+  EXPECT_EQ(playback.speed, 0.5);
+  send(SetTimeSpeed{4.0});
+  send(SetPaused{false});
+  send(Seek{1.0});
+  frame(0.5);
+  EXPECT_EQ(playback.time, 3.0);
+  send(StepTime{-1});
+  EXPECT_TRUE(playback.paused) << "a step pauses";
+  send(Seek{-1.0});
+  EXPECT_EQ(playback.time, 0.0);
+  for (int i = 0; i < 20; ++i) {
+    send(MultiplyTimeSpeed{0.5});
+  }
+  EXPECT_EQ(playback.speed, slowestTime);
+}
+
+TEST_F(WindowView, ScreenshotsAreSavedAndReported) {
+  send(TakeScreenshot{false});
+  EXPECT_TRUE(workspace_->capture().wanted());
+  EXPECT_TRUE(workspace_->capture().bare());
+  EXPECT_TRUE(view().status.withPanelOnly);
+  drawFrame(Image8(5, 3));
+  ASSERT_EQ(pictures().size(), 1u);
+  EXPECT_EQ(readImage8(pictures()[0]).width, 5);
+  EXPECT_EQ(status(), "saved " + pictures()[0].string());
+  EXPECT_EQ(view().log.lines().back().text, status());
+  EXPECT_FALSE(workspace_->capture().wanted());
+  send(Escape{});
+  EXPECT_EQ(status(), "") << "dismissed";
+}
+
+TEST_F(WindowView, RecordingsAreEvenSequences) {
+  send(ToggleRecording{true});
+  EXPECT_FALSE(workspace_->capture().bare());
+  EXPECT_EQ(workspace_->frameSeconds(1.0), 1.0 / Capture::framesPerSecond) << "however long the frames take";
+  drawFrame();
+  drawFrame();
+  send(ToggleRecording{true});
+  ASSERT_EQ(pictures().size(), 1u);
+  EXPECT_TRUE(fs::exists(pictures()[0] / "00001.png"));
+  EXPECT_FALSE(fs::exists(pictures()[0] / "00002.png"));
+  EXPECT_EQ(status(), "recorded 2 frames at 30 a second in " + pictures()[0].string());
+  EXPECT_EQ(workspace_->frameSeconds(1.0), 1.0);
+}
+
+TEST_F(WindowView, CapturesThatFailSaySo) {
+  std::ofstream(picturesDir()) << "a file in the folder's place";
+  send(TakeScreenshot{true});
+  drawFrame();
+  EXPECT_EQ(status().rfind("not saved: ", 0), 0u) << status();
+  send(ToggleRecording{true});
+  EXPECT_EQ(status().rfind("not recorded: ", 0), 0u) << status();
+  EXPECT_FALSE(workspace_->capture().wanted());
+}
+
+TEST_F(WindowView, ResetGoesBackToTheScenesSettings) {
+  setExposure(3.0);
+  send(ResetSettings{});
+  EXPECT_EQ(workspace_->settings().view.exposure, 1.0);
+}
+
+class Opening : public WindowView {
+ protected:
+  std::string model(const char* name) { return sourceFile("models/" + std::string(name)).string(); }
+  void drop(const std::vector<fs::path>& files) {
+    send(OpenDropped{files});
+    waitFor([&] { return !workspace_->working(); });
+    frame();
+  }
+};
+
+TEST_F(Opening, ModelTakesThePlaceOfTheScene) {
+  const size_t scenes = view().browser.scenes.size();
+  drop({"/notes.txt", model("queen.obj")});
+  EXPECT_EQ(workspace_->problem(), "");
+  EXPECT_EQ(shownScene(), "queen.obj");
+  EXPECT_EQ(view().browser.scenes.size(), scenes + 1);
+  EXPECT_EQ(host_.lists, 1);
+  drop({model("queen.obj")});
+  EXPECT_EQ(view().browser.scenes.size(), scenes + 1) << "the same file again";
+  EXPECT_EQ(workspace_->time(), 0.0);
+}
+
+TEST_F(Opening, FolderOfAnOpenedSceneIsListedFirst) {
+  const BrowserView& browser = view().browser;
+  EXPECT_EQ(browser.scenes.front().file.parent_path(), fs::path(options_.scene).parent_path());
+  for (const char* name : {"b_scene", "a_scene"}) {
+    std::ofstream(home_.path() / (std::string(name) + ".toml"))
+        << "title = 'T'\n[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
+  }
+  std::ofstream(home_.path() / "notes.toml") << "something = 1\n";
+  drop({home_.path() / "b_scene.toml"});
+  ASSERT_GT(browser.scenes.size(), 4u);
+  EXPECT_EQ(browser.scenes[0].name, "a_scene");
+  EXPECT_EQ(browser.scenes[0].title, "T");
+  EXPECT_EQ(browser.scenes[1].file, home_.path() / "b_scene.toml");
+  EXPECT_EQ(browser.shown, 1u);
+  const auto count = [&](const std::string& name) {
+    return std::count_if(browser.scenes.begin(), browser.scenes.end(), [&](const auto& s) { return s.name == name; });
+  };
+  EXPECT_EQ(count("notes"), 0) << "no scene";
+  EXPECT_EQ(count("gallery"), 1);
+  EXPECT_EQ(count("workspace"), 1) << "what was open";
+}
+
+TEST_F(Opening, ProblemsAreOneLineAndTheSceneStays) {
+  const fs::path broken = home_.path() / "broken.toml";
+  std::ofstream(broken) << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 4]\n";
+  drop({broken});
+  EXPECT_EQ(workspace_->problem().rfind(broken.string() + ":3: camera.target:", 0), 0u) << workspace_->problem();
+  drop({"/tmp/notes.txt"});
+  EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or an .obj model is needed)");
+  drop({model("none.obj")});
+  EXPECT_NE(workspace_->problem().find("none.obj: cannot be read"), std::string::npos);
+  host_.failsNext = true;
+  drop({model("gem.obj")});
+  EXPECT_NE(workspace_->problem().find("gem.obj: no memory"), std::string::npos) << workspace_->problem();
+  EXPECT_EQ(host_.scenesUsed, 2) << "the old scene is used again";
+  EXPECT_EQ(shownScene(), "workspace");
+  drop({model("gem.obj")});
+  EXPECT_EQ(workspace_->problem(), "") << "gone with the next scene";
+}
+
+TEST_F(Opening, LoadingIsCancelled) {
+  std::ofstream large(home_.path() / "large.obj");
+  for (int i = 0; i < 400000; ++i) {
+    large << "v 0 0 0\n";
+  }
+  large << "v 1 0 0\nv 0 1 0\nf -3 -2 -1\n" << std::flush;
+  send(OpenScene{home_.path() / "large.obj"});
+  EXPECT_EQ(view().browser.loading, "large.obj");
+  send(CancelLoading{});
+  frame();
+  EXPECT_EQ(view().browser.loading, "");
+  EXPECT_EQ(shownScene(), "workspace");
+  EXPECT_EQ(workspace_->problem(), "") << "which is no error";
+}
+
+TEST_F(Opening, ThumbnailsFollowTheList) {
+  const std::vector<Image8> pictures = workspace_->browser().thumbnails();
+  const BrowserView& browser = view().browser;
+  ASSERT_EQ(pictures.size(), browser.scenes.size());
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    EXPECT_EQ(pictures[i].width, i == browser.shown ? 0 : 192) << browser.scenes[i].name;
+  }
+}
+
+}  // namespace
+}  // namespace speculum
