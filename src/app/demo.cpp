@@ -7,6 +7,7 @@
 
 #include "app/device_view.hpp"
 #include "app/screenshot.hpp"
+#include "image/color.hpp"
 #include "platform/process.hpp"
 #include "ui/input_map.hpp"
 
