@@ -7,13 +7,13 @@ namespace {
 
 TEST(PassTree, MirrorsHangBelowWhatTheyAreSeenIn) {
   // In the order of recording: children before their parent.
-  const std::vector<UiPass> passes = {{"mirror a > b", {0, 1}, 1},           {"mirror a", {0}, 0},
-                                      {"mirror b > a", {1, 0}, 1},           {"mirror b", {1}, 0},
-                                      {"main view", {}, -1, PassKind::main}, {"display", {}, -1, PassKind::display}};
-  const std::vector<UiSkipped> skipped = {{"c", "hidden", "", {2}},
-                                          {"a > c", "outside", "", {0, 2}},
-                                          {"a > b > a", "max_depth", "", {0, 1, 0}},
-                                          {"d > a", "outside", "", {3, 0}}};
+  const std::vector<PassView> passes = {{"mirror a > b", {0, 1}, 1},           {"mirror a", {0}, 0},
+                                        {"mirror b > a", {1, 0}, 1},           {"mirror b", {1}, 0},
+                                        {"main view", {}, -1, PassKind::main}, {"display", {}, -1, PassKind::display}};
+  const std::vector<SkippedView> skipped = {{"c", {2}, "hidden"},
+                                            {"a > c", {0, 2}, "outside"},
+                                            {"a > b > a", {0, 1, 0}, "max_depth"},
+                                            {"d > a", {3, 0}, "outside"}};
   const std::vector<PassNode> roots = passTree(passes, skipped);
   ASSERT_EQ(roots.size(), 2u);
   EXPECT_EQ(roots[1].pass, 5);
