@@ -131,7 +131,7 @@ TEST(UnchangedPictures, EditsShowInTheFrameAfterThem) {
       [](Scene& s) { s.mirrors.erase(s.mirrors.begin()); },
       [](Scene& s) { s.objects.pop_back(); },
       [](Scene& s) { s.environment.background = glm::dvec3(0.8, 0.1, 0.1); },
-      [](Scene& s) { s.camera.position.x = 0.5; },
+      [](Scene& s) { s.camera.position.x = 0.9; },
       [](Scene& s) { s.mirrors.clear(); },
   };
   for (size_t i = 0; i < edits.size(); ++i) {
