@@ -159,6 +159,7 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   demo_->apply(CancelMeasurement{});
   ASSERT_TRUE(waitFor([&] { return !view().accuracy.measuring; }));
   EXPECT_TRUE(view().accuracy.points.empty());
+  run(2);
   const int before = demo_->framesDrawn();
   click("accuracy.measure");
   ASSERT_TRUE(waitFor([&] { return !view().accuracy.points.empty(); })) << view().accuracy.about;

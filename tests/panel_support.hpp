@@ -78,6 +78,10 @@ class PanelTest : public testing::Test {
         if (const auto* set = std::get_if<SetSettings>(&command)) {
           settings_.current = set->settings;
         }
+        const auto* edit = std::get_if<EditNode>(&command);
+        if (edit && appliesEdits_) {
+          scene_.mirrors.at(static_cast<size_t>(edit_.selected.index)) = std::get<Mirror>(edit->node);
+        }
       }
     }
     return output_;
@@ -180,6 +184,7 @@ class PanelTest : public testing::Test {
   std::unique_ptr<PanelWindows> windows_;
   UiOutput output_;  // of the last frame
   std::vector<Command> commands_;
+  bool appliesEdits_ = false;  // to the selected mirror
 
  private:
   const PixelRect* find(const std::string& name) const {

@@ -42,7 +42,8 @@ TEST_F(PanelTest, ResetArrowIsReachedByKeyboard) {
 TEST_F(PanelTest, TimeRowScrubsAndSteps) {
   drag("time", 0.05, 150);
   ASSERT_TRUE(sent<Seek>());
-  EXPECT_NEAR(std::get<Seek>(commands_.back()).seconds, 11.0, 5.0);
+  EXPECT_GT(std::get<Seek>(commands_.back()).seconds, 5.0);
+  EXPECT_LE(std::get<Seek>(commands_.back()).seconds, 20.0);
   click("time.on");
   EXPECT_EQ(only<StepTime>().steps, 1);
   click("time.back");
@@ -244,21 +245,17 @@ class Inspector : public PanelTest {
     run(3);
   }
   void selectMirror(int index) { select({Selection::Kind::mirror, index}); }
-  // One of the three numbers of a row, typed after a click on it.
-  void typeNumber(const std::string& row, int part, const std::string& number) {
-    click(row, (2 * part + 1) / 6.0);
+  // Types a number of a row after a click at a part of its width.
+  void typeNumber(const std::string& row, double part, const std::string& number) {
+    appliesEdits_ = true;
+    click(row, part);
     ImGui::GetIO().KeyCtrl = true;
     tap(ImGuiKey_A);
     ImGui::GetIO().KeyCtrl = false;
     type(number);
-    commands_.clear();
     tap(ImGuiKey_Enter);
-    for (const Command& command : commands_) {
-      if (const auto* edit = std::get_if<EditNode>(&command)) {
-        scene_.mirrors.at(static_cast<size_t>(edit_.selected.index)) = std::get<Mirror>(edit->node);
-      }
-    }
     run(2);
+    appliesEdits_ = false;
   }
 };
 
@@ -330,7 +327,7 @@ TEST_F(Inspector, DraggedNumbersAreOneContinuedEdit) {
 TEST_F(Inspector, ClickedNumbersAreTyped) {
   selectMirror(0);
   const glm::dvec3 before = scene_.mirrors[0].position;
-  typeNumber("edit.position", 1, "1.75");
+  typeNumber("edit.position", 0.33, "1.75");
   EXPECT_EQ(scene_.mirrors[0].position, glm::dvec3(before.x, 1.75, before.z)) << "what was there is replaced";
 }
 
@@ -357,17 +354,17 @@ TEST_F(Inspector, VerticesAreAppliedOnceTheyAreAPolygon) {
   selectMirror(0);
   const std::vector<glm::dvec3>& polygon = scene_.mirrors[0].polygon;
   const auto& problem = windows_->state().polygon.problem;
-  typeNumber("edit.polygon.2", 0, "0.55");
+  typeNumber("edit.polygon.2", 0.17, "0.55");
   EXPECT_EQ(polygon[2], glm::dvec3(0.55, 1.6, -1.0)) << problem.value_or("");
   const std::vector<glm::dvec3> narrowed = polygon;
-  typeNumber("edit.polygon.2", 2, "-0.5");
+  typeNumber("edit.polygon.2", 0.83, "-0.5");
   EXPECT_EQ(polygon, narrowed);
   ASSERT_TRUE(problem);
   EXPECT_EQ(problem->find("polygon: is not planar (a planar, convex polygon"), 0u) << *problem;
-  typeNumber("edit.polygon.3", 2, "-0.5");
+  typeNumber("edit.polygon.3", 0.83, "-0.5");
   EXPECT_FALSE(problem) << "both upper vertices are nearer now";
   EXPECT_EQ(polygon[2], glm::dvec3(0.55, 1.6, -0.5));
-  typeNumber("edit.polygon.1", 0, "-2");
+  typeNumber("edit.polygon.1", 0.17, "-2");
   ASSERT_TRUE(problem);
   EXPECT_EQ(problem->find("polygon: is not convex"), 0u) << *problem;
   click("edit.polygon.reset");
@@ -421,7 +418,7 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
   click("accuracy.point exact");
   EXPECT_EQ(only<ApplyPoint>().point, 1);
   accuracy_.current = 1;
-  drag("accuracy.slider", 0.9, -0.8 * widget("accuracy.slider").width);
+  click("accuracy.slider", 0.05);
   ASSERT_TRUE(sent<ApplyPoint>());
   EXPECT_EQ(std::get<ApplyPoint>(commands_.front()).point, 0);
   click("quality.max_error", 0.1);
@@ -459,7 +456,8 @@ class TargetsWindow : public PanelTest {
     frame_.passes = {mirror, main};
     frame_.skipped = {{.name = "mirror door", .path = {1}, .reason = "backface"}};
     frame_.target.size = {900, 700};
-    run(3);
+    ImGui::GetIO().DisplaySize = {900.0f, 1800.0f};  // the passes are in view
+    run(5);
   }
   const std::optional<TargetRequest>& target() const { return output_.target; }
 };

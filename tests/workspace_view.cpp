@@ -239,7 +239,7 @@ TEST_F(Opening, ProblemsAreOneLineAndTheSceneStays) {
   drop({"/tmp/notes.txt"});
   EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or an .obj model is needed)");
   drop({model("none.obj")});
-  EXPECT_NE(workspace_->problem().find("none.obj: cannot be read"), std::string::npos);
+  EXPECT_NE(workspace_->problem().find("none.obj:1: file: cannot be read"), std::string::npos) << workspace_->problem();
   host_.failsNext = true;
   drop({model("gem.obj")});
   EXPECT_NE(workspace_->problem().find("gem.obj: no memory"), std::string::npos) << workspace_->problem();
