@@ -73,9 +73,13 @@ void AccuracyController::beforeFrame(Settings& settings) {
     setResults(std::move(*results));
     view_.about = aboutText(results_) + "; times taken while the window was drawing";
   }
-  if (settings.quality.budgetMs == budget_.ms && settings.quality.maxError == budget_.error) {
-    return;
+  if (settings.quality.budgetMs != budget_.ms || settings.quality.maxError != budget_.error) {
+    applyBudget(settings);
   }
+  findCurrentPoint(settings);
+}
+
+void AccuracyController::applyBudget(Settings& settings) {
   budget_ = {settings.quality.budgetMs, settings.quality.maxError};
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
@@ -108,7 +112,6 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
   view_.stage = status ? status->stage : "";
   view_.progress = status ? status->fraction : 0.0;
   view_.about = sweep_.takeError().value_or(view_.about);
-  findCurrentPoint(shown.settings);
   const bool changed = view_.showsDifference ? difference_.update(shown, image) : difference_.reset();
   coverChanged_ = coverChanged_ || changed;
   view_.difference = difference_.status();

@@ -33,6 +33,7 @@ class AccuracyController {
 
  private:
   void setResults(SweepResults results);
+  void applyBudget(Settings& settings);
   void findCurrentPoint(const Settings& settings);
 
   AccuracyView view_;

@@ -77,14 +77,15 @@ void Demo::updateUi(double seconds) {
 }
 
 void Demo::drawFrame(double sinceLastMs) {
+  // Between frames, because it waits for the device.
+  if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
+    sceneRenderer_->setCover(*cover);
+  }
   const Clock::time_point start = Clock::now();
   renderer_.setTimerDetail(ui_->windows().visible() ? TimerDetail::passes : TimerDetail::frame);
   std::optional<Frame> frame = renderer_.beginFrame();
   if (!frame) {
     return;
-  }
-  if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
-    sceneRenderer_->setCover(*cover);
   }
   const SceneState state = workspace_.state(workspace_.time());
   const std::optional<TargetRequest>& target = output_.target;
