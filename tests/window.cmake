@@ -5,6 +5,8 @@ speculum_test(panel_tests SOURCES ui_panels.cpp ui_input_map.cpp LIBRARIES pictu
 speculum_test(thumbnail_tests SOURCES thumbnails.cpp LIBRARIES picture_support LABELS pictures)
 
 # Journeys through the window, on a display of their own.
-speculum_test(journeys SOURCES journeys.cpp journeys_idle.cpp journeys_random.cpp
-              LIBRARIES picture_support display_support LABELS window)
-add_dependencies(journeys speculum)
+foreach(name journeys journeys_idle)
+  speculum_test(${name} SOURCES ${name}.cpp LIBRARIES picture_support display_support LABELS window)
+  add_dependencies(${name} speculum)
+endforeach()
+speculum_test(journeys_random SOURCES journeys_random.cpp LIBRARIES picture_support display_support LABELS window)
