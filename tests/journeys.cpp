@@ -147,7 +147,7 @@ TEST_F(Journey, RandomResizesLeakNothing) {
   demo_->setCapture(false);
   const auto settle = [&] {
     resizeTo(300, 200);
-    run(20);
+    run(40);  // unused targets are freed after 30 frames
     demo_->renderer().waitIdle();
   };
   resizeTo(1, 1);  // where mirrors are too small for passes, which is another pipeline
