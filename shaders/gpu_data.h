@@ -66,6 +66,8 @@ struct MaterialChange {
   uint replacesDiffuse;
   vec3 specular;
   uint replacesSpecular;
+  vec3 emission;
+  uint replacesEmission;
 };
 
 struct InstanceData {
@@ -260,15 +262,15 @@ static_assert(offsetof(ViewData, clipPlane) == 112 && offsetof(ViewData, hasSky)
 static_assert(offsetof(LightData, irradiance) == 16 && sizeof(LightData) == 48);
 static_assert(offsetof(MaterialData, specular) == 16 && sizeof(MaterialData) == 48);
 static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(InstanceData, change) == 176 &&
-              offsetof(InstanceData, shininess) == 208 && sizeof(InstanceData) == 224);
+              offsetof(InstanceData, shininess) == 224 && sizeof(InstanceData) == 240);
 static_assert(offsetof(MirrorData, lookupScale) == 48 && offsetof(MirrorData, texelFromPixel) == 80 &&
               sizeof(MirrorData) == 128);
 static_assert(offsetof(EnvironmentData, high) == 32 && sizeof(EnvironmentData) == 80);
 static_assert(offsetof(TraceNode, high) == 16 && sizeof(TraceNode) == 32);
 static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48);
 static_assert(offsetof(TraceVertex, normal) == 16 && sizeof(TraceVertex) == 32);
-static_assert(offsetof(TraceInstance, change) == 96 && offsetof(TraceInstance, root) == 160 &&
-              sizeof(TraceInstance) == 176);
+static_assert(offsetof(TraceInstance, change) == 96 && offsetof(TraceInstance, root) == 176 &&
+              sizeof(TraceInstance) == 192);
 static_assert(offsetof(TraceMirror, reflectance) == 64 && offsetof(TraceMirror, ripplePhase) == 112 &&
               sizeof(TraceMirror) == 128);
 static_assert(offsetof(LightPath, light) == 32 && sizeof(LightPath) == 48 && sizeof(TraceCounts) == 16);

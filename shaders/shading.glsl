@@ -97,7 +97,8 @@ Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
 // The surface of an object, without its texture.
 Surface objectSurface(vec3 position, vec3 normal, MaterialData material, MaterialChange change, float shininess) {
   return Surface(position, normal, change.replacesDiffuse != 0 ? change.diffuse : material.diffuse,
-                 change.replacesSpecular != 0 ? change.specular : material.specular, material.emission,
+                 change.replacesSpecular != 0 ? change.specular : material.specular,
+                 change.replacesEmission != 0 ? change.emission : material.emission,
                  shininess > 0.0 ? shininess : material.shininess);
 }
 

@@ -55,6 +55,7 @@ spin = [0, 20, 0]
 color = [0.8, 0.2, 0.1]
 specular = [0.04, 0.05, 0.06]
 shininess = 0.5
+emission = [0, 0, 2]
 copies = { count = 100, step = [1, 0, 0] }
 mirror = { reflectance = [0.5, 0.6, 0.7], fresnel = "schlick", base_color = [0, 0.1, 0] }
 [[light]]
@@ -106,6 +107,7 @@ TEST(SceneLoader, ReadsEveryField) {
                                          .color = glm::dvec3(0.8, 0.2, 0.1),
                                          .specular = glm::dvec3(0.04, 0.05, 0.06),
                                          .shininess = 1.0,  // below 1 counts as 1
+                                         .emission = glm::dvec3(0, 0, 2),
                                          .copies = {100, {1, 0, 0}},
                                          .mirror = ObjectMirror{{0.5, 0.6, 0.7}, Fresnel::schlick, {0, 0.1, 0}}}));
   EXPECT_EQ(scene.lights.at(0), (PointLight{.name = "key",

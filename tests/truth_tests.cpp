@@ -34,6 +34,29 @@ INSTANTIATE_TEST_SUITE_P(HardScenes, SceneTruth,
                                          "hard/turning_fast"),
                          [](const auto& info) { return std::string(info.param).substr(5); });
 
+TEST(ObjectFields, EmissionReplacesTheMaterials) {
+  const std::filesystem::path file = writeScene("emission", R"(
+[camera]
+position = [0, 0, 4]
+target = [0, 0, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+color = [0, 0, 0]
+specular = [0, 0, 0]
+emission = [0.25, 0.5, 1]
+[[mirror]]
+position = [0, 0, -2]
+size = [6, 6]
+)");
+  constexpr PictureSize size{160, 90};
+  const Truth truth = trace(file, size, 1);
+  expectTruth(file, size, 1, truth);
+  const uint8_t* middle = &truth.picture.rgba[4 * (45 * 160 + 80)];
+  EXPECT_NEAR(middle[0], 137, 1);
+  EXPECT_NEAR(middle[1], 188, 1);
+  EXPECT_EQ(middle[2], 255);
+}
+
 // A point in a box, as a scene file takes it.
 std::string pointText(Random& random, const glm::dvec3& low, const glm::dvec3& high) {
   std::ostringstream out;

@@ -82,7 +82,7 @@ void applyMaterial(const Scene& scene, const Object& object, const Material& mat
   }
   point.specular = object.specular.value_or(material.specular);
   point.shininess = std::max(1.0, object.shininess.value_or(material.shininess));
-  point.emission = material.emission;
+  point.emission = object.emission.value_or(material.emission);
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ struct Object {
   std::optional<glm::dvec3> color;
   std::optional<glm::dvec3> specular;
   std::optional<double> shininess;
+  std::optional<glm::dvec3> emission;
   Copies copies;
   std::optional<ObjectMirror> mirror;
 

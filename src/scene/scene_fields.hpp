@@ -124,6 +124,8 @@ inline const auto& fieldsOf(const Object*) {
             {.range = kNotNegative, .color = true, .start = glm::dvec3(0.2)}),
       field(&Object::shininess, "shininess", "replaces Ns, the exponent of the highlights; below 1 counts as 1",
             {.floor = 1.0, .step = 1.0, .start = 50.0}),
+      field(&Object::emission, "emission", "replaces Ke of the whole model: radiance that lights nothing else",
+            {.range = kNotNegative, .color = true, .start = glm::dvec3(1.0)}),
       field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
       field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
   return fields;

@@ -14,7 +14,9 @@ gpu::MaterialChange materialChange(const Object& object) {
   return {.diffuse = glm::vec3(object.color.value_or(glm::dvec3(0.0))),
           .replacesDiffuse = object.color.has_value(),
           .specular = glm::vec3(object.specular.value_or(glm::dvec3(0.0))),
-          .replacesSpecular = object.specular.has_value()};
+          .replacesSpecular = object.specular.has_value(),
+          .emission = glm::vec3(object.emission.value_or(glm::dvec3(0.0))),
+          .replacesEmission = object.emission.has_value()};
 }
 
 glm::dmat3 unitNormalMatrix(const glm::dmat3& linear) {
