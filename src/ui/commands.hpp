@@ -141,7 +141,7 @@ struct PauseHistory {
 struct ClearHistory {};
 struct ClearLog {};
 
-// One action of the user. Panels, keys and the gamepad make commands; Demo::apply carries them out.
+// One action of the user. Panels, keys and the gamepad make commands; Workspace::apply carries them out.
 using Command =
     std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
                  GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused, SetTimeSpeed,

@@ -6,7 +6,7 @@
 #include <cfloat>
 #include <utility>
 
-#include "ui/inspector_parts.hpp"
+#include "ui/inspector_fields.hpp"
 
 namespace speculum::panels {
 

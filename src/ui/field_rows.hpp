@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace speculum::panels {
+
+// Called after each widget with its name, such as "edit.orbit.speed".
+using NotePlace = std::function<void(const std::string& name)>;
+
+// Rows for the fields of a node, from their descriptions in scene/scene_fields.hpp. `polygon` draws those of a mirror's
+// vertices. True if the user changed a field.
+bool fieldRows(Object& object, const NotePlace& note);
+bool fieldRows(PointLight& light, const NotePlace& note);
+bool fieldRows(Mirror& mirror, const NotePlace& note, const std::function<bool()>& polygon);
+
+}  // namespace speculum::panels
