@@ -286,5 +286,14 @@ TEST_F(Saving, FailuresKeepUnsavedWorkInACopy) {
   EXPECT_TRUE(loadScene(line.substr(start.size())).objects.empty());
 }
 
+TEST_F(Saving, FailuresKeepUnsavedSettings) {
+  setExposure(0.5);
+  workspace_->keepUnsavedWork();
+  const std::string line = view().log.lines(LogLevel::error).back().text;
+  const std::string start = "unsaved changes are kept in ";
+  ASSERT_EQ(line.find(start), 0u) << line;
+  EXPECT_EQ(settingsOf(loadScene(line.substr(start.size()))).view.exposure, 0.5);
+}
+
 }  // namespace
 }  // namespace speculum

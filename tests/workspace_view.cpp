@@ -1,5 +1,6 @@
 // Camera, bookmarks, time, captures and files of the window, by commands.
 #include "app/screenshot.hpp"
+#include "image/picture_files.hpp"
 #include "workspace_support.hpp"
 
 namespace speculum {
@@ -53,6 +54,16 @@ TEST_F(WindowView, MiddleButtonPans) {
   const glm::dvec3 panned = eye();
   moveTo({600, 400});
   EXPECT_EQ(eye(), panned) << "let go";
+}
+
+TEST_F(WindowView, WheelNeverReachesTheTarget) {
+  const glm::dvec3 looked = forward();
+  for (const double notches : {1.0, -1.0}) {
+    for (int i = 0; i < 1000; ++i) {
+      workspace_->scrolled(notches);
+      ASSERT_NEAR(glm::distance(forward(), looked), 0.0, 1e-6) << i << " notches of " << notches;
+    }
+  }
 }
 
 TEST_F(WindowView, SticksMoveAndTurn) {

@@ -31,11 +31,11 @@ class BackgroundJob {
   }
   // Does not wait: the thread ends by itself.
   void cancel() {
-    std::erase_if(cancelled_, [](const std::unique_ptr<Task>& task) { return task->ended.load(); });
     if (task_) {
       task_->cancelled = true;
       cancelled_.push_back(std::move(task_));
     }
+    std::erase_if(cancelled_, [](const std::unique_ptr<Task>& task) { return task->ended.load(); });
   }
   // Cancels and waits for every thread, as destruction does.
   void stop() {
@@ -79,6 +79,9 @@ class BackgroundJob {
         });
       } catch (const std::exception& failure) {
         error = failure.what();
+      }
+      if (cancelled) {
+        result.reset();
       }
       ended = true;
     }

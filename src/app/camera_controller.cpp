@@ -122,7 +122,12 @@ void CameraController::zoom(double notches) {
   const glm::dvec3 arm = eye_ - target_;
   const glm::dvec3 shorter = arm * std::pow(zoomPerNotch, notches);
   if (mode_ == CameraMode::orbit) {
-    eye_ = target_ + shorter;
+    // The eye never reaches the target, where no view is defined, nor a distance at which doubles no longer tell them
+    // apart. A scene may start beyond these bounds.
+    const double now = glm::length(arm);
+    const double least = std::min(now, 1e-6 * (1.0 + glm::length(target_)));
+    const double most = std::max(now, 1e9);
+    eye_ = target_ + arm * (std::clamp(glm::length(shorter), least, most) / now);
   } else {
     const glm::dvec3 step = shorter - arm;
     eye_ += step;

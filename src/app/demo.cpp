@@ -37,6 +37,16 @@ Demo::Demo(const Options& options)
 }
 
 bool Demo::step() {
+  // The one place where a failure of a frame ends.
+  try {
+    return stepOnce();
+  } catch (...) {
+    workspace_.keepUnsavedWork();
+    throw;
+  }
+}
+
+bool Demo::stepOnce() {
   window_.pollEvents();
   takeGamepad();
   const Clock::time_point now = Clock::now();
@@ -53,14 +63,8 @@ bool Demo::step() {
   }
   const double sinceLastMs = pacer_.beginFrame(seconds);
   const double frameSeconds = workspace_.frameSeconds(std::min(seconds, longestStep));
-  // The one place where a failure of a frame ends.
-  try {
-    updateUi(frameSeconds);
-    drawFrame(sinceLastMs);
-  } catch (...) {
-    workspace_.keepUnsavedWork();
-    throw;
-  }
+  updateUi(frameSeconds);
+  drawFrame(sinceLastMs);
   return !shouldClose();
 }
 
@@ -273,6 +277,9 @@ int runDemo(const Options& options) {
   installInterruptHandler();
   Demo demo(options);
   while (demo.step() && !interruptRequested() && (options.frames == 0 || demo.framesDrawn() < options.frames)) {
+  }
+  if (interruptRequested()) {
+    demo.keepUnsavedWork();
   }
   demo.renderer().waitIdle();
   spdlog::info("{} frames", demo.framesDrawn());

@@ -28,6 +28,8 @@ class Demo : private WorkspaceHost {
   // Samples that debug.check_finite found in the frames that have finished, of every scene that was shown.
   uint64_t nonFinite() { return nonFinite_ + (sceneRenderer_ ? sceneRenderer_->finiteWatch().count() : 0); }
   int framesDrawn() const { return framesDrawn_; }
+  // Saves a copy of unsaved changes and logs where.
+  void keepUnsavedWork() noexcept { workspace_.keepUnsavedWork(); }
   // Takes the place of the first gamepad that is connected.
   void setGamepadSource(std::function<std::optional<GamepadState>()> source) { gamepadSource_ = std::move(source); }
   // Makes frames from now on readable by Renderer::readback, panels included.
@@ -35,6 +37,8 @@ class Demo : private WorkspaceHost {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  bool stepOnce();
 
   // WorkspaceHost
   void useScene(const Scene& scene) override;

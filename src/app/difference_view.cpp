@@ -33,6 +33,7 @@ std::string viewKey(const ShownPicture& shown) {
   for (int column = 0; column < 3; ++column) {
     addVector(fingerprint, shown.state.camera.worldToView[column]);
   }
+  fingerprint.add(shown.state.camera.verticalFov);
   if (shown.settings.view.clearColor) {
     addVector(fingerprint, *shown.settings.view.clearColor);
   }

@@ -58,13 +58,15 @@ bool DocumentController::hasUnsaved(const Settings& settings) const {
 }
 
 bool DocumentController::confirmDiscard(const Settings& settings, std::optional<Command> then) {
-  const bool given = discarded_ && discarded_->revision == editor_.document().revision() &&
-                     settingsKey(discarded_->settings) == settingsKey(settings);
-  if (given || !prompts_ || !hasUnsaved(settings)) {
+  const bool alreadyDiscarded = discarded_ && discarded_->revision == editor_.document().revision() &&
+                                settingsKey(discarded_->settings) == settingsKey(settings);
+  if (alreadyDiscarded || !prompts_ || !hasUnsaved(settings)) {
     return true;
   }
   prompt_ = prompt_ == Prompt::none ? Prompt::unsavedChanges : prompt_;
-  afterPrompt_ = then ? std::move(then) : std::move(afterPrompt_);
+  if (then) {
+    afterPrompt_ = std::move(then);
+  }
   return false;
 }
 
@@ -139,15 +141,15 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings)
   }
 }
 
-fs::path DocumentController::savedOrCopy() const {
+fs::path DocumentController::savedOrCopy(const Settings& settings) const {
   const SceneDocument& document = editor_.document();
-  if (!document.modified()) {
+  if (!hasUnsaved(settings)) {
     return loaded_.scene.file;
   }
   const fs::path folder = userCacheDir() / "views";
   std::error_code none;
   fs::create_directories(folder, none);
-  const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, loaded_.settings));
+  const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, settings));
   // Other content gets another name, so that commands that were copied before stay right.
   Fingerprint fingerprint;
   fingerprint.add(std::string_view(text));

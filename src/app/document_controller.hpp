@@ -30,9 +30,9 @@ class DocumentController {
 
   bool savedSinceLastCall() { return std::exchange(saved_, false); }
 
-  // A copy of the scene with unsaved changes in the user's cache folder, the scene's own file without any. Throws
-  // std::runtime_error if it cannot be written.
-  std::filesystem::path savedOrCopy() const;
+  // A copy of the scene with its unsaved changes and these settings in the user's cache folder; the scene's own file if
+  // that is the same. Throws std::runtime_error if the copy cannot be written.
+  std::filesystem::path savedOrCopy(const Settings& settings) const;
 
   const std::string& note() const { return note_; }  // result of the last save, or why a model was not added
   void setNote(const std::string& note) { note_ = note; }

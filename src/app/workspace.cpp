@@ -358,6 +358,7 @@ void Workspace::escape() {
   if (editor().document().selection()) {
     return editor().select({});
   }
+  problem_.clear();
   status_.clear();
 }
 
@@ -397,7 +398,7 @@ Options Workspace::shownOptions(const fs::path& file) {
 
 void Workspace::copyCommandLine() {
   try {
-    const fs::path file = document_->savedOrCopy();
+    const fs::path file = document_->savedOrCopy(loaded_->settings);
     Options options = shownOptions(file);
     if (const auto place = camera_.camera().place()) {
       options.camera = CameraPlace{place->eye, place->target, std::nullopt};
@@ -413,7 +414,7 @@ void Workspace::copyCommandLine() {
 
 void Workspace::measureAccuracy() {
   try {
-    SweepRequest request{.options = shownOptions(document_->savedOrCopy()),
+    SweepRequest request{.options = shownOptions(document_->savedOrCopy(loaded_->settings)),
                          .base = settings_.current,
                          .camera = state(time()).camera,
                          .time = time()};
@@ -432,7 +433,7 @@ void Workspace::toggleRecording(bool withPanel) {
 
 void Workspace::keepUnsavedWork() noexcept {
   try {
-    const fs::path file = document_->savedOrCopy();
+    const fs::path file = document_->savedOrCopy(settings());
     if (file != scene().file) {
       spdlog::error("unsaved changes are kept in {}", file.string());
     }
