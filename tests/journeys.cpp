@@ -3,6 +3,8 @@
 #include <random>
 
 #include "core/handle.hpp"
+#include "image/color.hpp"
+#include "image/picture_files.hpp"
 #include "journeys_support.hpp"
 #include "scene/scene_loader.hpp"
 #include "test_paths.hpp"

@@ -10,7 +10,9 @@
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
+#include "platform/process.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum::testing_support {

@@ -5,7 +5,8 @@
 
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
-#include "platform/platform.hpp"
+#include "platform/files.hpp"
+#include "platform/process.hpp"
 #include "scene/scene_loader.hpp"
 #include "ui/panel_windows.hpp"
 
