@@ -77,7 +77,7 @@ TEST_F(IdleWindow, DrawsNothingUntilSomethingHappens) {
   expectQuiet();
 }
 
-TEST_F(IdleWindow, MainViewIsRenderedWhileItsDepthIsShown) {
+TEST_F(IdleWindow, ShownDepthNeedsTheMainView) {
   click("panel.Targets");
   click("targets.depth");
   const PixelRect canvas = widget("targets.canvas");

@@ -39,7 +39,7 @@ TEST_F(MtlFile, ShininessBelowOneCountsAsOne) {
   EXPECT_EQ(load(kSquare + "usemtl m\nf 1 2 3\n", "newmtl m\nNs 0.2\n").parts[0].material.shininess, 1.0);
 }
 
-TEST_F(MtlFile, FacesAreGroupedInTheOrderOfFirstUse) {
+TEST_F(MtlFile, FacesAreGroupedByFirstUse) {
   const Mesh mesh = load(kSquare + "f 1 2 3\nusemtl b\nf 1 2 3\nf 3 2 1\nusemtl a \nf 1 2 3\nusemtl b\nf 2 3 1\n",
                          "newmtl a\nKd 1 0 0\nnewmtl unused\nmap_Kd none.png\nnewmtl b\nKd 0 1 0\n");
   ASSERT_EQ(mesh.parts.size(), 3u);

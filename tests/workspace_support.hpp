@@ -169,7 +169,7 @@ class WorkspaceTest : public testing::Test {
     press(false);
     frame();
   }
-  // Of a point of the world, whose reflections have been unfolded.
+  // Pixel of a world point. Unfold its reflections first.
   static glm::dvec2 pixel(const glm::dvec3& world) {
     return glm::dvec2(width, height) / 2.0 + focalPixels * glm::dvec2(world.x, 1.0 - world.y) / (1.5 - world.z);
   }

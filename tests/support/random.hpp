@@ -27,7 +27,7 @@ class Random {
     return {x, y, uniform(-halfSide, halfSide)};
   }
 
-  // Of unit length.
+  // Returns a direction of unit length.
   glm::dvec3 direction() {
     for (;;) {
       const glm::dvec3 v = inBox(1.0);
