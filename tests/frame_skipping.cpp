@@ -256,6 +256,48 @@ TEST(PassMask, CoversTheMirrorAndItsLookups) {
   }
 }
 
+// In a kaleidoscope, planes through edges of different mirrors coincide up to rounding.
+TEST(PassMask, HasNoTriangleWithoutArea) {
+  std::mt19937 engine(8);
+  const auto oneOf = [&](const std::vector<double>& values) { return values[engine() % values.size()]; };
+  int masks = 0;
+  for (int round = 0; round < 150; ++round) {
+    const int sides = static_cast<int>(oneOf({3, 4, 5, 6, 8}));
+    const double radius = oneOf({1.0, 1.5, 2.0});
+    std::vector<Mirror> mirrors;
+    for (int side = 0; side < sides; ++side) {
+      const double angle = 360.0 * side / sides;
+      const double across = 2.0 * radius * std::tan(glm::radians(180.0 / sides));
+      Mirror& mirror = mirrors.emplace_back(
+          wall({radius * std::sin(glm::radians(angle)), 0, -3 + radius * std::cos(glm::radians(angle))}, angle + 180.0,
+               {across, oneOf({1.0, 4.0, 40.0})}));
+      mirror.twoSided = round % 3 == 0;
+    }
+    Scene scene = sceneWith(mirrors, {});
+    scene.camera.position = {oneOf({0.0, 0.1, -0.1}), oneOf({0.0, 0.2}), -3 + oneOf({0.0, 0.1, 0.5})};
+    scene.camera.target = scene.camera.position + glm::dvec3(oneOf({0.0, 1.0, -0.5}), oneOf({0.0, 0.5, 1.0}), -1);
+    scene.camera.verticalFov = oneOf({60, 90, 120});
+    Settings settings;
+    settings.reflection.maxDepth = 6;
+    settings.reflection.maxPasses = 1000;
+    settings.reflection.scale = oneOf({0.5, 1.0});
+    const FramePlan p = planOf(scene, settings);
+    for (const PlannedPass& pass : p.passes) {
+      std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, lookupReach(settings, true));
+      for (glm::dvec2& corner : mask) {
+        corner = glm::round((corner * 0.5 + 0.5) * pass.view.pictureSize * 256.0);  // as GPUs snap vertices
+      }
+      for (size_t i = 1; i + 1 < mask.size(); ++i) {
+        const glm::dvec2 a = mask[i] - mask[0];
+        const glm::dvec2 b = mask[i + 1] - mask[0];
+        ASSERT_GT(std::abs(a.x * b.y - a.y * b.x), 0.0) << "round " << round << ", pass " << pass.view.path.size();
+        ++masks;
+      }
+    }
+  }
+  EXPECT_GT(masks, 5000);
+}
+
 TEST(PassMask, IsEmptyWhereMirrorsFillTheirRectangle) {
   const FramePlan p = planOf(sceneWith({wall({0, 0, -1}, 0, {20, 20})}, {}));
   ASSERT_EQ(p.passes.size(), 1u);

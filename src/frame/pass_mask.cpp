@@ -17,6 +17,24 @@ std::vector<glm::dvec3> corners(const View& view) {
   return {{x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0}};
 }
 
+// Whether edges are long and corners sharp enough, in pixels, that no triangle of the polygon's fan loses its area when
+// the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. A draw with such a triangle need not draw the
+// others: lavapipe leaves out all of them.
+bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
+  constexpr double shortest = 1.0 / 8.0;
+  constexpr double flattest = 1.0 / 32.0;
+  const size_t n = polygon.size();
+  for (size_t i = 0; i < n; ++i) {
+    const glm::dvec2 before = glm::dvec2(polygon[(i + n - 1) % n] - polygon[i]) / step;
+    const glm::dvec2 after = glm::dvec2(polygon[(i + 1) % n] - polygon[i]) / step;
+    const double height = std::abs(before.x * after.y - before.y * after.x) / glm::length(after - before);
+    if (!(glm::length(after) >= shortest) || !(height >= flattest)) {
+      return false;
+    }
+  }
+  return n >= 3;
+}
+
 }  // namespace
 
 // At the screen's resolution a pixel reads one texel. The mask holds all samples of that texel, because a driver may
@@ -46,16 +64,26 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
     const glm::dvec3 line(n.x * perDevice.x, -n.y * perDevice.y, 0.0);
     const glm::dvec2 perPixel = glm::abs(step * glm::dvec2(line));
     const double offset = -n.z + reach * (perPixel.x + perPixel.y) + rounding * glm::length(perPixel);
-    const auto inside = [&](const glm::dvec3& p) { return glm::dot(line, p) + offset >= 0.0; };
     const double length2 = glm::dot(line, line);
-    if (length2 == 0.0 || std::all_of(part.begin(), part.end(), inside)) {
+    if (length2 == 0.0) {
       continue;
     }
-    part = clipPolygon(part, Plane{line * (-offset / length2), line});
-    cut = true;
+    // Where a cut would leave a badly shaped polygon, it is made farther out, or not at all: the mask may be larger.
+    for (const double outwards : {0.0, 0.25, 0.5, 1.0}) {
+      const double moved = offset + outwards * glm::length(perPixel);
+      const auto inside = [&](const glm::dvec3& p) { return glm::dot(line, p) + moved >= 0.0; };
+      if (std::all_of(part.begin(), part.end(), inside)) {
+        break;
+      }
+      std::vector<glm::dvec3> rest = clipPolygon(part, Plane{line * (-moved / length2), line});
+      if (isWellShaped(rest, step)) {
+        part = std::move(rest);
+        cut = true;
+        break;
+      }
+    }
   }
-  // Nothing left can only be rounding, because the mirror is seen: keep the whole rectangle.
-  if (!cut || part.size() < 3) {
+  if (!cut) {
     return {};
   }
   std::vector<glm::dvec2> mask;
