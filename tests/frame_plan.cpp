@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "frame_support.hpp"
+#include "support/random.hpp"
 
 namespace speculum {
 namespace {
@@ -137,6 +138,51 @@ TEST(FramePlan, ScaleChangesMirrorImagesOnly) {
   for (const PlannedPass& pass : p.passes) {
     EXPECT_EQ(pass.view.pictureSize, glm::dvec2(width / 2, height / 2));
     EXPECT_LE(pass.view.rect.width, width / 2);
+  }
+}
+
+TEST(FramePlan, TexelsFollowBothScales) {
+  Random random(3);
+  const Scene scene = corridor();
+  const SceneState state = evaluate(scene, 0.0);
+  for (int round = 0; round < 100; ++round) {
+    const glm::ivec2 size(static_cast<int>(random.uniform(1, 2000)), static_cast<int>(random.uniform(1, 2000)));
+    const FramePlan whole = planFrame(scene, state, {}, size.x, size.y);
+    Settings settings;
+    settings.view.scale = random.uniform(0.125, 1.0);
+    settings.reflection.scale = random.uniform(0.125, 4.0);
+    const FramePlan p = planFrame(scene, state, settings, size.x, size.y);
+    EXPECT_EQ(p.width, size.x);
+    const glm::dvec2 texels = glm::dvec2(size) * settings.view.scale;
+    const glm::dvec2 drawn = p.main.view.pictureSize;
+    EXPECT_EQ(p.main.view.rect, (PixelRect{0, 0, static_cast<int>(drawn.x), static_cast<int>(drawn.y)}));
+    EXPECT_EQ(drawn, glm::max(glm::round(texels), 1.0));
+    EXPECT_EQ(p.main.areaPx, drawn.x * drawn.y);
+    // Whatever is drawn, it is the same mirrors for the same reasons, and the user picks among them.
+    ASSERT_EQ(p.passes.size(), whole.passes.size());
+    EXPECT_EQ(p.skipped.size(), whole.skipped.size());
+    for (size_t i = 0; i < p.passes.size(); ++i) {
+      const View& view = p.passes[i].view;
+      EXPECT_EQ(view.path, whole.passes[i].view.path);
+      EXPECT_EQ(view.pictureSize, settings.reflection.scale * drawn);
+      EXPECT_NEAR(p.passes[i].areaPx * size.x * size.y,
+                  whole.passes[i].areaPx * view.pictureSize.x * view.pictureSize.y,
+                  1e-6 * p.passes[i].areaPx * size.x * size.y);
+      EXPECT_GE(std::min(view.rect.width, view.rect.height), 1);
+    }
+  }
+}
+
+TEST(FramePlan, MinPixelsCountsPixelsOfThePicture) {
+  const Scene scene = sceneWith({wall({0, 0, -5}, 0, {0.1, 0.1})});
+  Settings settings;
+  const double pixels = planOf(scene).passes.at(0).areaPx;
+  for (const double scale : {1.0, 0.5, 0.125}) {
+    settings.view.scale = scale;
+    settings.reflection.minPixels = 0.99 * pixels;
+    EXPECT_EQ(planOf(scene, settings).passes.size(), 1u) << scale;
+    settings.reflection.minPixels = 1.01 * pixels;
+    EXPECT_EQ(planOf(scene, settings).passes.size(), 0u) << scale;
   }
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include "image/color.hpp"
+#include "image/enlarge.hpp"
 #include "picture_support.hpp"
 
 namespace speculum {
@@ -273,6 +275,39 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OmittedBarrier,
                                          "mainSamplesBeforeWrite", "mainDepthBeforeWrite", "mainToSample",
                                          "swapchainBeforeWrite", "readbackToCopy"),
                          [](const auto& info) { return std::string(info.param); });
+
+// A mirror in a mirror, with several samples, drawn at half the resolution: the same bytes as a picture of half the
+// size that is enlarged.
+TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
+  const Options options =
+      headless(writeScene("scaled", turnedRoom() + left + right +
+                                        mirror("big", "position = [0, 1, 9]\nrotation = [0, 180, 0]\nsize = [12, 8]")),
+               size);
+  Session whole(options);
+  Settings settings = whole.settings();
+  for (const auto& [scale, drawn] : {std::pair(0.5, PictureSize{160, 90}), std::pair(0.125, PictureSize{40, 23})}) {
+    settings.view.samples = settings.reflection.samples = 4;
+    settings.view.scale = scale;
+    settings.reflection.minPixels = 0.0;  // pixels of the picture, which differ
+    whole.setSettings(settings);
+    whole.draw(0.0, true);
+    whole.finish();
+    EXPECT_EQ(whole.lastFrame().plan.main.areaPx, drawn.width * drawn.height);
+    const Image8 picture = whole.picture();
+    const LinearImage radiance = whole.radiance();
+    ASSERT_EQ(radiance.width, size.width);
+    EXPECT_LE(difference(picture, toDisplay(radiance, 1.0, ToneMap::clamp), 1).over, 0) << scale;
+    if (drawn.width * size.height == drawn.height * size.width) {
+      Options small = options;
+      small.size = drawn;
+      small.settings = {{"view.samples", "4"}, {"reflection.samples", "4"}, {"reflection.min_pixels", "0"}};
+      Session half(small);
+      half.draw(0.0, true);
+      EXPECT_TRUE(enlarged(half.radiance(), size.width, size.height).pixels == radiance.pixels);
+    }
+    expectQuiet(whole);
+  }
+}
 
 }  // namespace
 }  // namespace speculum

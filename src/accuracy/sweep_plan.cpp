@@ -30,6 +30,26 @@ Changes best(const SweepContext& context) {
   return joined(samples(std::to_string(context.sampleCounts.back())), {{"reflection.max_depth", greatestDepth}});
 }
 
+// Drafts: the whole picture at a lower resolution.
+void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full) {
+  const Values scales =
+      full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.25", "0.5", "1"};
+  const auto drawn = [&](const std::string& count) {
+    return context.mirrors ? samples(count) : Changes{{"view.samples", count}};
+  };
+  planner.series(
+      {.series = {.key = "view.scale",
+                  .name = "Resolution of the main view and of mirror images",
+                  .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale",
+                  .theorySlope = -0.5},
+       .theory = Theory::fixed,
+       .fitUpTo = 0.99},
+      scales, drawn(std::to_string(context.sampleCounts.back())));
+  for (const std::string& scale : scales) {
+    planner.add(joined({{"view.scale", scale}}, drawn("1")));
+  }
+}
+
 void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   const Values coarse =
       full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.125", "0.25", "0.5", "1"};
@@ -83,6 +103,7 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
                                    : Changes{{"view.samples", count}});
   }
   planner.series(std::move(msaa), counts, each);
+  addViewScales(planner, context, full);
   if (context.rough) {
     addRoughSeries(planner, context, full);
   }

@@ -33,7 +33,7 @@ struct Candidate {
   int parent = 0;                   // node
   size_t draw = 0;                  // index into the parent's mirrors
   std::vector<glm::dvec3> visible;  // world; visible region
-  double areaPx = 0.0;
+  double areaPx = 0.0;              // of the picture
   glm::dvec3 throughput{1.0};
   int order = 0;  // of discovery; settles ties so that plans are reproducible
 
@@ -69,7 +69,10 @@ class Planner {
 
   FramePlan plan() {
     Node& root = nodes_.emplace_back();
-    root.pass.view = mainView(state_.camera, plan_.projection, plan_.width, plan_.height);
+    const auto texels = [&](int pixels) {
+      return std::max(1, static_cast<int>(std::lround(pixels * allSettings_.view.scale)));
+    };
+    root.pass.view = mainView(state_.camera, plan_.projection, texels(plan_.width), texels(plan_.height));
     root.pass.areaPx = root.pass.view.rect.area();
     fill(0);
     while (!candidates_.empty()) {
@@ -243,7 +246,7 @@ void Planner::expand(const Candidate& candidate) {
   if (static_cast<int>(nodes_.size()) > settings_.maxPasses) {
     return skip(parent, draw.mirror, SkipReason::maxPasses, "max_passes " + std::to_string(settings_.maxPasses));
   }
-  const glm::dvec2 picture = glm::dvec2(plan_.width, plan_.height) * settings_.scale;
+  const glm::dvec2 picture = nodes_[0].pass.view.pictureSize * settings_.scale;
   const glm::dvec2 ratio = picture / parent.pictureSize;
   const PixelRect& outer = parent.rect;
   const int x0 = static_cast<int>(std::floor(outer.x * ratio.x));
@@ -258,7 +261,7 @@ void Planner::expand(const Candidate& candidate) {
   Node node;
   node.pass.view = reflectedView(parent, draw.mirror, draw.plane, candidate.visible, rect, picture);
   node.pass.depth = static_cast<int>(parent.path.size());
-  node.pass.areaPx = candidate.areaPx;
+  node.pass.areaPx = candidate.areaPx * (picture.x / plan_.width) * (picture.y / plan_.height);
   node.pass.throughput = largest(candidate.throughput);
   node.pass.channels = candidate.throughput;
   node.draw = candidate.draw;

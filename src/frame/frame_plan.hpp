@@ -42,7 +42,7 @@ struct PlannedPass {
   View view;
   int parent = -1;             // index into FramePlan::passes; -1: the main view
   int depth = -1;              // depth level of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
-  double areaPx = 0.0;         // area of the mirror's visible region, in screen pixels
+  double areaPx = 0.0;         // area of the mirror's visible region, in texels of its image
   double throughput = 1.0;     // upper bound over that region, largest channel, with this mirror's own reflectance
   glm::dvec3 channels{1.0};    // the same for each channel
   std::vector<int> instances;  // visible ones, indices into SceneState::instances, ascending
@@ -124,7 +124,8 @@ struct FramePlan {
 };
 
 // Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
-// budget of passes goes to the best first, by visible pixels times throughput.
+// budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as
+// many texels along each side, rounded, and mirror images reflection.scale times as many as that.
 //
 // With reflection.skip_unchanged, a mirror seen directly reuses its image in `cache.images` if everything that the
 // image depends on is exactly as it was. With reflection.update_interval above 1, it also does so while the image is

@@ -112,11 +112,11 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   FittedPlan fitted{{}, settings, {}};
   ReflectionSettings& reflection = fitted.settings.reflection;
   const double margins = reflection.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
-  const double largestScale = limits.largestSide / (std::max(width, height) + margins);
+  const double largestScale = limits.largestSide / (settings.view.scale * (std::max(width, height) + margins));
   if (reflection.scale > largestScale) {
     reflection.scale = largestScale;
     fitted.message = "mirror images of " + settingValue(settings, "reflection.scale") +
-                     " times the picture's size are larger than the device's " + std::to_string(limits.largestSide) +
+                     " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
   fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);

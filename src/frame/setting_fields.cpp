@@ -65,7 +65,7 @@ constexpr SettingField fields[] = {
     {.key = "reflection.scale",
      .kind = NumberSetting{at<&R::scale>, 0.125, 4.0},
      .label = "Mirror resolution",
-     .text = "resolution of mirror images relative to the screen",
+     .text = "resolution of mirror images relative to the main view",
      .cost = "Pixels of mirror images grow with its square. Below 1 reflections blur, above 1 edges smooth.",
      .slider = SettingSlider{0.125, 4.0, "%.3f"}},
     {.key = "reflection.samples",
@@ -131,6 +131,13 @@ constexpr SettingField fields[] = {
      .text = "how geometry behind a mirror is cut",
      .cost = "oblique loses precision of depth where the eye is near the mirror; none shows what is behind it."},
 
+    {.key = "view.scale",
+     .kind = NumberSetting{at<&V::scale>, 0.125, 1.0},
+     .label = "Resolution",
+     .text = "resolution of the main view relative to the picture; mirror images follow it",
+     .cost = "Pixels of the main view and of mirror images fall with its square. What is drawn is enlarged for display "
+             "and\nlooks softer.",
+     .slider = SettingSlider{0.125, 1.0, "%.3f"}},
     {.key = "view.samples",
      .kind = IntegerSetting{at<&V::samples>, 1, 8, false, true},
      .label = "Samples",

@@ -16,7 +16,7 @@ enum class ClipMethod { clipDistance, oblique, none };
 enum class TextureFilter { bilinear, trilinear };
 
 struct ReflectionSettings {
-  double scale = 1.0;  // resolution of mirror images relative to the screen
+  double scale = 1.0;  // resolution of mirror images relative to the main view
   int samples = 4;
   int maxDepth = 4;
   double minPixels = 1.0;
@@ -31,6 +31,7 @@ struct ReflectionSettings {
 };
 
 struct ViewSettings {
+  double scale = 1.0;  // resolution of the main view relative to the picture; mirror images follow it
   int samples = 4;
   double exposure = 1.0;
   ToneMap toneMap = ToneMap::clamp;

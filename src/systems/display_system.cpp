@@ -18,7 +18,7 @@ struct Placement {
 
 std::optional<Placement> placementOf(const FramePlan& plan, const DebugView& debug) {
   const bool ofMain = debug.pass == static_cast<int>(plan.passes.size());
-  const PixelRect image = ofMain ? PixelRect{0, 0, plan.width, plan.height} : plan.passes[debug.pass].view.rect;
+  const PixelRect& image = ofMain ? plan.main.view.rect : plan.passes[debug.pass].view.rect;
   PixelRect area = intersect(debug.area, {0, 0, plan.width, plan.height});
   glm::dvec2 corner(debug.area.x, debug.area.y);  // of texel 0, 0, in pixels of the display
   double zoom = debug.zoom;
@@ -55,14 +55,17 @@ DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipeline
   layout_ = createDescriptorSetLayout(renderer.device(), {&binding, 1}, "display");
 }
 
-const Pipeline& DisplaySystem::pipelineFor(const MirrorImage& radiance, const Settings& settings) {
+const Pipeline& DisplaySystem::pipelineFor(const MirrorImage& radiance, const Settings& settings, bool enlarged) {
   const Variant variant{.toneMap = settings.view.toneMap,
                         .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
+                        .enlarged = enlarged,
                         .format = renderer_.displayFormat()};
   return pipelines_.get(variant, [&] {
     return GraphicsPipelineDesc{.name = "display",
                                 .vert = "full_screen.vert",
-                                .frag = variant.multisampled ? "display_average.frag" : "display.frag",
+                                .frag = variant.multisampled ? "display_average.frag"
+                                        : variant.enlarged   ? "display_enlarge.frag"
+                                                             : "display.frag",
                                 .fragConstants = {variant.toneMap == ToneMap::aces},
                                 .setLayouts = {layout_.get()},
                                 .pushConstantBytes = sizeof(gpu::DisplayConstants),
@@ -83,15 +86,21 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
   return {{.kind = kind}, desc.name, -1, 1};
 }
 
-RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, const Settings& settings) {
+RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, VkExtent2D size,
+                                   const Settings& settings) {
   const PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
+  const auto texelsPerPixel = [&](VkExtent2D texels) {
+    return glm::vec2(static_cast<float>(texels.width) / static_cast<float>(frame.extent.width),
+                     static_cast<float>(texels.height) / static_cast<float>(frame.extent.height));
+  };
   if (!cover_) {
-    return draw(frame, desc, PassKind::display, pipelineFor(radiance, settings), radiance.descriptor,
-                gpu::DisplayConstants{{1.0f, 1.0f, 0.0f, 0.0f}, static_cast<float>(settings.view.exposure)});
+    const glm::vec2 scale = texelsPerPixel(size);
+    return draw(frame, desc, PassKind::display, pipelineFor(radiance, settings, scale != glm::vec2(1.0f)),
+                radiance.descriptor,
+                gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), static_cast<float>(settings.view.exposure)});
   }
   const MirrorImage cover{.descriptor = cover_.descriptor(coverSampler_.get())};
-  const glm::vec2 scale(static_cast<float>(cover_.extent().width) / static_cast<float>(frame.extent.width),
-                        static_cast<float>(cover_.extent().height) / static_cast<float>(frame.extent.height));
+  const glm::vec2 scale = texelsPerPixel(cover_.extent());
   return draw(frame, desc, PassKind::display, pipelineFor(cover, Settings()), cover.descriptor,
               gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), 1.0f});
 }

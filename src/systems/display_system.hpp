@@ -37,8 +37,8 @@ class DisplaySystem {
   // See SceneRenderer::setCover.
   void setCover(const Image8& picture);
 
-  // Records the display pass, of this radiance or of the overlay image.
-  RecordedPass record(Frame& frame, const MirrorImage& radiance, const Settings& settings);
+  // Records the display pass, of this radiance with `size` texels, or of the overlay image.
+  RecordedPass record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings);
   // Record the target of debug.pass; nothing if no part of it lies in the area.
   std::optional<RecordedPass> recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
                                           const MirrorImage& radiance, const Settings& settings);
@@ -54,10 +54,11 @@ class DisplaySystem {
   struct Variant {
     ToneMap toneMap;
     bool multisampled;  // of the image that is shown
+    bool enlarged;
     VkFormat format;
     auto operator<=>(const Variant&) const = default;
   };
-  const Pipeline& pipelineFor(const MirrorImage& radiance, const Settings& settings);
+  const Pipeline& pipelineFor(const MirrorImage& radiance, const Settings& settings, bool enlarged = false);
   RecordedPass draw(Frame& frame, const PassDesc& desc, PassKind kind, const Pipeline& pipeline,
                     const VkDescriptorImageInfo& image, const auto& constants);
 

@@ -7,7 +7,7 @@
 #include "frame/memory_fit.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
-#include "image/color.hpp"
+#include "image/enlarge.hpp"
 
 namespace speculum {
 
@@ -94,6 +94,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   prepareTargets(frame, settings, plan, debug);
   resources_.prepare(frame, settings.effects.textures, drawsTextures(scene_, state, settings, plan));
   resources_.prepareLevels(frame, meshesWithLevels(plan, state));
+  pictureSize_ = {plan.width, plan.height};
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
   const FrameInfo info{.frame = frame,
@@ -153,7 +154,7 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
 }
 
 void SceneRenderer::prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
-  const VkExtent2D extent = extentOf(plan.width, plan.height);
+  const VkExtent2D extent = extentOf(plan.main.view.rect.width, plan.main.view.rect.height);
   const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
   const bool readSamples = settings.debug.checkFinite && mainSamples != VK_SAMPLE_COUNT_1_BIT;
   if (!main_ || main_->samples() != mainSamples || main_->desc().readSamples != readSamples) {
@@ -264,7 +265,7 @@ void SceneRenderer::recordMain(const FrameInfo& info) {
 }
 
 void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug) {
-  recorded_.push_back(display_.record(info.frame, {.descriptor = main_->descriptor()}, info.settings));
+  recorded_.push_back(display_.record(info.frame, {.descriptor = main_->descriptor()}, main_->extent(), info.settings));
   if (!debug) {
     return;
   }
@@ -399,7 +400,7 @@ LinearImage SceneRenderer::radiance() {
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
   }
-  return image;
+  return enlarged(image, pictureSize_.x, pictureSize_.y);
 }
 
 }  // namespace speculum

@@ -56,7 +56,7 @@ class SceneRenderer {
   size_t pipelineCount() const;
   // Share of each effect in the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
-  // Linear radiance of the main view in the last recorded frame. Waits for the GPU.
+  // Linear radiance of the main view in the last recorded frame, enlarged to the picture. Waits for the GPU.
   LinearImage radiance();
 
  private:
@@ -97,6 +97,7 @@ class SceneRenderer {
   std::unique_ptr<KeptDepth> watchedDepth_;
   TexelProbe probe_;
   std::unique_ptr<OffScreen> main_;
+  glm::ivec2 pictureSize_{0};  // of the last recorded frame
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
   MainImage mainImage_;         // its content is empty if it is not to be reused
