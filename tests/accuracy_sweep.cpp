@@ -76,7 +76,7 @@ SweepPoint point(const std::string& name, double flip, double ms) {
   return p;
 }
 
-TEST(QualityBudget, ChoosesFromTheFrontWithReason) {
+TEST(QualityBudget, ChoosesPointsWithAReason) {
   SweepResults results;
   results.points = {point("1", 0.3, 1.0), point("2", 0.2, 2.0), point("3", 0.25, 3.0), point("4", 0.1, 4.0)};
   EXPECT_FALSE(chooseForBudget(results, {}));
@@ -97,6 +97,24 @@ TEST(QualityBudget, ChoosesFromTheFrontWithReason) {
   EXPECT_EQ(chosen({.ms = 4.0, .error = 0.25}).point, 1) << "the cheapest that is good enough";
   EXPECT_EQ(chosen({.ms = 2.0, .error = 0.15}).point, 1) << "time decides";
   EXPECT_FALSE(chosen({.ms = 2.0, .error = 0.15}).met);
+}
+
+// A front keeps a point only if it is cheaper than the next by more than the spread of their times.
+TEST(QualityBudget, PointsOffTheFrontAreChosenToo) {
+  SweepResults results;
+  results.points = {point("slow", 0.02, 757.0), point("fast", 0.04, 465.0), point("draft", 0.2, 400.0)};
+  for (SweepPoint& p : results.points) {
+    p.gpuMs.lowerQuartile -= 200.0;
+    p.gpuMs.upperQuartile += 200.0;
+  }
+  ASSERT_EQ(paretoFront(results.points), std::vector<int>{0});
+  const auto chosen = [&](const QualityBudget& budget) { return chooseForBudget(results, budget).value(); };
+  EXPECT_EQ(chosen({.ms = 600.0}).point, 1);
+  EXPECT_TRUE(chosen({.ms = 600.0}).met);
+  EXPECT_EQ(chosen({.error = 0.05}).point, 1);
+  EXPECT_EQ(chosen({.ms = 420.0, .error = 0.05}).point, 2);
+  EXPECT_EQ(chosen({.ms = 100.0}).point, 2);
+  EXPECT_FALSE(chosen({.ms = 100.0}).met);
 }
 
 TEST(QualityBudget, FrameTimeReplacesMissingTimestamps) {

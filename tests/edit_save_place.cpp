@@ -37,5 +37,16 @@ TEST(SavePlace, MissingFolderIsNamed) {
   EXPECT_FALSE(fs::exists(folder / "one"));
 }
 
+TEST(SavePlace, DeletedWorkingFolderIsRefused) {
+  const fs::path before = fs::current_path();
+  {
+    const TemporaryFolder folder;
+    fs::current_path(folder / "");
+  }
+  EXPECT_THROW(requireFolder("a.toml"), SaveError);
+  EXPECT_NO_THROW(requireFolder("/tmp/a.toml"));
+  fs::current_path(before);
+}
+
 }  // namespace
 }  // namespace speculum

@@ -298,6 +298,28 @@ TEST(PassMask, HasNoTriangleWithoutArea) {
   EXPECT_GT(masks, 5000);
 }
 
+// The edge of a mirror that is cut for drawing lies beyond all that is read, at any angle and resolution.
+TEST(MirrorPolygons, AreDrawnAsFarAsImagesAreRead) {
+  for (const double fov : {20.0, 90.0, 160.0}) {
+    Scene scene = corridor();
+    scene.mirrors[1].size = {40, 40};
+    scene.camera.verticalFov = fov;
+    Settings settings;
+    settings.reflection.scale = 0.05;
+    const SceneState state = evaluate(scene, 0.0);
+    const FramePlan plan = planOf(scene, settings);
+    ASSERT_GE(plan.passes.size(), 2u);
+    for (const PlannedPass& pass : plan.passes) {
+      View read = pass.view;
+      widen(read, plan.projection, static_cast<int>(std::ceil(lookupReach(settings, false))));
+      for (const MirrorDraw& draw : pass.mirrors) {
+        const double all = polygonArea(visiblePart(read, state.mirrors[draw.mirror].polygon));
+        EXPECT_NEAR(polygonArea(visiblePart(read, draw.polygon)), all, 1e-9 * all) << fov;
+      }
+    }
+  }
+}
+
 TEST(PassMask, IsEmptyWhereMirrorsFillTheirRectangle) {
   const FramePlan p = planOf(sceneWith({wall({0, 0, -1}, 0, {20, 20})}, {}));
   ASSERT_EQ(p.passes.size(), 1u);

@@ -309,5 +309,27 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
   }
 }
 
+// What a blurred image is read beside the visible region is drawn too: one colour all around stays that colour.
+TEST(MirrorPictures, BlurredImagesAreDrawnBesideTheirMirror) {
+  const std::filesystem::path file = writeScene("one_colour", R"(
+[environment]
+sky = { zenith = [0.4, 0.5, 0.6], horizon = [0.4, 0.5, 0.6], ground = [0.4, 0.5, 0.6] }
+[camera]
+position = [0, 0, 3]
+target = [0, 0, 0]
+[settings]
+"effects.rough_lookup" = "image"
+[[mirror]]
+rotation = [15, 30, 20]
+size = [1.6, 1]
+roughness = 0.4
+reflectance = [1, 1, 1]
+)");
+  const Image8 picture = draw(headless(file, size));
+  for (size_t i = 0; i < picture.rgba.size(); ++i) {
+    ASSERT_NEAR(picture.rgba[i], picture.rgba[i % 4], 1) << "pixel " << i / 4;
+  }
+}
+
 }  // namespace
 }  // namespace speculum

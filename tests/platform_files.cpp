@@ -6,6 +6,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <future>
 #include <string>
 
 namespace speculum::test {
@@ -59,6 +61,53 @@ TEST(Files, ReplaceNeedsAFolderAndAFile) {
 TEST(Files, ReplaceWritesToADeviceWithoutReplacingIt) {
   replaceFile("/dev/null", "a");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(Files, ReplaceKeepsLinksAndModes) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path() / "file";
+  const fs::path link = directory.path() / "link";
+  const fs::path dangling = directory.path() / "dangling";
+  replaceFile(file, "old");
+  fs::permissions(file, fs::perms(0640));
+  fs::create_symlink("link2", link);
+  fs::create_symlink(file, directory.path() / "link2");
+  fs::create_symlink("new", dangling);
+  replaceFile(link, "new");
+  replaceFile(dangling, "made");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_TRUE(fs::is_symlink(dangling));
+  EXPECT_EQ(readText(file), "new");
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms(0640));
+  EXPECT_EQ(readText(directory.path() / "new"), "made");
+  fs::create_symlink("circle", directory.path() / "circle");
+  expectFileError([&] { replaceFile(directory.path() / "circle", "a"); }, directory.path() / "circle",
+                  "cannot be written");
+}
+
+TEST(Files, ReplaceLeavesFilesOfOthersAlone) {
+  const TemporaryDirectory directory;
+  for (const std::string end : {".part", ".part0", ".part1"}) {
+    replaceFile(directory.path() / ("file" + end), "precious");
+  }
+  replaceFile(directory.path() / "file", "a");
+  for (const std::string end : {".part", ".part0", ".part1"}) {
+    EXPECT_EQ(readText(directory.path() / ("file" + end)), "precious");
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory.path()), fs::directory_iterator()), 4);
+}
+
+TEST(Files, ReplaceWritesToAPipe) {
+  const TemporaryDirectory directory;
+  const fs::path pipe = directory.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::future<std::string> reader = std::async(std::launch::async, [&] {
+    std::ifstream stream(pipe);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  });
+  replaceFile(pipe, "content");
+  EXPECT_EQ(reader.get(), "content");
+  EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 TEST(Files, StoreMakesTheFolder) {

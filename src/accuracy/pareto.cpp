@@ -79,29 +79,39 @@ double costMs(const SweepPoint& point) {
 }
 
 std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget) {
-  const std::vector<int> front = paretoFront(results.points);
-  if (front.empty() || (budget.ms <= 0.0 && budget.error <= 0.0)) {
+  const auto& points = results.points;
+  if (points.empty() || (budget.ms <= 0.0 && budget.error <= 0.0)) {
     return std::nullopt;
   }
-  const auto& points = results.points;
-  const SweepPoint& best = points[front.back()];
   const auto affordable = [&](int i) { return budget.ms <= 0.0 || costMs(points[i]) <= budget.ms; };
   const auto exact = [&](int i) { return budget.error <= 0.0 || points[i].whole.flip <= budget.error; };
-  BudgetChoice choice{.point = front.front()};
+  // The indices of all points, those that serve best first.
+  const auto ordered = [&](const auto& rank) {
+    std::vector<int> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
+    return order;
+  };
+  const std::vector<int> byError = ordered([&](int i) { return std::pair(points[i].whole.flip, costMs(points[i])); });
+  const std::vector<int> byCost = ordered([&](int i) { return std::pair(costMs(points[i]), points[i].whole.flip); });
+  const SweepPoint& best = points[byError.front()];
+  const auto orElse = [](const std::vector<int>& order, const auto& fits, int otherwise) {
+    const auto found = std::find_if(order.begin(), order.end(), fits);
+    return found == order.end() ? otherwise : *found;
+  };
+  BudgetChoice choice;
   if (budget.error > 0.0) {
-    const auto good = std::find_if(front.begin(), front.end(), exact);
-    choice.point = good == front.end() ? front.back() : *good;
+    choice.point = orElse(byCost, exact, byError.front());
   }
   if (budget.ms > 0.0 && (budget.error <= 0.0 || !affordable(choice.point))) {
-    const auto dear = std::find_if(front.begin(), front.end(), [&](int i) { return !affordable(i); });
-    choice.point = dear == front.begin() ? front.front() : *(dear - 1);
+    choice.point = orElse(byError, affordable, byCost.front());
   }
   choice.met = affordable(choice.point) && exact(choice.point);
   const SweepPoint& chosen = points[choice.point];
   choice.why = fmt::format("'{}', mean FLIP {:.3g} at {:.3g} ms; {}", chosen.name, chosen.whole.flip, costMs(chosen),
                            givenUp(chosen, best));
   if (!affordable(choice.point)) {
-    choice.why += fmt::format("; no point of the front fits {:.3g} ms", budget.ms);
+    choice.why += fmt::format("; no measured point fits {:.3g} ms", budget.ms);
   }
   if (!exact(choice.point)) {
     choice.why += fmt::format("; the error bound {:.3g} is not met", budget.error);

@@ -27,15 +27,16 @@ double costMs(const SweepPoint& point);  // its median
 // those with fewer changes come first.
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points);
 
-// The point of the front that a budget picks, and what it gives up.
+// The measured point that a budget picks, and what it gives up. Points off the front count too: their median may fit
+// where that of the next point of the front does not.
 struct BudgetChoice {
   int point = 0;    // index into SweepResults::points
   bool met = true;  // false: no point meets the budget, and this one comes closest
   std::string why;  // one sentence for people
 };
 struct QualityBudget {
-  double ms = 0.0;     // GPU milliseconds a frame; 0: no bound. The most accurate point within it is chosen
-  double error = 0.0;  // mean FLIP; 0: no bound. The cheapest point within it is chosen; with both, ms decides first
+  double ms = 0.0;     // GPU milliseconds a frame; 0: no bound. The most accurate point whose median fits is chosen
+  double error = 0.0;  // mean FLIP; 0: no bound. The fastest point within it is chosen, with both only if it fits ms
 };
 // Returns nothing without a bound or without points.
 std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget);

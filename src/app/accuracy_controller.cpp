@@ -34,6 +34,9 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
     }
     view_.about = aboutText(results_);
     budget_ = {loaded.quality.budgetMs, loaded.quality.maxError};
+    if (const std::optional<BudgetChoice> chosen = chooseForBudget(results_, budget_)) {
+      chosen_ = chosen->point;
+    }
   }
   view_.choice = choice;
 }

@@ -18,9 +18,13 @@ fs::path sceneFileNamed(const fs::path& file) {
 void requireFolder(const fs::path& file) {
   std::error_code none;
   fs::path missing;
-  for (fs::path folder = fs::absolute(file, none).parent_path(); !fs::is_directory(folder, none);
-       folder = folder.parent_path()) {
+  fs::path folder = fs::absolute(file, none).parent_path();  // empty in a folder that was deleted
+  for (; !folder.empty() && !fs::is_directory(folder, none); folder = folder.parent_path()) {
     missing = folder;
+  }
+  if (folder.empty()) {
+    throw SaveError(
+        oneLine(file.string() + ": not saved: the working folder does not exist any more (name a whole path)"));
   }
   if (!missing.empty()) {
     throw SaveError(oneLine(file.string() + ": not saved: there is no folder " + missing.string() +

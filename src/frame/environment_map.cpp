@@ -72,11 +72,11 @@ Box boxAround(size_t own, std::span<const Box> boxes) {
 }
 
 // Adds a mirror without an image, as at reflection.max_depth.
-void addMirror(const Mirror& material, const MirrorState& mirror, int index, PlannedPass& face) {
+void addMirror(const Mirror& material, const MirrorState& mirror, int index, const View& drawn, PlannedPass& face) {
   const double height = glm::dot(mirror.normal, face.view.eye - mirror.origin);
   MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
   draw.back = height < 0.0 && !material.twoSided;
-  draw.polygon = drawnPart(face.view, mirror.polygon);
+  draw.polygon = visiblePart(drawn, mirror.polygon);
   if (height == 0.0 || draw.polygon.empty()) {
     return;
   }
@@ -107,8 +107,10 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
       face.lights.push_back(static_cast<int>(i));
     }
   }
+  View drawn = face.view;
+  widen(drawn, map.projection, 1);
   for (size_t i = 0; i < scene.mirrors.size(); ++i) {
-    addMirror(scene.mirrors[i], state.mirrors[i], static_cast<int>(i), face);
+    addMirror(scene.mirrors[i], state.mirrors[i], static_cast<int>(i), drawn, face);
   }
   return face;
 }

@@ -94,7 +94,7 @@ class Planner {
  private:
   void fill(int node);
   void addInstance(PlannedPass& pass, const View& readable, int i);
-  void consider(int node, int mirror, const View& readable);
+  void consider(int node, int mirror, const View& drawn);
   void propose(int node, Sight sight);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
@@ -165,10 +165,13 @@ void Planner::fill(int node) {
       nodes_[node].pass.lights.push_back(static_cast<int>(i));
     }
   }
+  // No edge of a polygon that is cut may lie where the image is read.
+  View drawn = readable;
+  widen(drawn, plan_.projection, 1);
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
     const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);
     if (!last) {
-      consider(node, static_cast<int>(i), readable);
+      consider(node, static_cast<int>(i), drawn);
     }
   }
 }
@@ -184,17 +187,16 @@ void Planner::skip(const View& view, int mirror, SkipReason reason, std::string 
   plan_.skipped.push_back(std::move(skipped));
 }
 
-void Planner::consider(int node, int mirror, const View& readable) {
+void Planner::consider(int node, int mirror, const View& drawn) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
   const std::vector<glm::dvec3>& polygon = state_.mirrors[mirror].polygon;
   if (behindEye(view, polygon)) {
     return skip(view, mirror, SkipReason::behind);
   }
-  Sight sight = sightOf(scene_, state_, view, mirror);
+  Sight sight = sightOf(scene_, state_, view, drawn, mirror);
   const std::optional<std::string> occluder =
-      sight.visible.empty() ? std::nullopt
-                            : occlusion_->hiddenBy(view, pass.instances, mirror, visiblePart(readable, polygon));
+      sight.visible.empty() ? std::nullopt : occlusion_->hiddenBy(view, pass.instances, mirror, sight.draw.polygon);
   if (sight.draw.back) {
     if (!sight.visible.empty() && sight.height < 0.0 && !occluder) {
       pass.mirrors.push_back(std::move(sight.draw));
@@ -260,6 +262,9 @@ void Planner::expand(const Candidate& candidate) {
   }
   Node node;
   node.pass.view = reflectedView(parent, draw.mirror, draw.plane, candidate.visible, rect, picture);
+  if (draw.blurs) {
+    boundByRectangle(node.pass.view, plan_.projection);  // blurring reads beside the visible region
+  }
   node.pass.depth = static_cast<int>(parent.path.size());
   node.pass.areaPx = candidate.areaPx * (picture.x / plan_.width) * (picture.y / plan_.height);
   node.pass.throughput = largest(candidate.throughput);

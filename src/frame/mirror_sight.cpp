@@ -16,14 +16,14 @@ double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
 
 }  // namespace
 
-Sight sightOf(const Scene& scene, const SceneState& state, const View& view, int mirror) {
+Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror) {
   const MirrorState& geometry = state.mirrors[mirror];
   Sight sight{.draw = {.mirror = mirror, .plane = {geometry.origin, geometry.normal}},
               .height = heightAbove(geometry, view.eye),
               .visible = visiblePart(view, geometry.polygon)};
   MirrorDraw& draw = sight.draw;
   draw.back = sight.height <= 0.0 && !(scene.mirrors[mirror].twoSided && sight.height < 0.0);
-  draw.polygon = drawnPart(view, geometry.polygon);
+  draw.polygon = visiblePart(drawn, geometry.polygon);
   if (sight.height < 0.0) {
     draw.plane.normal = -draw.plane.normal;
     std::reverse(draw.polygon.begin(), draw.polygon.end());

@@ -13,7 +13,10 @@ struct Sight {
   double height = 0.0;              // metres of the eye before the mirror's front; exactly 0 in its plane
   std::vector<glm::dvec3> visible;  // world; visible region
 };
-Sight sightOf(const Scene& scene, const SceneState& state, const View& view, int mirror);
+
+// `drawn` is the view, widened by what is drawn beyond its edge. Polygons are cut by it before they are drawn, because
+// floats cannot tell how near the eye a polygon passes whose vertices lie far outside the view.
+Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror);
 
 // Upper bound of the reflectance of what is visible. Schlick's F grows towards grazing; the flattest view of a polygon
 // is that of its farthest vertex.

@@ -51,19 +51,6 @@ std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3
   return clipPolygon(polygon, *view.clip);
 }
 
-// `slack` turns the cone's planes outwards: a point of depth w may lie that many w beyond them.
-std::vector<glm::dvec3> partInCone(const View& view, std::span<const glm::dvec3> polygon, double slack) {
-  const glm::dvec3 forward = glm::transpose(view.worldToView) * glm::dvec3(0.0, 0.0, -1.0);
-  std::vector<glm::dvec3> part = clippedPart(view, polygon);
-  for (const glm::dvec3& normal : view.cone) {
-    if (part.size() < 3) {
-      return {};
-    }
-    part = clipPolygon(part, Plane{view.eye, normal + slack * forward});
-  }
-  return part.size() < 3 ? std::vector<glm::dvec3>() : part;
-}
-
 }  // namespace
 
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height) {
@@ -72,15 +59,23 @@ View mainView(const CameraPose& camera, const Projection& projection, int width,
   view.worldToView = camera.worldToView;
   view.rect = {0, 0, width, height};
   view.pictureSize = glm::dvec2(width, height);
+  boundByRectangle(view, projection);
+  return view;
+}
+
+void boundByRectangle(View& view, const Projection& projection) {
   const double fx = projection.focal / projection.aspect;
   const double fy = projection.focal;
-  const glm::dmat3 viewToWorld = glm::transpose(camera.worldToView);
-  // w + x, w - x, w + y, w - y >= 0 with w = -z.
+  const glm::dvec2 low = 2.0 * glm::dvec2(view.rect.x, view.rect.y) / view.pictureSize - 1.0;
+  const glm::dvec2 high =
+      2.0 * glm::dvec2(view.rect.x + view.rect.width, view.rect.y + view.rect.height) / view.pictureSize - 1.0;
+  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
+  view.cone.clear();
+  // x - low.x w, high.x w - x, high.y w - y, y - low.y w >= 0 in clip space, with w = -z and y down.
   for (const glm::dvec3& n :
-       {glm::dvec3(fx, 0, -1), glm::dvec3(-fx, 0, -1), glm::dvec3(0, fy, -1), glm::dvec3(0, -fy, -1)}) {
+       {glm::dvec3(fx, 0, low.x), glm::dvec3(-fx, 0, -high.x), glm::dvec3(0, fy, -high.y), glm::dvec3(0, -fy, low.y)}) {
     view.cone.push_back(viewToWorld * glm::normalize(n));
   }
-  return view;
 }
 
 // A plane's line on the screen is nx / fx x - ny / fy y - nz = 0 in device coordinates; it moves by its gradient's
@@ -119,11 +114,14 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
 }
 
 std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
-  return partInCone(view, polygon, 0.0);
-}
-
-std::vector<glm::dvec3> drawnPart(const View& view, std::span<const glm::dvec3> polygon) {
-  return partInCone(view, polygon, 0.05);
+  std::vector<glm::dvec3> part = clippedPart(view, polygon);
+  for (const glm::dvec3& normal : view.cone) {
+    if (part.size() < 3) {
+      return {};
+    }
+    part = clipPolygon(part, Plane{view.eye, normal});
+  }
+  return part.size() < 3 ? std::vector<glm::dvec3>() : part;
 }
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {

@@ -29,6 +29,9 @@ struct View {
 // The camera's view of a picture of `width` x `height` pixels.
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height);
 
+// Replaces the view's cone by planes through the sides of its rectangle.
+void boundByRectangle(View& view, const Projection& projection);
+
 // Moves the rectangle's sides and the cone's planes outwards on the screen.
 void widen(View& view, const Projection& projection, int pixels);
 
@@ -43,10 +46,6 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
 
 // Cuts a convex polygon (world) by the view's clip plane and cone.
 std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon);
-
-// The same with a margin, for drawing, so that no new edge lies in the picture. Polygons with vertices far outside the
-// view are cut in double, because floats cannot tell how near the eye such a polygon passes.
-std::vector<glm::dvec3> drawnPart(const View& view, std::span<const glm::dvec3> polygon);
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 

@@ -1,5 +1,6 @@
 #include "platform/files.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -44,13 +45,43 @@ std::span<const uint8_t> bytesOf(std::string_view text) {
   return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
 }
 
-void write(const fs::path& target, const fs::path& file, std::span<const uint8_t> content) {
-  std::ofstream stream(target, std::ios::binary);
-  stream.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
-  stream.close();
-  if (!stream) {
-    throw FileError(file, "cannot be written", "check the folder's permissions and free space");
+[[noreturn]] void failToWrite(const fs::path& file, int error) {
+  throw FileError(file, std::string("cannot be written: ") + std::strerror(error),
+                  "check the folder's permissions and free space");
+}
+
+// Writes and closes the descriptor, after the content has reached the disk if it is to last. `file` is for messages.
+void writeAndClose(int descriptor, const fs::path& file, std::span<const uint8_t> content, bool lasting) {
+  int error = 0;
+  while (!content.empty() && error == 0) {
+    const ssize_t count = ::write(descriptor, content.data(), content.size());
+    if (count >= 0) {
+      content = content.subspan(static_cast<size_t>(count));
+    } else if (errno != EINTR) {
+      error = errno;
+    }
   }
+  if (error == 0 && lasting && ::fsync(descriptor) != 0) {
+    error = errno;
+  }
+  if (::close(descriptor) != 0 && error == 0) {
+    error = errno;
+  }
+  if (error != 0) {
+    failToWrite(file, error);
+  }
+}
+
+// What symbolic links at the end of the path lead to, whether or not it exists.
+fs::path behindLinks(fs::path file) {
+  std::error_code error;
+  for (int links = 0; links < 40 && fs::is_symlink(file, error); ++links) {
+    file = file.parent_path() / fs::read_symlink(file, error);
+  }
+  if (fs::is_symlink(file, error)) {
+    failToWrite(file, ELOOP);
+  }
+  return file;
 }
 
 fs::path folderOf(const fs::path& file) {
@@ -78,26 +109,47 @@ std::optional<std::vector<uint8_t>> readFileIfAny(const fs::path& file) {
   }
 }
 
-void replaceFile(const fs::path& file, std::span<const uint8_t> content) {
+namespace {
+
+void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
   std::error_code error;
-  const fs::path folder = folderOf(file);
+  const fs::path target = behindLinks(file);
+  const fs::path folder = folderOf(target);
   if (!fs::is_directory(folder, error)) {
     throw FileError(file, "cannot be written: there is no folder '" + folder.string() + "'", "create it first");
   }
-  if (fs::is_directory(file, error)) {
+  if (fs::is_directory(target, error)) {
     throw FileError(file, "cannot be written: it is a folder", "name a file");
   }
-  // Renaming over a device such as /dev/null would replace the device.
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
-    write(file, file, content);
+  struct stat old {};
+  const bool exists = ::stat(target.c_str(), &old) == 0;
+  // Renaming over a device or pipe would replace it.
+  if (exists && !S_ISREG(old.st_mode)) {
+    const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) {
+      failToWrite(file, errno);
+    }
+    writeAndClose(descriptor, file, content, false);
     return;
   }
-  const fs::path partial = file.string() + ".part" + std::to_string(::getpid());
+  fs::path partial;
+  int descriptor = -1;
+  for (int number = 0; descriptor < 0; ++number) {
+    partial = target.string() + ".part" + std::to_string(number);
+    descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0 && errno != EEXIST) {
+      failToWrite(file, errno);
+    }
+  }
   try {
-    write(partial, file, content);
-    fs::rename(partial, file, error);
-    if (error) {
-      throw FileError(file, "cannot be written: " + error.message(), "check the folder");
+    if (exists) {
+      // Only root may give a file to another owner.
+      [[maybe_unused]] const int result = ::fchown(descriptor, old.st_uid, old.st_gid);
+      ::fchmod(descriptor, old.st_mode & 07777);
+    }
+    writeAndClose(descriptor, file, content, lasting);
+    if (::rename(partial.c_str(), target.c_str()) != 0) {
+      failToWrite(file, errno);
     }
   } catch (...) {
     fs::remove(partial, error);
@@ -105,15 +157,21 @@ void replaceFile(const fs::path& file, std::span<const uint8_t> content) {
   }
 }
 
+}  // namespace
+
+void replaceFile(const fs::path& file, std::span<const uint8_t> content) {
+  replace(file, content, true);
+}
+
 void replaceFile(const fs::path& file, std::string_view text) {
-  replaceFile(file, bytesOf(text));
+  replace(file, bytesOf(text), true);
 }
 
 bool storeFile(const fs::path& file, std::span<const uint8_t> content) {
   std::error_code ignored;
   fs::create_directories(folderOf(file), ignored);
   try {
-    replaceFile(file, content);
+    replace(file, content, false);
     return true;
   } catch (const FileError&) {
     return false;

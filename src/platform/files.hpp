@@ -28,11 +28,12 @@ std::string readText(const std::filesystem::path& file, uintmax_t most = 1u << 3
 // Nothing for a file that readFile() refuses.
 std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& file);
 
-// Writes beside `file` and renames over it, so that a reader sees the old or the new content and a failure leaves the
-// old one. Devices are written to. Throws FileError, also when the folder is missing.
+// Writes a new file beside `file` and renames it, once it is on the disk, so that a reader sees the old or the new
+// content and a failure leaves the old one. Keeps symbolic links, the mode and, where allowed, the owner. Devices and
+// pipes are written to. Throws FileError, also when the folder is missing.
 void replaceFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 void replaceFile(const std::filesystem::path& file, std::string_view text);
-// Creates the folder as well. Returns false on failure, for files whose loss does no harm.
+// For files whose loss does no harm: creates the folder as well, does not wait for the disk, returns false on failure.
 bool storeFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 bool storeFile(const std::filesystem::path& file, std::string_view text);
 

@@ -97,6 +97,10 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   }
 }
 
+bool isOnFront(const AccuracyView& accuracy, int point) {
+  return std::find(accuracy.front.begin(), accuracy.front.end(), point) != accuracy.front.end();
+}
+
 void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy, int hovered) {
   for (size_t i = 1; i < accuracy.front.size(); ++i) {
     list.AddLine(plot.at(accuracy.points[accuracy.front[i - 1]]), plot.at(accuracy.points[accuracy.front[i]]),
@@ -104,8 +108,7 @@ void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy
   }
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
     const PointView& point = accuracy.points[i];
-    const bool front = std::find(accuracy.front.begin(), accuracy.front.end(), i) != accuracy.front.end();
-    const ImU32 color = front ? frontColor : otherColor;
+    const ImU32 color = isOnFront(accuracy, i) ? frontColor : otherColor;
     const ImVec2 place = plot.at(point);
     list.AddLine({plot.x(point.lowerMs), place.y}, {plot.x(point.upperMs), place.y}, color);
     list.AddCircleFilled(place, i == hovered ? 6.0f : 4.0f, color);
@@ -150,14 +153,18 @@ void plot(PanelContext& ui) {
   }
   if (hovered >= 0) {
     const PointView& point = accuracy.points[hovered];
-    ImGui::SetTooltip("%s\nmean FLIP %s, %s ms (%s .. %s)", point.name.c_str(), figure(point.error).c_str(),
-                      figure(point.ms).c_str(), figure(point.lowerMs).c_str(), figure(point.upperMs).c_str());
+    ImGui::SetTooltip(
+        "%s\nmean FLIP %s, %s ms (%s .. %s)%s", point.name.c_str(), figure(point.error).c_str(),
+        figure(point.ms).c_str(), figure(point.lowerMs).c_str(), figure(point.upperMs).c_str(),
+        isOnFront(accuracy, hovered) ? "" : "\nGrey: more accurate points take no longer, within the spread.");
     if (ImGui::IsItemClicked()) {
       ui.send(ApplyPoint{hovered});
     }
   }
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("Mean FLIP (up) over GPU ms, both logarithmic. Click a point to apply it.");
+  ImGui::TextWrapped(
+      "Mean FLIP (up) over GPU ms, both logarithmic. Click a point to apply it. Grey points are no more accurate "
+      "than a point that takes as long, within the spread of the times.");
   ImGui::PopStyleColor();
 }
 
