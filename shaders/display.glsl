@@ -22,36 +22,19 @@ vec3 srgbEncode(vec3 x) {
 }
 
 #ifdef DISPLAY_ENLARGED
-// Catmull and Rom, "A class of local interpolating splines" (1974).
-vec4 splineWeights(float t) {
-  return vec4(((-0.5 * t + 1.0) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1.0, ((-1.5 * t + 2.0) * t + 0.5) * t,
-              (0.5 * t - 0.5) * t * t);
-}
-
 vec3 texelAt(ivec2 texel) {
   return texelFetch(radiance, clamp(texel, ivec2(0), textureSize(radiance, 0) - 1), 0).rgb;
 }
 
-// The spline, kept within the four nearest texels: image/enlarge.hpp.
+// Bilinear: image/enlarge.hpp. The weights of samplers have few bits and differ between devices.
 vec3 radianceAt(vec2 position) {
   ivec2 corner = ivec2(floor(position - 0.5));
   vec2 t = position - 0.5 - vec2(corner);
-  vec4 columns = splineWeights(t.x);
-  vec4 rows = splineWeights(t.y);
-  vec3 sum = vec3(0.0);
-  vec3 low = vec3(65504.0);
-  vec3 high = vec3(0.0);
-  for (int y = 0; y < 4; ++y) {
-    for (int x = 0; x < 4; ++x) {
-      vec3 value = texelAt(corner + ivec2(x, y) - 1);
-      sum += rows[y] * columns[x] * value;
-      if ((x == 1 || x == 2) && (y == 1 || y == 2)) {
-        low = min(low, value);
-        high = max(high, value);
-      }
-    }
-  }
-  return clamp(sum, low, high);
+  vec3 a = texelAt(corner);
+  vec3 b = texelAt(corner + ivec2(1, 0));
+  vec3 c = texelAt(corner + ivec2(0, 1));
+  vec3 d = texelAt(corner + ivec2(1, 1));
+  return clamp(mix(mix(a, b, t.x), mix(c, d, t.x), t.y), min(min(a, b), min(c, d)), max(max(a, b), max(c, d)));
 }
 #else
 vec3 radianceAt(vec2 position) { return texelMean(radiance, ivec2(position)).rgb; }

@@ -369,7 +369,7 @@ TEST_F(Journey, GamepadMovesAndPresses) {
 
 TEST_F(Journey, TimesOfFramesAreComplete) {
   click("panel.Performance");
-  run(12);
+  run(60);
   const FrameHistory& history = view().frame.history;
   EXPECT_EQ(history.passNames(), (std::vector<std::string>{"mirror wall", "main view", "display", "overlay"}));
   const std::vector<float> gpu = history.series(FrameHistory::Figure::gpu);
@@ -378,7 +378,8 @@ TEST_F(Journey, TimesOfFramesAreComplete) {
   for (size_t i = 0; i < gpu.size(); ++i) {
     complete += gpu[i] > 0.0f && passes[i] > 0.0f && passes[i] < gpu[i] + 0.001f;
   }
-  EXPECT_GT(complete, 6) << "those of the newest frames are still to come";
+  EXPECT_GE(complete, 2) << "a frame now and then";
+  EXPECT_LE(complete, 6) << "the others are not slowed";
   ASSERT_TRUE(view().frame.passes[0].resolution);
   EXPECT_GT(view().frame.passes[0].resolution->distance, 6.0) << "the light, seen in the mirror";
   press("Tab");

@@ -147,6 +147,33 @@ TEST_F(IdleWindow, AnimationDrawsUntilItIsPaused) {
   expectQuiet();
 }
 
+TEST_F(IdleWindow, MovingPictureIsLoweredAndThenExact) {
+  press("Tab");
+  const auto drag = [&](int to) {
+    pointAt(width - 100, 80);
+    settle();
+    xdotool({"mousedown", "1"});
+    run(2);
+    pointAt(to, 100);
+    run(2);
+    const double scale = demo_->frameSettings().view.scale;
+    xdotool({"mouseup", "1"});
+    settle();
+    EXPECT_EQ(demo_->frameSettings().view.scale, 1.0);
+    return scale;
+  };
+  demo_->apply(ResetCamera{});
+  EXPECT_EQ(drag(width - 160), 1.0) << "never, with 0";
+  const std::vector<uint8_t> exact = rightOfThePanel();
+  demo_->apply(ResetCamera{});
+  Settings settings = view().settings.current;
+  settings.quality.motionMs = 0.01;
+  demo_->apply(SetSettings{settings});
+  EXPECT_LT(drag(width - 160), 0.2);
+  EXPECT_TRUE(rightOfThePanel() == exact);
+  expectQuiet();
+}
+
 // Without a mirror there is little to vary, and the measurement is soon done.
 class AccuracyJourney : public Journey {
  protected:

@@ -59,7 +59,11 @@ class Journey : public testing::Test {
     options_.validation = true;
     options_.presentMode = PresentMode::immediate;
     // Drawing continuously lets run() count frames.
-    options_.settings.insert(options_.settings.begin(), {{"view.continuous", "true"}, {"debug.check_finite", "true"}});
+    // What moves has full quality, however slow the machine is.
+    options_.settings.insert(options_.settings.begin(), {{"view.continuous", "true"},
+                                                         {"debug.check_finite", "true"},
+                                                         {"quality.motion_ms", "0"},
+                                                         {"quality.still_pictures", "1"}});
     start();
   }
   ~Journey() override {

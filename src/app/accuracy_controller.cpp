@@ -52,6 +52,12 @@ void AccuracyController::setResults(SweepResults results) {
     pointSettings_.push_back(settingsOfPoint(results_, static_cast<int>(i)));
   }
   view_.front = paretoFront(results_.points);
+  frontLevels_.clear();
+  for (auto point = view_.front.rbegin(); point != view_.front.rend(); ++point) {
+    MotionLevel& level = frontLevels_.emplace_back();
+    applyPoint(*point, level.settings);
+    level.error = view_.points[static_cast<size_t>(*point)].error;
+  }
   view_.noiseFloor = results_.floorWhole.flip;
   view_.about.clear();
   budget_ = {};

@@ -2,6 +2,7 @@
 
 #include "accuracy/pareto.hpp"
 #include "app/difference_view.hpp"
+#include "app/motion_levels.hpp"
 #include "app/view_sweep.hpp"
 #include "ui/views.hpp"
 
@@ -30,6 +31,8 @@ class AccuracyController {
   void forgetScene();    // before the scene changes or goes away
 
   const AccuracyView& view() const { return view_; }
+  // The measured front, most accurate first; empty before a measurement.
+  const std::vector<MotionLevel>& front() const { return frontLevels_; }
 
  private:
   void setResults(SweepResults results);
@@ -43,8 +46,9 @@ class AccuracyController {
   SweepResults results_;
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
   std::string settings_;                                   // that the current point was looked for with
-  int chosen_ = -1;                                        // point of the budget's choice that is shown
-  QualityBudget budget_;                                   // that was applied last
+  std::vector<MotionLevel> frontLevels_;
+  int chosen_ = -1;       // point of the budget's choice that is shown
+  QualityBudget budget_;  // that was applied last
 };
 
 }  // namespace speculum

@@ -17,6 +17,15 @@ namespace {
 
 constexpr double longestStep = 0.1;  // seconds: the animation does not make up for a pause of the program
 constexpr double idleSeconds = 0.1;  // between looks at a window in which nothing changes
+constexpr int timedInterval = 16;    // frames: timing each pass slows a frame
+
+double milliseconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+bool isCpu(const Device& device) {
+  return device.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
 
 }  // namespace
 
@@ -28,6 +37,8 @@ Demo::Demo(const Options& options)
       renderer_(device_, rendererOptions(options, &window_)),
       sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, workspace_.scene())),
       planner_(device_),
+      pace_(isCpu(device_), device_.caps().sampleCounts),
+      refreshHz_(window_.refreshRate()),
       deviceView_(deviceView(renderer_, device_)),
       last_(Clock::now()) {
   applyDebugSettings(workspace_.settings(), device_);
@@ -47,6 +58,9 @@ bool Demo::step() {
 }
 
 bool Demo::stepOnce() {
+  if (pacer_.due()) {
+    renderer_.waitForFrame();  // before the events are read that the frame is to show
+  }
   window_.pollEvents();
   takeGamepad();
   const Clock::time_point now = Clock::now();
@@ -55,7 +69,9 @@ bool Demo::stepOnce() {
     window_.waitEvents(idleSeconds);
     return !shouldClose();
   }
-  if (changing()) {
+  const bool changes = changing();
+  changeBegins_ = changes && !std::exchange(changes_, changes);
+  if (changes || pace_.wantsFrame()) {
     pacer_.change(workspace_.settings());
   }
   if (!pacer_.due() && !idle()) {
@@ -64,7 +80,7 @@ bool Demo::stepOnce() {
   const double sinceLastMs = pacer_.beginFrame(seconds);
   const double frameSeconds = workspace_.frameSeconds(std::min(seconds, longestStep));
   updateUi(frameSeconds);
-  drawFrame(sinceLastMs);
+  drawFrame(frameSeconds, sinceLastMs);
   return !shouldClose();
 }
 
@@ -80,22 +96,26 @@ void Demo::updateUi(double seconds) {
   workspace_.advance(seconds);
 }
 
-void Demo::drawFrame(double sinceLastMs) {
+void Demo::drawFrame(double seconds, double sinceLastMs) {
   // Between frames, because it waits for the device.
   if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
     sceneRenderer_->setCover(*cover);
   }
-  const Clock::time_point start = Clock::now();
-  renderer_.setTimerDetail(ui_->windows().visible() ? TimerDetail::passes : TimerDetail::frame);
+  const SceneState state = workspace_.state(workspace_.time());
+  const bool movedBefore = pace_.moving();
+  pace_.begin(state.camera, workspace_.animates() || workspace_.dragging(), seconds);
+  const bool timed = timesPasses(movedBefore && !pace_.moving());
+  renderer_.setTimerDetail(timed ? TimerDetail::passes : TimerDetail::frame);
+  const Clock::time_point waits = Clock::now();
   std::optional<Frame> frame = renderer_.beginFrame();
   if (!frame) {
     return;
   }
-  const SceneState state = workspace_.state(workspace_.time());
-  const std::optional<TargetRequest>& target = output_.target;
-  const FittedPlan fitted = planner_.plan(*frame, *sceneRenderer_, workspace_.scene(), state, settingsOfFrame(),
-                                          target && target->path.empty(), ui_->holdsWidget());
+  const Clock::time_point start = Clock::now();
+  pace_.finished(renderer_.timings());
+  const FittedPlan fitted = planFrame(*frame, state);
   const FramePlan& plan = fitted.plan;
+  const std::optional<TargetRequest>& target = output_.target;
   const std::optional<DebugView> debug =
       target ? workspace_.report().target(*target, plan, fitted.settings, device_.limits().standardSampleLocations)
              : std::nullopt;
@@ -104,7 +124,10 @@ void Demo::drawFrame(double sinceLastMs) {
   if (!bare) {
     ui_->record(renderer_.beginOverlay(*frame));
   }
-  const double cpuMs = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  const Clock::time_point end = Clock::now();
+  const double cpuMs = milliseconds(end - start);
+  const bool newPipelines = std::exchange(pipelines_, sceneRenderer_->pipelineCount()) != pipelines_;
+  pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs, !timed && !newPipelines && !plan.mainReused);
   const bool captured = workspace_.capture().wanted();
   frame->capture = capture_ || captured;
   const uint64_t number = frame->number;
@@ -120,7 +143,31 @@ void Demo::drawFrame(double sinceLastMs) {
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
   workspace_.frameDrawn({workspace_.scene(), state, fitted.settings, plan.width, plan.height}, radiance,
                         picture ? &*picture : nullptr);
+  frameSettings_ = fitted.settings;
   message_ = currentMessage();
+}
+
+FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
+  const bool showsMain = output_.target && output_.target->path.empty();
+  const bool settingsMove = ui_->holdsWidget() || pace_.moving();
+  // Recorded frames take as long as they take.
+  const double budget =
+      workspace_.capture().recording() ? 0.0 : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_);
+  FittedPlan fitted = pace_.plan(settingsOfFrame(), budget, workspace_.accuracy().front(), workspace_.scene(), state,
+                                 [&](const Settings& settings) {
+                                   return planner_.plan(frame, *sceneRenderer_, workspace_.scene(), state, settings,
+                                                        showsMain, settingsMove);
+                                 });
+  const bool pauses = !pace_.text().empty() && workspace_.animates();
+  workspace_.setPictureText(pace_.text() + (pauses ? ". Space: pause for the exact picture" : ""));
+  return fitted;
+}
+
+// Timing the passes one by one slows a frame, so few are: at the start and the end of a change and now and then.
+bool Demo::timesPasses(bool movementEnded) {
+  const bool times = ui_->windows().visible() && (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval);
+  untimedFrames_ = times ? 0 : untimedFrames_ + 1;
+  return times;
 }
 
 Settings Demo::settingsOfFrame() const {
@@ -162,6 +209,7 @@ bool Demo::changing() {
 // Nothing changes: sleeps. True if a frame is to be drawn all the same, for what changes slowly.
 bool Demo::idle() {
   pacer_.idle();
+  refreshHz_ = window_.refreshRate();
   window_.waitEvents(idleSeconds);
   return ui_->wantsFrames() || working_ || workspace_.statusFades();
 }

@@ -4,6 +4,7 @@
 
 #include "app/frame_pacer.hpp"
 #include "app/frame_planner.hpp"
+#include "app/pace.hpp"
 #include "app/workspace.hpp"
 #include "ui/simple_ui.hpp"
 
@@ -22,6 +23,9 @@ class Demo : private WorkspaceHost {
   UiView view() const { return workspace_.view(deviceView_, message_); }
   const PanelState& panels() const { return ui_->windows().state(); }
   CameraPose camera() { return workspace_.state(workspace_.time()).camera; }  // as the next frame would show it
+  const Settings& frameSettings() const {
+    return frameSettings_;
+  }  // of the last frame, which the pace may have lowered
   Window& window() { return window_; }
   Device& device() { return device_; }
   Renderer& renderer() { return renderer_; }
@@ -67,7 +71,9 @@ class Demo : private WorkspaceHost {
   bool changing();
   bool idle();
   void updateUi(double seconds);
-  void drawFrame(double sinceLastMs);
+  void drawFrame(double seconds, double sinceLastMs);
+  FittedPlan planFrame(Frame& frame, const SceneState& state);
+  bool timesPasses(bool movementEnded);
   Settings settingsOfFrame() const;
   std::string currentMessage();
 
@@ -78,10 +84,17 @@ class Demo : private WorkspaceHost {
   Renderer renderer_;
   std::unique_ptr<SceneRenderer> sceneRenderer_;
   FramePlanner planner_;
+  Pace pace_;
+  double refreshHz_;
   DeviceView deviceView_;
   std::unique_ptr<SimpleUI> ui_;
   UiOutput output_;  // of the panels in the frame that is drawn
   FramePacer pacer_;
+  int untimedFrames_ = 0;      // since one whose passes were timed one by one
+  bool changes_ = false;       // in this step
+  bool changeBegins_ = false;  // and not in the one before
+  size_t pipelines_ = 0;       // after the last frame
+  Settings frameSettings_;
   std::string message_;
   uint64_t nonFinite_ = 0;  // of scenes shown before
   std::function<std::optional<GamepadState>()> gamepadSource_ = [this] { return window_.gamepad(); };

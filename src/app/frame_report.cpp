@@ -116,9 +116,10 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   for (const RecordedPass& pass : sceneRenderer.passes()) {
     auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r.id == pass; });
     if (row == rows.end()) {
-      row = rows.insert(
-          rows.begin() + index,
-          PassView{.name = pass.name, .path = pass.path, .depth = pass.depth, .kind = pass.kind, .id = pass});
+      PassView fresh{.name = pass.name, .path = pass.path, .depth = pass.depth, .kind = pass.kind, .id = pass};
+      const auto before = std::ranges::find(view_.passes, static_cast<const PassId&>(pass), &PassView::id);
+      fresh.gpuMs = before == view_.passes.end() ? 0.0 : before->gpuMs;  // few frames have their passes timed
+      row = rows.insert(rows.begin() + index, std::move(fresh));
     }
     row->areaPx = pass.areaPx;
     row->draws = pass.draws;
@@ -131,7 +132,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     index = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
-  // The times are of an earlier frame, whose plan may have differed.
+  // The times, if it has them, are of an earlier frame, whose plan may have differed.
   const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
   for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r.id == timed[i]; });

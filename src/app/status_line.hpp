@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// The result of the last action, shown for some seconds.
+// The result of the last action, shown for some seconds, and below it what the picture is.
 class StatusLine {
  public:
   void set(const std::string& text) {  // and logs it
@@ -20,6 +20,7 @@ class StatusLine {
     view_.text = text;
     since_ = Clock::now();
   }
+  void setPicture(const std::string& text) { view_.picture = text; }
   void clear() { view_.text.clear(); }
   // Once a frame. `withPanelOnly`: the picture is being saved.
   void update(bool withPanelOnly) {

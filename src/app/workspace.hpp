@@ -64,6 +64,7 @@ class Workspace {
   // Whether frames are wanted although nothing happens.
   bool animates() const { return !playback_.view().paused && moves(scene()); }
   bool working() const { return accuracy_.working() || browser_.loading(); }
+  bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
 
   // After an exception that ends the program: keeps unsaved changes in a copy, and logs where.
@@ -78,6 +79,7 @@ class Workspace {
   AccuracyController& accuracy() { return accuracy_; }
   SceneBrowser& browser() { return browser_; }
   const Capture& capture() const { return capture_; }
+  void setPictureText(const std::string& text) { status_.setPicture(text); }
   FrameReport& report() { return report_; }
   const PointerController& pointer() const { return pointer_; }
   bool prompting() const { return document_->prompting(); }

@@ -55,6 +55,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
+  // Waits as beginFrame does, but for the window: what is read after it is as new as the frame can show it.
+  void waitForFrame() { finish(slots_[(frameNumber_ + 1) % framesInFlight]); }
   // Waits for the frame before the last one. Returns nothing while the window is paused or has no swapchain.
   std::optional<Frame> beginFrame();
   PassScope beginPass(Frame& frame, const PassDesc& desc);

@@ -279,6 +279,20 @@ constexpr SettingField fields[] = {
      .text = "the fastest measured settings within this mean FLIP; 0: off",
      .cost = "It chooses among what was measured and costs nothing itself.",
      .changes = none},
+    {.key = "quality.motion_ms",
+     .kind = AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6},
+     .label = "Full quality while moving",
+     .text = "milliseconds of a frame of the window while anything moves, for which settings are lowered; 0: never",
+     .cost = "auto: 50 on devices that are CPUs, 0.8 of the monitor's refresh on others. 0: as long as a frame takes.",
+     .unit = "ms",
+     .changes = none},
+    {.key = "quality.still_pictures",
+     .kind = IntegerSetting{at<&Q::stillPictures>, 1, 1024},
+     .label = "Still pictures",
+     .text = "pictures whose mean the window shows when nothing moves",
+     .cost = "So many pictures are drawn after each movement, then none.",
+     .changes = none,
+     .slider = SettingSlider{1, 1024, "%d"}},
 
     {.key = "debug.omit_barrier",
      .kind = TextSetting{at<&D::omitBarrier>, "name of a barrier"},
@@ -343,6 +357,7 @@ std::string settingRange(const SettingField& field) {
     std::string operator()(const NumberSetting& n) const {
       return shortNumber(n.low) + " .." + (n.openEnd ? "" : " " + shortNumber(n.high));
     }
+    std::string operator()(const AutomaticSetting& n) const { return "auto | " + shortNumber(n.low) + " .."; }
     std::string operator()(const IntegerSetting& n) const {
       if (!n.powersOfTwo) {
         return std::to_string(n.low) + " .." + (n.openEnd ? "" : " " + std::to_string(n.high));

@@ -25,6 +25,12 @@ struct NumberSetting {
   double high = 1.0;
   bool openEnd = false;
 };
+// A number from low to an open end, or "auto": none.
+struct AutomaticSetting {
+  SettingMember<std::optional<double>> value;
+  double low = 0.0;
+  double high = 1.0;
+};
 struct IntegerSetting {
   SettingMember<int> value;
   int low = 0;
@@ -47,8 +53,8 @@ struct TextSetting {
   SettingMember<std::string> value;
   std::string_view meaning;
 };
-using SettingKind =
-    std::variant<NumberSetting, IntegerSetting, BooleanSetting, ChoiceSetting, ColorSetting, TextSetting>;
+using SettingKind = std::variant<NumberSetting, AutomaticSetting, IntegerSetting, BooleanSetting, ChoiceSetting,
+                                 ColorSetting, TextSetting>;
 
 // The first part of a frame that a setting changes. The parts before it are the same whatever its value.
 enum class FramePart { mirrorImages, mainView, display, none };

@@ -67,6 +67,15 @@ struct Parser {
     return std::nullopt;
   }
 
+  Problem operator()(const AutomaticSetting& number) const {
+    const std::optional<double> value = parseNumber(text);
+    if (text != "auto" && (!value || *value < number.low || *value > number.high)) {
+      return wrong("auto or a number in range");
+    }
+    number.value.of(settings) = value;
+    return std::nullopt;
+  }
+
   Problem operator()(const IntegerSetting& integer) const {
     const std::optional<double> value = parseNumber(text);
     const bool whole = value && *value >= integer.low && *value <= integer.high && *value == std::floor(*value);
@@ -114,6 +123,10 @@ struct JsonValue {
   const Settings& settings;
 
   ordered_json operator()(const ChoiceSetting& choice) const { return choice.names[choice.get(settings)]; }
+  ordered_json operator()(const AutomaticSetting& number) const {
+    const std::optional<double>& value = number.value.of(settings);
+    return value ? ordered_json(*value) : ordered_json("auto");
+  }
   ordered_json operator()(const ColorSetting& color) const {
     const std::optional<glm::dvec3>& c = color.value.of(settings);
     return c ? ordered_json::array({c->x, c->y, c->z}) : ordered_json();
@@ -145,7 +158,8 @@ std::string entryText(const SettingEntry& entry) {
 }
 
 bool takesText(const SettingField& field) {
-  return std::holds_alternative<ChoiceSetting>(field.kind) || std::holds_alternative<TextSetting>(field.kind);
+  return std::holds_alternative<ChoiceSetting>(field.kind) || std::holds_alternative<TextSetting>(field.kind) ||
+         std::holds_alternative<AutomaticSetting>(field.kind);
 }
 
 // Whether all settings that change `last`, or a part of the frame before it, are equal.

@@ -74,10 +74,13 @@ struct EffectSettings {
 bool isSchlick(Fresnel fresnel, const EffectSettings& effects);
 bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 
-// Bounds for the choice among measured settings; see accuracy/pareto.hpp. The frame plan does not read them.
+// Bounds for the choice among measured settings (accuracy/pareto.hpp), and the window's pace (docs/window.md). The
+// frame plan does not read them.
 struct QualitySettings {
-  double budgetMs = 0.0;  // GPU milliseconds a frame; 0: no bound
-  double maxError = 0.0;  // mean FLIP; 0: no bound
+  double budgetMs = 0.0;           // GPU milliseconds a frame; 0: no bound
+  double maxError = 0.0;           // mean FLIP; 0: no bound
+  std::optional<double> motionMs;  // milliseconds a frame while anything moves; 0: no bound, none: by the device
+  int stillPictures = 64;          // that a still picture is the mean of
 };
 
 struct DebugSettings {

@@ -246,6 +246,16 @@ void Window::resize(int width, int height) {
   glfwSetWindowSize(window_.get(), width, height);
 }
 
+double Window::refreshRate() const {
+  int x = 0;
+  int y = 0;
+  glfwGetWindowPos(window_.get(), &x, &y);
+  const VkExtent2D extent = size();
+  GLFWmonitor* monitor = monitorAt(x + static_cast<int>(extent.width) / 2, y + static_cast<int>(extent.height) / 2);
+  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  return mode && mode->refreshRate > 0 ? mode->refreshRate : 60.0;
+}
+
 bool Window::fullScreen() const {
   return glfwGetWindowMonitor(window_.get()) != nullptr;
 }

@@ -112,6 +112,7 @@ class Window {
   // Covers the monitor under the window's centre, or restores position and size. Does nothing while iconified.
   void setFullScreen(bool on);
   bool fullScreen() const;
+  double refreshRate() const;  // Hz, of the monitor under the window's centre; 60 if unknown
   void iconify();
   void restore();
   // X11 keeps the size of an iconified window, so the size alone does not tell.

@@ -17,6 +17,8 @@ struct CameraPose {
   glm::dmat3 worldToView{1.0};  // rows: right, up, back (right-handed, looking down -z)
   double verticalFov = 1.0;     // radians
   double near = 0.001;          // metres
+
+  bool operator==(const CameraPose&) const = default;
 };
 
 // Throws std::invalid_argument when eye and target coincide or `up` is parallel to the view direction.

@@ -156,6 +156,8 @@ void settings(PanelContext& ui) {
     if (ui.view.settings.sky && !ui.settings.view.clearColor) {
       ImGui::TextDisabled("The scene's sky is shown; a clear color replaces it.");
     }
+    settingRows(ui, "quality.motion_ms");
+    settingRows(ui, "quality.still_pictures");
   }
   if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingRows(ui, "reflection.");

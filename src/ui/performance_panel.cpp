@@ -31,6 +31,14 @@ void graph(const char* name, std::vector<float> values, float height) {
   ImGui::PopID();
 }
 
+// Few frames have their passes timed: those that follow show the same.
+std::vector<float> continued(std::vector<float> values) {
+  for (size_t i = 1; i < values.size(); ++i) {
+    values[i] = std::isnan(values[i]) ? values[i - 1] : values[i];
+  }
+  return values;
+}
+
 // One row: name, median, p95 and the graph.
 void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height) {
   ImGui::TableNextRow();
@@ -94,7 +102,7 @@ void performance(PanelContext& ui) {
   row(ui, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
   row(ui, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
   for (const std::string& pass : history.passNames()) {
-    row(ui, pass, history.passSeries(pass), 1.6f * em);
+    row(ui, pass, continued(history.passSeries(pass)), 1.6f * em);
   }
   ImGui::EndTable();
 }

@@ -48,6 +48,17 @@ struct Widget {
     return changed;
   }
 
+  // Off, it is the device's.
+  bool operator()(const AutomaticSetting& number) const {
+    std::optional<double>& value = number.value.of(settings);
+    bool zero = value == 0.0;
+    const bool changed = ImGui::Checkbox(field.label, &zero);
+    if (changed) {
+      value = zero ? std::optional(0.0) : std::nullopt;
+    }
+    return changed;
+  }
+
   bool operator()(const IntegerSetting& integer) const {
     int& value = integer.value.of(settings);
     if (!integer.powersOfTwo) {

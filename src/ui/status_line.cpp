@@ -25,14 +25,16 @@ float statusHeight() {
 }
 
 void statusLine(const StatusView& status, float width) {
-  const float alpha = statusAlpha(status.age);
-  if (status.text.empty() || alpha <= 0.0f) {
+  const std::string picture = width > 0.0f ? status.picture : "";
+  const float alpha = picture.empty() ? statusAlpha(status.age) : 1.0f;
+  if ((status.text.empty() && picture.empty()) || alpha <= 0.0f) {
     return;
   }
+  const std::string shown = status.text + (status.text.empty() || picture.empty() ? "" : "\n") + picture;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
   // Paths have no spaces to wrap at: beyond the panel if need be.
-  const float text = ImGui::CalcTextSize(status.text.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
+  const float text = ImGui::CalcTextSize(shown.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
   const float most = std::max(width, mostWidth * display.x);
   const bool oneLine = width == 0.0f && text <= most;
   const float height = statusHeight() - (oneLine ? ImGui::GetTextLineHeightWithSpacing() : 0.0f);
@@ -44,7 +46,7 @@ void statusLine(const StatusView& status, float width) {
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
   if (ImGui::Begin("##status", nullptr, flags)) {
-    ImGui::TextWrapped("%s", status.text.c_str());
+    ImGui::TextWrapped("%s", shown.c_str());
   }
   ImGui::End();
   ImGui::PopStyleVar(2);

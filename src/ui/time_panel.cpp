@@ -36,7 +36,7 @@ void time(PanelContext& ui) {
     ui.send(SetPaused{paused});
   }
   notePlace(ui, "pause");
-  tip("Pauses the animation; without other changes no frames are drawn");
+  tip("Pauses the animation: the picture becomes exact, then no frames are drawn");
   ImGui::SameLine();
   float speed = static_cast<float>(playback.speed);
   ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());

@@ -188,6 +188,7 @@ struct AccuracyView {
 struct StatusView {
   std::string text;
   double age = 0.0;            // seconds
+  std::string picture;         // how the picture is drawn, if it is not exact; shown with the panel only
   bool withPanelOnly = false;  // the window is saved as a picture: hidden with the panel
 };
 inline constexpr double statusSeconds = 8.0;  // that it is shown, fading in the last one

@@ -1,0 +1,103 @@
+#include "app/motion_controller.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace speculum {
+
+namespace {
+
+// Shares of the budget. What is between the last two changes nothing.
+constexpr double aim = 0.85;         // after going down
+constexpr double roomToRaise = 0.8;  // that a better level must leave
+constexpr double tooMuch = 0.95;
+constexpr double farBelow = 0.5;  // a better level within this is tried at once
+
+constexpr double leastPatience = 0.25;  // seconds
+constexpr double mostPatience = 4.0;
+constexpr double settled = 1.0;  // seconds at a better level after which it was no mistake
+constexpr size_t mostPending = 8;
+
+}  // namespace
+
+// The first level from `first` on that the work of level `planned` promises to be within `ms`, otherwise the last.
+size_t MotionController::fittingLevel(std::span<const MotionLevel> levels, size_t first, size_t planned,
+                                      const FrameWork& work, double ms) const {
+  const auto fits = [&](const MotionLevel& level) {
+    return model_.predict(scaledWork(work, levels[planned].settings, level.settings)) <= ms;
+  };
+  const auto found = std::find_if(levels.begin() + static_cast<std::ptrdiff_t>(first), levels.end(), fits);
+  return std::min(static_cast<size_t>(found - levels.begin()), levels.size() - 1);
+}
+
+size_t MotionController::choose(std::span<const MotionLevel> levels, double budgetMs, double seconds,
+                                const Planner& plan) {
+  level_ = std::min(level_, levels.size() - 1);
+  const bool begins = !std::exchange(moving_, true);
+  FrameWork work = plan(levels[level_].settings);
+  const size_t before = level_;
+  if (begins) {
+    predicted_.clear();
+    patience_ = leastPatience;
+    sinceChange_ = 0.0;
+    raised_ = false;
+    const size_t fitting = fittingLevel(levels, 0, level_, work, aim * budgetMs);
+    if (fitting < level_) {
+      level_ = fitting;
+      work = plan(levels[level_].settings);
+    }
+  }
+  sinceChange_ += seconds;
+  const auto interval = static_cast<size_t>(levels[level_].settings.reflection.updateInterval);
+  predicted_.push_back(model_.predict(work));
+  while (predicted_.size() > interval) {
+    predicted_.pop_front();
+  }
+  const double longest = std::ranges::max(predicted_);
+  const auto planAt = [&](size_t level) {
+    level_ = level;
+    work = plan(levels[level].settings);
+    return model_.predict(work);
+  };
+  if (model_.predict(work) > tooMuch * budgetMs) {
+    double ms = tooMuch * budgetMs + 1.0;
+    while (level_ + 1 < levels.size() && ms > tooMuch * budgetMs) {
+      ms = planAt(fittingLevel(levels, level_ + 1, level_, work, aim * budgetMs));
+    }
+  } else if (!begins && level_ > 0 && longest <= roomToRaise * budgetMs) {
+    const MotionLevel& better = levels[level_ - 1];
+    const double promised = model_.predict(scaledWork(work, levels[level_].settings, better.settings));
+    const bool waited = sinceChange_ >= patience_ || promised <= farBelow * budgetMs;
+    if (waited && promised <= roomToRaise * budgetMs && planAt(level_ - 1) > roomToRaise * budgetMs) {
+      planAt(before);
+      sinceChange_ = 0.0;
+    }
+  }
+  if (level_ != before) {
+    if (level_ > before) {
+      const bool mistake = raised_ && sinceChange_ < settled;
+      patience_ = mistake ? std::min(2.0 * patience_, mostPatience) : leastPatience;
+    }
+    raised_ = level_ < before && !begins;
+    sinceChange_ = 0.0;
+    predicted_.clear();
+  }
+  return level_;
+}
+
+void MotionController::drawn(uint64_t number, const FrameWork& work) {
+  pending_.push_back({number, work});
+  if (pending_.size() > mostPending) {
+    pending_.pop_front();
+  }
+}
+
+void MotionController::finished(uint64_t number, double ms) {
+  const auto found = std::ranges::find(pending_, number, &Pending::number);
+  if (found != pending_.end()) {
+    model_.learn(found->work, ms);
+    pending_.erase(pending_.begin(), found + 1);
+  }
+}
+
+}  // namespace speculum

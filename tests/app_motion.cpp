@@ -1,0 +1,314 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "app/pace.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr double budget = 50.0;  // ms
+
+// Prices in milliseconds, of which the controller knows nothing.
+struct Device {
+  double picture = 0.0;
+  double pass = 0.0;
+  double triangle = 0.0;
+  double texel = 0.0;
+  double sample = 0.0;
+  double noise = 0.08;  // relative
+  bool isCpu = true;
+
+  double frameMs(const FrameWork& work, std::mt19937& random) const {
+    const double samples = work.mainTexels * (work.viewSamples - 1) + work.mirrorTexels * (work.mirrorSamples - 1);
+    const double ms = picture * work.picturePixels + pass * work.passes + triangle * work.triangles +
+                      texel * (work.mainTexels + work.mirrorTexels) + sample * samples;
+    return ms * std::exp(noise * std::normal_distribution<>()(random));
+  }
+};
+
+const Device slowCpu{.picture = 5e-6, .pass = 0.3, .triangle = 2e-5, .texel = 1.5e-4, .sample = 1.1e-4};
+const Device fastCpu{.picture = 2e-6, .pass = 0.05, .triangle = 5e-6, .texel = 1e-5, .sample = 4e-6};
+const Device shadingBound{.picture = 1e-6, .pass = 0.0, .triangle = 0.0, .texel = 1.2e-4, .sample = 1.2e-4};
+const Device geometryBound{.picture = 4e-6, .pass = 0.2, .triangle = 5e-5, .texel = 3e-5, .sample = 1e-6};
+const Device gpu{.picture = 1e-6, .pass = 0.2, .triangle = 5e-6, .texel = 3e-5, .sample = 1e-5, .isCpu = false};
+const Device devices[] = {slowCpu, fastCpu, shadingBound, geometryBound, gpu};
+
+// A window on a device. `mirrors` scales what is seen in mirrors.
+struct Window {
+  const Device& device;
+  std::mt19937 random{1};
+  double load = 1.0;
+  double mirrors = 1.0;
+  MotionController controller{device.isCpu};
+  std::vector<MotionLevel> levels = motionLevels({}, {}, 1 + 4);
+  uint64_t number = 0;
+  std::deque<std::pair<uint64_t, double>> inFlight;  // frames whose time is not known yet
+  std::vector<double> times{};                       // ms
+  std::vector<size_t> chosen{};
+
+  FrameWork work(const Settings& settings) const {
+    const double texels = 1280.0 * 720.0 * settings.view.scale * settings.view.scale;
+    return {.picturePixels = 1280.0 * 720.0,
+            .passes = 1.0 + 8.0 * mirrors,
+            .triangles = 1e5 * (1.0 + mirrors),
+            .mainTexels = texels,
+            .mirrorTexels = 0.6 * mirrors * texels,
+            .viewSamples = settings.view.samples,
+            .mirrorSamples = settings.reflection.samples};
+  }
+  double draw(const Settings& settings) {
+    const FrameWork frame = work(settings);
+    const double ms = load * device.frameMs(frame, random);
+    controller.drawn(++number, frame);
+    inFlight.emplace_back(number, ms);
+    if (inFlight.size() > 2) {
+      controller.finished(inFlight.front().first, inFlight.front().second);
+      inFlight.pop_front();
+    }
+    return ms;
+  }
+  void stand(int frames) {
+    controller.stand();
+    for (int i = 0; i < frames; ++i) {
+      draw(levels[0].settings);
+    }
+  }
+  void move(int frames) {
+    for (int i = 0; i < frames; ++i) {
+      const double seconds = times.empty() ? 0.0 : times.back() / 1000.0;
+      chosen.push_back(controller.choose(levels, budget, seconds, [&](const Settings& s) { return work(s); }));
+      times.push_back(draw(levels[chosen.back()].settings));
+    }
+  }
+  void clear() {
+    times.clear();
+    chosen.clear();
+  }
+  double share(double of) const {
+    std::vector<double> sorted = times;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[static_cast<size_t>(of * static_cast<double>(sorted.size() - 1))];
+  }
+  int changes() const {
+    return std::inner_product(chosen.begin(), chosen.end() - 1, chosen.begin() + 1, 0, std::plus(),
+                              std::not_equal_to());
+  }
+  // Whether a level above those that were chosen last would have kept to seven tenths of the budget.
+  bool wastes() const {
+    std::mt19937 other(1);
+    const Device quiet = [&] {
+      Device d = device;
+      d.noise = 0.0;
+      return d;
+    }();
+    return chosen.back() > 0 && load * quiet.frameMs(work(levels[chosen.back() - 1].settings), other) < 0.7 * budget;
+  }
+};
+
+TEST(MotionController, KeepsTheBudgetOnEveryDevice) {
+  for (const Device& device : devices) {
+    SCOPED_TRACE(&device - devices);
+    Window run{device};
+    run.move(300);
+    run.clear();
+    run.move(300);
+    EXPECT_LE(run.share(0.95), 1.4 * budget);
+    EXPECT_LE(std::accumulate(run.times.begin(), run.times.end(), 0.0) / 300.0, budget);
+    EXPECT_FALSE(run.wastes()) << "level " << run.chosen.back();
+  }
+}
+
+TEST(MotionController, DoesNotPump) {
+  for (const Device& device : devices) {
+    SCOPED_TRACE(&device - devices);
+    Window run{device};
+    run.move(100);
+    run.clear();
+    run.move(600);
+    EXPECT_LE(run.changes(), 6) << "a change in a hundred frames";
+  }
+}
+
+TEST(MotionController, PredictsTheFirstMovingFrame) {
+  for (const Device& device : devices) {
+    SCOPED_TRACE(&device - devices);
+    Window run{device};
+    run.stand(6);
+    run.move(1);
+    EXPECT_LE(run.times[0], 1.4 * budget);
+    run.move(60);
+    run.stand(6);
+    run.clear();
+    run.move(1);
+    EXPECT_LE(run.times[0], 1.4 * budget);
+    EXPECT_FALSE(run.wastes());
+  }
+}
+
+TEST(MotionController, FollowsTheLoadOfTheMachine) {
+  for (const Device& device : devices) {
+    SCOPED_TRACE(&device - devices);
+    Window run{device};
+    run.move(100);
+    const size_t calm = run.chosen.back();
+    run.load = 2.5;
+    run.move(12);
+    run.clear();
+    run.move(20);
+    EXPECT_LE(run.share(0.9), 1.4 * budget) << "within twelve frames";
+    run.load = 1.0;
+    run.move(400);
+    EXPECT_LE(run.chosen.back(), calm + 1);
+    EXPECT_FALSE(run.wastes());
+  }
+}
+
+TEST(MotionController, FollowsTheViewWithoutDelay) {
+  for (const Device& device : devices) {
+    SCOPED_TRACE(&device - devices);
+    Window run{device};
+    run.move(100);
+    run.clear();
+    for (int i = 0; i < 200; ++i) {
+      run.mirrors = i % 100 < 50 ? 0.1 : 1.5;
+      run.move(1);
+    }
+    EXPECT_LE(run.share(0.95), 1.4 * budget);
+  }
+}
+
+TEST(MotionController, RaisesOneLevelAtATime) {
+  Window run{slowCpu};
+  run.mirrors = 3.0;
+  run.move(60);
+  run.mirrors = 0.0;
+  run.clear();
+  run.move(100);
+  for (size_t i = 1; i < run.chosen.size(); ++i) {
+    EXPECT_GE(run.chosen[i] + 1, run.chosen[i - 1]);
+  }
+  EXPECT_LT(run.chosen.back(), run.chosen.front());
+}
+
+TEST(MotionController, DisturbedFramesAreForgotten) {
+  Window run{slowCpu};
+  run.move(200);
+  const size_t level = run.chosen.back();
+  run.load = 8.0;
+  run.move(1);
+  run.load = 1.0;
+  run.clear();
+  run.move(30);
+  EXPECT_LE(run.chosen.back(), level + 1);
+}
+
+TEST(MotionController, NeverMovesWithoutNeed) {
+  Window run{fastCpu};
+  run.mirrors = 0.0;
+  run.stand(4);
+  run.move(50);
+  EXPECT_EQ(run.chosen, std::vector<size_t>(50, 0));
+}
+
+TEST(MotionLevels, NothingIsRaised) {
+  Settings chosen;
+  chosen.view.samples = 2;
+  chosen.view.scale = 0.7;
+  chosen.reflection.maxDepth = 1;
+  chosen.reflection.updateInterval = 3;
+  chosen.reflection.meshError = 1.0;
+  const std::vector<MotionLevel> front{{Settings(), 0.01}};
+  const std::vector<MotionLevel> levels = motionLevels(chosen, front, 1 + 2 + 4);
+  ASSERT_GT(levels.size(), 5u);
+  EXPECT_TRUE(sameMainView(levels[0].settings, chosen));
+  for (const auto& [settings, error] : levels) {
+    EXPECT_LE(settings.view.samples, 2);
+    EXPECT_LE(settings.view.scale, 0.7);
+    EXPECT_LE(settings.reflection.maxDepth, 1);
+    EXPECT_GE(settings.reflection.updateInterval, 3);
+    EXPECT_GE(settings.reflection.meshError, 1.0);
+    EXPECT_TRUE(settings.reflection.clip == chosen.reflection.clip && settings.effects == chosen.effects);
+  }
+}
+
+TEST(MotionLevels, FollowTheMeasuredFront) {
+  MotionLevel point{Settings(), 0.02};
+  point.settings.view.scale = 0.6;
+  const std::vector<MotionLevel> levels = motionLevels({}, std::span(&point, 1), 1 + 4);
+  EXPECT_EQ(levels[1].settings.view.scale, 0.6);
+  EXPECT_EQ(levels[1].settings.view.samples, 4);
+  EXPECT_EQ(levels[1].error, 0.02);
+  EXPECT_LT(levels.back().settings.view.scale, 0.2);
+  EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end(), [](auto& a, auto& b) { return a.error < b.error; }));
+}
+
+TEST(MotionLevels, WordsSayWhatIsGivenUp) {
+  MotionLevel level{Settings(), 0.0512};
+  EXPECT_EQ(motionText(Settings(), level), "full quality");
+  level.settings.view.scale = 0.5;
+  level.settings.view.samples = level.settings.reflection.samples = 1;
+  EXPECT_EQ(motionText(Settings(), level), "0.5 scale, 1 sample, FLIP about 0.05");
+  level.settings.reflection.samples = 2;
+  level.settings.reflection.maxDepth = 1;
+  EXPECT_EQ(motionText(Settings(), level), "0.5 scale, 1 sample, mirrors with 2 samples, depth 1, FLIP about 0.05");
+}
+
+TEST(Movement, LastsAMomentAfterTheLastStep) {
+  Movement movement;
+  CameraPose camera;
+  movement.update(camera, false, 0.1);
+  EXPECT_FALSE(movement.moving()) << "the first picture stands still";
+  camera.eye.x = 1.0;
+  movement.update(camera, false, 0.1);
+  EXPECT_TRUE(movement.moving() && !movement.ending());
+  movement.update(camera, false, 0.1);
+  EXPECT_TRUE(movement.moving() && movement.ending());
+  movement.update(camera, false, 0.1);
+  EXPECT_FALSE(movement.moving());
+  movement.update(camera, true, 0.1);
+  EXPECT_TRUE(movement.moving() && !movement.ending()) << "something else moves";
+}
+
+// Its frames take half a second whatever they draw.
+TEST(Pace, LowersOnlyWhatMoves) {
+  Pace pace(true, 1 + 4);
+  Settings planned;
+  uint64_t number = 0;
+  const auto frame = [&](bool moves, double budget) {
+    pace.begin({}, moves, 0.5);
+    pace.plan({}, budget, {}, {}, {}, [&](const Settings& settings) {
+      planned = settings;
+      FittedPlan fitted{.settings = settings};
+      fitted.plan.main.view.rect = {0, 0, 1280, 720};
+      return fitted;
+    });
+    pace.drawn(++number, 1.0, true);
+    pace.finished({.frame = number, .gpuMs = 500.0});
+  };
+  frame(false, 50.0);
+  EXPECT_TRUE(sameMainView(planned, {}));
+  EXPECT_EQ(pace.text(), "");
+  frame(true, 0.0);
+  EXPECT_TRUE(sameMainView(planned, {})) << "never, with 0";
+  for (int i = 0; i < 8; ++i) {
+    frame(true, 50.0);
+  }
+  EXPECT_LT(planned.view.scale, 0.2);
+  EXPECT_EQ(pace.text().rfind("moving: 0.1", 0), 0u) << pace.text();
+  frame(false, 50.0);
+  frame(false, 50.0);
+  EXPECT_TRUE(sameMainView(planned, {}));
+}
+
+TEST(Pace, BudgetFollowsDeviceAndMonitor) {
+  Settings settings;
+  EXPECT_EQ(motionBudget(settings, true, 144.0), 50.0);
+  EXPECT_NEAR(motionBudget(settings, false, 60.0), 13.3, 0.1);
+  settings.quality.motionMs = 7.0;
+  EXPECT_EQ(motionBudget(settings, false, 60.0), 7.0);
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,127 @@
+// Measures the window's pace: pace_measure SCENE... prints a line of a table for each scene and camera path. See
+// scripts/pace.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+
+#include "accuracy/image_metrics.hpp"
+#include "app/demo.hpp"
+#include "virtual_display.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr double warmup = 2.0;  // seconds
+constexpr double pathSeconds = 8.0;
+constexpr int comparedPictures = 6;  // of a path
+
+// Sticks of a gamepad at a time: what drives the camera.
+using Path = GamepadState (*)(double seconds);
+constexpr std::pair<const char*, Path> paths[] = {
+    {"orbit", [](double t) { return GamepadState{.rightX = static_cast<float>(0.5 * std::cos(0.8 * t))}; }},
+    {"walk",
+     [](double t) {
+       return GamepadState{.leftX = static_cast<float>(0.15 * std::sin(1.3 * t)),
+                           .leftY = static_cast<float>(-0.2 * std::cos(0.5 * t)),
+                           .rightX = static_cast<float>(0.3 * std::sin(0.7 * t))};
+     }},
+    {"rise",
+     [](double t) {
+       return GamepadState{.rightX = 0.15f,
+                           .rightY = static_cast<float>(0.2 * std::sin(t)),
+                           .rightTrigger = static_cast<float>(0.1 + 0.1 * std::sin(0.9 * t))};
+     }},
+};
+
+struct Shown {
+  double time = 0.0;
+  CameraPose camera;
+  Settings settings;
+};
+
+struct Measured {
+  std::vector<double> frameMs;
+  std::vector<Shown> shown;
+};
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Measured follow(const Options& options, Path path) {
+  Demo demo(options);
+  const auto start = std::chrono::steady_clock::now();
+  demo.setGamepadSource([&] { return std::optional(path(secondsSince(start))); });
+  Measured measured;
+  for (double last = 0.0; last < warmup + pathSeconds;) {
+    demo.step();
+    const double now = secondsSince(start);
+    if (last > warmup) {
+      measured.frameMs.push_back(1000.0 * (now - last));
+      if (last > warmup + pathSeconds * static_cast<double>(measured.shown.size()) / comparedPictures) {
+        measured.shown.push_back({demo.view().playback.time, demo.camera(), demo.frameSettings()});
+      }
+    }
+    last = now;
+  }
+  if (std::getenv("PACE_PASSES")) {
+    const FrameHistory& history = demo.view().frame.history;
+    for (const std::string& name : history.passNames()) {
+      std::fprintf(stderr, "%s %.1f  ", name.c_str(), percentile(history.passSeries(name), 0.5));
+    }
+    std::fprintf(stderr, "gpu %.1f cpu %.1f\n", percentile(history.series(FrameHistory::Figure::gpu), 0.5),
+                 percentile(history.series(FrameHistory::Figure::cpu), 0.5));
+  }
+  return measured;
+}
+
+// Mean FLIP of what was shown against the same views in full quality.
+double meanError(const Options& options, const std::vector<Shown>& shown) {
+  Session session(options);
+  const Settings full = session.settings();
+  const auto draw = [&](const Shown& at, const Settings& settings) {
+    session.setCamera(at.camera);
+    session.setSettings(settings);
+    session.restart();
+    session.draw(at.time, true);
+    session.finish();
+    return session.picture();
+  };
+  double sum = 0.0;
+  for (const Shown& at : shown) {
+    sum += compareImages(comparedImage(draw(at, full)), comparedImage(draw(at, at.settings))).whole.flip;
+  }
+  return sum / static_cast<double>(shown.size());
+}
+
+void measure(const std::string& scene) {
+  Options options;
+  options.scene = scene;
+  options.presentMode = PresentMode::immediate;
+  for (const auto& [name, path] : paths) {
+    Measured measured = follow(options, path);
+    std::vector<double>& ms = measured.frameMs;
+    std::sort(ms.begin(), ms.end());
+    const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
+    double scale = 0.0;
+    for (const Shown& at : measured.shown) {
+      scale += at.settings.view.scale / static_cast<double>(measured.shown.size());
+    }
+    std::printf("| %s | %s | %.1f | %.0f | %.0f | %.2f | %.3f |\n", scene.c_str(), name, 1000.0 / mean,
+                ms[ms.size() / 2], ms[ms.size() * 95 / 100], scale, meanError(options, measured.shown));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace speculum
+
+int main(int argc, char** argv) {
+  const speculum::test::VirtualDisplay display;
+  for (int i = 1; i < argc; ++i) {
+    speculum::measure(argv[i]);
+  }
+  return EXIT_SUCCESS;
+}
