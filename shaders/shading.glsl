@@ -52,8 +52,11 @@ vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface,
   }
   vec3 brdf = surface.diffuse / pi;
   if (max(surface.specular.r, max(surface.specular.g, surface.specular.b)) > 0.0) {
-    float lobe = clamp(dot(surface.normal, safeNormalize(l + toViewer)), 0.0, 1.0);
-    brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe, 1e-6), surface.shininess));
+    // The cosine with the half vector is squared, which takes no square root.
+    vec3 halfway = l + toViewer;
+    float along = max(dot(surface.normal, halfway), 0.0);
+    float lobe2 = min(along * along / max(dot(halfway, halfway), 1e-30), 1.0);
+    brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe2, 1e-12), 0.5 * surface.shininess));
   }
   // Neither infinite nor divided by an underflow: a black channel of the surface times infinity is not a number.
   float falloff = cosine / max(max(distance2, radius * radius), 1e-30);
