@@ -23,10 +23,10 @@ MapTexel mapTexel(vec3 d, int size) {
 }
 
 // Radiance of the map, bilinear. The background is infinitely far, in direction d from everywhere.
-vec3 mapRadiance(ViewData view, MapTexel at, int size, vec3 d) {
+vec3 mapRadiance(MapTexel at, int size, vec3 d) {
   vec2 low = clamp(floor(at.texel - 0.5), vec2(0.0), vec2(size - 2));
   vec2 weight = clamp(at.texel - 0.5 - low, 0.0, 1.0);
-  vec3 background = backgroundRadiance(view, d);
+  vec3 background = backgroundRadiance(d);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 next = ivec2(i & 1, i >> 1);
@@ -48,12 +48,12 @@ vec3 throughBox(EnvironmentData map, vec3 position, vec3 d) {
 }
 
 // Radiance of a mirror's reflection at `surface`, seen along `direction`.
-vec3 environmentRadiance(ViewData view, EnvironmentData map, Surface surface, vec3 direction, vec3 reflectance) {
+vec3 environmentRadiance(EnvironmentData map, Surface surface, vec3 direction, vec3 reflectance) {
   // Turned back above the shading normal's plane, not the triangle's: triangles may be smaller than derivatives see.
   vec3 d = mirrored(direction, surface.normal, surface.normal);
-  if (map.hasMap == 0 || isLastBounce(view, view.depth, view.throughput * reflectance)) {
-    return backgroundRadiance(view, d);
+  if (map.hasMap == 0 || isLastBounce(view.depth, view.throughput * reflectance)) {
+    return backgroundRadiance(d);
   }
   vec3 toward = map.hasBox != 0 ? throughBox(map, surface.position, d) : d;
-  return mapRadiance(view, mapTexel(toward, map.faceSize), map.faceSize, d);
+  return mapRadiance(mapTexel(toward, map.faceSize), map.faceSize, d);
 }

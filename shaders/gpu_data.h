@@ -36,7 +36,7 @@ struct ViewData {
   vec4 traceOffset;     // added to a relative point gives one in trace space
   vec3 throughput;      // of the mirrors up to this view
   float minThroughput;  // a bounce below it is dropped
-  uint firstLight;
+  uint firstLight;      // in the buffer of lights
   uint lightCount;
   uint depth;     // recursion depth of the mirrors seen in this view
   uint maxDepth;  // mirrors of this depth show the background
@@ -51,6 +51,10 @@ struct LightData {
   uint hasGlyph;
 };
 
+// Lights of a pass that shaders read at addresses known when they are compiled. lavapipe reads any other address once for
+// each pixel; a scene with more lights has them read so.
+const uint fixedLights = 16;
+
 struct MaterialData {
   vec3 diffuse;
   uint hasTexture;
@@ -60,7 +64,7 @@ struct MaterialData {
   uint textureIndex;  // index into traceTextures, if hasTexture
 };
 
-// Colours that the scene gives an object in place of its material's.
+// Colours that the scene gives an object in place of its material's, for rays.
 struct MaterialChange {
   vec3 diffuse;
   uint replacesDiffuse;
@@ -75,11 +79,9 @@ struct InstanceData {
   vec4 relativeFromMesh[3];  // rows
   vec4 normalFromMesh[3];    // rows, xyz
   vec4 clipPlane;            // in mesh space
-  MaterialChange change;
-  float shininess;     // 0: the material's
-  float handedness;    // sign of the transform's determinant
-  uint traceInstance;  // index into traceInstances
-  uint environment;    // index into environments, for a curved mirror that looks up a map
+  uint traceInstance;        // index into traceInstances
+  uint environment;          // index into environments, for a curved mirror that looks up a map
+  uint padding[2];
 };
 
 // A mirror as one view shows it.
@@ -112,15 +114,21 @@ struct EnvironmentData {
   uint padding;
 };
 
-// Push constants of a draw.
+// Push constants of a draw of objects, which share a material.
 struct DrawConstants {
-  uint viewIndex;
-  uint materialIndex;
-  uint mirrorIndex;
+  vec3 diffuse;
+  float shininess;
+  vec3 specular;
+  float handedness;  // sign of the determinant of the instances' transforms
+  vec3 emission;
   uint firstTriangle;  // of the draw, in its mesh
 };
 
-// Content of a mirror and lookup of its image: values of specialisation constants.
+// Texture of an object, number of lights, content of a mirror and lookup of its image: values of specialisation constants.
+const uint textureNone = 0;
+const uint textureBilinear = 1;  // of the first level, exact
+const uint textureTrilinear = 2;
+const uint manyLights = 0xffffffffu;  // more than fixedLights
 const uint showsImage = 0;
 const uint showsBackground = 1;
 const uint showsBack = 2;
@@ -261,8 +269,9 @@ static_assert(offsetof(ViewData, clipPlane) == 112 && offsetof(ViewData, hasSky)
               offsetof(ViewData, traceOffset) == 208 && offsetof(ViewData, firstLight) == 240 && sizeof(ViewData) == 256);
 static_assert(offsetof(LightData, irradiance) == 16 && sizeof(LightData) == 48);
 static_assert(offsetof(MaterialData, specular) == 16 && sizeof(MaterialData) == 48);
-static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(InstanceData, change) == 176 &&
-              offsetof(InstanceData, shininess) == 224 && sizeof(InstanceData) == 240);
+static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(InstanceData, traceInstance) == 176 &&
+              sizeof(InstanceData) == 192);
+static_assert(offsetof(DrawConstants, handedness) == 28 && sizeof(DrawConstants) == 48);
 static_assert(offsetof(MirrorData, lookupScale) == 48 && offsetof(MirrorData, texelFromPixel) == 80 &&
               sizeof(MirrorData) == 128);
 static_assert(offsetof(EnvironmentData, high) == 32 && sizeof(EnvironmentData) == 80);

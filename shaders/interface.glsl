@@ -1,16 +1,19 @@
-// The buffers that FrameData (src/systems/frame_data.hpp) fills every frame, and the constants of a draw.
+// The buffers that FrameData (src/systems/frame_data.hpp) fills every frame, and the constants of a draw. What is the same
+// for all pixels of a draw stands in uniform buffers, at the dynamic offset of the pass or of the mirror: lavapipe reads a
+// storage buffer once for each pixel.
 #include "gpu_data.h"
 
-layout(set = 0, binding = 0, std430) readonly buffer Views { ViewData views[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Lights { LightData lights[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Instances { InstanceData instances[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Mirrors { MirrorData mirrors[]; };
+layout(set = 0, binding = 0, std140) uniform Pass {
+  ViewData view;
+  LightData passLights[fixedLights];
+};
+layout(set = 0, binding = 1, std140) uniform DrawnMirror { MirrorData mirror; };
+layout(set = 0, binding = 2, std430) readonly buffer Lights { LightData lights[]; };  // of all passes
+layout(set = 0, binding = 3, std430) readonly buffer Instances { InstanceData instances[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Environments { EnvironmentData environments[]; };
 layout(set = 0, binding = 5, std430) readonly buffer MirrorVertices { vec4 mirrorVertices[]; };  // clip space
 layout(set = 0, binding = 6, std430) readonly buffer Materials { MaterialData materials[]; };
 
 layout(push_constant) uniform Draw { DrawConstants draw; };
 
-vec3 rayThrough(ViewData view, vec2 pixel) {
-  return view.rayX.xyz * pixel.x + view.rayY.xyz * pixel.y + view.rayOrigin.xyz;
-}
+vec3 rayThrough(vec2 pixel) { return view.rayX.xyz * pixel.x + view.rayY.xyz * pixel.y + view.rayOrigin.xyz; }

@@ -9,8 +9,8 @@ struct PlaneHit {
   float disparity;  // of the plane
 };
 
-PlaneHit planeHit(MirrorData mirror, ViewData view) {
-  vec3 ray = rayThrough(view, gl_FragCoord.xy);
+PlaneHit planeHit() {
+  vec3 ray = rayThrough(gl_FragCoord.xy);
   float inward = min(dot(mirror.normal, ray), -1e-7 * length(ray));
   return PlaneHit(ray, inward, ray * (-mirror.eyeDistance / inward), inward / min(-mirror.eyeDistance, -1e-30));
 }

@@ -12,12 +12,10 @@ layout(location = 0) out vec4 color;
 
 // A rippled or rough mirror, whose reflection no image of a plane can show.
 void main() {
-  MirrorData mirror = mirrors[draw.mirrorIndex];
-  ViewData view = views[draw.viewIndex];
-  PlaneHit hit = planeHit(mirror, view);
+  PlaneHit hit = planeHit();
   vec3 direction = safeNormalize(hit.ray);
   // The plane is turned to the eye in double; at the horizon the ray itself may not say which side it meets.
   bool front = dot(traceMirrors[mirror.traceMirror].normal, mirror.normal) > 0.0;
-  Bounce bounce = mirrorBounce(view, mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front);
-  color = storable(tracedRadiance(view, bounce, direction), hit.disparity);
+  Bounce bounce = mirrorBounce(mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front);
+  color = storable(tracedRadiance(bounce, direction), hit.disparity);
 }

@@ -13,11 +13,11 @@
 
 layout(constant_id = 0) const bool baseOnly = false;   // the share of the layer under the reflection
 layout(constant_id = 1) const bool reprojects = false; // the image is cached, and something has moved since
-layout(constant_id = 6) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
+layout(constant_id = 7) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
 // Constants, so that no pixel of a mirror runs code that the mirror does not need.
-layout(constant_id = 7) const uint shows = showsImage;
-layout(constant_id = 8) const uint lookup = lookupFetch;
-layout(constant_id = 9) const bool painted = true;     // its back, or its layer under the reflection, is not black
+layout(constant_id = 8) const uint shows = showsImage;
+layout(constant_id = 9) const uint lookup = lookupFetch;
+layout(constant_id = 10) const bool painted = true;    // its back, or its layer under the reflection, is not black
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 
@@ -31,7 +31,7 @@ vec4 valueAt(ivec2 texel) { return texelFetch(reflection, texel, gl_SampleID); }
 // Position of the values within their texels.
 vec2 valuePosition() { return gl_SamplePosition; }
 
-vec4 reflected(MirrorData mirror) {
+vec4 reflected() {
   ivec2 texel = ivec2(floor(gl_FragCoord.xy + mirror.lookupOffset));
   return valueAt(clamp(texel, ivec2(0), mirror.imageSize - 1));
 }
@@ -66,7 +66,7 @@ vec4 boxFiltered(vec2 low, vec2 high, ivec2 last) {
   return sum / max(area, 1e-6);
 }
 
-vec4 reflected(MirrorData mirror) {
+vec4 reflected() {
   ivec2 last = mirror.imageSize - 1;
   vec2 texel = gl_FragCoord.xy * mirror.lookupScale + mirror.lookupOffset;
   if (lookup == lookupFetch) {
@@ -87,7 +87,7 @@ struct Reprojection {
   float nearest;   // disparity of the mirror itself, behind which lies all that is seen
 };
 
-Reprojection reprojection(MirrorData mirror, float nearest) {
+Reprojection reprojection(float nearest) {
   vec4 rows[3] = mirror.texelFromPixel;
   mat3 fromPixel = transpose(mat3(rows[0].xyz, rows[1].xyz, rows[2].xyz));
   return Reprojection(fromPixel * vec3(gl_FragCoord.xy, 1.0), vec3(rows[0].w, rows[1].w, rows[2].w), nearest);
@@ -141,9 +141,9 @@ float foundDisparity(Reprojection r, ivec2 last) {
 // Filters by a box as wide as a pixel and at least as a texel, which is bilinear at the screen's resolution. Every value
 // counts by how far off the ray its own point is: the far ones beside a silhouette have moved by another length than the
 // near ones and would leave an outline behind. Where none counts, the farthest fills the gap.
-vec4 reprojected(MirrorData mirror, float nearest) {
+vec4 reprojected(float nearest) {
   ivec2 last = mirror.imageSize - 1;
-  Reprojection r = reprojection(mirror, nearest);
+  Reprojection r = reprojection(nearest);
   vec2 position = texelAt(r, foundDisparity(r, last)) - valuePosition();
   vec2 reach = 0.5 * max(mirror.lookupScale, vec2(1.0)) + 0.5;
   ivec2 low = clamp(ivec2(ceil(position - reach)), ivec2(0), last);
@@ -166,7 +166,7 @@ vec4 reprojected(MirrorData mirror, float nearest) {
 
 #ifndef MIRROR_OWN_SAMPLE
 // Pixel of the view at which a point behind the mirror is seen; relative, in front of the eye.
-vec2 pixelOf(ViewData view, vec3 point) {
+vec2 pixelOf(vec3 point) {
   vec3 x = view.rayX.xyz;
   vec3 y = view.rayY.xyz;
   vec3 axis = cross(x, y);
@@ -177,10 +177,10 @@ vec2 pixelOf(ViewData view, vec3 point) {
 // Mean over the microfacets of a rough mirror, looked up in the image of the smooth mirror: in each direction at the
 // distance that the image has there, guessed first from what the smooth mirror shows here. Beyond the image the background
 // is seen.
-vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
+vec4 blurred(vec3 ray, vec3 position) {
   vec3 normal = mirror.normal;
   vec3 incoming = safeNormalize(ray);
-  vec4 sharp = reflected(mirror);
+  vec4 sharp = reflected();
   float farthest = 1e4 * (length(position) + 1.0);
   float guess = clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, farthest);
   uint seed = pixelSeed();
@@ -197,15 +197,15 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
     float far = guess;
     vec3 found = vec3(0.0);
     for (int i = 0; i < 3; ++i) {
-      vec2 pixel = pixelOf(view, position + far * behind);
+      vec2 pixel = pixelOf(position + far * behind);
       vec2 texel = pixel * mirror.lookupScale + mirror.lookupOffset;
       if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize)))) {
-        found = backgroundRadiance(view, direction);
+        found = backgroundRadiance(direction);
         break;
       }
       vec4 value = texelMean(reflection, ivec2(texel));
       found = value.rgb;
-      far = clamp(dot(rayThrough(view, pixel) / max(value.a, 1e-30) - position, behind), 0.0, farthest);
+      far = clamp(dot(rayThrough(pixel) / max(value.a, 1e-30) - position, behind), 0.0, farthest);
     }
     sum += found;
     ++taken;
@@ -214,31 +214,29 @@ vec4 blurred(MirrorData mirror, ViewData view, vec3 ray, vec3 position) {
 }
 #endif
 
-vec3 baseRadiance(MirrorData mirror, ViewData view, vec3 position) {
+vec3 baseRadiance(vec3 position) {
   if (!painted) {
     return vec3(0.0);
   }
   Surface base = mirrorLayer(position, mirror.normal, mirror.baseColor);
 #ifdef TRACED
-  return tracedSurfaceRadiance(view, base, safeNormalize(-position), Skip(none, none, mirror.traceMirror, none, 0.0));
+  return tracedSurfaceRadiance(base, safeNormalize(-position), Skip(none, none, mirror.traceMirror, none, 0.0));
 #else
-  return surfaceRadiance(view, base);
+  return surfaceRadiance(base);
 #endif
 }
 
 // The disparity stored is that of what is reflected, so that an image of this mirror can be reprojected in its turn:
 // views share one projection and reflection keeps lengths, so it is the same in the mirror's image and in its parent's.
 void main() {
-  MirrorData mirror = mirrors[draw.mirrorIndex];
-  ViewData view = views[draw.viewIndex];
-  PlaneHit hit = planeHit(mirror, view);
+  PlaneHit hit = planeHit();
   float cosine = -hit.inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));
   vec3 f = reflectanceAt(mirror.reflectance, mirror.schlick, cosine);
 #ifdef MIRROR_OWN_SAMPLE
-  vec4 image = reprojects ? reprojected(mirror, hit.disparity) : reflected(mirror);
+  vec4 image = reprojects ? reprojected(hit.disparity) : reflected();
   color = storable(f * min(image.rgb, shareMax), image.a);
 #else
-  vec3 base = baseRadiance(mirror, view, hit.position);
+  vec3 base = baseRadiance(hit.position);
   if (shows == showsBack) {
     color = storable(base, hit.disparity);
     return;
@@ -250,12 +248,12 @@ void main() {
   vec4 image = vec4(0.0);
   if (shows == showsImage) {
     if (blurs) {
-      image = blurred(mirror, view, hit.ray, hit.position);
+      image = blurred(hit.ray, hit.position);
     } else {
-      image = reprojects ? reprojected(mirror, hit.disparity) : reflected(mirror);
+      image = reprojects ? reprojected(hit.disparity) : reflected();
     }
   } else {
-    image.rgb = backgroundRadiance(view, reflect(hit.ray, mirror.normal));
+    image.rgb = backgroundRadiance(reflect(hit.ray, mirror.normal));
   }
   color = storable(f * image.rgb + (1.0 - f) * base, image.a);
 #endif

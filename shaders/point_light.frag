@@ -6,16 +6,15 @@
 layout(location = 0) flat in uint lightIndex;
 layout(location = 0) out vec4 color;
 
-bool visible(ViewData view, vec3 ray, float t) {
+bool visible(vec3 ray, float t) {
   return t > 0.0 && dot(view.clipPlane.xyz, ray * t) + view.clipPlane.w >= 0.0;
 }
 
 // Ray against sphere. The squared distance of centre and ray is taken directly: the textbook discriminant cancels for
 // small, distant glyphs.
 void main() {
-  ViewData view = views[draw.viewIndex];
   LightData light = lights[lightIndex];
-  vec3 ray = safeNormalize(rayThrough(view, gl_FragCoord.xy));
+  vec3 ray = safeNormalize(rayThrough(gl_FragCoord.xy));
   float middle = dot(ray, light.position);
   vec3 offset = light.position - middle * ray;
   float halfChord2 = light.radius * light.radius - dot(offset, offset);
@@ -23,8 +22,8 @@ void main() {
     discard;
   }
   float halfChord = sqrt(halfChord2);
-  float t = visible(view, ray, middle - halfChord) ? middle - halfChord : middle + halfChord;
-  if (!visible(view, ray, t)) {
+  float t = visible(ray, middle - halfChord) ? middle - halfChord : middle + halfChord;
+  if (!visible(ray, t)) {
     discard;
   }
   vec4 clip = view.clipFromRelative * vec4(ray * t, 1.0);

@@ -10,7 +10,7 @@ void main() {
                                 1, 3, 5, 3, 7, 5);
   int corner = corners[gl_VertexIndex];
   vec3 side = vec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * 2.0 - 1.0;
-  lightIndex = views[draw.viewIndex].firstLight + uint(gl_InstanceIndex);
+  lightIndex = view.firstLight + uint(gl_InstanceIndex);
   LightData light = lights[lightIndex];
-  gl_Position = views[draw.viewIndex].clipFromRelative * vec4(light.position + 1.01 * light.radius * side, 1.0);
+  gl_Position = view.clipFromRelative * vec4(light.position + 1.01 * light.radius * side, 1.0);
 }

@@ -11,7 +11,8 @@
 #include "traced_path.glsl"
 #endif
 
-layout(constant_id = 0) const bool trilinear = false;
+layout(constant_id = 0) const uint diffuseLookup = textureNone;
+layout(constant_id = 1) const bool glossy = true;  // the specular colour is not black
 
 layout(set = 1, binding = 0) uniform sampler2D diffuseTexture;  // linear radiance factors; with ENVIRONMENT the map
 
@@ -32,7 +33,8 @@ vec3 bilinearLevel0(vec2 uv) {
 }
 
 vec3 diffuseFactor() {
-  return trilinear ? texture(diffuseTexture, vec2(textureUv.x, 1.0 - textureUv.y)).rgb : bilinearLevel0(textureUv);
+  return diffuseLookup == textureTrilinear ? texture(diffuseTexture, vec2(textureUv.x, 1.0 - textureUv.y)).rgb
+                                           : bilinearLevel0(textureUv);
 }
 
 #ifdef ENVIRONMENT
@@ -73,7 +75,7 @@ void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surf
                             relativeVertex(instance, triangle, 2));
   vec3 point = relativePosition;
   if (perSample) {
-    point = safeNormalize(rayThrough(views[draw.viewIndex], gl_FragCoord.xy)) * length(relativePosition);
+    point = safeNormalize(rayThrough(gl_FragCoord.xy)) * length(relativePosition);
   }
   vec3 w = weightsOnTriangle(point, corners);
   surface.position = point + w.x * (corners.a - point) + w.y * (corners.b - point) + w.z * (corners.c - point);
@@ -87,14 +89,13 @@ void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surf
 #endif
 
 void main() {
-  MaterialData material = materials[draw.materialIndex];
   // The side that faces the viewer is lit, by the winding in the model file: front faces already turn with the view's
   // handedness, the sign of the instance's determinant turns them back.
-  bool front = gl_FrontFacing == (instances[instanceIndex].handedness > 0.0);
-  Surface surface = objectSurface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), material,
-                                  instances[instanceIndex].change, instances[instanceIndex].shininess);
+  bool front = gl_FrontFacing == (draw.handedness > 0.0);
+  Surface surface = Surface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), draw.diffuse,
+                            glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess);
 #ifndef ENVIRONMENT
-  if (material.hasTexture != 0) {
+  if (diffuseLookup != textureNone) {
     surface.diffuse *= diffuseFactor();
   }
 #endif
@@ -113,7 +114,7 @@ void main() {
   geometric = dot(geometric, direction) > 0.0 ? -geometric : geometric;
   Bounce bounce = Bounce(surface, self, true, geometric, vec3(0.0), 0.0);
   applyCurvedMirror(traceInstance, direction, bounce);
-  vec3 radiance = tracedRadiance(views[draw.viewIndex], bounce, direction);
+  vec3 radiance = tracedRadiance(bounce, direction);
 #elif defined(ENVIRONMENT)
   EnvironmentData map = environments[instances[instanceIndex].environment];
   vec3 direction = safeNormalize(surface.position);
@@ -123,19 +124,19 @@ void main() {
   vec3 layer = vec3(0.0);
   if (any(greaterThan(surface.diffuse, vec3(0.0)))) {
 #ifdef TRACED
-    layer = tracedSurfaceRadiance(views[draw.viewIndex], surface, -direction, self);
+    layer = tracedSurfaceRadiance(surface, -direction, self);
 #else
-    layer = surfaceRadiance(views[draw.viewIndex], surface);
+    layer = surfaceRadiance(surface);
 #endif
   }
   vec3 radiance = (1.0 - reflectance) * layer +
-                  reflectance * environmentRadiance(views[draw.viewIndex], map, surface, direction, reflectance);
+                  reflectance * environmentRadiance(map, surface, direction, reflectance);
 #elif defined(TRACED)
-  vec3 radiance = tracedSurfaceRadiance(views[draw.viewIndex], surface, safeNormalize(-surface.position), self);
+  vec3 radiance = tracedSurfaceRadiance(surface, safeNormalize(-surface.position), self);
 #else
-  vec3 radiance = surfaceRadiance(views[draw.viewIndex], surface);
+  vec3 radiance = surfaceRadiance(surface);
 #endif
   // Not gl_FragCoord.w: at the pixel's centre, off the triangle, it is far from that of a steep one.
-  float w = (views[draw.viewIndex].clipFromRelative * vec4(relativePosition, 1.0)).w;
+  float w = (view.clipFromRelative * vec4(relativePosition, 1.0)).w;
   color = storable(radiance, 1.0 / max(w, 1e-30));
 }

@@ -1,4 +1,7 @@
 // Radiance of a surface and of the background, as docs/picture.md defines them. Needs interface.glsl.
+#extension GL_EXT_control_flow_attributes : require
+
+layout(constant_id = 6) const uint lightCount = manyLights;  // view.lightCount, if it is at most fixedLights
 
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
@@ -32,8 +35,11 @@ struct BilinearTexels {
 BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
   vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
   vec2 corner = floor(texel);
-  ivec2 low = (ivec2(corner) + size) % size;
-  return BilinearTexels(low, (low + 1) % size, texel - corner);
+  // Integer divisions cost lavapipe more than the rest of the look-up.
+  ivec2 low = ivec2(corner);
+  low += size * ivec2(lessThan(low, ivec2(0)));
+  ivec2 high = low + 1;
+  return BilinearTexels(low, high - size * ivec2(equal(high, size)), texel - corner);
 }
 
 // Radiance that a light at `toLight` from the surface gives it; `irradiance` is at 1 m, facing the light.
@@ -46,20 +52,32 @@ vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface,
   }
   vec3 brdf = surface.diffuse / pi;
   if (max(surface.specular.r, max(surface.specular.g, surface.specular.b)) > 0.0) {
-    float lobe = clamp(dot(surface.normal, safeNormalize(l + toViewer)), 0.0, 1.0);
-    brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe, 1e-6), surface.shininess));
+    // The cosine with the half vector is squared, which takes no square root.
+    vec3 halfway = l + toViewer;
+    float along = max(dot(surface.normal, halfway), 0.0);
+    float lobe2 = min(along * along / max(dot(halfway, halfway), 1e-30), 1.0);
+    brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe2, 1e-12), 0.5 * surface.shininess));
   }
   // Neither infinite nor divided by an underflow: a black channel of the surface times infinity is not a number.
   float falloff = cosine / max(max(distance2, radius * radius), 1e-30);
   return min(irradiance * falloff, 1e30) * brdf;
 }
 
-vec3 surfaceRadiance(ViewData view, Surface surface) {
+vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
+  return lightRadiance(light.position - surface.position, light.radius, light.irradiance, surface, toViewer);
+}
+
+vec3 surfaceRadiance(Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
   vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
-  for (uint i = 0; i < view.lightCount; ++i) {
-    LightData light = lights[view.firstLight + i];
-    radiance += lightRadiance(light.position - surface.position, light.radius, light.irradiance, surface, toViewer);
+  if (lightCount == manyLights) {
+    for (uint i = 0; i < view.lightCount; ++i) {
+      radiance += lightRadiance(lights[view.firstLight + i], surface, toViewer);
+    }
+  } else {
+    [[unroll]] for (uint i = 0; i < lightCount; ++i) {
+      radiance += lightRadiance(passLights[i], surface, toViewer);
+    }
   }
   return radiance;
 }
@@ -77,7 +95,7 @@ vec3 reflectanceAt(vec3 reflectance, uint followsSchlick, float cosine) {
 }
 
 // Whether a bounce at this depth, after which `channels` of the light are left, shows the background only.
-bool isLastBounce(ViewData view, uint depth, vec3 channels) {
+bool isLastBounce(uint depth, vec3 channels) {
   float through = max(channels.r, max(channels.g, channels.b));
   return depth >= view.maxDepth || through < view.minThroughput || through == 0.0;
 }
@@ -102,7 +120,7 @@ Surface objectSurface(vec3 position, vec3 normal, MaterialData material, Materia
                  shininess > 0.0 ? shininess : material.shininess);
 }
 
-vec3 backgroundRadiance(ViewData view, vec3 direction) {
+vec3 backgroundRadiance(vec3 direction) {
   if (view.hasSky == 0) {
     return view.background;
   }

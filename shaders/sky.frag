@@ -6,6 +6,5 @@
 layout(location = 0) out vec4 color;
 
 void main() {
-  ViewData view = views[draw.viewIndex];
-  color = storable(backgroundRadiance(view, rayThrough(view, gl_FragCoord.xy)), 0.0);
+  color = storable(backgroundRadiance(rayThrough(gl_FragCoord.xy)), 0.0);
 }

@@ -80,7 +80,7 @@ bool unobstructed(Incoming incoming) {
 
 // surfaceRadiance with all lights and their images in mirrors, added in the same order. `self` is what the surface is
 // part of.
-vec3 tracedSurfaceRadiance(ViewData view, Surface surface, vec3 toViewer, Skip self) {
+vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);
   vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;

@@ -30,7 +30,7 @@ vec3 rippled(uint mirror, vec3 tracePosition) {
 }
 
 // A mirror seen along `direction`, from its front or its back.
-Bounce mirrorBounce(ViewData view, uint mirror, vec3 tracePosition, vec3 direction, bool front) {
+Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front) {
   float side = front ? 1.0 : -1.0;
   vec3 position = tracePosition - view.traceOffset.xyz;
   Bounce bounce;
@@ -88,7 +88,7 @@ vec3 facetNormal(uint instance, uint triangle) {
   return safeNormalize(normalFromMesh(instance, cross(b - a, c - a)));
 }
 
-Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
+Bounce objectBounce(Hit hit, vec3 traceOrigin, vec3 direction) {
   TraceTriangle triangle = traceTriangles[hit.slot];
   TraceVertex a = vertexOf(hit.instance, triangle.triangle, 0);
   TraceVertex b = vertexOf(hit.instance, triangle.triangle, 1);
@@ -111,7 +111,7 @@ Bounce objectBounce(ViewData view, Hit hit, vec3 traceOrigin, vec3 direction) {
 }
 
 // Glow of the first glyph that the ray meets before `t`; `t` becomes where.
-vec3 glyphRadiance(ViewData view, vec3 origin, vec3 direction, inout float t) {
+vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
   vec3 glow = vec3(0.0);
   for (uint i = view.firstLight; i < view.firstLight + view.lightCount; ++i) {
     vec3 center = lights[i].position - origin;
@@ -141,7 +141,7 @@ struct Path {
 };
 
 // Follows a path from its first bounce, whose own layer goes to `layer` if `withLayer`.
-vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 layer) {
+vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
   vec3 sum = vec3(0.0);
   vec3 weight = vec3(1.0);
   bool first = true;
@@ -149,7 +149,7 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
     Surface surface = path.bounce.surface;
     bool black = all(equal(surface.diffuse + surface.specular + surface.emission, vec3(0.0)));
     if (!black && (!first || withLayer)) {
-      vec3 own = tracedSurfaceRadiance(view, surface, -path.direction, path.bounce.self);
+      vec3 own = tracedSurfaceRadiance(surface, -path.direction, path.bounce.self);
       own *= path.bounce.reflects ? 1.0 - path.bounce.reflectance : vec3(1.0);
       layer = first ? own : layer;
       sum += first ? vec3(0.0) : weight * own;
@@ -159,27 +159,27 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
       return sum;
     }
     weight *= path.bounce.reflectance;
-    bool last = isLastBounce(view, path.depth, path.throughput * weight);
+    bool last = isLastBounce(path.depth, path.throughput * weight);
     path.direction = mirrored(path.direction, last ? surface.normal : path.m, path.bounce.planeNormal);
     if (last) {
-      return sum + weight * backgroundRadiance(view, path.direction);
+      return sum + weight * backgroundRadiance(path.direction);
     }
     ++path.depth;
     vec3 origin = surface.position + view.traceOffset.xyz;
     Hit hit = traceRay(origin, path.direction, infinity, path.bounce.self, false);
     float t = hit.t;
-    vec3 glow = glyphRadiance(view, surface.position, path.direction, t);
+    vec3 glow = glyphRadiance(surface.position, path.direction, t);
     if (t < hit.t) {
       return sum + weight * glow;
     }
     if (hit.instance == none && hit.mirror == none) {
-      return sum + weight * backgroundRadiance(view, path.direction);
+      return sum + weight * backgroundRadiance(path.direction);
     }
     if (hit.mirror != none) {
       bool front = dot(traceMirrors[hit.mirror].normal, path.direction) < 0.0;
-      path.bounce = mirrorBounce(view, hit.mirror, origin + hit.t * path.direction, path.direction, front);
+      path.bounce = mirrorBounce(hit.mirror, origin + hit.t * path.direction, path.direction, front);
     } else {
-      path.bounce = objectBounce(view, hit, origin, path.direction);
+      path.bounce = objectBounce(hit, origin, path.direction);
     }
     path.m = path.bounce.surface.normal;
     if (path.bounce.alpha > 0.0 && path.bounce.reflects) {
@@ -194,7 +194,7 @@ vec3 follow(ViewData view, Path path, uint seed, bool withLayer, inout vec3 laye
 // Radiance of a surface that reflects, seen along `direction`: layer and reflection. A rough one takes the mean over
 // microfacets on the additive recurrence of the plastic number, shifted for each pixel; those that face away, or that
 // mirror the ray below the plane, are left out.
-vec3 tracedRadiance(ViewData view, Bounce bounce, vec3 direction) {
+vec3 tracedRadiance(Bounce bounce, vec3 direction) {
   uint seed = pixelSeed();
   vec2 shift = pixelShift(seed);
   int wanted = bounce.alpha > 0.0 ? int(traceCounts.roughSamples) : 1;
@@ -211,7 +211,7 @@ vec3 tracedRadiance(ViewData view, Bounce bounce, vec3 direction) {
       }
     }
     Path path = Path(direction, bounce, m, view.depth, view.throughput);
-    sum += follow(view, path, seed + uint(drawn), taken == 0, layer);
+    sum += follow(path, seed + uint(drawn), taken == 0, layer);
     ++taken;
   }
   return layer + sum / float(max(taken, 1));

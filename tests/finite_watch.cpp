@@ -122,6 +122,8 @@ position = [0, 1, 1]
 target = [0.2, 1, -2]
 [settings]
 "reflection.max_depth" = 2
+[[light]]
+position = [0, 3, 0]
 [[mirror]]
 name = "front"
 position = [0, 1, -2]
@@ -135,12 +137,13 @@ size = [6, 6]
 )";
 const std::string hall = wall + rear;
 
-// The program's shaders, but the sky of one pass has one value that it should not have.
+// The program's shaders, but the sky of one pass has one value that it should not have. The scenes have one light, so
+// that a view's first light is its index.
 class BrokenSky {
  public:
   BrokenSky(int pass, int x, int y, int sample, const std::string& value) {
     writeShaders(directory_.path(), "sky.frag",
-                 "  if (draw.viewIndex == " + std::to_string(pass) + " && ivec2(gl_FragCoord.xy) == ivec2(" +
+                 "  if (view.firstLight == " + std::to_string(pass) + " && ivec2(gl_FragCoord.xy) == ivec2(" +
                      std::to_string(x) + ", " + std::to_string(y) + ") && gl_SampleID == " + std::to_string(sample) +
                      ") color.g = " + value + ";\n");
   }

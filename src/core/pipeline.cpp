@@ -242,8 +242,10 @@ void Pipeline::bind(VkCommandBuffer commands) const {
   vkCmdBindPipeline(commands, bindPoint(), pipeline_.get());
 }
 
-void Pipeline::bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const {
-  vkCmdBindDescriptorSets(commands, bindPoint(), layout_.get(), index, 1, &set, 0, nullptr);
+void Pipeline::bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
+                       std::span<const uint32_t> offsets) const {
+  vkCmdBindDescriptorSets(commands, bindPoint(), layout_.get(), index, 1, &set, static_cast<uint32_t>(offsets.size()),
+                          offsets.data());
 }
 
 void Pipeline::pushBytes(VkCommandBuffer commands, const void* data, uint32_t bytes) const {

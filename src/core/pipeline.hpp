@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -87,7 +88,9 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   void bind(VkCommandBuffer commands) const;
-  void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const;
+  // `offsets` of the set's dynamic buffers, by binding.
+  void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
+               std::span<const uint32_t> offsets = {}) const;
   template <typename T>
   void push(VkCommandBuffer commands, const T& constants) const {
     pushBytes(commands, &constants, sizeof constants);

@@ -20,9 +20,10 @@ void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::b
   }
   Buffer& buffer = buffers_[frame.index][kind];
   if (!buffer || buffer.bytes() < data.size()) {
-    buffer = Buffer(device_, data.size() + data.size() / 2,
-                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, BufferMemory::host,
-                    names_[kind]);
+    buffer = Buffer(
+        device_, data.size() + data.size() / 2,
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+        BufferMemory::host, names_[kind]);
   }
   buffer.write(data);
 }

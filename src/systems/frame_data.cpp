@@ -13,7 +13,7 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array bufferNames = {"views", "lights", "instances", "mirrors", "environments", "mirror vertices"};
+constexpr std::array bufferNames = {"passes", "mirrors", "lights", "instances", "environments", "mirror vertices"};
 
 glm::dmat4 relativeToView(const View& view) {
   return glm::dmat4(view.worldToView);
@@ -52,14 +52,20 @@ void setBackground(gpu::ViewData& data, const Environment& environment) {
 
 }  // namespace
 
-gpu::InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
-                               const glm::dmat4& clipFromRelative) {
+float handednessOf(const InstanceState& instance) {
+  return glm::determinant(instance.worldFromMesh.linear) < 0.0 ? -1.0f : 1.0f;
+}
+
+uint32_t fixedLightCount(const Scene& scene) {
+  return scene.lights.size() <= gpu::fixedLights ? static_cast<uint32_t>(scene.lights.size()) : gpu::manyLights;
+}
+
+gpu::InstanceData instanceData(const InstanceState& instance, const View& view, const glm::dmat4& clipFromRelative) {
   const glm::dmat3& linear = instance.worldFromMesh.linear;
   const glm::dvec3 offset = instance.worldFromMesh.translation - view.eye;
   glm::dmat4 relativeFromMesh(linear);
   relativeFromMesh[3] = glm::dvec4(offset, 1.0);
   const glm::dmat3 normals = unitNormalMatrix(linear);
-  const double handedness = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
   const glm::dvec4 plane = relativeClipPlane(view);
   const glm::dvec3 normal(plane);
 
@@ -70,9 +76,6 @@ gpu::InstanceData instanceData(const InstanceState& instance, const Object& obje
     data.normalFromMesh[r] = row(normals, r, 0.0);
   }
   data.clipPlane = glm::vec4(glm::dvec4(glm::transpose(linear) * normal, glm::dot(normal, offset) + plane.w));
-  data.change = materialChange(object);
-  data.shininess = static_cast<float>(object.shininess.value_or(0.0));
-  data.handedness = static_cast<float>(handedness);
   return data;
 }
 
@@ -136,21 +139,26 @@ glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod
   return projection;
 }
 
+VkDescriptorType FrameData::typeOf(uint32_t kind) {
+  return kind == passBlocks || kind == mirrors ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
+                                               : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
 FrameData::FrameData(Device& device)
     : device_(device), buffers_(device, bufferNames, "fewer copies of objects, or a lower reflection.max_passes") {
   std::array<DescriptorBinding, kindCount + 1> bindings{};  // the last for the materials
   for (uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i] = {.binding = i, .type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    bindings[i] = {.binding = i, .type = typeOf(i)};
   }
   layout_ = createDescriptorSetLayout(device, bindings, "frame");
 }
 
 void FrameData::build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
                       const Settings& settings, const Environment& environment, const FramePlan& plan) {
-  views_.clear();
+  passBlocks_.clear();
+  mirrors_.clear();
   lights_.clear();
   instances_.clear();
-  mirrors_.clear();
   environments_.clear();
   mirrorVertices_.clear();
   passes_.clear();
@@ -165,20 +173,29 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
     }
   }
 
-  buffers_.write(frame, views, views_);
+  mirrors_.resize(std::max<size_t>(mirrors_.size(), 1));  // bound in every draw
+  buffers_.write(frame, passBlocks, passBlocks_);
+  buffers_.write(frame, mirrors, mirrors_);
   buffers_.write(frame, lights, lights_);
   buffers_.write(frame, instances, instances_);
-  buffers_.write(frame, mirrors, mirrors_);
   buffers_.write(frame, environments, environments_);
   buffers_.write(frame, mirrorVertices, mirrorVertices_);
   instanceBuffer_ = buffers_.buffer(frame, instances).get();
   set_ = frame.descriptors->allocate(layout_.get());
   DescriptorWriter writer;
   for (uint32_t kind = 0; kind < kindCount; ++kind) {
-    writer.buffer(kind, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffers_.buffer(frame, kind).descriptor());
+    VkDescriptorBufferInfo buffer = buffers_.buffer(frame, kind).descriptor();
+    buffer.range = kind == passBlocks ? sizeof(PassBlock) : kind == mirrors ? sizeof(MirrorBlock) : buffer.range;
+    writer.buffer(kind, typeOf(kind), buffer);
   }
   writer.buffer(kindCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, resources.materials().descriptor());
   writer.update(device_, set_);
+}
+
+void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror) const {
+  const std::array offsets{pass.pass * static_cast<uint32_t>(sizeof(PassBlock)),
+                           mirror * static_cast<uint32_t>(sizeof(MirrorBlock))};
+  pipeline.bindSet(commands, 0, set_, offsets);
 }
 
 glm::ivec2 faceCorner(const EnvironmentMap& map, size_t face) {
@@ -190,8 +207,8 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   const auto& [scene, state, settings, environment, plan] = source;
   const glm::dmat4 projection = viewProjection(common, pass.view, settings.reflection.clip);
   PassData& data = passes_.emplace_back();
-  data.view = static_cast<uint32_t>(views_.size());
-  gpu::ViewData view{};
+  data.pass = static_cast<uint32_t>(passBlocks_.size());
+  gpu::ViewData& view = passBlocks_.emplace_back().view;
   view.clipFromRelative = glm::mat4(projection * relativeToView(pass.view));
   const bool clips = settings.reflection.clip != ClipMethod::none;
   view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
@@ -202,8 +219,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   view.minThroughput = static_cast<float>(settings.reflection.minThroughput);
   view.depth = static_cast<uint32_t>(pass.view.path.size());
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
-  addLights(source, pass, view);
-  views_.push_back(view);
+  addLights(source, pass, passBlocks_.back());
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(source, pass, projection, data);
   addMirrors(pass, projection, plan, scene, settings.effects, data);
@@ -211,10 +227,10 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
 }
 
 // Lights whose glyphs are visible come first, so that one instanced draw covers them.
-void FrameData::addLights(const Source& source, const PlannedPass& pass, gpu::ViewData& view) {
+void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlock& block) {
   const Scene& scene = source.scene;
-  view.firstLight = static_cast<uint32_t>(lights_.size());
-  view.lightCount = static_cast<uint32_t>(scene.lights.size());
+  block.view.firstLight = static_cast<uint32_t>(lights_.size());
+  block.view.lightCount = static_cast<uint32_t>(scene.lights.size());
   std::vector<int> order(scene.lights.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(),
@@ -228,7 +244,17 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, gpu::Vi
                        .glow = glm::vec3(light.color * light.glow),
                        .hasGlyph = hasGlyph(light, source.settings.effects)});
   }
+  std::copy_n(lights_.end() - static_cast<std::ptrdiff_t>(order.size()),
+              std::min<size_t>(order.size(), gpu::fixedLights), block.lights);
 }
+
+namespace {
+
+bool sameColors(const Object& a, const Object& b) {
+  return a.color == b.color && a.specular == b.specular && a.shininess == b.shininess && a.emission == b.emission;
+}
+
+}  // namespace
 
 void FrameData::addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection,
                              PassData& data) {
@@ -240,8 +266,8 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     return effects.curved && scene.objects[static_cast<size_t>(state.instances[i].object)].mirror.has_value();
   };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
-  // Plain instances of a mesh at one level share a draw, its curved mirrors another; each that is seen in part has its
-  // own.
+  // Plain instances of a mesh at one level that look alike share a draw, its curved mirrors another; each that is seen
+  // in part has its own.
   for (auto first = order.begin(); first != order.end();) {
     const int mesh = state.instances[*first].mesh;
     const auto last = std::find_if(first, order.end(), [&](int i) { return state.instances[i].mesh != mesh; });
@@ -255,16 +281,21 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     const bool environment = curved && effects.curvedLookup == CurvedLookup::environment;
     const PartialInstance* part = partOf(pass.partial, i);
     const int level = levelOf(pass, i);
-    if (data.batches.empty() || data.batches.back().mesh != instance.mesh || data.batches.back().curved != curved ||
-        data.batches.back().level != level || environment || part || !data.batches.back().ranges.empty()) {
+    const float handedness = handednessOf(instance);
+    const Batch* last = data.batches.empty() ? nullptr : &data.batches.back();
+    if (!last || last->mesh != instance.mesh || last->curved != curved || last->level != level ||
+        last->handedness != handedness || !sameColors(scene.objects[last->object], object) || environment || part ||
+        !last->ranges.empty()) {
       data.batches.push_back({.mesh = instance.mesh,
+                              .object = instance.object,
+                              .handedness = handedness,
                               .firstInstance = static_cast<uint32_t>(instances_.size()),
                               .curved = curved,
                               .level = level});
       data.batches.back().ranges = part ? part->ranges : std::vector<IndexRange>();
     }
     ++data.batches.back().count;
-    instances_.push_back(instanceData(instance, object, pass.view, clipFromRelative));
+    instances_.push_back(instanceData(instance, pass.view, clipFromRelative));
     instances_.back().traceInstance = static_cast<uint32_t>(i);
     if (environment) {
       addEnvironment(source, pass, i, data.batches.back());
@@ -346,7 +377,7 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
     range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
-    mirrors_.push_back(mirrorData(draw, mirror, effects, pass.view, image));
+    mirrors_.push_back({mirrorData(draw, mirror, effects, pass.view, image)});
     std::vector<glm::dvec4> clip;
     for (const glm::dvec3& p : draw.polygon) {
       clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));

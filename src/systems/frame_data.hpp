@@ -24,9 +24,11 @@ struct MirrorImage {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
-// Instances of one mesh that stand together in the instance buffer.
+// Instances of one mesh that stand together in the instance buffer and share their colours.
 struct Batch {
   int mesh = 0;
+  int object = 0;           // index into Scene::objects, of the first instance
+  float handedness = 1.0f;  // of all
   uint32_t firstInstance = 0;
   uint32_t count = 0;
   bool curved = false;             // they are mirrors
@@ -37,7 +39,7 @@ struct Batch {
 };
 
 struct MirrorRange {
-  uint32_t mirror = 0;  // index into the mirror buffer
+  uint32_t mirror = 0;  // index into the mirrors of the frame
   uint32_t firstVertex = 0;
   uint32_t vertexCount = 0;
   int pass = -1;    // of its image; -1: none of this frame
@@ -56,7 +58,7 @@ struct MirrorRange {
 
 // Draws of one pass: indices into the buffers of FrameData.
 struct PassData {
-  uint32_t view = 0;
+  uint32_t pass = 0;  // index into the passes of the frame
   std::vector<Batch> batches;
   uint32_t glyphCount = 0;
   std::vector<MirrorRange> mirrors;
@@ -78,13 +80,25 @@ class FrameData {
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
   const std::vector<PassData>& passes() const { return passes_; }
-  VkDescriptorSet set() const { return set_; }
+  // Binds set 0 for draws of `pass`, or of `mirror` in it.
+  void bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror = 0) const;
   // InstanceData by instance, as vertex attributes: the same buffer that the set has.
   VkBuffer instanceBuffer() const { return instanceBuffer_; }
 
  private:
   // Bindings of interface.glsl; the next one is that of SceneResources::materials().
-  enum Kind { views, lights, instances, mirrors, environments, mirrorVertices, kindCount };
+  enum Kind { passBlocks, mirrors, lights, instances, environments, mirrorVertices, kindCount };
+
+  // Uniform blocks at dynamic offsets, of which no device asks more than a multiple of 256.
+  struct alignas(256) PassBlock {
+    gpu::ViewData view;
+    gpu::LightData lights[gpu::fixedLights];  // all, if there are no more
+  };
+  struct alignas(256) MirrorBlock {
+    gpu::MirrorData mirror;
+  };
+
+  static VkDescriptorType typeOf(uint32_t kind);
 
   // Inputs that all passes of a frame share.
   struct Source {
@@ -96,7 +110,7 @@ class FrameData {
   };
   // Adds a pass that is drawn from pixel `corner` of its target on.
   void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
-  void addLights(const Source& source, const PlannedPass& pass, gpu::ViewData& view);
+  void addLights(const Source& source, const PlannedPass& pass, PassBlock& block);
   void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
   // Makes an instance's batch one that looks up its map.
   void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);
@@ -107,10 +121,10 @@ class FrameData {
   Device& device_;
   DescriptorSetLayoutHandle layout_;
   FrameBuffers buffers_;
-  std::vector<gpu::ViewData> views_;
+  std::vector<PassBlock> passBlocks_;
+  std::vector<MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
   std::vector<gpu::InstanceData> instances_;
-  std::vector<gpu::MirrorData> mirrors_;
   std::vector<gpu::EnvironmentData> environments_;
   std::vector<glm::vec4> mirrorVertices_;
   std::vector<PassData> passes_;
@@ -120,8 +134,13 @@ class FrameData {
 
 // Data of an instance seen in a view. `clipFromRelative` takes world space minus the view's eye to
 // clip space.
-gpu::InstanceData instanceData(const InstanceState& instance, const Object& object, const View& view,
-                               const glm::dmat4& clipFromRelative);
+gpu::InstanceData instanceData(const InstanceState& instance, const View& view, const glm::dmat4& clipFromRelative);
+
+// Sign of the determinant of the instance's transform.
+float handednessOf(const InstanceState& instance);
+
+// Value of `lightCount` in shading.glsl for a scene with so many lights.
+uint32_t fixedLightCount(const Scene& scene);
 
 // The projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. To clip space
 // whose unit square is `overscan(view)` times the picture.

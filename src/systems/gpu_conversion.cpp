@@ -19,6 +19,14 @@ gpu::MaterialChange materialChange(const Object& object) {
           .replacesEmission = object.emission.has_value()};
 }
 
+gpu::DrawConstants drawConstants(const Material& material, const Object& object, float handedness) {
+  return {.diffuse = glm::vec3(object.color.value_or(material.diffuse)),
+          .shininess = static_cast<float>(object.shininess.value_or(material.shininess)),
+          .specular = glm::vec3(object.specular.value_or(material.specular)),
+          .handedness = handedness,
+          .emission = glm::vec3(object.emission.value_or(material.emission))};
+}
+
 glm::dmat3 unitNormalMatrix(const glm::dmat3& linear) {
   const glm::dmat3 normals = normalMatrix(linear);
   const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});

@@ -13,6 +13,8 @@ namespace speculum {
 glm::vec4 row(const glm::dmat3& m, int r, double w);
 // Colours that an object has in place of its material's.
 gpu::MaterialChange materialChange(const Object& object);
+// Constants of the draws of an object's part, but for firstTriangle.
+gpu::DrawConstants drawConstants(const Material& material, const Object& object, float handedness);
 // The normal matrix of a linear map, at unit size: shaders normalise, and a float would overflow at the extremes.
 glm::dmat3 unitNormalMatrix(const glm::dmat3& linear);
 

@@ -18,7 +18,7 @@ uint32_t MaskSystem::record(const PassScope& scope, const FrameInfo& info, size_
                                 .depthCompare = VK_COMPARE_OP_ALWAYS};
   });
   pipeline.bind(scope.commands());
-  pipeline.bindSet(scope.commands(), 0, info.data.set());
+  info.data.bind(pipeline, scope.commands(), data);
   vkCmdDraw(scope.commands(), data.maskVertexCount, 1, data.maskFirstVertex, 0);
   return 1;
 }

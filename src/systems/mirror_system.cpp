@@ -44,7 +44,6 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, VkDescriptor
                             .frag = "mirror.frag",
                             .fragConstants = {shading == Shading::base, variant.reprojected},
                             .setLayouts = {frameLayout_, imageLayout_.get()},
-                            .pushConstantBytes = sizeof(gpu::DrawConstants),
                             .samples = variant.samples,
                             .depthClamp = variant.clampDepth};
   if (shading == Shading::average) {
@@ -69,8 +68,9 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, VkDescriptor
     addConstants(variant.trace, desc.fragConstants);
   }
   desc.fragConstants.resize(6, 0);
-  desc.fragConstants.insert(desc.fragConstants.end(), {variant.blurs, static_cast<uint32_t>(variant.shows),
-                                                       static_cast<uint32_t>(variant.lookup), variant.painted});
+  desc.fragConstants.insert(desc.fragConstants.end(),
+                            {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows),
+                             static_cast<uint32_t>(variant.lookup), variant.painted});
   return desc;
 }
 
@@ -149,17 +149,17 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
       variant.clampDepth = !oblique;
       const bool traces = tracesRays(shading, info.trace.variant());
       variant.trace = traces ? info.trace.variant() : TraceVariant{};
+      variant.lightCount = variant.painted && !traces ? fixedLightCount(info.scene) : gpu::manyLights;
       const Pipeline& drawn = pipelines_.get(variant, [&] { return describe(variant, info.trace.layout()); });
       const bool reads = image && shading != Shading::base;
       const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
       DescriptorWriter().image(0, reads ? image->descriptor : noImage).update(device_, set);
       drawn.bind(scope.commands());
-      drawn.bindSet(scope.commands(), 0, info.data.set());
+      info.data.bind(drawn, scope.commands(), data, mirror.mirror);
       drawn.bindSet(scope.commands(), 1, set);
       if (traces) {
         drawn.bindSet(scope.commands(), 2, info.trace.set());
       }
-      drawn.push(scope.commands(), gpu::DrawConstants{.viewIndex = data.view, .mirrorIndex = mirror.mirror});
       scope.beginLabel(mirror.scatters ? "traced mirror" : "mirror");
       vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
       scope.endLabel();

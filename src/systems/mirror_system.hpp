@@ -31,6 +31,7 @@ class MirrorSystem {
     MirrorShows shows = MirrorShows::image;
     Lookup lookup = Lookup::fetch;
     bool painted = false;
+    uint32_t lightCount = gpu::manyLights;
     TraceVariant trace;
     auto operator<=>(const Variant&) const = default;
   };

@@ -16,14 +16,12 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
                                 .vert = "point_light.vert",
                                 .frag = "point_light.frag",
                                 .setLayouts = {frameLayout_},
-                                .pushConstantBytes = sizeof(gpu::DrawConstants),
                                 .samples = format.samples,
                                 .sampleShading = format.samples != VK_SAMPLE_COUNT_1_BIT,
                                 .cullMode = VK_CULL_MODE_FRONT_BIT};
   });
   pipeline.bind(scope.commands());
-  pipeline.bindSet(scope.commands(), 0, info.data.set());
-  pipeline.push(scope.commands(), gpu::DrawConstants{.viewIndex = data.view});
+  info.data.bind(pipeline, scope.commands(), data);
   vkCmdDraw(scope.commands(), 36, data.glyphCount, 0, 0);
   info.ledger.draw(EffectKind::glyphs);
   return 1;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "geometry/mesh_levels.hpp"
+#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 
@@ -42,7 +43,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, VkDescriptorS
                             .vert = "scene.vert",
                             .frag = "scene.frag",
                             .vertConstants = {variant.clipDistance},
-                            .fragConstants = {variant.trilinear},
+                            .fragConstants = {variant.diffuseLookup, variant.glossy},
                             .setLayouts = {frameLayout_, textureLayout_},
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
                             .samples = variant.samples,
@@ -58,6 +59,8 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, VkDescriptorS
     addConstants(variant.trace, desc.fragConstants);
     desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
   }
+  desc.fragConstants.resize(6, 0);
+  desc.fragConstants.push_back(variant.lightCount);
   addVertexInput(desc);
   return desc;
 }
@@ -86,6 +89,12 @@ std::vector<IndexRange> drawnRanges(const IndexRange& part, const Batch& batch) 
   return drawn;
 }
 
+uint32_t lookupOf(bool textured, TextureFilter filter) {
+  return !textured                            ? gpu::textureNone
+         : filter == TextureFilter::trilinear ? gpu::textureTrilinear
+                                              : gpu::textureBilinear;
+}
+
 }  // namespace
 
 void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
@@ -105,12 +114,7 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     variant.trace = info.trace.variant();
     const bool traces = tracesRays(variant);
     variant.trace = traces ? variant.trace : TraceVariant{};
-    const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info.trace.layout()); });
-    pipeline.bind(commands);
-    pipeline.bindSet(commands, 0, info.data.set());
-    if (traces) {
-      pipeline.bindSet(commands, 2, info.trace.set());
-    }
+    variant.lightCount = traces ? gpu::manyLights : fixedLightCount(info.scene);
     const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
     const bool whole = batch.level < 0;
     const std::array buffers{(whole ? mesh.vertices : mesh.levelVertices).get(), info.data.instanceBuffer()};
@@ -120,15 +124,25 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
     for (size_t p = 0; p < mesh.parts.size(); ++p) {
       const SceneResources::Part& part = mesh.parts[p];
+      const bool textured = part.texture >= 0 && info.settings.effects.textures;
+      gpu::DrawConstants constants = drawConstants(info.scene.meshes[batch.mesh].parts[p].material,
+                                                   info.scene.objects[batch.object], batch.handedness);
+      variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
+      variant.glossy = constants.specular != glm::vec3(0.0f);
+      const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info.trace.layout()); });
+      pipeline.bind(commands);
+      info.data.bind(pipeline, commands, data);
       pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
+      if (traces) {
+        pipeline.bindSet(commands, 2, info.trace.set());
+      }
       for (const IndexRange& range : drawnRanges(partRange(info.scene, mesh, p, batch), batch)) {
-        pipeline.push(commands,
-                      gpu::DrawConstants{
-                          .viewIndex = data.view, .materialIndex = part.material, .firstTriangle = range.first / 3});
+        constants.firstTriangle = range.first / 3;
+        pipeline.push(commands, constants);
         vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
         ++draws;
         countDraw(info.ledger, variant);
-        info.ledger.draw(EffectKind::textures, part.texture >= 0 && info.settings.effects.textures);
+        info.ledger.draw(EffectKind::textures, textured);
       }
     }
     scope.endLabel();
@@ -159,14 +173,12 @@ uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, 
                                 .vert = "full_screen.vert",
                                 .frag = "sky.frag",
                                 .setLayouts = {frameLayout_},
-                                .pushConstantBytes = sizeof(gpu::DrawConstants),
                                 .samples = samples,
                                 .depthWrite = false,
                                 .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL};
   });
   pipeline.bind(scope.commands());
-  pipeline.bindSet(scope.commands(), 0, info.data.set());
-  pipeline.push(scope.commands(), gpu::DrawConstants{.viewIndex = data.view});
+  info.data.bind(pipeline, scope.commands(), data);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
   return 1;
 }
@@ -178,7 +190,6 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, siz
                                        {.samples = format.samples,
                                         .clipDistance = format.mirrorView && clip == ClipMethod::clipDistance,
                                         .clampDepth = !(format.mirrorView && clip == ClipMethod::oblique),
-                                        .trilinear = info.settings.view.textureFilter == TextureFilter::trilinear,
                                         .wireframe = info.settings.view.wireframe});
   return draws + (info.environment.sky ? recordSky(scope, info, data) : 0);
 }

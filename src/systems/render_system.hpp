@@ -23,10 +23,12 @@ class RenderSystem {
     VkSampleCountFlagBits samples;
     bool clipDistance;
     bool clampDepth;
-    bool trilinear;
     bool wireframe;
     bool curved;
-    bool environment;  // curved mirrors that look up a map
+    bool environment;        // curved mirrors that look up a map
+    uint32_t diffuseLookup;  // constants of scene_shading.glsl and shading.glsl
+    bool glossy;
+    uint32_t lightCount;
     TraceVariant trace;
     auto operator<=>(const Variant&) const = default;
   };

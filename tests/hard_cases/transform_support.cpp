@@ -54,7 +54,7 @@ Scene moved(Scene scene, const glm::dvec3& offset) {
 gpu::InstanceData dataIn(const FramePlan& plan, const View& view, const InstanceState& instance) {
   const glm::dmat4 clipFromRelative =
       viewProjection(plan.projection, view, ClipMethod::clipDistance) * glm::dmat4(view.worldToView);
-  return instanceData(instance, Object{}, view, clipFromRelative);
+  return instanceData(instance, view, clipFromRelative);
 }
 
 LongMat3 longRotation(const glm::dvec3& pitchYawRoll) {
