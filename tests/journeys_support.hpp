@@ -54,6 +54,7 @@ class Journey : public testing::Test {
       environment_.emplace_back(name, environment(name));
       setEnvironment(name, (home_.path() / name).string());
     }
+    runProcess({"xdotool", "mousemove", "640", "450"});  // as in a session that begins
     options_.scene = writeScene("journey", toml).string();
     options_.size = {width, height};
     options_.validation = true;
@@ -64,6 +65,9 @@ class Journey : public testing::Test {
   }
   ~Journey() override {
     demo_.reset();
+    if (otherKeyboard_) {
+      runProcess({"setxkbmap", "us"});
+    }
     for (const auto& [name, value] : environment_) {
       setEnvironment(name, value);
     }
@@ -148,6 +152,14 @@ class Journey : public testing::Test {
     run(3);
   }
 
+  // Changes the session for this test.
+  void setKeyboard(const std::vector<std::string>& layout) {
+    std::vector<std::string> command = {"setxkbmap"};
+    command.insert(command.end(), layout.begin(), layout.end());
+    ASSERT_EQ(runProcess(command).exitCode, 0);
+    otherKeyboard_ = true;
+  }
+
   UiView view() const { return demo_->view(); }
   Image8 picture() { return pictureOf(demo_->renderer().readback()); }
   // Without panels and messages.
@@ -176,12 +188,13 @@ class Journey : public testing::Test {
     EXPECT_EQ(demo_->nonFinite(), 0u);
   }
 
-  test::VirtualDisplay display_{1280, 900};
+  test::VirtualDisplay display_;
   TemporaryDirectory home_;
   std::vector<std::pair<std::string, std::string>> environment_;
   Options options_;
   std::unique_ptr<Demo> demo_;
   std::string window_;  // its id
+  bool otherKeyboard_ = false;
 };
 
 }  // namespace speculum::testing_support

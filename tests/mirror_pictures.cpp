@@ -170,7 +170,7 @@ using SettingList = std::vector<std::pair<std::string, std::string>>;
 // Two pictures, the second a moment later, with all new memory (lavapipe's images are in it) filled with one byte.
 std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string& scene, const SettingList& settings) {
   ::mallopt(M_PERTURB, fill);
-  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {160, 90});
+  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {96, 54});
   set(options, settings);
   std::vector<std::vector<uint8_t>> pictures;
   {
@@ -220,7 +220,7 @@ TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
 }
 
 TEST(MirrorPictures, MovingFramesKeepTheirMemory) {
-  Session session(headless(sourceFile("scenes/many_mirrors.toml"), size));
+  Session session(headless(sourceFile("scenes/many_mirrors.toml"), {96, 54}));
   for (int i = 0; i < 10; ++i) {
     session.draw(0.2 * i, false);
   }

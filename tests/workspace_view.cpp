@@ -268,6 +268,7 @@ TEST_F(Opening, LoadingIsCancelled) {
   large << "v 1 0 0\nv 0 1 0\nf -3 -2 -1\n" << std::flush;
   send(OpenScene{home_.path() / "large.obj"});
   EXPECT_EQ(view().browser.loading, "large.obj");
+  EXPECT_EQ(shownScene(), "workspace") << "the scene stays meanwhile";
   send(CancelLoading{});
   frame();
   EXPECT_EQ(view().browser.loading, "");
