@@ -73,38 +73,9 @@ TEST_F(Journey, ClearColorReachesPictureAndReflections) {
   expectQuiet();
 }
 
-const std::string corridor = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 1.5]
-target = [0, 1, -2]
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.3, 1, 0.5]
-scale = 0.2
-[[light]]
-position = [-0.5, 1.5, 0]
-intensity = 4
-[[mirror]]
-name = "ahead"
-position = [0, 1, -2]
-size = [3, 2]
-[[mirror]]
-name = "behind"
-position = [0, 1, 2]
-rotation = [0, 180, 0]
-size = [3, 2]
-)";
-
 class EditJourney : public Journey {
  protected:
-  EditJourney() : Journey(corridor) {}
+  EditJourney() : Journey(corridorScene()) {}
 
   static constexpr double focalPixels = 0.5 * height * 1.7320508075688772;
   const Object& ball() const { return view().edit.scene->objects.at(0); }
@@ -396,7 +367,7 @@ TEST_F(Journey, TimesOfFramesAreComplete) {
 class TwoMirrors : public Journey {
  protected:
   TwoMirrors()
-      : Journey(windowScene + R"(
+      : Journey(wallScene + R"(
 [[mirror]]
 name = "door"
 position = [1.6, 1.2, 0.5]
@@ -493,7 +464,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   }
   demo_->apply(Undo{});
   ASSERT_TRUE(waitFor([&] { return !view().frame.skippedOutline.empty(); }));
-  demo_->apply(OpenScene{writeScene("other", windowScene)});
+  demo_->apply(OpenScene{writeScene("other", wallScene)});
   ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; }));
   EXPECT_TRUE(view().frame.skippedOutline.empty()) << "no outline outlives its scene";
   run(2);
@@ -544,7 +515,7 @@ struct OwnShaders {
 
 class NegativeLight : protected OwnShaders, public Journey {
  protected:
-  NegativeLight() : OwnShaders("  color.b = -1.0;\n"), Journey(windowScene, options()) {}
+  NegativeLight() : OwnShaders("  color.b = -1.0;\n"), Journey(wallScene, options()) {}
 };
 
 TEST_F(NegativeLight, IsLocatedUntilItIsGone) {

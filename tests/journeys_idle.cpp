@@ -8,7 +8,7 @@ using namespace testing_support;
 
 class IdleWindow : public Journey {
  protected:
-  explicit IdleWindow(const std::string& toml = windowScene) : Journey(toml, idle()) { settle(); }
+  explicit IdleWindow(const std::string& toml = wallScene) : Journey(toml, idle()) { settle(); }
 
   static Options idle() {
     Options options;
@@ -74,7 +74,7 @@ TEST_F(IdleWindow, DrawsNothingUntilSomethingHappens) {
   pad.reset();
   settle();
   demo_->setGamepadSource([] { return std::nullopt; });
-  demo_->apply(OpenScene{writeScene("turning", windowScene + "spin = [0, 90, 0]\n")});
+  demo_->apply(OpenScene{writeScene("turning", wallScene + "spin = [0, 90, 0]\n")});
   ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "turning"; }));
   run(15);
   press("space");
@@ -113,7 +113,7 @@ TEST_F(IdleWindow, OtherSizesAndScenesAreRendered) {
   run(1);
   settle();
   expectAsRendered(options_.scene, {500, 400});
-  std::string toml = windowScene;
+  std::string toml = wallScene;
   toml.replace(toml.find("[0.9, 1, 0]"), 11, "[-0.9, 1, 0]");
   const std::filesystem::path other = writeScene("other", toml);
   demo_->apply(OpenScene{other});
@@ -146,7 +146,7 @@ TEST_F(IdleWindow, ReusedImagesAreFreshBeforeItIdles) {
 // Without a mirror there is little to vary, and the measurement is soon done.
 class AccuracyJourney : public Journey {
  protected:
-  AccuracyJourney() : Journey(windowScene.substr(0, windowScene.find("[[mirror]]"))) { click("panel.Accuracy"); }
+  AccuracyJourney() : Journey(wallScene.substr(0, wallScene.find("[[mirror]]"))) { click("panel.Accuracy"); }
 };
 
 TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {

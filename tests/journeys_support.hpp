@@ -13,6 +13,7 @@
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
+#include "scene_text.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum::testing_support {
@@ -22,33 +23,10 @@ using Clock = std::chrono::steady_clock;
 inline constexpr int width = 900;
 inline constexpr int height = 700;
 
-inline const std::string windowScene = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.9, 1, 0]
-[[light]]
-position = [0, 3, 3]
-intensity = 10
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [5, 3]
-)";
-
 // A window on a virtual display, driven by X events.
 class Journey : public testing::Test {
  protected:
-  explicit Journey(const std::string& toml = windowScene, const Options& more = {}) : options_(more) {
+  explicit Journey(const std::string& toml = wallScene, const Options& more = {}) : options_(more) {
     // Settings and pictures of the user must neither be used nor written.
     for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_DATA_HOME", "HOME"}) {
       environment_.emplace_back(name, environment(name));

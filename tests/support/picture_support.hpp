@@ -14,8 +14,8 @@ namespace speculum::testing_support {
 // Tells two pictures that agree but for stray pixels along edges from those that differ in a patch.
 struct PictureAgreement {
   int counted = 0;
-  int over = 0;                      // pixels that differ by more than the tolerance in red, green or blue
-  int largest = 0;                   // difference, 1/255
+  int over = 0;                     // pixels that differ by more than the tolerance in red, green or blue
+  int largest = 0;                  // difference, 1/255
   std::optional<glm::ivec2> block;  // top left pixel of the first 3x3 block that lies wholly over: a patch, no edge
 
   double within() const { return counted == 0 ? 1.0 : 1.0 - static_cast<double>(over) / counted; }
