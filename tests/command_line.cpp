@@ -1,7 +1,6 @@
 // The program as scripts call it: exit codes, one line for every mistake, files and figures.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
 
 #include "command_support.hpp"

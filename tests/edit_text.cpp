@@ -1,7 +1,6 @@
 // The writer keeps what a user wrote and changes only values.
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "edit/toml_text.hpp"

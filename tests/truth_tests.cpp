@@ -2,7 +2,6 @@
 // background. Where they differ, one of them is wrong.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <sstream>
 
 #include "sampling.hpp"
