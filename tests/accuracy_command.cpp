@@ -74,20 +74,10 @@ class AccuracyCommand : public testing::Test {
     static const ProcessResult result = measure();
     return result;
   }
-  ProcessResult render(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {"render",
-                                          "--scene",
-                                          scene_,
-                                          "--size",
-                                          "64x36",
-                                          "--out",
-                                          out("p.png"),
-                                          "--stats",
-                                          out("s.json"),
-                                          "--sweep-results",
-                                          out("report/results.json")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return speculum(arguments);
+  static ProcessResult render(std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "--scene", scene_, "--size", "64x36", "--out", out("p.png"), "--stats",
+                               out("s.json"), "--sweep-results", out("report/results.json")});
+    return speculum(more);
   }
 
   static inline std::string scene_;
