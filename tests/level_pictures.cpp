@@ -165,7 +165,7 @@ TEST(LevelPictures, CachedImagesOfSimplifiedObjectsAreQuiet) {
 }
 
 TEST(LevelPictures, MemoryFollowsTheSetting) {
-  Options options = optionsFor(objectsScene(), "0", {{"debug.check_finite", "false"}});
+  Options options = optionsFor(objectsScene(), "0", {{"debug.check_finite", "false"}, {"reflection.max_depth", "1"}});
   options.size = {32, 18};
   Session session(options);
   const auto bytesAfter = [&](double meshError, int frames) {

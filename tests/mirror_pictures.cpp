@@ -172,6 +172,7 @@ std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string
   ::mallopt(M_PERTURB, fill);
   Options options = headless(sourceFile("scenes/" + scene + ".toml"), {96, 54});
   set(options, settings);
+  set(options, {{"reflection.max_passes", "12"}});
   std::vector<std::vector<uint8_t>> pictures;
   {
     Session session(options);
@@ -220,7 +221,9 @@ TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
 }
 
 TEST(MirrorPictures, MovingFramesKeepTheirMemory) {
-  Session session(headless(sourceFile("scenes/many_mirrors.toml"), {96, 54}));
+  Options options = headless(sourceFile("scenes/many_mirrors.toml"), {96, 54});
+  set(options, {{"reflection.max_passes", "20"}});
+  Session session(options);
   for (int i = 0; i < 10; ++i) {
     session.draw(0.2 * i, false);
   }
