@@ -88,7 +88,8 @@ class Server {
       stop(server_);
       throw std::runtime_error("Xvfb did not start");
     }
-    setenv("DISPLAY", (":" + number).c_str(), 1);
+    display_ = ":" + number;
+    use();
     // A window that is mapped while the manager starts may wait for ever to be shown.
     const TemporaryDirectory directory;
     const std::filesystem::path ready = directory.path() / "ready";
@@ -105,7 +106,10 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
+  void use() const { setenv("DISPLAY", display_.c_str(), 1); }
+
  private:
+  std::string display_;
   pid_t server_ = 0;
   pid_t manager_ = 0;
 };
@@ -114,6 +118,7 @@ class Server {
 
 VirtualDisplay::VirtualDisplay() {
   static const Server server;
+  server.use();  // a test may have pointed elsewhere
 }
 
 }  // namespace speculum::test
