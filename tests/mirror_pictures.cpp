@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 
 #include "image/color.hpp"
@@ -207,6 +208,16 @@ TEST(MirrorPictures, DebugViewShowsTheMeanOfSamples) {
   const Image8 averaged = drawDebugView("4");
   EXPECT_GT(shareAlike(averaged, drawDebugView("1")), 0.9);  // but for edges
   EXPECT_LT(shareAlike(averaged, drawText("no_debug_view", room + left)), 0.8);
+}
+
+TEST(MirrorPictures, ClearColorReachesPictureAndReflections) {
+  Options options = headless(writeScene("clear_color", room + left + "reflectance = [1, 1, 1]\n"), size);
+  set(options, {{"view.clear_color", "0.25,0.5,1"}});
+  const Image8 picture = draw(options);
+  const std::array<uint8_t, 3> expected{137, 188, 255};
+  for (const glm::ivec2 pixel : {glm::ivec2(310, 10), glm::ivec2(120, 72)}) {
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), picture.at(pixel.x, pixel.y))) << pixel.x;
+  }
 }
 
 TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
