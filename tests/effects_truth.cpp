@@ -306,13 +306,16 @@ INSTANTIATE_TEST_SUITE_P(Seeds, RandomEffects, testing::ValuesIn(sampledSeeds(25
 class RoughMirror : public testing::Test {
  protected:
   std::filesystem::path file_ = corner("effects_rough", plainLight + wall + "roughness = 0.35\n");
-  TraceResult reference_ = reference();
 
-  TraceResult reference() const {
-    const Scene scene = loadScene(file_);
-    const RayTracer tracer(scene, evaluate(scene, 0.0));
-    return *tracer.render(
-        {.width = small.width, .height = small.height, .samples = 1, .maxDepth = 3, .roughSamples = 4096});
+  // Traced once for all tests.
+  const TraceResult& reference() const {
+    static const TraceResult traced = [&] {
+      const Scene scene = loadScene(file_);
+      const RayTracer tracer(scene, evaluate(scene, 0.0));
+      return *tracer.render(
+          {.width = small.width, .height = small.height, .samples = 1, .maxDepth = 3, .roughSamples = 4096});
+    }();
+    return traced;
   }
 
   // Root of the mean squared radiance error within the mirror.
@@ -324,7 +327,7 @@ class RoughMirror : public testing::Test {
     session.finish();
     expectQuiet(session);
     const LinearImage drawn = session.radiance();
-    return rootMeanSquare(drawn, reference_.image, {reference_.mirrorMask.begin(), reference_.mirrorMask.end()});
+    return rootMeanSquare(drawn, reference().image, {reference().mirrorMask.begin(), reference().mirrorMask.end()});
   }
 };
 
