@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "geometry/mesh_levels.hpp"
 #include "geometry/surface_distance.hpp"
