@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <memory>
 
 #include "accuracy/sweep_json.hpp"
 #include "command_support.hpp"
@@ -56,38 +57,35 @@ settings = { "reflection.update_interval" = 2 }
 
 class AccuracyCommand : public testing::Test {
  protected:
-  AccuracyCommand() { std::ofstream(out("sweep.toml")) << sweep; }
-  std::string out(const std::string& name) const { return (out_.path() / name).string(); }
-  ProcessResult measure(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {"accuracy",        "--scene",      scene_,  "--out",
-                                          out("report"),     "--size",       "64x36", "--sweep",
-                                          out("sweep.toml"), "--validation", "--set", "debug.check_finite=true"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return speculum(arguments);
+  static void SetUpTestSuite() {
+    out_ = std::make_unique<TemporaryDirectory>();
+    scene_ = writeScene("accuracy_command", facing).string();
+    std::ofstream(out("sweep.toml")) << sweep;
   }
-  ProcessResult render(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {"render",
-                                          "--scene",
-                                          scene_,
-                                          "--size",
-                                          "64x36",
-                                          "--out",
-                                          out("p.png"),
-                                          "--stats",
-                                          out("s.json"),
-                                          "--sweep-results",
-                                          out("report/results.json")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return speculum(arguments);
+  static void TearDownTestSuite() { out_.reset(); }
+
+  static std::string out(const std::string& name) { return (out_->path() / name).string(); }
+  static ProcessResult measure() {
+    return speculum({"accuracy", "--scene", scene_, "--out", out("report"), "--size", "64x36", "--sweep",
+                     out("sweep.toml"), "--validation", "--set", "debug.check_finite=true"});
+  }
+  // Of the first run, which the tests share.
+  static const ProcessResult& measured() {
+    static const ProcessResult result = measure();
+    return result;
+  }
+  static ProcessResult render(std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "--scene", scene_, "--size", "64x36", "--out", out("p.png"), "--stats",
+                               out("s.json"), "--sweep-results", out("report/results.json")});
+    return speculum(more);
   }
 
-  std::string scene_ = writeScene("accuracy_command", facing).string();
-  TemporaryDirectory out_;
+  static inline std::string scene_;
+  static inline std::unique_ptr<TemporaryDirectory> out_;
 };
 
 TEST_F(AccuracyCommand, ReportsErrorsOfItsPictures) {
-  const ProcessResult result = measure();
-  ASSERT_EQ(result.exitCode, 0) << result.output;
+  ASSERT_EQ(measured().exitCode, 0) << measured().output;
   const SweepResults results = readSweepResults(out("report/results.json"));
   EXPECT_EQ(results.width, 64);
   ASSERT_EQ(results.points.size(), 7u) << "base, half scale, interval 2, four depths";
@@ -111,14 +109,14 @@ TEST_F(AccuracyCommand, ReportsErrorsOfItsPictures) {
 }
 
 TEST_F(AccuracyCommand, SecondRunMeasuresNothing) {
-  ASSERT_EQ(measure().exitCode, 0);
+  ASSERT_EQ(measured().exitCode, 0);
   const std::string first = readText(out("report/measurements/measurements.json"));
   ASSERT_EQ(measure().exitCode, 0);
   EXPECT_EQ(readText(out("report/measurements/measurements.json")), first);
 }
 
 TEST_F(AccuracyCommand, StoredSweepMeetsABudget) {
-  ASSERT_EQ(measure().exitCode, 0);
+  ASSERT_EQ(measured().exitCode, 0);
   const SweepResults results = readSweepResults(out("report/results.json"));
   const auto chosen = [&](const std::string& bound) {
     const ProcessResult result = render({"--set", bound});

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "accuracy/image_metrics.hpp"
 #include "image/color.hpp"

@@ -1,7 +1,6 @@
 // The program as scripts call it: exit codes, one line for every mistake, files and figures.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
 
 #include "command_support.hpp"
@@ -105,7 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"--secne", "gallery"}, "'--secne' is not an option of speculum (did you mean '--scene'?)"},
         UsageCase{{"rendr", "--out", "x.png"}, "'rendr' is not a command (did you mean 'render'?)"},
         UsageCase{{"frobnicate"}, "'frobnicate' is not a command (one of: demo render"},
-        UsageCase{{"render", "--out", "/nowhere/at/all.png"}, "/nowhere/at/all.png"},
+        UsageCase{{"render", "--out", "/nowhere/at/all.png", "--size", "8x8", "--scene", "no_mirror"},
+                  "/nowhere/at/all.png"},
         UsageCase{{"bench", "--frames", "0"}, "--frames"}, UsageCase{{"bench", "--warmup", "-1"}, "--warmup"}));
 
 TEST_F(CommandLine, HelpAndVersionExitZero) {

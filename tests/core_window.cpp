@@ -217,7 +217,7 @@ TEST(WindowMonitors, WindowsThatNoMonitorShowsAreRescued) {
 }
 
 TEST(WindowMonitors, FullScreenEndsWithItsMonitor) {
-  const VirtualDisplay display(1280, 900);
+  const VirtualDisplay display;
   Window window(WindowOptions{.width = 320, .height = 200});
   const std::vector<ScreenRect> monitors{{0, 0, 1280, 900}};
   const auto sized = [&](uint32_t width, uint32_t height) {

@@ -33,9 +33,12 @@ auto moveTeapot(double x) {
   return [x](Scene& scene) { scene.objects[0].position.x = x; };
 }
 
-TEST(SceneDocument, UndoAndRedoRestoreContentLabelAndSelection) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+class SceneDocumentTest : public testing::Test, protected TextScene {
+ protected:
+  SceneDocumentTest() : TextScene(kText) {}
+};
+
+TEST_F(SceneDocumentTest, UndoAndRedoRestoreContentLabelAndSelection) {
   EXPECT_FALSE(document.canUndo() || document.canRedo() || document.modified());
   document.select(kLamp);
   document.change("move object 'teapot'", kTeapot, moveTeapot(1));
@@ -45,74 +48,68 @@ TEST(SceneDocument, UndoAndRedoRestoreContentLabelAndSelection) {
   document.select({});
   document.undo();
   EXPECT_EQ(document.selection(), kFloor);
-  EXPECT_EQ(text.scene.mirrors[0].size.x, 4);
+  EXPECT_EQ(scene.mirrors[0].size.x, 4);
   EXPECT_EQ(document.undoLabel(), "move object 'teapot'");
   EXPECT_EQ(document.redoLabel(), "widen mirror 'floor'");
   document.undo();
   EXPECT_EQ(document.selection(), kTeapot);
-  EXPECT_EQ(text.scene.objects[0].position.x, 0);
+  EXPECT_EQ(scene.objects[0].position.x, 0);
   EXPECT_FALSE(document.canUndo() || document.modified());
   document.undo();
   document.redo();
   document.redo();
   document.redo();
-  EXPECT_EQ(text.scene.objects[0].position.x, 1);
-  EXPECT_EQ(text.scene.mirrors[0].size.x, 8);
+  EXPECT_EQ(scene.objects[0].position.x, 1);
+  EXPECT_EQ(scene.mirrors[0].size.x, 8);
   EXPECT_FALSE(document.canRedo());
   document.undo();
   document.change("move object 'teapot'", kTeapot, moveTeapot(2));
   EXPECT_FALSE(document.canRedo()) << "a new step ends what could be redone";
 }
 
-TEST(SceneDocument, UnchangedValuesAddNoStep) {
-  TextScene text(kText);
-  const uint64_t revision = text.document.revision();
-  text.document.change("move", kTeapot, moveTeapot(0));
-  EXPECT_FALSE(text.document.canUndo());
-  EXPECT_EQ(text.document.revision(), revision);
+TEST_F(SceneDocumentTest, UnchangedValuesAddNoStep) {
+  const uint64_t revision = document.revision();
+  document.change("move", kTeapot, moveTeapot(0));
+  EXPECT_FALSE(document.canUndo());
+  EXPECT_EQ(document.revision(), revision);
 }
 
-TEST(SceneDocument, FailedChangeLeavesTheSceneUnchanged) {
-  TextScene text(kText);
-  EXPECT_THROW(text.document.change("move", kTeapot,
-                                    [](Scene& scene) {
-                                      scene.objects[0].position.x = 5;
-                                      throw std::runtime_error("no");
-                                    }),
+TEST_F(SceneDocumentTest, FailedChangeLeavesTheSceneUnchanged) {
+  EXPECT_THROW(document.change("move", kTeapot,
+                               [](Scene& scene) {
+                                 scene.objects[0].position.x = 5;
+                                 throw std::runtime_error("no");
+                               }),
                std::runtime_error);
-  EXPECT_THROW(text.document.change("drop", kTeapot, [](Scene& scene) { scene.lights.clear(); }), std::logic_error);
-  EXPECT_EQ(text.scene.objects[0].position.x, 0);
-  EXPECT_EQ(text.scene.lights.size(), 1u);
-  EXPECT_FALSE(text.document.canUndo() || text.document.modified());
+  EXPECT_THROW(document.change("drop", kTeapot, [](Scene& scene) { scene.lights.clear(); }), std::logic_error);
+  EXPECT_EQ(scene.objects[0].position.x, 0);
+  EXPECT_EQ(scene.lights.size(), 1u);
+  EXPECT_FALSE(document.canUndo() || document.modified());
 }
 
-TEST(SceneDocument, GestureIsOneStep) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+TEST_F(SceneDocumentTest, GestureIsOneStep) {
   document.beginGesture();
   for (int i = 1; i <= 10; ++i) {
     document.change("move object 'teapot'", kTeapot, moveTeapot(i));
-    EXPECT_EQ(text.scene.objects[0].position.x, i);
+    EXPECT_EQ(scene.objects[0].position.x, i);
   }
   EXPECT_TRUE(document.modified());
   document.endGesture();
   EXPECT_EQ(document.undoLabel(), "move object 'teapot'");
   document.undo();
-  EXPECT_EQ(text.scene.objects[0].position.x, 0);
+  EXPECT_EQ(scene.objects[0].position.x, 0);
   EXPECT_FALSE(document.canUndo());
   document.redo();
-  EXPECT_EQ(text.scene.objects[0].position.x, 10);
+  EXPECT_EQ(scene.objects[0].position.x, 10);
 
   document.beginGesture();
   document.change("move object 'teapot'", kTeapot, moveTeapot(20));
   document.undo();
-  EXPECT_EQ(text.scene.objects[0].position.x, 10) << "undo ends the gesture and takes it back";
+  EXPECT_EQ(scene.objects[0].position.x, 10) << "undo ends the gesture and takes it back";
   EXPECT_FALSE(document.inGesture());
 }
 
-TEST(SceneDocument, RevertedOrCancelledGestureAddsNoStep) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+TEST_F(SceneDocumentTest, RevertedOrCancelledGestureAddsNoStep) {
   document.beginGesture();
   document.change("move", kTeapot, moveTeapot(3));
   document.change("move", kTeapot, moveTeapot(0));
@@ -125,16 +122,14 @@ TEST(SceneDocument, RevertedOrCancelledGestureAddsNoStep) {
   document.change("move", kTeapot, moveTeapot(3));
   const uint64_t revision = document.revision();
   document.cancelGesture();
-  EXPECT_EQ(text.scene.objects[0].position.x, 0);
+  EXPECT_EQ(scene.objects[0].position.x, 0);
   EXPECT_EQ(document.selection(), kLamp);
   EXPECT_GT(document.revision(), revision);
   EXPECT_FALSE(document.canUndo());
   EXPECT_TRUE(document.canRedo()) << "what was undone before can still be redone";
 }
 
-TEST(SceneDocument, StructureRevisionIgnoresValues) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+TEST_F(SceneDocumentTest, StructureRevisionIgnoresValues) {
   const auto rises = [&](const auto& action) {
     const uint64_t revision = document.revision();
     const uint64_t structure = document.structureRevision();
@@ -154,20 +149,18 @@ TEST(SceneDocument, StructureRevisionIgnoresValues) {
   EXPECT_FALSE(rises([&] { document.addBookmark({.position = {1, 1, 1}, .target = {0, 0, 0}}); }));
 }
 
-TEST(SceneDocument, AddedNodesFaceTheViewer) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+TEST_F(SceneDocumentTest, AddedNodesFaceTheViewer) {
   document.select(kTeapot);
   EXPECT_EQ(document.addMirror({1, 2, 3}, {11, 2, 3}), (Selection{Kind::mirror, 1}));
-  const Mirror& mirror = text.scene.mirrors[1];
+  const Mirror& mirror = scene.mirrors[1];
   EXPECT_EQ(mirror.position, glm::dvec3(1, 2, 3));
   EXPECT_EQ(mirror.rotation, glm::dvec3(0, 90, 0));
   EXPECT_EQ(mirror.size, glm::dvec2(3, 4));
   document.addLight({0, 5, 0}, {0, 5, 2});
-  EXPECT_EQ(text.scene.lights[1].intensity, 4);
-  EXPECT_EQ(text.scene.lights[1].radius, 0.02);
+  EXPECT_EQ(scene.lights[1].intensity, 4);
+  EXPECT_EQ(scene.lights[1].radius, 0.02);
   EXPECT_EQ(document.addObject(0, {7, 1, 0}), (Selection{Kind::object, 1}));
-  const Object& object = text.scene.objects[1];
+  const Object& object = scene.objects[1];
   // The triangle spans 0 .. 1 in x and y.
   EXPECT_EQ(object.position, glm::dvec3(6.5, 1, 0));
   EXPECT_EQ(object.name, "triangle");
@@ -180,40 +173,33 @@ TEST(SceneDocument, AddedNodesFaceTheViewer) {
   EXPECT_FALSE(document.modified());
 }
 
-TEST(SceneDocument, DuplicatesGetNamesAndPositions) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+TEST_F(SceneDocumentTest, DuplicatesGetNamesAndPositions) {
   EXPECT_EQ(document.duplicate(kTeapot), (Selection{Kind::object, 1}));
-  EXPECT_EQ(text.scene.objects[1].name, "teapot 2");
-  EXPECT_EQ(text.scene.objects[1].position, glm::dvec3(2.2, 0, 0));
-  EXPECT_EQ(text.scene.objects[1].copies.count, 3);
+  EXPECT_EQ(scene.objects[1].name, "teapot 2");
+  EXPECT_EQ(scene.objects[1].position, glm::dvec3(2.2, 0, 0));
+  EXPECT_EQ(scene.objects[1].copies.count, 3);
   document.duplicate(document.selection());
-  EXPECT_EQ(text.scene.objects[2].name, "teapot 3");
+  EXPECT_EQ(scene.objects[2].name, "teapot 3");
   document.duplicate(kFloor);
-  EXPECT_NEAR(text.scene.mirrors[1].position.x, 4.4, 1e-12);
+  EXPECT_NEAR(scene.mirrors[1].position.x, 4.4, 1e-12);
   document.duplicate(kLamp);
-  EXPECT_GT(text.scene.lights[1].position.x, 0);
-  EXPECT_EQ(text.scene.lights[1].orbit->center - text.scene.lights[1].position, glm::dvec3(1, 0, 0));
+  EXPECT_GT(scene.lights[1].position.x, 0);
+  EXPECT_EQ(scene.lights[1].orbit->center - scene.lights[1].position, glm::dvec3(1, 0, 0));
   EXPECT_EQ(document.undoLabel(), "duplicate light 'lamp'");
 }
 
-TEST(SceneDocument, UndoOfRemovalSelectsAgain) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+TEST_F(SceneDocumentTest, UndoOfRemovalSelectsAgain) {
   document.remove(kFloor);
-  EXPECT_TRUE(text.scene.mirrors.empty());
+  EXPECT_TRUE(scene.mirrors.empty());
   EXPECT_EQ(document.selection(), Selection());
   EXPECT_EQ(document.undoLabel(), "remove mirror 'floor'");
   document.undo();
   EXPECT_EQ(document.selection(), kFloor);
-  EXPECT_EQ(text.scene.mirrors.size(), 1u);
+  EXPECT_EQ(scene.mirrors.size(), 1u);
   EXPECT_FALSE(document.modified());
 }
 
-TEST(SceneDocument, SeveralNodesAreOneStep) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
-  const Scene& scene = text.scene;
+TEST_F(SceneDocumentTest, SeveralNodesAreOneStep) {
   document.select(kFloor);
   const std::vector<Selection> things{kFloor, kTeapot, kLamp};
   const std::vector<Selection> copies = document.duplicate(things);
@@ -239,7 +225,7 @@ TEST(SceneDocument, SeveralNodesAreOneStep) {
   EXPECT_FALSE(document.canUndo() || document.modified());
 }
 
-TEST(SceneDocument, DuplicateAvoidsTheRowOfCopies) {
+TEST(Duplicate, AvoidsTheRowOfCopies) {
   for (const double step : {3.0, -3.0}) {
     TextScene text(kText);
     text.document.change("spread", kTeapot, [&](Scene& scene) { scene.objects[0].copies.step = {step, 0, 0}; });
@@ -258,9 +244,7 @@ TEST(SceneDocument, DuplicateAvoidsTheRowOfCopies) {
   }
 }
 
-TEST(SceneDocument, BookmarkNamesStayUnique) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+TEST_F(SceneDocumentTest, BookmarkNamesStayUnique) {
   const Bookmark view{.position = {1, 1, 1}, .target = {0, 0, 0}};
   EXPECT_EQ(document.addBookmark(view), "view");
   EXPECT_EQ(document.addBookmark(view), "view 2");
@@ -269,30 +253,29 @@ TEST(SceneDocument, BookmarkNamesStayUnique) {
   EXPECT_EQ(document.renameBookmark(0, "door"), "door");
   EXPECT_EQ(document.undoLabel(), "rename bookmark 'view 3'");
   document.removeBookmark(0);
-  ASSERT_EQ(text.scene.bookmarks.size(), 1u);
-  EXPECT_EQ(text.scene.bookmarks[0].name, "view 2");
+  ASSERT_EQ(scene.bookmarks.size(), 1u);
+  EXPECT_EQ(scene.bookmarks[0].name, "view 2");
   EXPECT_THROW(document.removeBookmark(1), std::out_of_range);
 }
 
-TEST(SceneDocument, DropsTheOldestSteps) {
-  TextScene text(kText);
+TEST_F(SceneDocumentTest, DropsTheOldestSteps) {
   for (size_t i = 1; i <= SceneDocument::mostSteps + 5; ++i) {
-    text.document.change("move", kTeapot, moveTeapot(static_cast<double>(i)));
+    document.change("move", kTeapot, moveTeapot(static_cast<double>(i)));
   }
   size_t steps = 0;
-  for (; text.document.canUndo(); ++steps) {
-    text.document.undo();
+  for (; document.canUndo(); ++steps) {
+    document.undo();
   }
   EXPECT_EQ(steps, SceneDocument::mostSteps);
-  EXPECT_EQ(text.scene.objects[0].position.x, 5);
-  for (; text.document.canRedo(); --steps) {
-    text.document.redo();
+  EXPECT_EQ(scene.objects[0].position.x, 5);
+  for (; document.canRedo(); --steps) {
+    document.redo();
   }
   EXPECT_EQ(steps, 0u);
-  EXPECT_EQ(text.scene.objects[0].position.x, SceneDocument::mostSteps + 5);
+  EXPECT_EQ(scene.objects[0].position.x, SceneDocument::mostSteps + 5);
 }
 
-TEST(SceneDocument, DropsStepsBeyondTheMemoryLimit) {
+TEST(UndoSteps, BeyondTheMemoryLimitAreDropped) {
   std::string many = kText;
   for (int i = 0; i < 20000; ++i) {
     many += "[[light]]\nposition = [0, 1, 0]\n";
@@ -310,15 +293,13 @@ TEST(SceneDocument, DropsStepsBeyondTheMemoryLimit) {
   EXPECT_LE(steps * bytes, SceneDocument::mostBytes);
 }
 
-TEST(SceneDocument, ModifiedComparesWithTheSavedContent) {
-  TextScene text(kText);
-  SceneDocument& document = text.document;
+TEST_F(SceneDocumentTest, ModifiedComparesWithTheSavedContent) {
   document.change("move", kTeapot, moveTeapot(1));
   EXPECT_TRUE(document.modified());
   document.change("move", kTeapot, moveTeapot(0));
   EXPECT_FALSE(document.modified()) << "the same values again";
   document.change("move", kTeapot, moveTeapot(2));
-  document.save(text.file, {});
+  document.save(file, {});
   EXPECT_FALSE(document.modified());
   document.undo();
   EXPECT_TRUE(document.modified());

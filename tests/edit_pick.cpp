@@ -6,6 +6,7 @@
 #include <random>
 
 #include "picture_support.hpp"
+#include "scene_text.hpp"
 
 namespace speculum {
 namespace {
@@ -185,13 +186,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene,
                                          "no_mirror", "single_plane", "shadows", "pool"),
                          [](const auto& info) { return std::string(info.param); });
 
-// Two mirrors that face each other, a sphere between them.
-const std::string corridor = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-[camera]
-position = [0, 1, 1.5]
-target = [0, 1, -2]
+// A column of two balls, a light that is seen and one that is not.
+const std::string nodes = R"(
 [[object]]
 name = "ball"
 model = "MODELS/sphere.obj"
@@ -205,15 +201,6 @@ radius = 0.1
 position = [-0.5, 0.7, 0]
 radius = 0.1
 glow = 0
-[[mirror]]
-name = "ahead"
-position = [0, 1, -2]
-size = [3, 2]
-[[mirror]]
-name = "behind"
-position = [0, 1, 2]
-rotation = [0, 180, 0]
-size = [3, 2]
 )";
 
 class Corridor : public testing::Test {
@@ -221,7 +208,7 @@ class Corridor : public testing::Test {
   std::vector<Picked> at(const glm::dvec3& world, const PickLimits& limits = {}) {
     return picker_.at(state_, picture_, picture_.pixel(world).value(), limits);
   }
-  Scene scene_ = loadScene(writeScene("corridor", corridor));
+  Scene scene_ = loadScene(writeScene("corridor", corridorScene(nodes)));
   SceneState state_ = evaluate(scene_, 0.0);
   PictureView picture_{state_.camera, 900, 700};
   Picker picker_{scene_};

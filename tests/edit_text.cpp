@@ -1,7 +1,6 @@
 // The writer keeps what a user wrote and changes only values.
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "edit/toml_text.hpp"
@@ -19,8 +18,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 // The edit changes `from` into `to` and nothing else; empty `from`: appends.
-void expectEdit(const std::string& text, const std::function<void(Scene&)>& edit, const std::string& from,
-                const std::string& to) {
+void expectEdit(const std::string& text, const std::string& from, const std::string& to,
+                const std::function<void(Scene&)>& edit) {
   TextScene scene(text);
   scene.document.change("edit", {}, edit);
   ASSERT_TRUE(scene.document.modified()) << "the edit changed nothing";
@@ -53,52 +52,39 @@ TEST(EditedText, OnlyTheChangedNumberIsRewritten) {
   const std::string text = std::string(kCamera) +
                            "# a light\n[[light]]   # of the hall\n"
                            "position = [ 0x10, +3.50, 1e0 ] # where it hangs\nintensity=2_0\n\n";
-  expectEdit(
-      text, [](Scene& s) { s.lights[0].position.y = 3.25; }, "+3.50", "3.25");
-  expectEdit(
-      text, [](Scene& s) { s.lights[0].intensity = 21.5; }, "2_0", "21.5");
-  expectEdit(
-      text, [](Scene& s) { s.lights[0].castsShadow = true; }, "2_0\n", "2_0\ncasts_shadow = true\n");
+  expectEdit(text, "+3.50", "3.25", [](Scene& s) { s.lights[0].position.y = 3.25; });
+  expectEdit(text, "2_0", "21.5", [](Scene& s) { s.lights[0].intensity = 21.5; });
+  expectEdit(text, "2_0\n", "2_0\ncasts_shadow = true\n", [](Scene& s) { s.lights[0].castsShadow = true; });
 }
 
 TEST(EditedText, PolygonsKeepTheirLines) {
   const std::string text =
       std::string(kCamera) + "[[mirror]]\npolygon = [\n  [0, 0, 0], # left\n  [1, 0, 0],\n  [1.0, 1, 0], # top\n]\n";
-  expectEdit(
-      text, [](Scene& s) { s.mirrors[0].polygon[2].y = 2; }, "[1.0, 1, 0]", "[1.0, 2, 0]");
-  expectEdit(
-      text,
-      [](Scene& s) {
-        s.mirrors[0].polygon = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-      },
-      "[\n  [0, 0, 0], # left\n  [1, 0, 0],\n  [1.0, 1, 0], # top\n]", "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]");
+  expectEdit(text, "[1.0, 1, 0]", "[1.0, 2, 0]", [](Scene& s) { s.mirrors[0].polygon[2].y = 2; });
+  expectEdit(text, "[\n  [0, 0, 0], # left\n  [1, 0, 0],\n  [1.0, 1, 0], # top\n]",
+             "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]", [](Scene& s) {
+               s.mirrors[0].polygon = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+             });
 }
 
 TEST(EditedText, PolygonBecomesRectangle) {
   const std::string text =
       std::string(kCamera) + "[[mirror]]\nname = 'a'\npolygon = [[0,0,0],[1,0,0],[1,1,0]]\nroughness = 0.1 # r\n";
-  expectEdit(
-      text,
-      [](Scene& s) {
-        s.mirrors[0].polygon.clear();
-        s.mirrors[0].size = {2, 1};
-        s.mirrors[0].position.z = -1;
-      },
-      "polygon = [[0,0,0],[1,0,0],[1,1,0]]\nroughness = 0.1 # r\n",
-      "roughness = 0.1 # r\nposition = [0, 0, -1]\nsize = [2, 1]\n");
+  expectEdit(text, "polygon = [[0,0,0],[1,0,0],[1,1,0]]\nroughness = 0.1 # r\n",
+             "roughness = 0.1 # r\nposition = [0, 0, -1]\nsize = [2, 1]\n", [](Scene& s) {
+               s.mirrors[0].polygon.clear();
+               s.mirrors[0].size = {2, 1};
+               s.mirrors[0].position.z = -1;
+             });
 }
 
 TEST(EditedText, InnerTablesComeAndGo) {
   const std::string text = std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\nripple = { amplitude = 0.01 } # waves\n" +
                            "[[light]]\nposition = [0, 1, 0]\n";
-  expectEdit(
-      text, [](Scene& s) { s.mirrors[0].ripple->amplitude = 0.02; }, "0.01", "0.02");
-  expectEdit(
-      text, [](Scene& s) { s.mirrors[0].ripple->speed = 1.5; }, "0.01 }", "0.01, speed = 1.5 }");
-  expectEdit(
-      text, [](Scene& s) { s.mirrors[0].ripple.reset(); }, "ripple = { amplitude = 0.01 } # waves\n", "");
-  expectEdit(
-      text, [](Scene& s) { s.lights[0].orbit = Orbit{.speed = 20}; }, "", "orbit = { speed = 20 }\n");
+  expectEdit(text, "0.01", "0.02", [](Scene& s) { s.mirrors[0].ripple->amplitude = 0.02; });
+  expectEdit(text, "0.01 }", "0.01, speed = 1.5 }", [](Scene& s) { s.mirrors[0].ripple->speed = 1.5; });
+  expectEdit(text, "ripple = { amplitude = 0.01 } # waves\n", "", [](Scene& s) { s.mirrors[0].ripple.reset(); });
+  expectEdit(text, "", "orbit = { speed = 20 }\n", [](Scene& s) { s.lights[0].orbit = Orbit{.speed = 20}; });
 }
 
 TEST(EditedText, InnerTablesInEveryForm) {
@@ -106,64 +92,57 @@ TEST(EditedText, InnerTablesInEveryForm) {
   const auto still = [](Scene& s) { s.mirrors[0].ripple.reset(); };
   const std::string mirror = std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\n";
   const std::string dotted = mirror + "ripple.amplitude = 0.5\nname = 'x'\n";
-  expectEdit(dotted, waves, "0.5\n", "0.5\nripple.wavelength = 0.25\n");
-  expectEdit(dotted, still, "ripple.amplitude = 0.5\n", "");
+  expectEdit(dotted, "0.5\n", "0.5\nripple.wavelength = 0.25\n", waves);
+  expectEdit(dotted, "ripple.amplitude = 0.5\n", "", still);
   const std::string headed =
       mirror + "\n# waves\n[mirror.ripple]\namplitude = 0.5\n\n[[light]]\nposition = [0, 1, 0]\n";
-  expectEdit(headed, waves, "0.5\n", "0.5\nwavelength = 0.25\n");
-  expectEdit(headed, still, "\n# waves\n[mirror.ripple]\namplitude = 0.5\n", "");
+  expectEdit(headed, "0.5\n", "0.5\nwavelength = 0.25\n", waves);
+  expectEdit(headed, "\n# waves\n[mirror.ripple]\namplitude = 0.5\n", "", still);
   const std::string inlined =
       "mirror = [{size = [1, 1], ripple = {amplitude = 0.5}}, {size = [2, 2]}]\n" + std::string(kCamera);
-  expectEdit(inlined, waves, "0.5}", "0.5, wavelength = 0.25}");
-  expectEdit(inlined, still, ", ripple = {amplitude = 0.5}", "");
+  expectEdit(inlined, "0.5}", "0.5, wavelength = 0.25}", waves);
+  expectEdit(inlined, ", ripple = {amplitude = 0.5}", "", still);
   const std::string both = "mirror = [{ripple.amplitude = 0.5, size = [1, 1]}]\n" + std::string(kCamera);
-  expectEdit(both, waves, "size = [1, 1]", "size = [1, 1], ripple.wavelength = 0.25");
-  expectEdit(both, still, "ripple.amplitude = 0.5, ", "");
+  expectEdit(both, "size = [1, 1]", "size = [1, 1], ripple.wavelength = 0.25", waves);
+  expectEdit(both, "ripple.amplitude = 0.5, ", "", still);
   const std::string flat = mirror + "ripple.amplitude = 0\n";
-  expectEdit(
-      flat, [](Scene& s) { s.mirrors[0].ripple = Ripple{.amplitude = 0.1}; }, "amplitude = 0\n", "amplitude = 0.1\n");
+  expectEdit(flat, "amplitude = 0\n", "amplitude = 0.1\n",
+             [](Scene& s) { s.mirrors[0].ripple = Ripple{.amplitude = 0.1}; });
 }
 
 TEST(EditedText, EnvironmentInEveryForm) {
   const auto dim = [](Scene& s) { s.environment.ambient = glm::dvec3(0.5); };
   const std::string line = "ambient = [0.5, 0.5, 0.5]\n";
-  expectEdit(kCamera, dim, "", "\n[environment]\n" + line);
-  expectEdit("[environment] # none\n" + std::string(kCamera), dim, "# none\n", "# none\n" + line);
-  expectEdit("environment = {background = [1, 1, 1]}\n" + std::string(kCamera), dim, "[1, 1, 1]}",
-             "[1, 1, 1], ambient = [0.5, 0.5, 0.5]}");
-  expectEdit("environment.background = [1, 1, 1]\n" + std::string(kCamera), dim, "[1, 1, 1]\n",
-             "[1, 1, 1]\nenvironment." + line);
+  expectEdit(kCamera, "", "\n[environment]\n" + line, dim);
+  expectEdit("[environment] # none\n" + std::string(kCamera), "# none\n", "# none\n" + line, dim);
+  expectEdit("environment = {background = [1, 1, 1]}\n" + std::string(kCamera), "[1, 1, 1]}",
+             "[1, 1, 1], ambient = [0.5, 0.5, 0.5]}", dim);
+  expectEdit("environment.background = [1, 1, 1]\n" + std::string(kCamera), "[1, 1, 1]\n",
+             "[1, 1, 1]\nenvironment." + line, dim);
   const std::string sky = "[environment.sky]\nzenith = [1, 1, 1]\nhorizon = [1, 1, 1]\nground = [1, 1, 1]\n";
-  expectEdit("title = 'x'\n" + sky + kCamera, dim, "'x'\n", "'x'\nenvironment." + line);
-  expectEdit(
-      "title = 'x'\n" + sky + kCamera, [](Scene& s) { s.environment.sky.reset(); }, sky, "");
-  expectEdit(
-      "[environment]\nambient = [0, 0, 0]\n" + std::string(kCamera),
-      [](Scene& s) {
-        s.environment.sky = Sky{glm::dvec3(0.25), glm::dvec3(0.5), glm::dvec3(1)};
-      },
-      "ambient = [0, 0, 0]\n",
-      "ambient = [0, 0, 0]\nsky = { zenith = [0.25, 0.25, 0.25], horizon = [0.5, 0.5, 0.5], "
-      "ground = [1, 1, 1] }\n");
+  expectEdit("title = 'x'\n" + sky + kCamera, "'x'\n", "'x'\nenvironment." + line, dim);
+  expectEdit("title = 'x'\n" + sky + kCamera, sky, "", [](Scene& s) { s.environment.sky.reset(); });
+  expectEdit("[environment]\nambient = [0, 0, 0]\n" + std::string(kCamera), "ambient = [0, 0, 0]\n",
+             "ambient = [0, 0, 0]\nsky = { zenith = [0.25, 0.25, 0.25], horizon = [0.5, 0.5, 0.5], "
+             "ground = [1, 1, 1] }\n",
+             [](Scene& s) {
+               s.environment.sky = Sky{glm::dvec3(0.25), glm::dvec3(0.5), glm::dvec3(1)};
+             });
 }
 
 TEST(EditedText, NewTableFollowsKeysAddedAboveIt) {
-  expectEdit(
-      kCamera,
-      [](Scene& s) {
-        s.environment.ambient = glm::dvec3(0.5);
-        s.camera.verticalFov = 40;
-      },
-      "", "vertical_fov = 40\n\n[environment]\nambient = [0.5, 0.5, 0.5]\n");
+  expectEdit(kCamera, "", "vertical_fov = 40\n\n[environment]\nambient = [0.5, 0.5, 0.5]\n", [](Scene& s) {
+    s.environment.ambient = glm::dvec3(0.5);
+    s.camera.verticalFov = 40;
+  });
 }
 
 TEST(EditedText, DosLineBreaksAndNoneAtTheEnd) {
   const std::string dos =
       "[camera]\r\nposition = [0, 0, 4] # eye\r\ntarget = [0, 0, 0]\r\n\r\n[[light]]\r\nposition = [0, 1, 0]";
   const auto shadow = [](Scene& s) { s.lights[0].castsShadow = true; };
-  expectEdit(dos, shadow, "", "\r\ncasts_shadow = true");
-  expectEdit(
-      dos, [](Scene& s) { s.camera.position.z = 5; }, "4]", "5]");
+  expectEdit(dos, "", "\r\ncasts_shadow = true", shadow);
+  expectEdit(dos, "4]", "5]", [](Scene& s) { s.camera.position.z = 5; });
   TextScene scene(dos);
   scene.document.addLight({1, 2, 3}, {1, 2, 4});
   EXPECT_EQ(scene.saved(), dos + "\r\n\r\n[[light]]\r\nname = \"light\"\r\nposition = [1, 2, 3]\r\nradius = 0.01");
@@ -174,13 +153,10 @@ TEST(EditedText, DosLineBreaksAndNoneAtTheEnd) {
 TEST(EditedText, NamesOfEveryKind) {
   const std::string text = "\xef\xbb\xbf# Größe: 3 µm, \"quoted\" [not] = a key\n" + std::string(kCamera) +
                            "[[ \"light\" ]]\n\"na\\u006De\" = 'Stehlampe \"grün\"' # ☀\n'position' = [0, 1, 0]\n";
-  expectEdit(
-      text, [](Scene& s) { s.lights[0].position.x = 7; }, "[0, 1, 0]", "[7, 1, 0]");
-  expectEdit(
-      text, [](Scene& s) { s.lights[0].name = "a \"b\" \\ c\td\x01 ☃"; }, "'Stehlampe \"grün\"'",
-      "\"a \\\"b\\\" \\\\ c\\td\\u0001 ☃\"");
-  expectEdit(
-      text, [](Scene& s) { s.lights[0].glow = 0; }, "[0, 1, 0]\n", "[0, 1, 0]\nglow = 0\n");
+  expectEdit(text, "[0, 1, 0]", "[7, 1, 0]", [](Scene& s) { s.lights[0].position.x = 7; });
+  expectEdit(text, "'Stehlampe \"grün\"'", "\"a \\\"b\\\" \\\\ c\\td\\u0001 ☃\"",
+             [](Scene& s) { s.lights[0].name = "a \"b\" \\ c\td\x01 ☃"; });
+  expectEdit(text, "[0, 1, 0]\n", "[0, 1, 0]\nglow = 0\n", [](Scene& s) { s.lights[0].glow = 0; });
 }
 
 // The parser counts columns in code points, the text is edited in bytes.
@@ -188,25 +164,19 @@ TEST(EditedText, CharactersOfSeveralBytesBeforeTheValue) {
   const std::string inlined =
       "light = [{name = '😀 ä, {', position = [0, 1, 0], orbit.\"speed\" = 3}, {position = [0, 2, 0]}] # ☃\n" +
       std::string(kCamera);
-  expectEdit(
-      inlined, [](Scene& s) { s.lights[0].position.y = 7; }, "[0, 1, 0]", "[0, 7, 0]");
-  expectEdit(
-      inlined, [](Scene& s) { s.lights[0].orbit->speed = 4; }, "= 3}", "= 4}");
-  expectEdit(
-      inlined, [](Scene& s) { s.lights[0].orbit.reset(); }, ", orbit.\"speed\" = 3", "");
-  expectEdit(
-      inlined, [](Scene& s) { s.lights[1].glow = 0; }, "[0, 2, 0]}", "[0, 2, 0], glow = 0}");
+  expectEdit(inlined, "[0, 1, 0]", "[0, 7, 0]", [](Scene& s) { s.lights[0].position.y = 7; });
+  expectEdit(inlined, "= 3}", "= 4}", [](Scene& s) { s.lights[0].orbit->speed = 4; });
+  expectEdit(inlined, ", orbit.\"speed\" = 3", "", [](Scene& s) { s.lights[0].orbit.reset(); });
+  expectEdit(inlined, "[0, 2, 0]}", "[0, 2, 0], glow = 0}", [](Scene& s) { s.lights[1].glow = 0; });
   const std::string several =
       std::string(kCamera) + "[[light]]\nname = \"\"\"Größe\n  😀\"\"\" # ä\nposition = [0, 1, 0]\n";
-  expectEdit(
-      several, [](Scene& s) { s.lights[0].name = "a"; }, "\"\"\"Größe\n  😀\"\"\"", "\"a\"");
+  expectEdit(several, "\"\"\"Größe\n  😀\"\"\"", "\"a\"", [](Scene& s) { s.lights[0].name = "a"; });
 }
 
 TEST(EditedText, AlignedKeysStayAligned) {
   const std::string text =
       std::string(kCamera) + "[[light]]\n  name     = 'a'\n  position = [0, 1, 0]\n\n# last words\n";
-  expectEdit(
-      text, [](Scene& s) { s.lights[0].glow = 0; }, "[0, 1, 0]\n", "[0, 1, 0]\n  glow     = 0\n");
+  expectEdit(text, "[0, 1, 0]\n", "[0, 1, 0]\n  glow     = 0\n", [](Scene& s) { s.lights[0].glow = 0; });
   TextScene scene(text);
   scene.document.addBookmark({.name = "door", .position = {1, 2, 3}, .target = {0, 0, 0}, .verticalFov = 40.0});
   EXPECT_EQ(scene.saved(), text +

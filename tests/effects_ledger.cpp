@@ -77,7 +77,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{160, 90};
+constexpr PictureSize size{64, 36};
 
 // `uncalled` asks for the effect where nothing visible needs it, `called` where something does, which takes more
 // objects of these kinds.
@@ -143,7 +143,7 @@ struct Drawn {
 Drawn drawFrames(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) {
     counts.draws = 0;
-    session.draw(0.0, true);
+    session.draw(0.0, i + 1 == frames);
     session.finish();
   }
   return {counts.alive, counts.draws, session.picture().rgba};

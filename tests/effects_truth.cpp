@@ -8,6 +8,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
+#include "sampling.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 
@@ -16,7 +17,8 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{320, 180};
+constexpr PictureSize size{240, 136};
+constexpr PictureSize small{160, 90};
 
 // A room corner with two objects on a floor; `rest` adds lights and mirrors.
 std::filesystem::path corner(const std::string& name, const std::string& rest) {
@@ -157,7 +159,7 @@ TEST(ExactEffects, EqualTheRayTracerFarFromTheOrigin) {
 TEST(ExactEffects, BothRenderPathsDrawTheSameBytes) {
   const std::filesystem::path file =
       corner("effects_paths", shadowLight + wall + "casts_light = true\n" + pool + ripple);
-  Options dynamic = headless(file, size);
+  Options dynamic = headless(file, small);
   dynamic.renderPath = RenderPath::dynamic;
   Options passes = dynamic;
   passes.renderPath = RenderPath::renderPass;
@@ -174,9 +176,9 @@ TEST(ExactEffects, RaysAtEverySampleReduceError) {
   const Scene scene = loadScene(file);
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   const TraceResult reference =
-      *tracer.render({.width = size.width, .height = size.height, .samples = 64, .maxDepth = 3});
+      *tracer.render({.width = small.width, .height = small.height, .samples = 64, .maxDepth = 3});
   const auto error = [&](const char* perSample) {
-    Options options = headless(file, size);
+    Options options = headless(file, small);
     set(options, {{"effects.per_sample", perSample}, {"reflection.max_depth", "3"}});
     Session session(options);
     session.draw(0.0, false);
@@ -229,13 +231,13 @@ TEST(ExactEffects, StayCloseUnderOtherSettings) {
                                      ripple + side +
                                      "[[object]]\nmodel = \"MODELS/sphere.obj\"\n"
                                      "position = [0.2, 0.6, 1.2]\nscale = 0.3\nmirror = {}\n");
-  const Image8 plain = draw(headless(file, size));
+  const Image8 plain = draw(headless(file, small));
   for (const auto& [key, value, tolerance] :
        {std::tuple("reflection.scale", "0.5", 0.02), std::tuple("reflection.scale", "2", 0.02),
         std::tuple("reflection.clip", "oblique", 0.02), std::tuple("reflection.update_interval", "3", 0.0),
         std::tuple("reflection.samples", "1", 0.02), std::tuple("effects.per_sample", "true", 0.03),
         std::tuple("effects.rough_lookup", "image", 0.05)}) {
-    Options options = headless(file, size);
+    Options options = headless(file, small);
     set(options, {{key, value}});
     Session session(options);
     for (int frame = 0; frame < (tolerance > 0.0 ? 1 : 3); ++frame) {
@@ -294,24 +296,26 @@ std::filesystem::path randomScene(unsigned seed) {
 class RandomEffects : public testing::TestWithParam<unsigned> {};
 
 TEST_P(RandomEffects, EqualTheRayTracer) {
-  constexpr PictureSize small{240, 136};
   const std::filesystem::path file = randomScene(GetParam());
-  expectTruth(file, small, 3, trace(file, small, 3, 2.5), 2.5);
+  expectTruth(file, size, 3, trace(file, size, 3, 2.5), 2.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomEffects, testing::Range(0u, 25u));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomEffects, testing::ValuesIn(sampledSeeds(25, 4)),
+                         testing::PrintToStringParamName());
 
 class RoughMirror : public testing::Test {
  protected:
-  static constexpr PictureSize small{160, 90};
   std::filesystem::path file_ = corner("effects_rough", plainLight + wall + "roughness = 0.35\n");
-  TraceResult reference_ = reference();
 
-  TraceResult reference() const {
-    const Scene scene = loadScene(file_);
-    const RayTracer tracer(scene, evaluate(scene, 0.0));
-    return *tracer.render(
-        {.width = small.width, .height = small.height, .samples = 1, .maxDepth = 3, .roughSamples = 4096});
+  // Traced once for all tests.
+  const TraceResult& reference() const {
+    static const TraceResult traced = [&] {
+      const Scene scene = loadScene(file_);
+      const RayTracer tracer(scene, evaluate(scene, 0.0));
+      return *tracer.render(
+          {.width = small.width, .height = small.height, .samples = 1, .maxDepth = 3, .roughSamples = 4096});
+    }();
+    return traced;
   }
 
   // Root of the mean squared radiance error within the mirror.
@@ -323,7 +327,7 @@ class RoughMirror : public testing::Test {
     session.finish();
     expectQuiet(session);
     const LinearImage drawn = session.radiance();
-    return rootMeanSquare(drawn, reference_.image, {reference_.mirrorMask.begin(), reference_.mirrorMask.end()});
+    return rootMeanSquare(drawn, reference().image, {reference().mirrorMask.begin(), reference().mirrorMask.end()});
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "app/stats.hpp"
 #include "truth_support.hpp"
@@ -167,6 +168,7 @@ casts_light = true
 TEST(EnvironmentMaps, BothRenderPathsDrawTheSameBytes) {
   Options dynamic = mapped(room("paths", everything),
                            {{"view.samples", "4"}, {"reflection.samples", "4"}, {"effects.environment_size", "64"}});
+  dynamic.size = {80, 60};
   Options passes = dynamic;
   passes.renderPath = RenderPath::renderPass;
   EXPECT_EQ(draw(dynamic).rgba, draw(passes).rgba);
@@ -221,7 +223,7 @@ TEST(EnvironmentMaps, ReuseChangesNoByte) {
   const std::filesystem::path file = room(
       "skipping", everything + "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [1.4, 0, 1]\nspin = [0, 90, 0]\n");
   for (const char* interval : {"1", "3"}) {
-    Options options = mapped(file, {{"effects.environment_interval", interval}, {"effects.environment_size", "64"}});
+    Options options = mapped(file, {{"effects.environment_interval", interval}, {"effects.environment_size", "32"}});
     options.size = {80, 60};
     Session skipping(options);
     int captures = 0;
@@ -234,9 +236,13 @@ TEST(EnvironmentMaps, ReuseChangesNoByte) {
     if (std::string(interval) == "1") {
       set(options, {{"reflection.skip_unchanged", "false"}});
       Session rendering(options);
+      std::map<double, std::vector<uint8_t>> rendered;
       for (size_t i = 0; i < times.size(); ++i) {
-        EXPECT_EQ(mapPasses(rendering, times[i]).size(), 12u);
-        EXPECT_EQ(rendering.picture().rgba, pictures[i]) << "frame " << i;
+        if (!rendered.count(times[i])) {
+          EXPECT_EQ(mapPasses(rendering, times[i]).size(), 12u);
+          rendered[times[i]] = rendering.picture().rgba;
+        }
+        EXPECT_EQ(rendered[times[i]], pictures[i]) << "frame " << i;
       }
       EXPECT_EQ(captures, 8) << "two maps in the four frames in which the king had turned";
       expectQuiet(rendering);

@@ -7,12 +7,12 @@
 
 #include "app/demo.hpp"
 #include "app/screenshot.hpp"
-#include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
+#include "scene_text.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum::testing_support {
@@ -22,38 +22,16 @@ using Clock = std::chrono::steady_clock;
 inline constexpr int width = 900;
 inline constexpr int height = 700;
 
-inline const std::string windowScene = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.9, 1, 0]
-[[light]]
-position = [0, 3, 3]
-intensity = 10
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [5, 3]
-)";
-
 // A window on a virtual display, driven by X events.
 class Journey : public testing::Test {
  protected:
-  explicit Journey(const std::string& toml = windowScene, const Options& more = {}) : options_(more) {
+  explicit Journey(const std::string& toml = wallScene, const Options& more = {}) : options_(more) {
     // Settings and pictures of the user must neither be used nor written.
     for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_DATA_HOME", "HOME"}) {
       environment_.emplace_back(name, environment(name));
       setEnvironment(name, (home_.path() / name).string());
     }
+    runProcess({"xdotool", "mousemove", "640", "450"});  // as in a session that begins
     options_.scene = writeScene("journey", toml).string();
     options_.size = {width, height};
     options_.validation = true;
@@ -68,6 +46,9 @@ class Journey : public testing::Test {
   }
   ~Journey() override {
     demo_.reset();
+    if (otherKeyboard_) {
+      runProcess({"setxkbmap", "us"});
+    }
     for (const auto& [name, value] : environment_) {
       setEnvironment(name, value);
     }
@@ -152,6 +133,14 @@ class Journey : public testing::Test {
     run(3);
   }
 
+  // Changes the session for this test.
+  void setKeyboard(const std::vector<std::string>& layout) {
+    std::vector<std::string> command = {"setxkbmap"};
+    command.insert(command.end(), layout.begin(), layout.end());
+    ASSERT_EQ(runProcess(command).exitCode, 0);
+    otherKeyboard_ = true;
+  }
+
   UiView view() const { return demo_->view(); }
   Image8 picture() { return pictureOf(demo_->renderer().readback()); }
   // Without panels and messages.
@@ -180,12 +169,13 @@ class Journey : public testing::Test {
     EXPECT_EQ(demo_->nonFinite(), 0u);
   }
 
-  test::VirtualDisplay display_{1280, 900};
+  test::VirtualDisplay display_;
   TemporaryDirectory home_;
   std::vector<std::pair<std::string, std::string>> environment_;
   Options options_;
   std::unique_ptr<Demo> demo_;
   std::string window_;  // its id
+  bool otherKeyboard_ = false;
 };
 
 }  // namespace speculum::testing_support

@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 
 #include "image/color.hpp"
@@ -170,8 +171,9 @@ using SettingList = std::vector<std::pair<std::string, std::string>>;
 // Two pictures, the second a moment later, with all new memory (lavapipe's images are in it) filled with one byte.
 std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string& scene, const SettingList& settings) {
   ::mallopt(M_PERTURB, fill);
-  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {160, 90});
+  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {96, 54});
   set(options, settings);
+  set(options, {{"reflection.max_passes", "12"}});
   std::vector<std::vector<uint8_t>> pictures;
   {
     Session session(options);
@@ -208,6 +210,16 @@ TEST(MirrorPictures, DebugViewShowsTheMeanOfSamples) {
   EXPECT_LT(shareAlike(averaged, drawText("no_debug_view", room + left)), 0.8);
 }
 
+TEST(MirrorPictures, ClearColorReachesPictureAndReflections) {
+  Options options = headless(writeScene("clear_color", room + left + "reflectance = [1, 1, 1]\n"), size);
+  set(options, {{"view.clear_color", "0.25,0.5,1"}});
+  const Image8 picture = draw(options);
+  const std::array<uint8_t, 3> expected{137, 188, 255};
+  for (const glm::ivec2 pixel : {glm::ivec2(310, 10), glm::ivec2(120, 72)}) {
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), picture.at(pixel.x, pixel.y))) << pixel.x;
+  }
+}
+
 TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
   Options options = headless(sourceFile("scenes/many_mirrors.toml"), {1280, 720});
   set(options, {{"reflection.max_depth", "4"}, {"reflection.samples", "4"}, {"view.samples", "4"}});
@@ -220,7 +232,9 @@ TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
 }
 
 TEST(MirrorPictures, MovingFramesKeepTheirMemory) {
-  Session session(headless(sourceFile("scenes/many_mirrors.toml"), size));
+  Options options = headless(sourceFile("scenes/many_mirrors.toml"), {96, 54});
+  set(options, {{"reflection.max_passes", "20"}});
+  Session session(options);
   for (int i = 0; i < 10; ++i) {
     session.draw(0.2 * i, false);
   }

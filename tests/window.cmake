@@ -2,7 +2,7 @@
 speculum_test(workspace_tests SOURCES workspace_editing.cpp workspace_saving.cpp workspace_view.cpp app_units.cpp app_motion.cpp
               LIBRARIES picture_support)
 speculum_test(panel_tests SOURCES ui_panels.cpp ui_input_map.cpp LIBRARIES picture_support ext::imgui)
-speculum_test(thumbnail_tests SOURCES thumbnails.cpp LIBRARIES picture_support LABELS pictures)
+speculum_test(thumbnail_tests SOURCES thumbnails.cpp picture_agreement.cpp LIBRARIES picture_support LABELS pictures)
 
 # Journeys through the window, on a display of their own.
 foreach(name journeys journeys_idle)

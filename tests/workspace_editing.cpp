@@ -8,8 +8,6 @@ using namespace testing_support;
 
 class Editing : public WorkspaceTest {
  protected:
-  explicit Editing(const std::string& toml = corridor) : WorkspaceTest(toml) {}
-
   std::string text() const { return workspace_->document().editor().document().text(options_.scene, {}); }
   const Scene& saved() {
     send(Save{});

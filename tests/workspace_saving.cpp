@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 class Saving : public WorkspaceTest {
  protected:
-  explicit Saving(const Options& more = {}) : WorkspaceTest(corridor, more) {}
+  explicit Saving(const Options& more = {}) : WorkspaceTest(corridorScene(), more) {}
 
   void removeBall() {
     send(SelectNode{ball});

@@ -14,44 +14,12 @@
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "scene/scene_loader.hpp"
+#include "scene_text.hpp"
 
 namespace speculum::testing_support {
 
 inline constexpr int width = 900;
 inline constexpr int height = 700;
-
-// The eye between two mirrors that face each other; the ball is seen directly, in one mirror and in both.
-inline const std::string corridor = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 1.5]
-target = [0, 1, -2]
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.3, 1, 0.5]
-scale = 0.2
-[[light]]
-name = "lamp"
-position = [-0.5, 1.5, 0]
-radius = 0.05
-intensity = 4
-# In front of the eye.
-[[mirror]]
-name = "ahead"
-position = [0, 1, -2]
-size = [3, 2]
-[[mirror]]
-name = "behind"
-position = [0, 1, 2]
-rotation = [0, 180, 0]
-size = [3, 2]
-)";
 
 inline constexpr double focalPixels = 0.5 * height * 1.7320508075688772;  // of 60 degrees
 
@@ -97,7 +65,7 @@ class FakeHost : public WorkspaceHost {
 // A workspace driven by commands, with folders of its own for what it writes.
 class WorkspaceTest : public testing::Test {
  protected:
-  explicit WorkspaceTest(const std::string& toml = corridor, const Options& more = {}) : options_(more) {
+  explicit WorkspaceTest(const std::string& toml = corridorScene(), const Options& more = {}) : options_(more) {
     for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_CACHE_HOME"}) {
       environment_.emplace_back(name, environment(name));
       setEnvironment(name, (home_.path() / name).string());

@@ -9,22 +9,6 @@ namespace {
 using namespace testing_support;
 namespace fs = std::filesystem;
 
-// A mirror behind a ball, before the eye.
-const std::string wallScene = R"(
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0.9, 1, 0]
-[[light]]
-position = [0, 3, 3]
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [5, 3]
-)";
-
 class WindowView : public WorkspaceTest {
  protected:
   WindowView() : WorkspaceTest(wallScene) {}
@@ -268,6 +252,7 @@ TEST_F(Opening, LoadingIsCancelled) {
   large << "v 1 0 0\nv 0 1 0\nf -3 -2 -1\n" << std::flush;
   send(OpenScene{home_.path() / "large.obj"});
   EXPECT_EQ(view().browser.loading, "large.obj");
+  EXPECT_EQ(shownScene(), "workspace") << "the scene stays meanwhile";
   send(CancelLoading{});
   frame();
   EXPECT_EQ(view().browser.loading, "");

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "frame/depth_readout.hpp"
@@ -99,22 +100,33 @@ struct Count {
   int farther = 0;  // of those, with the farther one before it
 };
 
-// Both orders of drawing: with equal depths the one that is drawn first stays. What the nearer square covers is drawn
-// by itself: the mirror's plane cuts the two along lines a gap apart.
+// What the nearer square covers is drawn by itself: the mirror's plane cuts the two along lines a gap apart.
+const Image8& pictureAlone(const Case& c, const std::string& nearer, const std::string& clip) {
+  static std::map<std::string, Image8> drawn;
+  Image8& picture = drawn[prefixOf(c) + nearer + clip];
+  if (picture.rgba.empty()) {
+    picture = draw(optionsOf(c, nearer, clip));
+  }
+  return picture;
+}
+
+// Both orders of drawing, until the farther square is seen: with equal depths the one that is drawn first stays.
 Count orderOf(const Case& c, double gap, const std::string& clip) {
   const std::string nearer = square(c, c.distance, 1.0, c.near, {1, 0, 0});
   const std::string farther = square(c, c.distance + gap, 0.96, c.far, {0, 1, 0});
-  const Image8 alone = draw(optionsOf(c, nearer, clip));
+  const Image8& alone = pictureAlone(c, nearer, clip);
   Count count;
   for (const std::string& squares : {nearer + farther, farther + nearer}) {
     const Image8 picture = draw(optionsOf(c, squares, clip));
-    Count one;
+    count = {};
     for (size_t i = 0; i < picture.rgba.size(); i += 4) {
       const bool covered = alone.rgba[i] > 0;
-      one.nearer += covered;
-      one.farther += covered && picture.rgba[i + 1] > 0;
+      count.nearer += covered;
+      count.farther += covered && picture.rgba[i + 1] > 0;
     }
-    count = {one.nearer, std::max(count.farther, one.farther)};
+    if (count.farther > 0) {
+      break;
+    }
   }
   return count;
 }
@@ -203,7 +215,7 @@ TEST_F(DepthReadoutOf, GapHoldsInAMirrorInAMirror) {
 TEST_F(DepthReadoutOf, HundredthOfTheGapFails) {
   int lost = 0;
   for (const auto& [near, far] : meshes) {
-    lost += losing({.near = near, .far = far}, 1.0 / 100.0);
+    lost += lost > 0 ? 0 : losing({.near = near, .far = far}, 1.0 / 100.0);
     EXPECT_EQ(losing({.near = near, .far = far}, 1.0 / 400.0), 3) << near << " before " << far;
   }
   EXPECT_GE(lost, 1);

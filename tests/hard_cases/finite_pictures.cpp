@@ -186,7 +186,7 @@ Options windowOptions() {
 }
 
 TEST(TimeSteps, SuspendDoesNotAdvanceAnimation) {
-  const test::VirtualDisplay display(1280, 900);
+  const test::VirtualDisplay display;
   Demo demo(windowOptions());
   ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > 2; }));
   const double before = demo.view().playback.time;
@@ -198,7 +198,7 @@ TEST(TimeSteps, SuspendDoesNotAdvanceAnimation) {
 }
 
 TEST(AnySizeOfWindow, OnePixelRunsAndMinimisedPauses) {
-  const test::VirtualDisplay display(1280, 900);
+  const test::VirtualDisplay display;
   Demo demo(windowOptions());
   const auto until = [&](const auto& condition) { return runUntil(demo, condition); };
   ASSERT_TRUE(until([&] { return demo.framesDrawn() > 2; }));

@@ -3,8 +3,6 @@
 // The part is in pixels, 0,0 at the top left; ZOOM, a whole number, repeats each pixel.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>

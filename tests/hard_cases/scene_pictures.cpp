@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "scene_text.hpp"
 #include "truth_support.hpp"

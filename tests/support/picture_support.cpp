@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <map>
 #include <utility>
 
 #include "driver.hpp"
@@ -33,19 +35,45 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
 }  // namespace
 
 PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts) {
-  std::vector<uint8_t> exclude;
-  for (const bool counted : counts) {
-    exclude.push_back(counted ? 0 : 1);
+  if (a.width != b.width || a.height != b.height) {
+    throw std::runtime_error("pictures of different sizes cannot be compared");
   }
-  return pictureAgreement(a, b, tolerance, exclude);
+  PictureAgreement result;
+  std::vector<bool> over;
+  for (size_t i = 0; i < a.rgba.size() / 4; ++i) {
+    int difference = -1;
+    for (size_t k = 4 * i; k < 4 * i + 3 && (counts.empty() || counts[i]); ++k) {
+      difference = std::max(difference, std::abs(a.rgba[k] - b.rgba[k]));
+    }
+    over.push_back(difference > tolerance);
+    result.counted += difference >= 0;
+    result.over += over.back();
+    result.largest = std::max(result.largest, difference);
+  }
+  const auto blockAt = [&](int left, int top) {
+    for (int i = 0; i < 9; ++i) {
+      if (!over[static_cast<size_t>(top + i / 3) * a.width + left + i % 3]) {
+        return false;
+      }
+    }
+    return true;
+  };
+  for (int y = 0; y + 2 < a.height && !result.block; ++y) {
+    for (int x = 0; x + 2 < a.width && !result.block; ++x) {
+      if (blockAt(x, y)) {
+        result.block = glm::ivec2(x, y);
+      }
+    }
+  }
+  return result;
 }
 
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts) {
   const PictureAgreement d = difference(actual, expected, tolerance, counts);
-  EXPECT_GE(d.fractionWithin(), 0.999) << name << ": largest difference " << d.largest << "/255";
-  EXPECT_FALSE(d.solidBlock) << name << ": wholly over " << tolerance << "/255 at " << d.blockX << ", " << d.blockY;
-  if (!d.holds(0.999)) {
+  EXPECT_GE(d.within(), 0.999) << name << ": largest difference " << d.largest << "/255";
+  EXPECT_FALSE(d.block) << name << ": wholly over " << tolerance << "/255 at " << d.block->x << ", " << d.block->y;
+  if (!d.holds()) {
     writeEvidence(actual, expected, name);
   }
 }
@@ -120,11 +148,22 @@ std::filesystem::path writeScene(const std::string& name, const std::string& tom
 }
 
 void writeShaders(const std::filesystem::path& directory, const std::string& shader, const std::string& code) {
+  std::map<std::string, std::string> sources;
   for (const auto& entry : std::filesystem::directory_iterator(sourceFile("shaders"))) {
-    std::filesystem::copy_file(entry.path(), directory / entry.path().filename());
+    sources[entry.path().filename()] = readText(entry.path());
   }
-  const std::vector<uint8_t> content = readFile(directory / shader);
-  std::string text(content.begin(), content.end());
+  const std::function<bool(const std::string&)> uses = [&](const std::string& name) {
+    return name == shader || std::any_of(sources.begin(), sources.end(), [&](const auto& other) {
+             return sources[name].find("#include \"" + other.first + "\"") != std::string::npos && uses(other.first);
+           });
+  };
+  for (const auto& [name, text] : sources) {
+    const std::string ending = std::filesystem::path(name).extension();
+    if (ending == ".glsl" || ending == ".h" || uses(name)) {
+      std::ofstream(directory / name) << text;
+    }
+  }
+  std::string text = sources.at(shader);
   text.insert(text.rfind('}'), code);
   std::ofstream(directory / shader) << text;
 }

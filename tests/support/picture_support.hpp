@@ -1,16 +1,28 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "accuracy/picture_agreement.hpp"
 #include "app/session.hpp"
 #include "image/image.hpp"
 
 namespace speculum::testing_support {
 
-// Compares the pixels whose `counts` is set, all of them if it is empty.
+// Tells two pictures that agree but for stray pixels along edges from those that differ in a patch.
+struct PictureAgreement {
+  int counted = 0;
+  int over = 0;                     // pixels that differ by more than the tolerance in red, green or blue
+  int largest = 0;                  // difference, 1/255
+  std::optional<glm::ivec2> block;  // top left pixel of the first 3x3 block that lies wholly over: a patch, no edge
+
+  double within() const { return counted == 0 ? 1.0 : 1.0 - static_cast<double>(over) / counted; }
+  bool holds() const { return within() >= 0.999 && !block; }
+};
+
+// Compares the pixels whose `counts` is set, all of them if it is empty. Throws std::runtime_error when sizes differ.
 PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
 
 // 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes NAME-actual.png,
@@ -39,7 +51,7 @@ std::filesystem::path sceneDirectory();
 // Writes a scene file into sceneDirectory(); model paths in it are relative to the project's models/.
 std::filesystem::path writeScene(const std::string& name, const std::string& toml);
 
-// The program's shaders, one of them with `code` at the end of its main(), for Options::shaderDir.
+// One of the program's shaders with `code` at the end of its main(), and those that include it, for Options::shaderDir.
 void writeShaders(const std::filesystem::path& directory, const std::string& shader, const std::string& code);
 
 std::filesystem::path sourceFile(const std::string& relative);

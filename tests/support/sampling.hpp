@@ -5,7 +5,8 @@
 
 namespace speculum::testing_support {
 
-// Whether random sets run whole, as in scripts/test-long: SPECULUM_FULL_TESTS=1 in the environment.
+// Whether random sets run whole and scenes in full size, as in scripts/test-long: SPECULUM_FULL_TESTS=1 in the
+// environment.
 inline bool fullTests() {
   const char* value = std::getenv("SPECULUM_FULL_TESTS");
   return value != nullptr && *value == '1';

@@ -9,6 +9,67 @@
 
 namespace speculum::testing_support {
 
+const std::string wallScene = R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[settings]
+"view.samples" = 1
+"reflection.samples" = 1
+[[object]]
+name = "ball"
+model = "MODELS/sphere.obj"
+position = [0.9, 1, 0]
+[[light]]
+position = [0, 3, 3]
+intensity = 10
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [5, 3]
+)";
+
+const std::string corridorNodes = R"(
+[[object]]
+name = "ball"
+model = "MODELS/sphere.obj"
+position = [0.3, 1, 0.5]
+scale = 0.2
+[[light]]
+name = "lamp"
+position = [-0.5, 1.5, 0]
+radius = 0.05
+intensity = 4
+)";
+
+std::string corridorScene(const std::string& nodes) {
+  return R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.3, 0.3, 0.3]
+[camera]
+position = [0, 1, 1.5]
+target = [0, 1, -2]
+[settings]
+"view.samples" = 1
+"reflection.samples" = 1
+)" + nodes +
+         R"(# In front of the eye.
+[[mirror]]
+name = "ahead"
+position = [0, 1, -2]
+size = [3, 2]
+[[mirror]]
+name = "behind"
+position = [0, 1, 2]
+rotation = [0, 180, 0]
+size = [3, 2]
+)";
+}
+
 std::string text(double value) {
   std::ostringstream out;
   out.precision(17);

@@ -10,6 +10,15 @@
 // Scene files as text, written beside those of writeScene.
 namespace speculum::testing_support {
 
+// A ball before the eye, behind it a wall with a mirror.
+extern const std::string wallScene;
+
+// A ball and a light for corridorScene().
+extern const std::string corridorNodes;
+
+// The eye between two mirrors that face each other, and `nodes` between them.
+std::string corridorScene(const std::string& nodes = corridorNodes);
+
 // Numbers with all their digits.
 std::string text(double value);
 std::string text(const glm::dvec3& v);

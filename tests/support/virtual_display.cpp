@@ -11,7 +11,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "platform/files.hpp"
 #include "test_paths.hpp"
@@ -71,36 +73,52 @@ std::string readLine(int descriptor) {
   return line;
 }
 
+class Server {
+ public:
+  Server() {
+    int ends[2];
+    if (pipe(ends) != 0) {
+      throw std::runtime_error("no pipe");
+    }
+    server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x900x24", "-nolisten", "tcp"});
+    close(ends[1]);
+    const std::string number = readLine(ends[0]);
+    close(ends[0]);
+    if (number.empty()) {
+      stop(server_);
+      throw std::runtime_error("Xvfb did not start");
+    }
+    display_ = ":" + number;
+    use();
+    // A window that is mapped while the manager starts may wait for ever to be shown.
+    const TemporaryDirectory directory;
+    const std::filesystem::path ready = directory.path() / "ready";
+    manager_ = start({"openbox", "--config-file", (sourceDir() / "tests/openbox.xml").string(), "--startup",
+                      "touch " + ready.string()});
+    for (int i = 0; i < 1000 && !std::filesystem::exists(ready); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+  ~Server() {
+    stop(manager_);
+    stop(server_);
+  }
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  void use() const { setenv("DISPLAY", display_.c_str(), 1); }
+
+ private:
+  std::string display_;
+  pid_t server_ = 0;
+  pid_t manager_ = 0;
+};
+
 }  // namespace
 
-VirtualDisplay::VirtualDisplay(int width, int height) {
-  int ends[2];
-  if (pipe(ends) != 0) {
-    throw std::runtime_error("no pipe");
-  }
-  const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
-  server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", screen, "-nolisten", "tcp"});
-  close(ends[1]);
-  const std::string number = readLine(ends[0]);
-  close(ends[0]);
-  if (number.empty()) {
-    stop(server_);
-    throw std::runtime_error("Xvfb did not start");
-  }
-  setenv("DISPLAY", (":" + number).c_str(), 1);
-  // A window that is mapped while the manager starts may wait for ever to be shown.
-  const TemporaryDirectory directory;
-  const std::filesystem::path ready = directory.path() / "ready";
-  manager_ = start({"openbox", "--config-file", (sourceDir() / "tests/openbox.xml").string(), "--startup",
-                    "touch " + ready.string()});
-  for (int i = 0; i < 1000 && !std::filesystem::exists(ready); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-}
-
-VirtualDisplay::~VirtualDisplay() {
-  stop(manager_);
-  stop(server_);
+VirtualDisplay::VirtualDisplay() {
+  static const Server server;
+  server.use();  // a test may have pointed elsewhere
 }
 
 }  // namespace speculum::test
