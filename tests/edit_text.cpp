@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
-#include "edit/toml_text.hpp"
 #include "edit_support.hpp"
+#include "scene/toml_text.hpp"
 
 namespace speculum {
 namespace {
@@ -248,7 +248,7 @@ TEST(EditedText, AddedAndRemovedInBrackets) {
 }
 
 TEST(EditedText, SettingsInEveryForm) {
-  const auto saved = [](const std::string& text, const std::vector<SavedSetting>& changes) {
+  const auto saved = [](const std::string& text, const std::vector<SettingChange>& changes) {
     return TextScene(text).saved(changes);
   };
   const std::string quoted = std::string(kCamera) + "[settings]\n\"view.exposure\" = 1.50 # bright\n";

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "app/demo.hpp"
-#include "app/screenshot.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"

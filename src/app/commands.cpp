@@ -34,8 +34,9 @@ int runInfo() {
   for (const DeviceInfo& info : Device::list()) {
     std::printf("%d: %s\n   driver %s, Vulkan %s, %.0f MiB, %s\n", info.index, info.name.c_str(), info.driver.c_str(),
                 vulkanVersion(info.apiVersion).c_str(), static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),
-                info.unusable.empty() ? (info.dynamicRendering ? "dynamic rendering" : "render passes only")
-                                      : ("not usable: " + info.unusable).c_str());
+                info.missing            ? ("not usable: " + *info.missing).c_str()
+                : info.dynamicRendering ? "dynamic rendering"
+                                        : "render passes only");
   }
   return 0;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pass_outlines.hpp"
 #include "edit/outline.hpp"
 #include "frame/effects.hpp"
 #include "frame/pass_mask.hpp"
@@ -51,6 +50,40 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
                    .depth = probed->depth,
                    .metres = plan.projection.near / static_cast<double>(probed->storedDepth),
                    .value = probed->value};
+}
+
+// The view in which the last mirror of the path is drawn; null if it has no pass.
+const PlannedPass* seenIn(const FramePlan& plan, const std::vector<int>& path) {
+  const std::vector<int> parent(path.begin(), path.end() - 1);
+  if (parent.empty()) {
+    return &plan.main;
+  }
+  const auto pass =
+      std::find_if(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& p) { return p.view.path == parent; });
+  return pass == plan.passes.end() ? nullptr : &*pass;
+}
+
+// Where a pass's mirror is seen in the picture, in its pixels: the part that the view it is seen in can see. Views in
+// mirrors line up with the picture, so this holds for mirrors in mirrors too. Empty for a plan without such a pass.
+std::vector<glm::vec2> outlineOf(const FramePlan& plan, const std::vector<int>& path, int width, int height) {
+  std::vector<glm::vec2> outline;
+  const PlannedPass* parent = path.empty() ? nullptr : seenIn(plan, path);
+  if (!parent) {
+    return outline;
+  }
+  for (const MirrorDraw& draw : parent->mirrors) {
+    if (draw.mirror != path.back()) {
+      continue;
+    }
+    for (const glm::dvec4& clip : toClip(parent->view, plan.projection, visiblePart(parent->view, draw.polygon))) {
+      // A vertex in the eye's plane has no place on the screen.
+      if (clip.w <= 1e-12) {
+        return {};
+      }
+      outline.emplace_back((0.5 * clip.x / clip.w + 0.5) * width, (0.5 * clip.y / clip.w + 0.5) * height);
+    }
+  }
+  return outline;
 }
 
 }  // namespace
@@ -114,11 +147,9 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   }
   std::ptrdiff_t index = 0;
   for (const RecordedPass& pass : sceneRenderer.passes()) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r.id == pass; });
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == pass; });
     if (row == rows.end()) {
-      row = rows.insert(
-          rows.begin() + index,
-          PassView{.name = pass.name, .path = pass.path, .depth = pass.depth, .kind = pass.kind, .id = pass});
+      row = rows.insert(rows.begin() + index, PassView{pass, pass.name});
     }
     row->areaPx = pass.areaPx;
     row->draws = pass.draws;
@@ -134,7 +165,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   // The times are of an earlier frame, whose plan may have differed.
   const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
   for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r.id == timed[i]; });
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == timed[i]; });
     if (row != rows.end()) {
       row->gpuMs = timings.passes[i].gpuMs;
     }

@@ -1,6 +1,5 @@
 #include "app/view_sweep.hpp"
 
-#include "app/background_threads.hpp"
 #include "app/session_subject.hpp"
 #include "app/sweep_description.hpp"
 

@@ -16,7 +16,7 @@ namespace speculum {
 struct GraphicsPipelineDesc {
   std::string name;
   std::string vert;                     // e.g. "scene.vert"
-  std::string frag;                     // empty: only depth is written
+  std::optional<std::string> frag;      // none: only depth is written
   std::vector<uint32_t> vertConstants;  // specialisation constants 0, 1, ... of the vertex shader
   std::vector<uint32_t> fragConstants;
   std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
@@ -80,8 +80,7 @@ class PipelineFactory {
 // unique_ptr or std::optional. The factory outlives it.
 class Pipeline {
  public:
-  Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc);
-  Pipeline(PipelineFactory& factory, ComputePipelineDesc desc);
+  Pipeline(PipelineFactory& factory, PipelineDesc desc);
   ~Pipeline();  // the Vulkan objects go to the retire queue
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
@@ -95,7 +94,6 @@ class Pipeline {
 
  private:
   friend class PipelineFactory;
-  Pipeline(PipelineFactory& factory, PipelineDesc desc);
   VkPipelineBindPoint bindPoint() const;
   void pushBytes(VkCommandBuffer commands, const void* data, uint32_t bytes) const;
 

@@ -17,11 +17,17 @@ struct CameraPose {
   glm::dmat3 worldToView{1.0};  // rows: right, up, back (right-handed, looking down -z)
   double verticalFov = 1.0;     // radians
   double near = 0.001;          // metres
+
+  bool operator==(const CameraPose&) const = default;
 };
 
 // Throws std::invalid_argument when eye and target coincide or `up` is parallel to the view direction.
 CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,
                   double near);
+
+// Degrees that `spin` (degrees per second) has added to a rotation. Each is reduced before anything is added to it, so
+// that a long run loses no precision to a large sum.
+glm::dvec3 spunBy(const glm::dvec3& spin, double time);
 
 struct InstanceState {
   int object = 0;  // index into Scene::objects

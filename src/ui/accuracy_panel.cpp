@@ -1,13 +1,12 @@
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <cstdio>
 
 #include "frame/setting_fields.hpp"
 #include "ui/panels.hpp"
-#include "ui/setting_help.hpp"
 
 namespace speculum::panels {
 
@@ -67,9 +66,7 @@ void forTicks(double low, double high, const Draw& draw) {
 }
 
 std::string figure(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), value < 1000.0 ? "%.3g" : "%.0f", value);
-  return text;
+  return value < 1000.0 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 
 void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {

@@ -21,9 +21,9 @@ void nodeList(PanelContext& ui) {
   int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the row that was scrolled to
   int row = 0;
   for (const Selection& node : allNodes(*edit.scene)) {
-    const bool selected = sameThing(node, edit.selected);
+    const bool selected = sameNode(node, edit.selected);
     const bool other = std::any_of(edit.others.begin(), edit.others.end(),
-                                   [&](const Selection& selection) { return sameThing(selection, node); });
+                                   [&](const Selection& selection) { return sameNode(selection, node); });
     ImGui::PushID(row);
     if (ImGui::Selectable(describe(*edit.scene, node).c_str(), selected || other)) {
       const ImGuiIO& io = ImGui::GetIO();

@@ -67,9 +67,7 @@ bool polygonRows(PanelContext& ui, Mirror& mirror) {
   }
   const bool applied = changed && !polygon.problem;
   if (polygon.problem) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
-    ImGui::TextWrapped("Not applied: %s", polygon.problem->c_str());
-    ImGui::PopStyleColor();
+    coloredText(errorColor, "Not applied: " + *polygon.problem);
     if (button(ui, "Revert", "edit.polygon.reset", "Back to the mirror's vertices")) {
       polygon = {};
     }
@@ -132,7 +130,7 @@ void selectedNode(PanelContext& ui) {
   gizmoMode(ui);
   ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
   const NotePlace note = [&](const std::string& name) { notePlace(ui, name); };
-  Thing node = thingOf(*edit.scene, edit.selected);
+  SceneNode node = nodeOf(*edit.scene, edit.selected);
   bool edited = false;
   if (auto* object = std::get_if<Object>(&node)) {
     edited = fieldRows(*object, note);
@@ -144,7 +142,7 @@ void selectedNode(PanelContext& ui) {
   ImGui::PopItemWidth();
   if (edited) {
     ui.state.editing = ImGui::IsAnyItemActive();
-    ui.send(EditNode{std::move(node), ui.state.editing});
+    ui.send(EditNode{edit.selected, std::move(node), ui.state.editing});
   }
 }
 

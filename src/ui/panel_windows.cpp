@@ -10,10 +10,7 @@
 namespace speculum {
 
 PanelWindows::PanelWindows()
-    : state_{.choices = savedPanelChoices()},
-      savedChoices_(state_.choices),
-      pendingPercent_(state_.choices.percent),
-      theme_(savedTheme()) {}
+    : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
 
 UiOutput PanelWindows::build(const UiView& view) {
   PanelContext ui{.view = view, .state = state_, .settings = view.settings.current, .output = {}};
@@ -47,7 +44,7 @@ UiOutput PanelWindows::build(const UiView& view) {
   if (difference != view.accuracy.showsDifference) {
     ui.send(ShowDifference{difference});
   }
-  if (settingsKey(ui.settings) != settingsKey(view.settings.current)) {
+  if (ui.settings != view.settings.current) {
     ui.output.commands.insert(ui.output.commands.begin(), SetSettings{ui.settings});
   }
   return std::move(ui.output);
@@ -108,8 +105,8 @@ void PanelWindows::themeChoice(PanelContext& ui) {
   for (const auto& [name, place, theme] :
        {std::tuple("dark", "theme.dark", Theme::dark), std::tuple("light", "theme.light", Theme::light)}) {
     ImGui::SameLine();
-    if (ImGui::RadioButton(name, theme_ == theme)) {
-      theme_ = theme;
+    if (ImGui::RadioButton(name, state_.choices.theme == theme)) {
+      state_.choices.theme = theme;
     }
     panels::notePlace(ui, place);
   }

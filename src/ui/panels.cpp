@@ -1,11 +1,11 @@
 #include "ui/panels.hpp"
 
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <tuple>
 
-#include "ui/setting_help.hpp"
 #include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
@@ -81,13 +81,14 @@ void describe(PanelContext& ui, std::string_view key) {
     ImGui::SetTooltip("%s", settingHelp(key).c_str());
   }
   const Settings& ofScene = ui.view.settings.ofScene;
-  if (!differs(ui.settings, ofScene, key)) {
+  const SettingField& field = *findSettingField(key);
+  if (sameSetting(field, ui.settings, ofScene)) {
     return;
   }
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
   ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
   if (ImGui::ArrowButton(("reset " + std::string(key)).c_str(), ImGuiDir_Left)) {
-    resetSetting(ui.settings, ofScene, key);
+    copySetting(field, ofScene, ui.settings);
   }
   ImGui::PopStyleVar();
   notePlace(ui, "reset." + std::string(key));
@@ -121,11 +122,19 @@ bool button(PanelContext& ui, const char* label, std::string_view key, const cha
   return pressed;
 }
 
+std::string mebibytes(uint64_t bytes) {
+  return fmt::format("{:.1f}", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+void coloredText(const glm::vec3& color, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(color.r, color.g, color.b, 1.0f));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
 void message(const PanelContext& ui) {
   if (!ui.view.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
-    ImGui::TextWrapped("%s", ui.view.message.c_str());
-    ImGui::PopStyleColor();
+    coloredText(errorColor, ui.view.message);
   }
 }
 

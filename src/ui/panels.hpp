@@ -101,6 +101,10 @@ void describe(PanelContext& ui, std::string_view key);
 void tip(const char* text);
 // After a widget: records where it stands.
 void notePlace(PanelContext& ui, std::string_view key);
+std::string mebibytes(uint64_t bytes);  // without the unit
+// Wraps at the window's edge.
+inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
+void coloredText(const glm::vec3& color, const std::string& text);
 // Notes the place of a button, and explains it.
 bool button(PanelContext& ui, const char* label, std::string_view key, const char* tip, bool enabled = true);
 

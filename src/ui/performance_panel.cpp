@@ -1,4 +1,5 @@
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -15,9 +16,7 @@ constexpr std::string_view mirrorWord = "mirror ";
 constexpr size_t fewest = 60;  // frames across a graph
 
 std::string milliseconds(double ms) {
-  char text[32];
-  std::snprintf(text, sizeof text, ms < 10.0 ? "%.2f" : "%.1f", ms);
-  return std::isnan(ms) ? "-" : text;
+  return std::isnan(ms) ? "-" : ms < 10.0 ? fmt::format("{:.2f}", ms) : fmt::format("{:.1f}", ms);
 }
 
 // From 0 up; frames whose figure is not known leave a gap.

@@ -1,9 +1,9 @@
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "ui/panels.hpp"
 
@@ -123,16 +123,10 @@ std::string valueText(const Targets& targets, const std::optional<TexelView>& va
   if (!value || value->texel != *targets.pointed || value->depth != (targets.kind == Targets::Kind::depth)) {
     return "...";
   }
-  std::array<char, 128> text{};
-  if (!value->depth) {
-    const glm::dvec4& v = value->value;
-    std::snprintf(text.data(), text.size(), "RGB %.5g %.5g %.5g  A %.5g", v.r, v.g, v.b, v.a);
-  } else if (std::isinf(value->metres)) {
-    return "infinitely far";
-  } else {
-    std::snprintf(text.data(), text.size(), "%.6g m", value->metres);
-  }
-  return text.data();
+  const glm::dvec4& v = value->value;
+  return !value->depth               ? fmt::format("RGB {:.5g} {:.5g} {:.5g}  A {:.5g}", v.r, v.g, v.b, v.a)
+         : std::isinf(value->metres) ? "infinitely far"
+                                     : fmt::format("{:.6g} m", value->metres);
 }
 
 void maskImage(const TargetView& target, double zoom, const Rect& canvas, const glm::dvec2& corner) {
