@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/demo.hpp"
+#include "app/device_view.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "scene/scene_loader.hpp"
@@ -14,11 +15,6 @@
 namespace speculum {
 
 namespace {
-
-std::string vulkanVersion(uint32_t version) {
-  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-         std::to_string(VK_API_VERSION_PATCH(version));
-}
 
 // Pictures and figures go to stdout; everything that is said about them goes to stderr.
 void setUpLog(const std::string& level) {

@@ -55,12 +55,7 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
 // The view in which the last mirror of the path is drawn; null if it has no pass.
 const PlannedPass* seenIn(const FramePlan& plan, const std::vector<int>& path) {
   const std::vector<int> parent(path.begin(), path.end() - 1);
-  if (parent.empty()) {
-    return &plan.main;
-  }
-  const auto pass =
-      std::find_if(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& p) { return p.view.path == parent; });
-  return pass == plan.passes.end() ? nullptr : &*pass;
+  return parent.empty() ? &plan.main : mirrorPass(plan, parent);
 }
 
 // Where a pass's mirror is seen in the picture, in its pixels: the part that the view it is seen in can see. Views in
@@ -153,10 +148,8 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     }
     row->areaPx = pass.areaPx;
     row->draws = pass.draws;
-    const auto planned = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                      [&](const PlannedPass& p) { return p.view.path == pass.path; });
-    row->resolution =
-        planned != plan.passes.end() ? depthReadout(*planned, plan.projection, frame.scene, frame.state) : std::nullopt;
+    const PlannedPass* planned = mirrorPass(plan, pass.path);
+    row->resolution = planned ? depthReadout(*planned, plan.projection, frame.scene, frame.state) : std::nullopt;
     row->outline = outlineOf(plan, pass.path, plan.width, plan.height);
     row->framesAgo = 0;
     index = row - rows.begin() + 1;
@@ -205,20 +198,19 @@ void FrameReport::updateSkipped(const RecordedFrame& frame, const std::vector<in
 
 std::optional<DebugView> FrameReport::target(const TargetRequest& request, const FramePlan& plan,
                                              const Settings& settings, bool standardSampleLocations) {
-  const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                 [&](const PlannedPass& p) { return p.view.path == request.path; });
-  if (pass == plan.passes.end() && !request.path.empty()) {
+  const PlannedPass* mirror = mirrorPass(plan, request.path);
+  if (!mirror && !request.path.empty()) {
     return std::nullopt;
   }
   const std::optional<TexelView> value = std::move(view_.target.value);
-  view_.target = targetOf(plan, request.path.empty() ? plan.main : *pass, settings, standardSampleLocations);
+  view_.target = targetOf(plan, mirror ? *mirror : plan.main, settings, standardSampleLocations);
   view_.target.value = value;
   if (!request.area) {
     return std::nullopt;
   }
   // The image may be smaller than when it was pointed at.
   const bool within = request.probe && request.probe->x < view_.target.size.x && request.probe->y < view_.target.size.y;
-  return DebugView{.pass = static_cast<int>(pass - plan.passes.begin()),
+  return DebugView{.pass = static_cast<int>(mirror ? mirror - plan.passes.data() : std::ssize(plan.passes)),
                    .area = *request.area,
                    .kind = request.depth ? TargetKind::depth : TargetKind::color,
                    .zoom = request.zoom,

@@ -135,7 +135,7 @@ void plot(PanelContext& ui) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 15.0f * ImGui::GetFontSize());
   ImGui::InvisibleButton("plot", size);
-  notePlace(ui, "accuracy.plot");
+  recordWidget(ui, "accuracy.plot");
   const Plot plot = plotOf(accuracy, corner, size);
   const int hovered = ImGui::IsItemHovered() ? nearestPoint(plot, accuracy, ImGui::GetMousePos()) : -1;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -181,7 +181,7 @@ void frontSlider(PanelContext& ui) {
       last >= 0) {
     ui.send(ApplyPoint{accuracy.front[index]});
   }
-  notePlace(ui, "accuracy.slider");
+  recordWidget(ui, "accuracy.slider");
 }
 
 void budget(PanelContext& ui) {
@@ -191,7 +191,7 @@ void budget(PanelContext& ui) {
     if (ImGui::Checkbox(findSettingField(key)->label, &active)) {
       value = active ? usual : 0.0;
     }
-    notePlace(ui, key);
+    recordWidget(ui, key);
     tip(settingHelp(key).c_str());
     if (active) {
       ImGui::SameLine();
@@ -214,7 +214,7 @@ void budget(PanelContext& ui) {
 void differenceView(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   ImGui::Checkbox("Show difference from the reference", &ui.state.showDifference);
-  notePlace(ui, "accuracy.difference");
+  recordWidget(ui, "accuracy.difference");
   if (!ui.state.showDifference) {
     return;
   }

@@ -96,8 +96,8 @@ constexpr bool isNumbers = std::is_same_v<Value, double> || std::is_same_v<Value
 
 class FieldRows {
  public:
-  explicit FieldRows(const NotePlace& note, std::function<bool()> polygon = {})
-      : note_(note), polygon_(std::move(polygon)) {}
+  explicit FieldRows(const RecordWidget& record, std::function<bool()> polygon = {})
+      : record_(record), polygon_(std::move(polygon)) {}
 
   // True if the user changed a field.
   template <Described Node>
@@ -153,28 +153,28 @@ class FieldRows {
   }
 
   void explain(const std::string& path, std::string_view text, bool number) {
-    note_("edit." + path);
+    record_("edit." + path);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
       ImGui::SetTooltip("%s%s", std::string(text).c_str(), number ? "\ndrag, or click to type" : "");
     }
   }
 
-  const NotePlace& note_;
+  const RecordWidget& record_;
   std::function<bool()> polygon_;
 };
 
 }  // namespace
 
-bool fieldRows(Object& object, const NotePlace& note) {
-  return FieldRows(note).edit(object);
+bool fieldRows(Object& object, const RecordWidget& record) {
+  return FieldRows(record).edit(object);
 }
 
-bool fieldRows(PointLight& light, const NotePlace& note) {
-  return FieldRows(note).edit(light);
+bool fieldRows(PointLight& light, const RecordWidget& record) {
+  return FieldRows(record).edit(light);
 }
 
-bool fieldRows(Mirror& mirror, const NotePlace& note, const std::function<bool()>& polygon) {
-  return FieldRows(note, polygon).edit(mirror);
+bool fieldRows(Mirror& mirror, const RecordWidget& record, const std::function<bool()>& polygon) {
+  return FieldRows(record, polygon).edit(mirror);
 }
 
 }  // namespace speculum::panels

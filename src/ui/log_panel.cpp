@@ -14,7 +14,7 @@ void log(PanelContext& ui) {
   PanelState& state = ui.state;
   ImGui::SetNextItemWidth(11.0f * ImGui::GetFontSize());
   ImGui::InputTextWithHint("##filter", "Filter", state.logFilter.data(), state.logFilter.size());
-  notePlace(ui, "log.filter");
+  recordWidget(ui, "log.filter");
   tip("Only lines that contain this");
   ImGui::SameLine();
   int least = static_cast<int>(state.logLevel);

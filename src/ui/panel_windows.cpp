@@ -76,19 +76,19 @@ void PanelWindows::windowChoices(PanelContext& ui) {
     for (const PanelName& panel : panelNames) {
       ImGui::TableNextColumn();
       ImGui::Checkbox(panel.name.data(), &(state_.choices.*panel.open));
-      panels::notePlace(ui, "panel." + std::string(panel.name));
+      panels::recordWidget(ui, "panel." + std::string(panel.name));
       panels::tip(panel.about);
     }
     ImGui::EndTable();
   }
   const bool open = ImGui::CollapsingHeader("Window");
-  panels::notePlace(ui, "section.window");
+  panels::recordWidget(ui, "section.window");
   if (!open) {
     return;
   }
   themeChoice(ui);
   ImGui::SliderInt("size", &pendingPercent_, 50, 300, "%d %%", ImGuiSliderFlags_AlwaysClamp);
-  panels::notePlace(ui, "window.size");
+  panels::recordWidget(ui, "window.size");
   panels::tip("Size of text and widgets, relative to the monitor's scale");
   if (!ImGui::IsItemActive()) {
     state_.choices.percent = pendingPercent_;
@@ -108,7 +108,7 @@ void PanelWindows::themeChoice(PanelContext& ui) {
     if (ImGui::RadioButton(name, state_.choices.theme == theme)) {
       state_.choices.theme = theme;
     }
-    panels::notePlace(ui, place);
+    panels::recordWidget(ui, place);
   }
 }
 
@@ -122,7 +122,7 @@ void PanelWindows::presentModes(PanelContext& ui) {
     if (ImGui::RadioButton(name.c_str(), device.presentMode == i)) {
       ui.send(SetPresentMode{i});
     }
-    panels::notePlace(ui, "present." + name);
+    panels::recordWidget(ui, "present." + name);
     panels::tip(
         "fifo waits for the screen and never tears; mailbox shows the newest picture at each refresh;\n"
         "immediate shows pictures at once and may tear");

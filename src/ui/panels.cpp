@@ -17,13 +17,13 @@ void bookmarks(PanelContext& ui) {
   const int shown = camera.bookmark;
   ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
   const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? camera.bookmarks[shown].c_str() : "bookmarks");
-  notePlace(ui, "bookmarks");
+  recordWidget(ui, "bookmarks");
   if (open) {
     for (size_t i = 0; i < camera.bookmarks.size(); ++i) {
       if (ImGui::Selectable(camera.bookmarks[i].c_str(), static_cast<int>(i) == shown)) {
         ui.send(GoToBookmark{i});
       }
-      notePlace(ui, "bookmark." + camera.bookmarks[i]);
+      recordWidget(ui, "bookmark." + camera.bookmarks[i]);
     }
     ImGui::EndCombo();
   }
@@ -44,7 +44,7 @@ void sceneChoice(PanelContext& ui) {
   const BrowserView& browser = ui.view.browser;
   const SceneEntry& shown = browser.scenes[browser.shown];
   const bool open = ImGui::BeginCombo("scene", shown.name.c_str(), ImGuiComboFlags_HeightLargest);
-  notePlace(ui, "scene");
+  recordWidget(ui, "scene");
   if (!open) {
     return tip((shown.file.string() + "\nThe window \"Scenes\" has pictures of all scenes.").c_str());
   }
@@ -54,7 +54,7 @@ void sceneChoice(PanelContext& ui) {
       ui.send(OpenScene{browser.scenes[i].file});
     }
     ImGui::PopID();
-    notePlace(ui, "scene." + browser.scenes[i].name);
+    recordWidget(ui, "scene." + browser.scenes[i].name);
   }
   ImGui::EndCombo();
 }
@@ -76,7 +76,7 @@ void cameraMode(PanelContext& ui) {
 }  // namespace
 
 void describe(PanelContext& ui, std::string_view key) {
-  notePlace(ui, key);
+  recordWidget(ui, key);
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s", settingHelp(key).c_str());
   }
@@ -91,7 +91,7 @@ void describe(PanelContext& ui, std::string_view key) {
     copySetting(field, ofScene, ui.settings);
   }
   ImGui::PopStyleVar();
-  notePlace(ui, "reset." + std::string(key));
+  recordWidget(ui, "reset." + std::string(key));
   if (ImGui::IsItemHovered()) {
     const std::string value = settingValue(ofScene, key);
     ImGui::SetTooltip("Reset to scene: %s", value.empty() ? "background and sky" : value.c_str());
@@ -104,7 +104,7 @@ void tip(const char* text) {
   }
 }
 
-void notePlace(PanelContext& ui, std::string_view key) {
+void recordWidget(PanelContext& ui, std::string_view key) {
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 size = ImGui::GetItemRectSize();
   ui.state.widgets.emplace_back(key, PixelRect{static_cast<int>(low.x), static_cast<int>(low.y),
@@ -115,7 +115,7 @@ bool button(PanelContext& ui, const char* label, std::string_view key, const cha
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label);
   ImGui::EndDisabled();
-  notePlace(ui, key);
+  recordWidget(ui, key);
   if (about[0] != '\0') {
     tip(about);
   }

@@ -58,7 +58,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
   ImGui::TableNextColumn();
   const std::string title = std::to_string(node.skipped.size()) + " skipped###skipped";
   const bool open = ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
-  notePlace(ui, "skipped in " + ui.view.frame.passes[static_cast<size_t>(node.pass)].name);
+  recordWidget(ui, "skipped in " + ui.view.frame.passes[static_cast<size_t>(node.pass)].name);
   if (!open) {
     return;
   }
@@ -72,7 +72,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
     const bool nameHovered = ImGui::IsItemHovered();
     ImGui::TableNextColumn();
     textAcrossColumns(why);
-    notePlace(ui, "skipped." + skip.name);
+    recordWidget(ui, "skipped." + skip.name);
     if (nameHovered || ImGui::IsItemHovered()) {
       ui.output.hoveredSkipped = skip.path;
       ImGui::SetTooltip("%s\n%s", skip.name.c_str(), why.c_str());
@@ -98,7 +98,7 @@ void passRow(PanelContext& ui, const PassNode& node) {
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
     ui.state.hoveredPass = node.pass;
   }
-  notePlace(ui, "pass." + pass.name);
+  recordWidget(ui, "pass." + pass.name);
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;

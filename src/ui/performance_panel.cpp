@@ -50,7 +50,7 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
   }
   ImGui::TableNextColumn();
   graph(name.c_str(), values, height);
-  notePlace(ui, "graph." + name);
+  recordWidget(ui, "graph." + name);
 }
 
 bool beginRows(const char* id) {
@@ -74,7 +74,7 @@ void performance(PanelContext& ui) {
   if (ImGui::Checkbox("Pause", &paused)) {
     ui.send(PauseHistory{paused});
   }
-  notePlace(ui, "performance.pause");
+  recordWidget(ui, "performance.pause");
   ImGui::SameLine();
   if (button(ui, "Clear", "performance.clear", "")) {
     ui.send(ClearHistory{});

@@ -54,14 +54,14 @@ struct Widget {
     return ImGui::Checkbox(field.label, &boolean.value.of(settings));
   }
 
-  bool operator()(const ChoiceSetting& choice) const {
-    std::vector<std::string> names(choice.names.begin(), choice.names.end());
+  bool operator()(const ChoiceSetting& setting) const {
+    std::vector<std::string> names(setting.names.begin(), setting.names.end());
     for (std::string& name : names) {
       std::ranges::replace(name, '_', ' ');
     }
-    int index = choice.get(settings);
+    int index = setting.get(settings);
     const bool changed = choice(field.label, index, names);
-    choice.set(settings, index);
+    setting.set(settings, index);
     return changed;
   }
 

@@ -56,7 +56,7 @@ void passChoice(PanelContext& ui, const PassView* shown) {
     }
     ImGui::EndCombo();
   }
-  notePlace(ui, "targets.pass");
+  recordWidget(ui, "targets.pass");
   tip("Pass whose target is shown");
 }
 
@@ -79,7 +79,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     if (ImGui::RadioButton(choice.name, targets.kind == choice.kind)) {
       targets.kind = choice.kind;
     }
-    notePlace(ui, std::string("targets.") + choice.name);
+    recordWidget(ui, std::string("targets.") + choice.name);
     tip(choice.about);
   }
   if (button(ui, "Fit", "targets.fit", "The whole image")) {
@@ -95,7 +95,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
     ImGui::SliderFloat("##half", &half, 0.1f, 1000.0f, "grey %.3g m", ImGuiSliderFlags_Logarithmic);
     targets.halfDistance = half;
-    notePlace(ui, "targets.half");
+    recordWidget(ui, "targets.half");
     tip("Distance that is shown half bright");
   }
 }
@@ -219,7 +219,7 @@ void targets(PanelContext& ui) {
   targets.shownZoom = targets.zoom > 0.0 ? targets.zoom : std::min(size.x / image.x, size.y / image.y);
   ImGui::SetCursorScreenPos(canvas.low);
   ImGui::InvisibleButton("canvas", {canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y});
-  notePlace(ui, "targets.canvas");
+  recordWidget(ui, "targets.canvas");
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const glm::dvec2 pointer(mouse.x - canvas.low.x, mouse.y - canvas.low.y);
