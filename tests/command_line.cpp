@@ -83,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4"}, "--camera: '0,1,4' is not a camera"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,nan"}, "such as 0,1,4:0,1,0"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,0:"}, "is not a camera"},
+        UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,0:0,1,0:171"}, "is not a camera"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,4"}, "--camera: the camera's target is its"},
         UsageCase{{"reference", "--out", "x.png", "--camera", "0,1,4:0,2,4"}, "lies along its up vector"},
         UsageCase{{"render", "--out", "x.png", "--camera", "door", "--scene", "single_plane"},

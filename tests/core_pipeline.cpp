@@ -206,12 +206,12 @@ TEST_F(RendererTest, MipmapLevelsHoldTheMean) {
   const SamplerHandle sampler = createSampler(device_, {.filter = VK_FILTER_NEAREST}, "texture");
   const DescriptorSetLayoutHandle layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
   OffScreen target(device_, {.name = "target", .depth = false}, renderer_.retired());
-  const Pipeline pipeline(renderer_.pipelines(), {.name = "textured",
-                                                  .vert = "full_screen.vert",
-                                                  .frag = "textured.frag",
-                                                  .fragConstants = {std::bit_cast<uint32_t>(4.0f)},
-                                                  .setLayouts = {layout.get()},
-                                                  .depth = VK_FORMAT_UNDEFINED});
+  const Pipeline pipeline(renderer_.pipelines(), GraphicsPipelineDesc{.name = "textured",
+                                                                      .vert = "full_screen.vert",
+                                                                      .frag = "textured.frag",
+                                                                      .fragConstants = {std::bit_cast<uint32_t>(4.0f)},
+                                                                      .setLayouts = {layout.get()},
+                                                                      .depth = VK_FORMAT_UNDEFINED});
   std::optional<Frame> frame = renderer_.beginFrame();
   const VkDescriptorSet set = frame->descriptors->allocate(layout.get());
   DescriptorWriter().image(0, image.descriptor(sampler.get())).update(device_, set);

@@ -7,9 +7,9 @@
 #include <set>
 #include <sstream>
 
-#include "edit/toml_text.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/scene_fields.hpp"
+#include "scene/toml_text.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {

@@ -159,7 +159,7 @@ void editScene(SceneDocument& document) {
 
 // One of the nodes; none if there are none.
 Selection anything(const Scene& scene) {
-  const std::array counts{scene.objects.size(), scene.mirrors.size(), scene.lights.size()};
+  const std::array counts{scene.objects.size(), scene.lights.size(), scene.mirrors.size()};  // by Kind
   const int kind = whole(0, 3);
   const auto count = static_cast<int>(counts[kind]);
   return count == 0 ? Selection() : Selection{static_cast<Kind>(kind + 1), whole(0, count)};
@@ -196,11 +196,6 @@ void step(SceneDocument& document) {
     case 9:
       if (!scene.bookmarks.empty()) {
         document.removeBookmark(whole(0, static_cast<int>(scene.bookmarks.size())));
-      }
-      break;
-    case 10:
-      if (!scene.bookmarks.empty()) {
-        document.renameBookmark(0, name());
       }
       break;
     default:

@@ -3,7 +3,6 @@
 
 #include <fstream>
 
-#include "edit/save_place.hpp"
 #include "edit/scene_writer.hpp"
 #include "temporary_folder.hpp"
 

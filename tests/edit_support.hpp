@@ -29,7 +29,7 @@ struct TextScene {
         document(scene) {}
 
   // The text as it would be saved.
-  std::string saved(const std::vector<SavedSetting>& settings = {}) const { return document.text(file, settings); }
+  std::string saved(const std::vector<SettingChange>& settings = {}) const { return document.text(file, settings); }
 
   TemporaryFolder folder;
   std::filesystem::path model;

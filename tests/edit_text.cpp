@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "edit/toml_text.hpp"
 #include "edit_support.hpp"
+#include "scene/toml_text.hpp"
 
 namespace speculum {
 namespace {
@@ -218,7 +218,7 @@ TEST(EditedText, AddedAndRemovedInBrackets) {
 }
 
 TEST(EditedText, SettingsInEveryForm) {
-  const auto saved = [](const std::string& text, const std::vector<SavedSetting>& changes) {
+  const auto saved = [](const std::string& text, const std::vector<SettingChange>& changes) {
     return TextScene(text).saved(changes);
   };
   const std::string quoted = std::string(kCamera) + "[settings]\n\"view.exposure\" = 1.50 # bright\n";

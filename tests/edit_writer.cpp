@@ -259,7 +259,7 @@ TEST(SaveScene, SettingsAreSavedToo) {
   after.view.toneMap = ToneMap::aces;
   after.view.clearColor = glm::dvec3(0.1, 0.2, 0.3);
   after.reflection.maxDepth = 2;
-  const std::vector<SavedSetting> changes = settingChanges(before, after);
+  const std::vector<SettingChange> changes = settingChanges(before, after);
   EXPECT_EQ(changes.size(), 4u);
   text.document.save(text.file, changes);
   EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(after));
@@ -277,7 +277,7 @@ TEST(SaveScene, EverySettingReadsBack) {
     }
   }
   TextScene text(kText);
-  const std::vector<SavedSetting> changes = settingChanges(Settings(), other);
+  const std::vector<SettingChange> changes = settingChanges(Settings(), other);
   EXPECT_EQ(changes.size(), settingFields().size()) << "a setting is not tried";
   text.document.save(text.file, changes);
   EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(other));

@@ -292,7 +292,7 @@ TEST_F(Journey, GalleryShowsAndLoadsScenes) {
   run(3);
   EXPECT_EQ(view().browser.scenes[view().browser.shown].title, "Facing mirrors");
   const auto passes = view().frame.passes;
-  EXPECT_TRUE(std::any_of(passes.begin(), passes.end(), [](const PassView& p) { return p.depth > 0; }))
+  EXPECT_TRUE(std::any_of(passes.begin(), passes.end(), [](const PassView& p) { return p.path.size() > 1; }))
       << "mirrors in mirrors are drawn";
   expectQuiet();
 }

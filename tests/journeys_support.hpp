@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "app/demo.hpp"
-#include "app/screenshot.hpp"
+#include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"

@@ -60,22 +60,25 @@ TEST(ReferenceTracer, NumberOfThreadsChangesNoBit) {
     EXPECT_EQ(result.image.pixels, results[0].image.pixels);
     EXPECT_EQ(result.mirrorDepth, results[0].mirrorDepth);
   }
-  const glm::dvec3 pixel = tracer.pixel(options, 20, 30);
-  EXPECT_EQ(glm::vec3(pixel), results[0].image.at(20, 30));
 }
 
 TEST(ReferenceTracer, MasksSayWhatPixelCentresMeet) {
   const Scene scene = mixedScene();
-  const RayTracer tracer(scene, evaluate(scene, 0.0));
-  const TraceResult result = *tracer.render({.width = 64, .height = 48, .samples = 1, .roughSamples = 1});
+  const SceneState state = evaluate(scene, 0.0);
+  const TraceResult result =
+      *RayTracer(scene, state).render({.width = 64, .height = 48, .samples = 1, .roughSamples = 1});
+  TraceWorld world(scene);
+  world.place(state);
+  const double half = std::tan(0.5 * state.camera.verticalFov);
   int mirrors = 0;
   int background = 0;
   for (int y = 0; y < 48; ++y) {
     for (int x = 0; x < 64; ++x) {
       const size_t i = static_cast<size_t>(y) * 64 + x;
-      const PickResult pick = tracer.pickPixel(64, 48, x + 0.5, y + 0.5);
-      EXPECT_EQ(result.mirrorMask[i], pick.kind == PickResult::Kind::mirror && pick.mirrorFront);
-      EXPECT_EQ(result.backgroundMask[i], pick.kind == PickResult::Kind::nothing);
+      const glm::dvec3 view((x + 0.5 - 32.0) / 24.0 * half, (24.0 - y - 0.5) / 24.0 * half, -1.0);
+      const auto hit = world.closest({glm::dvec3(0.0), glm::transpose(state.camera.worldToView) * view}, {});
+      EXPECT_EQ(result.mirrorMask[i], hit && hit->kind == HitKind::mirror && hit->mirrorFront);
+      EXPECT_EQ(result.backgroundMask[i], !hit);
       EXPECT_EQ(result.mirrorDepth[i] > 0, result.mirrorMask[i] > 0);
       mirrors += result.mirrorMask[i];
       background += result.backgroundMask[i];
@@ -208,8 +211,11 @@ TEST(ReferenceTracer, GlyphsAreSpheresFromOutsideAndInside) {
   EXPECT_GT(tracer.radiance({}, {0, 0, 5}, {tangent * (1 - 1e-9), 0, -1}).r, 0.0);
   EXPECT_EQ(tracer.radiance({}, {0, 0, 5}, {tangent * (1 + 1e-9), 0, -1}).r, 0.0);
   EXPECT_GT(tracer.radiance({}, {0.1, 0.2, 0.1}, {1, 1, -1}).r, 0.0);
-  EXPECT_EQ(tracer.pick({0, 0, 5}, {0, 0, -1}).kind, PickResult::Kind::light);
-  EXPECT_NEAR(tracer.pick({0, 0, 5}, {0, 0, -1}).distance, 4.5, 1e-14);
+  TraceWorld world(scene);
+  world.place(evaluate(scene, 0.0));
+  const auto hit = world.closest({glm::dvec3(0.0), {0, 0, -1}}, {});
+  ASSERT_TRUE(hit && hit->kind == HitKind::glyph);
+  EXPECT_NEAR(hit->t, 4.5, 1e-14);
 }
 
 TEST(ReferenceTracer, SphereSilhouetteIsTheTangentCone) {
@@ -301,14 +307,15 @@ TEST(ReferenceTracer, ExtremeScalesStayFinite) {
   }
 }
 
-// One camera ray per pixel, at its centre: right-handed, y up, vertical field of view.
+// Right-handed, y up, vertical field of view.
 TEST(ReferenceTracer, CameraIsRightHandedWithVerticalField) {
   Scene scene;
   scene.camera = testing::cameraAt({0, 0, 0}, {0, 0, -1}, 90.0);
-  scene.lights.push_back({.position = {1, 0.5, -1}, .radius = 0.01, .glow = 1.0});
-  const RayTracer tracer(scene, evaluate(scene, 0.0));
-  EXPECT_EQ(tracer.pickPixel(200, 100, 150.0, 25.0).kind, PickResult::Kind::light);
-  EXPECT_EQ(tracer.pickPixel(200, 100, 50.0, 25.0).kind, PickResult::Kind::nothing);
+  scene.lights.push_back({.position = {1, 0.5, -1}, .radius = 0.02, .glow = 1.0});
+  const TraceResult result =
+      *RayTracer(scene, evaluate(scene, 0.0)).render({.width = 200, .height = 100, .samples = 1});
+  EXPECT_EQ(result.image.at(150, 25), glm::vec3(1.0f));
+  EXPECT_EQ(std::count(result.image.pixels.begin(), result.image.pixels.end(), glm::vec3(0.0f)), 20000 - 4);
 }
 
 }  // namespace

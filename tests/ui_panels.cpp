@@ -170,15 +170,14 @@ TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
 TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
   click("section.window", 0.1);
   click("theme.light", 0.1);
-  EXPECT_EQ(windows_->theme(), Theme::light);
+  EXPECT_EQ(windows_->state().choices.theme, Theme::light);
   drag("window.size", 0.2, 40);
   EXPECT_GT(windows_->state().choices.percent, 110);
   const int percent = windows_->state().choices.percent;
   run(2);
-  saveTheme(windows_->theme());
   stop();
   start();
-  EXPECT_EQ(windows_->theme(), Theme::light);
+  EXPECT_EQ(windows_->state().choices.theme, Theme::light);
   EXPECT_EQ(windows_->state().choices.percent, percent);
 }
 
@@ -450,9 +449,9 @@ TEST_F(AccuracyWindow, DifferenceIsShownWhileTheWindowIsOpen) {
 class TargetsWindow : public PanelTest {
  protected:
   TargetsWindow() {
-    PassView mirror{.name = "mirror wall", .path = {0}, .depth = 0};
+    PassView mirror{{.path = {0}}, "mirror wall"};
     mirror.outline = {{450, 100}, {600, 100}, {600, 200}};
-    PassView main{.name = "main view", .kind = PassKind::main};
+    const PassView main{{.kind = PassKind::main}, "main view"};
     frame_.passes = {mirror, main};
     frame_.skipped = {{.name = "mirror door", .path = {1}, .reason = "backface"}};
     frame_.target.size = {900, 700};

@@ -7,9 +7,10 @@ namespace {
 
 TEST(PassTree, MirrorsHangBelowWhatTheyAreSeenIn) {
   // In the order of recording: children before their parent.
-  const std::vector<PassView> passes = {{"mirror a > b", {0, 1}, 1},           {"mirror a", {0}, 0},
-                                        {"mirror b > a", {1, 0}, 1},           {"mirror b", {1}, 0},
-                                        {"main view", {}, -1, PassKind::main}, {"display", {}, -1, PassKind::display}};
+  const std::vector<PassView> passes = {
+      {{.path = {0, 1}}, "mirror a > b"},      {{.path = {0}}, "mirror a"},
+      {{.path = {1, 0}}, "mirror b > a"},      {{.path = {1}}, "mirror b"},
+      {{.kind = PassKind::main}, "main view"}, {{.kind = PassKind::display}, "display"}};
   const std::vector<SkippedView> skipped = {{"c", {2}, "hidden"},
                                             {"a > c", {0, 2}, "outside"},
                                             {"a > b > a", {0, 1, 0}, "max_depth"},

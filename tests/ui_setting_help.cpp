@@ -7,7 +7,6 @@
 
 #include "frame/setting_fields.hpp"
 #include "test_paths.hpp"
-#include "ui/setting_help.hpp"
 
 namespace speculum {
 namespace {
@@ -48,10 +47,10 @@ TEST(SettingHelp, ResetChangesOneSettingOnly) {
   changed.effects.roughLookup = RoughLookup::image;
   for (const char* key : {"reflection.max_depth", "view.exposure", "view.clear_color", "effects.rough_lookup"}) {
     Settings one = changed;
-    ASSERT_TRUE(differs(one, scene, key)) << key;
-    resetSetting(one, scene, key);
+    ASSERT_FALSE(sameSetting(*findSettingField(key), one, scene)) << key;
+    copySetting(*findSettingField(key), scene, one);
     for (const SettingField& field : settingFields()) {
-      EXPECT_EQ(differs(one, scene, field.key), field.key != key && differs(changed, scene, field.key)) << field.key;
+      EXPECT_EQ(sameSetting(field, one, scene), field.key == key || sameSetting(field, changed, scene)) << field.key;
     }
   }
 }

@@ -103,6 +103,23 @@ TEST_F(Editing, OtherButtonsDoNotDisturbADrag) {
   EXPECT_NEAR(object().position.x, 0.3 + 53.0 / focalPixels, 3e-4) << "the pointer is free again";
 }
 
+TEST_F(Editing, ClickOnAHandleChangesNothing) {
+  Scene scene = onDisk();
+  int changes = 0;
+  SceneEditor editor(scene, {}, [&] { ++changes; });
+  const SceneState state = evaluate(scene, 0.0);
+  const SceneView view{.state = state, .picture = PictureView(state.camera, width, height)};
+  editor.select(ball);
+  ASSERT_TRUE(editor.press(view, ballAt_ + glm::dvec2(60.0, 0.0)));
+  editor.cancelDrag();
+  EXPECT_EQ(changes, 0);
+  ASSERT_TRUE(editor.press(view, ballAt_ + glm::dvec2(60.0, 0.0)));
+  editor.drag(ballAt_ + glm::dvec2(120.0, 0.0), false);
+  EXPECT_EQ(changes, 1);
+  editor.cancelDrag();
+  EXPECT_EQ(changes, 2) << "back";
+}
+
 TEST_F(Editing, EscapeCancelsTheDragThenDeselects) {
   clickBall();
   host_.inspector = false;
@@ -148,13 +165,13 @@ TEST_F(Editing, ContinuedEditsAreOneStep) {
   Object edited = object();
   for (int i = 1; i <= 3; ++i) {
     edited.position.x += 0.1;
-    send(EditNode{edited, true});
+    send(EditNode{edit().selected, edited, true});
   }
   send(EndEdit{});
   EXPECT_NEAR(object().position.x, 0.6, 1e-12);
   EXPECT_EQ(edit().undo, "edit object 'ball'");
   edited.color = glm::dvec3(0.6);
-  send(EditNode{edited, false});
+  send(EditNode{edit().selected, edited, false});
   send(Undo{});
   EXPECT_FALSE(object().color);
   EXPECT_NEAR(object().position.x, 0.6, 1e-12);

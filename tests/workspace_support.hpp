@@ -146,7 +146,7 @@ class WorkspaceTest : public testing::Test {
   UiView view() const { return workspace_->view(device_, workspace_->problem()); }
   EditView edit() const { return view().edit; }
   const Scene& scene() const { return workspace_->scene(); }
-  Object object() const { return std::get<Object>(thingOf(scene(), edit().selected)); }
+  Object object() const { return std::get<Object>(nodeOf(scene(), edit().selected)); }
   std::string status() const { return view().status.text; }
   std::string shownScene() const { return view().browser.scenes.at(view().browser.shown).name; }
   Scene onDisk() const { return loadScene(options_.scene); }

@@ -1,5 +1,4 @@
 // Camera, bookmarks, time, captures and files of the window, by commands.
-#include "app/screenshot.hpp"
 #include "image/picture_files.hpp"
 #include "workspace_support.hpp"
 
@@ -109,6 +108,24 @@ TEST_F(WindowView, BookmarksAreGoneToAndSaved) {
   EXPECT_EQ(view().camera.bookmarks.size(), 1u);
   send(GoToBookmark{5});
   EXPECT_EQ(view().camera.bookmark, 0) << "there is none";
+}
+
+class TiltedBookmark : public WorkspaceTest {
+ protected:
+  TiltedBookmark()
+      : WorkspaceTest(corridor +
+                      "[[bookmark]]\nname = \"tilted\"\nposition = [0, 1, 1]\ntarget = [0.3, 1, 0]\nup = [1, 2, 0]\n"
+                      "vertical_fov = 30\n") {}
+};
+
+TEST_F(TiltedBookmark, KeepsItsUpAndFieldOfView) {
+  send(GoToBookmark{0});
+  send(CopyCommandLine{});
+  EXPECT_NE(host_.clipboard.find("--camera 0,1,1:0.3,1,0:1,2,0:30"), std::string::npos) << host_.clipboard;
+  send(AddBookmark{});
+  ASSERT_EQ(scene().bookmarks.size(), 2u);
+  EXPECT_EQ(scene().bookmarks[1].up, scene().bookmarks[0].up);
+  EXPECT_EQ(scene().bookmarks[1].verticalFov, scene().bookmarks[0].verticalFov);
 }
 
 TEST_F(WindowView, TimeIsPausedSteppedAndScaled) {

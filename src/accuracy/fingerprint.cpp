@@ -1,6 +1,6 @@
 #include "accuracy/fingerprint.hpp"
 
-#include <cstdio>
+#include <spdlog/fmt/fmt.h>
 
 #include "platform/files.hpp"
 
@@ -43,9 +43,7 @@ void Fingerprint::add(std::string_view text) {
 }
 
 std::string Fingerprint::hex() const {
-  char text[17];
-  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(state_));
-  return text;
+  return fmt::format("{:016x}", state_);
 }
 
 void addScene(Fingerprint& fingerprint, const Scene& scene) {

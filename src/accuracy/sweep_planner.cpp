@@ -64,13 +64,7 @@ int SweepPlanner::add(const Changes& changes, const std::string& name) {
     throw std::invalid_argument("reflection.update_interval: a sweep takes intervals up to " +
                                 std::to_string(longestInterval));
   }
-  SweepConfiguration configuration{.name = name};
-  for (const SettingField& field : settingFields()) {
-    const std::string value = settingValue(settings, field.key);
-    if (value != settingValue(base_, field.key)) {
-      configuration.changes.push_back({std::string(field.key), value});
-    }
-  }
+  SweepConfiguration configuration{.name = name, .changes = settingChanges(base_, settings)};
   auto& all = plan.configurations;
   const auto same = std::find_if(all.begin(), all.end(),
                                  [&](const SweepConfiguration& c) { return c.changes == configuration.changes; });

@@ -6,15 +6,10 @@
 
 #include "accuracy/image_metrics.hpp"
 #include "accuracy/statistics.hpp"
+#include "frame/settings.hpp"
 
 namespace speculum {
 
-// A setting as `--set key=value` takes it.
-struct SettingChange {
-  std::string key;
-  std::string value;
-  bool operator==(const SettingChange&) const = default;
-};
 // "key=value key=value"; empty for no change.
 std::string settingsText(const std::vector<SettingChange>& changes);
 

@@ -62,7 +62,7 @@ void AccuracyController::setResults(SweepResults results) {
   view_.about.clear();
   budget_ = {};
   chosen_ = -1;
-  settings_.clear();
+  settings_.reset();
 }
 
 void AccuracyController::measure(SweepRequest request) {
@@ -101,11 +101,10 @@ void AccuracyController::applyBudget(Settings& settings) {
 }
 
 void AccuracyController::findCurrentPoint(const Settings& settings) {
-  std::string key = settingsKey(settings);
-  if (key == settings_) {
+  if (settings_ == settings) {
     return;
   }
-  settings_ = std::move(key);
+  settings_ = settings;
   const auto at = std::find_if(pointSettings_.begin(), pointSettings_.end(),
                                [&](const auto& point) { return isAtPoint(settings, point); });
   view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());

@@ -45,7 +45,7 @@ class AccuracyController {
   bool coverChanged_ = false;
   SweepResults results_;
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
-  std::string settings_;                                   // that the current point was looked for with
+  std::optional<Settings> settings_;                       // that the current point was looked for with
   std::vector<MotionLevel> frontLevels_;
   int chosen_ = -1;       // point of the budget's choice that is shown
   QualityBudget budget_;  // that was applied last

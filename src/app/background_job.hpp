@@ -1,5 +1,8 @@
 #pragma once
 
+#include <tbb/task_arena.h>
+
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -98,5 +101,12 @@ class BackgroundJob {
   std::unique_ptr<Task> task_;
   std::vector<std::unique_ptr<Task>> cancelled_;  // whose threads may not have ended yet
 };
+
+// Runs `work` with half of the processor's threads; the rest stays with the window.
+template <typename Work>
+auto inBackground(const Work& work) {
+  tbb::task_arena arena(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2));
+  return arena.execute(work);
+}
 
 }  // namespace speculum

@@ -182,6 +182,13 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
   target_ = eye_ + forward * std::max(distance, radius);
 }
 
+std::optional<CameraSpec> CameraController::place() const {
+  CameraSpec spec = spec_;
+  spec.position = eye_;
+  spec.target = target_;
+  return touched_ ? std::optional(spec) : std::nullopt;
+}
+
 CameraPose CameraController::pose(const CameraPose& animated) {
   last_ = touched_ ? lookAt(eye_, target_, spec_.up, spec_.verticalFov, spec_.near) : animated;
   return last_;

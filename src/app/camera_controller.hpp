@@ -39,12 +39,8 @@ class CameraController {
   // as far off as shows all of its back. `aspect` as above.
   void lookFrom(const MirrorState& mirror, MirrorSide side, double aspect);
 
-  // Where it stands by hand; nothing while it is the scene's.
-  struct Place {
-    glm::dvec3 eye{0.0};     // world
-    glm::dvec3 target{0.0};  // world
-  };
-  std::optional<Place> place() const { return touched_ ? std::optional(Place{eye_, target_}) : std::nullopt; }
+  // The camera as it stands by hand; nothing while it is the scene's.
+  std::optional<CameraSpec> place() const;
 
   CameraPose pose(const CameraPose& animated);
 

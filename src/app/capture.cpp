@@ -2,12 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <ctime>
 #include <utility>
 
-#include "app/screenshot.hpp"
 #include "image/picture_files.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
+
+namespace {
+
+// A path that nothing has, in Speculum's folder of the user's pictures, which is created. It is named after the scene
+// and the local time.
+std::filesystem::path newPath(const std::string& scene, const std::string& ending) {
+  const std::filesystem::path folder = picturesDir() / "Speculum";
+  std::filesystem::create_directories(folder);
+  const std::time_t now = std::time(nullptr);
+  std::array<char, 32> when{};
+  std::strftime(when.data(), when.size(), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
+  const std::string name = scene + "_" + when.data();
+  std::filesystem::path path = folder / (name + ending);
+  for (int number = 2; std::filesystem::exists(path); ++number) {
+    path = folder / (name + "_" + std::to_string(number) + ending);
+  }
+  return path;
+}
+
+}  // namespace
 
 std::optional<std::string> Capture::toggleRecording(const std::string& scene, bool withPanel) {
   if (recording()) {
@@ -15,7 +37,8 @@ std::optional<std::string> Capture::toggleRecording(const std::string& scene, bo
     return recorded_;
   }
   try {
-    folder_ = newRecordingFolder(scene);
+    folder_ = newPath(scene, "");
+    std::filesystem::create_directory(*folder_);
     frames_ = 0;
     bare_ = !withPanel;
     return std::nullopt;
@@ -46,7 +69,7 @@ Capture::Saved Capture::save(const std::string& scene, const Image8& picture) {
     return saved;
   }
   try {
-    const std::filesystem::path file = newPictureFile(scene);
+    const std::filesystem::path file = newPath(scene, ".png");
     writePng(file, picture);
     return {"saved " + file.string(), true};
   } catch (const std::exception& error) {

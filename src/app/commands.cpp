@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/demo.hpp"
+#include "app/device_view.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "scene/scene_loader.hpp"
@@ -14,11 +15,6 @@
 namespace speculum {
 
 namespace {
-
-std::string vulkanVersion(uint32_t version) {
-  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-         std::to_string(VK_API_VERSION_PATCH(version));
-}
 
 // Pictures and figures go to stdout; everything that is said about them goes to stderr.
 void setUpLog(const std::string& level) {
@@ -34,8 +30,9 @@ int runInfo() {
   for (const DeviceInfo& info : Device::list()) {
     std::printf("%d: %s\n   driver %s, Vulkan %s, %.0f MiB, %s\n", info.index, info.name.c_str(), info.driver.c_str(),
                 vulkanVersion(info.apiVersion).c_str(), static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),
-                info.unusable.empty() ? (info.dynamicRendering ? "dynamic rendering" : "render passes only")
-                                      : ("not usable: " + info.unusable).c_str());
+                info.missing            ? ("not usable: " + *info.missing).c_str()
+                : info.dynamicRendering ? "dynamic rendering"
+                                        : "render passes only");
   }
   return 0;
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/device_view.hpp"
-#include "app/screenshot.hpp"
 #include "image/color.hpp"
 #include "platform/process.hpp"
 #include "ui/input_map.hpp"

@@ -27,6 +27,11 @@ FeatureView feature(const char* name, bool present, const char* without) {
 
 }  // namespace
 
+std::string vulkanVersion(uint32_t version) {
+  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+         std::to_string(VK_API_VERSION_PATCH(version));
+}
+
 DeviceView deviceView(const Renderer& renderer, const Device& device) {
   const DeviceInfo& info = device.info();
   const DeviceCaps& caps = device.caps();
@@ -34,9 +39,7 @@ DeviceView deviceView(const Renderer& renderer, const Device& device) {
   view.name = info.name;
   view.kind = kindName(info.type);
   view.driver = info.driver;
-  view.vulkan = std::to_string(VK_API_VERSION_MAJOR(info.apiVersion)) + "." +
-                std::to_string(VK_API_VERSION_MINOR(info.apiVersion)) + "." +
-                std::to_string(VK_API_VERSION_PATCH(info.apiVersion));
+  view.vulkan = vulkanVersion(info.apiVersion);
   view.renderPath = renderPathName(device.renderPath());
   for (int count = 1; count <= 64; count *= 2) {
     view.samples += caps.sampleCounts & static_cast<VkSampleCountFlags>(count) ? std::to_string(count) + " " : "";

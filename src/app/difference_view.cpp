@@ -1,12 +1,11 @@
 #include "app/difference_view.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <array>
-#include <cstdio>
 #include <utility>
 
-#include "accuracy/fingerprint.hpp"
 #include "accuracy/heat_map.hpp"
-#include "app/background_threads.hpp"
 
 namespace speculum {
 
@@ -15,40 +14,24 @@ namespace {
 constexpr std::chrono::milliseconds stillFor{400};      // before tracing begins
 constexpr std::array<int, 3> references = {4, 16, 64};  // samples a pixel: soon something to see, then better
 
-void addVector(Fingerprint& fingerprint, const glm::dvec3& v) {
-  for (int i = 0; i < 3; ++i) {
-    fingerprint.add(v[i]);
-  }
-}
-
-std::string viewKey(const ShownPicture& shown) {
-  Fingerprint fingerprint;
-  fingerprint.add(shown.scene.file.string());
-  fingerprint.add(shown.width);
-  fingerprint.add(shown.height);
-  if (moves(shown.scene)) {
-    fingerprint.add(shown.state.time);
-  }
-  addVector(fingerprint, shown.state.camera.eye);
-  for (int column = 0; column < 3; ++column) {
-    addVector(fingerprint, shown.state.camera.worldToView[column]);
-  }
-  fingerprint.add(shown.state.camera.verticalFov);
-  if (shown.settings.view.clearColor) {
-    addVector(fingerprint, *shown.settings.view.clearColor);
-  }
-  return fingerprint.hex();
-}
-
 }  // namespace
+
+DifferenceView::View DifferenceView::viewOf(const ShownPicture& shown) {
+  return {.file = shown.scene.file,
+          .width = shown.width,
+          .height = shown.height,
+          .time = moves(shown.scene) ? std::optional(shown.state.time) : std::nullopt,
+          .camera = shown.state.camera,
+          .clearColor = shown.settings.view.clearColor};
+}
 
 bool DifferenceView::reset() {
   tracing_.cancel();
   comparing_.cancel();
   truth_.reset();
   traced_ = 0;
-  view_.clear();
-  compared_.clear();
+  view_.reset();
+  compared_.reset();
   problem_.clear();
   return std::exchange(heatMap_, Image8()).width > 0;
 }
@@ -73,7 +56,7 @@ void DifferenceView::startComparing(const ShownPicture& shown, Image8 image) {
   comparing_.start(0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings](const auto&) {
     Plane2d map;
     const ErrorFigures errors = inBackground([&] { return errorsAgainst(*truth, drawn, settings, &map); });
-    return Compared{settingsKey(settings), heatColors(map), errors.whole};
+    return Compared{settings, heatColors(map), errors.whole};
   });
 }
 
@@ -89,7 +72,7 @@ bool DifferenceView::collect() {
   if (tracing_.hasResult() && !comparing_.busy()) {
     truth_ = *tracing_.takeResult();
     ++traced_;
-    compared_.clear();
+    compared_.reset();
   }
   for (const std::optional<std::string>& error : {comparing_.takeError(), tracing_.takeError()}) {
     problem_ = error.value_or(problem_);
@@ -98,7 +81,7 @@ bool DifferenceView::collect() {
 }
 
 bool DifferenceView::update(const ShownPicture& shown, const std::function<Image8()>& image) {
-  const std::string view = viewKey(shown);
+  const View view = viewOf(shown);
   if (view != view_) {
     const bool cleared = reset();
     view_ = view;
@@ -112,9 +95,8 @@ bool DifferenceView::update(const ShownPicture& shown, const std::function<Image
   if (traced_ < references.size() && !tracing_.busy() && Clock::now() - still_ > stillFor) {
     startTracing(shown);
   }
-  const std::string settings = settingsKey(shown.settings);
-  if (truth_ && settings != compared_ && !comparing_.busy()) {
-    compared_ = settings;
+  if (truth_ && shown.settings != compared_ && !comparing_.busy()) {
+    compared_ = shown.settings;
     startComparing(shown, image());
   }
   return fresh;
@@ -128,16 +110,13 @@ std::string DifferenceView::status() const {
   if (!problem_.empty()) {
     return problem_;
   }
-  char text[160];
   if (heatMap_.width > 0) {
-    std::snprintf(text, sizeof(text), "mean FLIP %.4f, RMSE %.4f, largest difference %.0f/255%s", metrics_.flip,
-                  metrics_.rmse, metrics_.maxDiff,
-                  tracing_.busy() || comparing_.busy() ? " (a finer reference is on its way)" : "");
-    return text;
+    return fmt::format("mean FLIP {:.4f}, RMSE {:.4f}, largest difference {:.0f}/255{}", metrics_.flip, metrics_.rmse,
+                       metrics_.maxDiff,
+                       tracing_.busy() || comparing_.busy() ? " (a finer reference is on its way)" : "");
   }
   if (tracing_.busy() && !truth_) {
-    std::snprintf(text, sizeof(text), "tracing the reference: %.0f %%", 100.0 * tracing_.progress().value_or(1.0));
-    return text;
+    return fmt::format("tracing the reference: {:.0f} %", 100.0 * tracing_.progress().value_or(1.0));
   }
   return truth_ ? "comparing" : "waiting for the view to stand still (pause the animation)";
 }

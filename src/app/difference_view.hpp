@@ -34,18 +34,30 @@ class DifferenceView {
  private:
   using Clock = std::chrono::steady_clock;
   struct Compared {
-    std::string settings;
+    Settings settings;
     Image8 heatMap;
     ImageMetrics metrics;
   };
   using Truth = std::shared_ptr<const GroundTruth>;
+  // What the reference depends on.
+  struct View {
+    std::filesystem::path file;
+    int width = 0;
+    int height = 0;
+    std::optional<double> time;  // of a scene that moves
+    CameraPose camera;
+    std::optional<glm::dvec3> clearColor;
 
+    bool operator==(const View&) const = default;
+  };
+
+  static View viewOf(const ShownPicture& shown);
   void startTracing(const ShownPicture& shown);
   void startComparing(const ShownPicture& shown, Image8 image);
   bool collect();
 
-  std::string view_;      // fingerprint of what the reference depends on
-  std::string compared_;  // settings of the picture compared last
+  std::optional<View> view_;
+  std::optional<Settings> compared_;  // settings of the picture compared last
   Clock::time_point still_;
   BackgroundJob<Truth> tracing_;
   BackgroundJob<Compared> comparing_;

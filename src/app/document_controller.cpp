@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "accuracy/fingerprint.hpp"
-#include "edit/save_place.hpp"
+#include "edit/scene_writer.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 
@@ -54,12 +54,12 @@ DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::
 
 // Settings are in the scene's file too.
 bool DocumentController::hasUnsaved(const Settings& settings) const {
-  return editor_.document().modified() || settingsKey(settings) != settingsKey(loaded_.settings);
+  return editor_.document().modified() || settings != loaded_.settings;
 }
 
 bool DocumentController::confirmDiscard(const Settings& settings, std::optional<Command> then) {
-  const bool alreadyDiscarded = discarded_ && discarded_->revision == editor_.document().revision() &&
-                                settingsKey(discarded_->settings) == settingsKey(settings);
+  const bool alreadyDiscarded =
+      discarded_ && discarded_->revision == editor_.document().revision() && discarded_->settings == settings;
   if (alreadyDiscarded || !prompts_ || !hasUnsaved(settings)) {
     return true;
   }
@@ -161,7 +161,7 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
 
 void DocumentController::fill(EditView& view, const Settings& settings) const {
   editor_.fill(view);
-  view.unsavedSettings = settingsKey(settings) != settingsKey(loaded_.settings);
+  view.unsavedSettings = settings != loaded_.settings;
   view.prompt = prompt_;
   view.proposedFile = proposed_;
   view.note = note_;

@@ -6,9 +6,9 @@ namespace speculum {
 
 FittedPlan FramePlanner::plan(Frame& frame, SceneRenderer& sceneRenderer, const Scene& scene, const SceneState& state,
                               Settings settings, bool rendersMain, bool settingsMove) {
-  const std::string key = settingsKey(settings);
+  const Settings asked = settings;
   std::string known;
-  if (refused_ && !settingsMove && refused_->settings != key) {
+  if (refused_ && !settingsMove && refused_->settings != asked) {
     known = refused_->problem;
     refused_.reset();
   }
@@ -28,7 +28,7 @@ FittedPlan FramePlanner::plan(Frame& frame, SceneRenderer& sceneRenderer, const 
     if (refused_) {
       throw;  // it is not for textures
     }
-    refused_ = {key, "drawn without textures until a setting is changed: " + std::string(error.what())};
+    refused_ = {asked, "drawn without textures until a setting is changed: " + std::string(error.what())};
     if (refused_->problem != known) {
       spdlog::warn("{}", refused_->problem);
     }

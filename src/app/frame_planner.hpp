@@ -22,7 +22,7 @@ class FramePlanner {
 
  private:
   struct Refused {
-    std::string settings;  // at which there was no memory for textures
+    Settings settings;  // at which there was no memory for textures
     std::string problem;
   };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/pass_outlines.hpp"
 #include "edit/outline.hpp"
 #include "frame/effects.hpp"
 #include "frame/pass_mask.hpp"
@@ -51,6 +50,35 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
                    .depth = probed->depth,
                    .metres = plan.projection.near / static_cast<double>(probed->storedDepth),
                    .value = probed->value};
+}
+
+// The view in which the last mirror of the path is drawn; null if it has no pass.
+const PlannedPass* seenIn(const FramePlan& plan, const std::vector<int>& path) {
+  const std::vector<int> parent(path.begin(), path.end() - 1);
+  return parent.empty() ? &plan.main : mirrorPass(plan, parent);
+}
+
+// Where a pass's mirror is seen in the picture, in its pixels: the part that the view it is seen in can see. Views in
+// mirrors line up with the picture, so this holds for mirrors in mirrors too. Empty for a plan without such a pass.
+std::vector<glm::vec2> outlineOf(const FramePlan& plan, const std::vector<int>& path, int width, int height) {
+  std::vector<glm::vec2> outline;
+  const PlannedPass* parent = path.empty() ? nullptr : seenIn(plan, path);
+  if (!parent) {
+    return outline;
+  }
+  for (const MirrorDraw& draw : parent->mirrors) {
+    if (draw.mirror != path.back()) {
+      continue;
+    }
+    for (const glm::dvec4& clip : toClip(parent->view, plan.projection, visiblePart(parent->view, draw.polygon))) {
+      // A vertex in the eye's plane has no place on the screen.
+      if (clip.w <= 1e-12) {
+        return {};
+      }
+      outline.emplace_back((0.5 * clip.x / clip.w + 0.5) * width, (0.5 * clip.y / clip.w + 0.5) * height);
+    }
+  }
+  return outline;
 }
 
 }  // namespace
@@ -114,19 +142,17 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   }
   std::ptrdiff_t index = 0;
   for (const RecordedPass& pass : sceneRenderer.passes()) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r.id == pass; });
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == pass; });
     if (row == rows.end()) {
-      PassView fresh{.name = pass.name, .path = pass.path, .depth = pass.depth, .kind = pass.kind, .id = pass};
-      const auto before = std::ranges::find(view_.passes, static_cast<const PassId&>(pass), &PassView::id);
+      PassView fresh{pass, pass.name};
+      const auto before = std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == pass; });
       fresh.gpuMs = before == view_.passes.end() ? 0.0 : before->gpuMs;  // few frames have their passes timed
       row = rows.insert(rows.begin() + index, std::move(fresh));
     }
     row->areaPx = pass.areaPx;
     row->draws = pass.draws;
-    const auto planned = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                      [&](const PlannedPass& p) { return p.view.path == pass.path; });
-    row->resolution =
-        planned != plan.passes.end() ? depthReadout(*planned, plan.projection, frame.scene, frame.state) : std::nullopt;
+    const PlannedPass* planned = mirrorPass(plan, pass.path);
+    row->resolution = planned ? depthReadout(*planned, plan.projection, frame.scene, frame.state) : std::nullopt;
     row->outline = outlineOf(plan, pass.path, plan.width, plan.height);
     row->framesAgo = 0;
     index = row - rows.begin() + 1;
@@ -135,7 +161,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   // The times, if it has them, are of an earlier frame, whose plan may have differed.
   const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
   for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r.id == timed[i]; });
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == timed[i]; });
     if (row != rows.end()) {
       row->gpuMs = timings.passes[i].gpuMs;
     }
@@ -175,20 +201,19 @@ void FrameReport::updateSkipped(const RecordedFrame& frame, const std::vector<in
 
 std::optional<DebugView> FrameReport::target(const TargetRequest& request, const FramePlan& plan,
                                              const Settings& settings, bool standardSampleLocations) {
-  const auto pass = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                 [&](const PlannedPass& p) { return p.view.path == request.path; });
-  if (pass == plan.passes.end() && !request.path.empty()) {
+  const PlannedPass* mirror = mirrorPass(plan, request.path);
+  if (!mirror && !request.path.empty()) {
     return std::nullopt;
   }
   const std::optional<TexelView> value = std::move(view_.target.value);
-  view_.target = targetOf(plan, request.path.empty() ? plan.main : *pass, settings, standardSampleLocations);
+  view_.target = targetOf(plan, mirror ? *mirror : plan.main, settings, standardSampleLocations);
   view_.target.value = value;
   if (!request.area) {
     return std::nullopt;
   }
   // The image may be smaller than when it was pointed at.
   const bool within = request.probe && request.probe->x < view_.target.size.x && request.probe->y < view_.target.size.y;
-  return DebugView{.pass = static_cast<int>(pass - plan.passes.begin()),
+  return DebugView{.pass = static_cast<int>(mirror ? mirror - plan.passes.data() : std::ssize(plan.passes)),
                    .area = *request.area,
                    .kind = request.depth ? TargetKind::depth : TargetKind::color,
                    .zoom = request.zoom,

@@ -1,25 +1,14 @@
 #include "app/node_drag.hpp"
 
-#include <array>
-#include <cstdio>
+#include <spdlog/fmt/fmt.h>
 
 namespace speculum {
-
-namespace {
-
-std::string text(const char* format, double a, double b = 0.0, double c = 0.0) {
-  std::array<char, 96> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, a, b, c);
-  return buffer.data();
-}
-
-}  // namespace
 
 NodeDrag::NodeDrag(GizmoDrag gizmo, const Scene& scene, const SceneState& state, std::span<const Selection> nodes,
                    const glm::dvec2& pixel)
     : gizmo_(std::move(gizmo)), time_(state.time), pixel_(pixel) {
   for (const Selection& node : nodes) {
-    starts_.push_back({node, thingOf(scene, node), pivotOf(scene, state, node)});
+    starts_.push_back({node, nodeOf(scene, node), pivotOf(scene, state, node)});
   }
 }
 
@@ -34,7 +23,7 @@ std::vector<PlacedNode> NodeDrag::to(const glm::dvec2& pixel, bool snap) {
 }
 
 // A light has no orientation, so it orbits the pivot.
-Thing NodeDrag::dragged(const Start& start) const {
+SceneNode NodeDrag::dragged(const Start& start) const {
   const glm::dvec3& pivot = starts_.front().pivot;
   if (!turns()) {
     return moved(start.node, change_.translation, time_);
@@ -51,12 +40,13 @@ Thing NodeDrag::dragged(const Start& start) const {
 std::string NodeDrag::label() const {
   const int axis = axisOf(handle());
   if (turns()) {
-    return std::string(1, "XYZ"[axis]) + text("  %+.1f deg", change_.degrees);
+    return std::string(1, "XYZ"[axis]) + fmt::format("  {:+.1f} deg", change_.degrees);
   }
   if (handle() <= Grip::moveZ) {
-    return std::string(1, "XYZ"[axis]) + text("  %+.3f m", change_.translation[axis]);
+    return std::string(1, "XYZ"[axis]) + fmt::format("  {:+.3f} m", change_.translation[axis]);
   }
-  return text("%+.3f  %+.3f  %+.3f m", change_.translation.x, change_.translation.y, change_.translation.z);
+  return fmt::format("{:+.3f}  {:+.3f}  {:+.3f} m", change_.translation.x, change_.translation.y,
+                     change_.translation.z);
 }
 
 }  // namespace speculum

@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-using PlacedNode = std::pair<Selection, Thing>;
+using PlacedNode = std::pair<Selection, SceneNode>;
 
 // Selected nodes that a handle moves or turns together, from press to release.
 class NodeDrag {
@@ -29,10 +29,10 @@ class NodeDrag {
  private:
   struct Start {
     Selection selection;
-    Thing node;
+    SceneNode node;
     glm::dvec3 pivot{0.0};  // world
   };
-  Thing dragged(const Start& start) const;
+  SceneNode dragged(const Start& start) const;
 
   GizmoDrag gizmo_;
   std::vector<Start> starts_;

@@ -9,6 +9,7 @@
 #include "app/usage.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
@@ -29,19 +30,25 @@ PictureSize parseSize(const std::string& text) {
   return size;
 }
 
-std::optional<glm::dvec3> parsePoint(std::string_view text) {
-  glm::dvec3 point(0.0);
-  const char* at = text.data();
-  const char* end = at + text.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [next, error] = std::from_chars(at, end, point[axis]);
-    const bool ended = axis < 2 ? next != end && *next == ',' : next == end;
-    if (error != std::errc() || !ended || !std::isfinite(point[axis])) {
+// Lists of numbers separated by commas, the lists by colons; nothing for any other text.
+std::optional<std::vector<std::vector<double>>> parseLists(std::string_view text) {
+  std::vector<std::vector<double>> lists(1);
+  const char* end = text.data() + text.size();
+  for (const char* at = text.data();;) {
+    double value = 0.0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || !std::isfinite(value) || (next != end && *next != ',' && *next != ':')) {
       return std::nullopt;
     }
-    at = next + (axis < 2 ? 1 : 0);
+    lists.back().push_back(value);
+    if (next == end) {
+      return lists;
+    }
+    if (*next == ':') {
+      lists.emplace_back();
+    }
+    at = next + 1;
   }
-  return point;
 }
 
 // Anything else is the name of a bookmark.
@@ -50,23 +57,23 @@ bool meansPoints(const std::string& text) {
          text.find(',') != std::string::npos;
 }
 
-CameraPlace parseCamera(const std::string& text) {
-  std::vector<glm::dvec3> points;
-  for (size_t start = 0; start <= text.size();) {
-    const size_t colon = std::min(text.find(':', start), text.size());
-    const std::optional<glm::dvec3> point = parsePoint(std::string_view(text).substr(start, colon - start));
-    if (!point || points.size() == 3) {
-      points.clear();
-      break;
-    }
-    points.push_back(*point);
-    start = colon + 1;
-  }
-  if (points.size() < 2) {
+Bookmark parseCamera(const std::string& text) {
+  const auto lists = parseLists(text).value_or(std::vector<std::vector<double>>());
+  const size_t count = lists.size();
+  const bool points =
+      std::all_of(lists.begin(), lists.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(count, 3)),
+                  [](const auto& list) { return list.size() == 3; });
+  const bool angle = count < 4 || (lists[3].size() == 1 && kFieldOfView.contains(lists[3][0]));
+  if (count < 2 || count > 4 || !points || !angle) {
     throw UsageError("--camera: '" + text +
-                     "' is not a camera (position:target or position:target:up, such as 0,1,4:0,1,0)");
+                     "' is not a camera (position:target, position:target:up or position:target:up:FOV with a vertical "
+                     "field of view of 1 .. 170 degrees, such as 0,1,4:0,1,0)");
   }
-  return {points[0], points[1], points.size() == 3 ? std::optional(points[2]) : std::nullopt};
+  const auto point = [&](size_t i) { return glm::dvec3(lists[i][0], lists[i][1], lists[i][2]); };
+  return {.position = point(0),
+          .target = point(1),
+          .up = count > 2 ? std::optional(point(2)) : std::nullopt,
+          .verticalFov = count > 3 ? std::optional(lists[3][0]) : std::nullopt};
 }
 
 // Collected as text by the parser and checked afterwards, where messages can say what would be right.
@@ -114,7 +121,8 @@ void addTime(CLI::App& app, Options& options) {
 void addCamera(CLI::App& app, Raw& raw) {
   app.add_option(
       "--camera", raw.camera,
-      "X,Y,Z:X,Y,Z[:X,Y,Z]: position, target and up in the place of the scene's; or a bookmark of the scene");
+      "X,Y,Z:X,Y,Z[:X,Y,Z[:DEG]]: position, target, up and vertical field of view in the place of the scene's; or a "
+      "bookmark of the scene");
 }
 
 void addRender(CLI::App& app, Options& options, Raw& raw) {

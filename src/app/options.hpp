@@ -8,19 +8,13 @@
 #include <vector>
 
 #include "core/renderer.hpp"
+#include "scene/scene.hpp"
 
 namespace speculum {
 
 struct PictureSize {
   int width = 1280;
   int height = 720;
-};
-
-// --camera. World space, metres.
-struct CameraPlace {
-  glm::dvec3 eye{0.0};
-  glm::dvec3 target{0.0};
-  std::optional<glm::dvec3> up;  // the scene's unless given
 };
 
 // The command line, parsed and checked; what the scene's [settings] say is added when the scene is loaded.
@@ -32,10 +26,10 @@ struct Options {
   std::filesystem::path out;
   std::filesystem::path stats;
   std::filesystem::path json;
-  double time = 0.0;                  // seconds
-  std::optional<CameraPlace> camera;  // in the place of the scene's
-  std::string bookmark;               // the same, by the name that the scene has for it; empty: not given
-  int frames = 0;                     // 0: the command's default
+  double time = 0.0;               // seconds
+  std::optional<Bookmark> camera;  // in the place of the scene's, without a name
+  std::string bookmark;            // the same, by the name that the scene has for it; empty: not given
+  int frames = 0;                  // 0: the command's default
   double fps = 30.0;
   int warmup = 10;
   int samples = 64;

@@ -80,12 +80,6 @@ bool isSet(const Options& options, std::string_view key) {
   return std::any_of(options.settings.begin(), options.settings.end(), [&](const auto& s) { return s.first == key; });
 }
 
-std::string fixed(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", value);
-  return text;
-}
-
 void addPrices(nlohmann::ordered_json& merged, const std::vector<EffectPrice>& prices) {
   for (size_t i = 0; i < prices.size(); ++i) {
     if (!prices[i].empty()) {
@@ -100,7 +94,8 @@ void printEffects(const nlohmann::ordered_json& effects) {
   for (const auto& effect : effects) {
     if (effect["called_for"].get<bool>()) {
       const auto ms = [&](const char* key) {
-        return effect["gpu_ms"].is_null() ? std::string("-") : fixed(effect["gpu_ms"][key].get<double>());
+        return effect["gpu_ms"].is_null() ? std::string("-")
+                                          : fmt::format("{:.3f}", effect["gpu_ms"][key].get<double>());
       };
       std::printf("%-40s %6s %10s %10s %8s %10s %10s\n", effect["name"].get<std::string>().c_str(), "",
                   ms("median").c_str(), ms("p95").c_str(), effect["draws"].dump().c_str(),

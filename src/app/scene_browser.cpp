@@ -35,6 +35,7 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
 
 void SceneBrowser::list(const fs::path& file) {
   const std::vector<SceneEntry> before = std::exchange(view_.scenes, {});
+  indices_.clear();
   for (const fs::path& own : filesIn(file.parent_path())) {
     if (isSceneFile(own)) {
       add(own);
@@ -52,18 +53,14 @@ void SceneBrowser::list(const fs::path& file) {
 
 size_t SceneBrowser::add(const fs::path& file) {
   std::error_code error;
-  const fs::path wanted = fs::weakly_canonical(file, error);
-  const auto found = std::find_if(view_.scenes.begin(), view_.scenes.end(), [&](const SceneEntry& other) {
-    return fs::weakly_canonical(other.file, error) == wanted;
-  });
-  if (found == view_.scenes.end()) {
+  const auto [known, isNew] = indices_.try_emplace(fs::weakly_canonical(file, error), view_.scenes.size());
+  if (isNew) {
     const bool model = isModelFile(file);
     view_.scenes.push_back({.name = (model ? file.filename() : file.stem()).string(),
                             .title = model ? std::string() : sceneTitle(file),
                             .file = fs::absolute(file, error).lexically_normal()});
-    return view_.scenes.size() - 1;
   }
-  return static_cast<size_t>(found - view_.scenes.begin());
+  return known->second;
 }
 
 bool SceneBrowser::show(const fs::path& file, bool withFolder) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "app/background_job.hpp"
 #include "app/session.hpp"
 #include "ui/views.hpp"
@@ -39,6 +41,7 @@ class SceneBrowser {
   size_t add(const std::filesystem::path& file);  // its index
 
   BrowserView view_;
+  std::map<std::filesystem::path, size_t> indices_;  // into BrowserView::scenes, by canonical path
   BackgroundJob<std::unique_ptr<LoadedScene>, Progress> load_;
 };
 

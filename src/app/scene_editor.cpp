@@ -17,13 +17,6 @@ constexpr double sameSpot = 4.0;       // pixels within which a click repeats th
 constexpr double objectAhead = 2.5;    // half diagonals of a model, to stand before it and not in it
 constexpr double farthestAhead = 4.0;  // metres from the eye to where nodes are added
 
-template <typename Item>
-void replaceItem(std::vector<Item>& items, int index, const Thing& node) {
-  if (const Item* item = std::get_if<Item>(&node)) {
-    items.at(static_cast<size_t>(index)) = *item;
-  }
-}
-
 }  // namespace
 
 SceneEditor::SceneEditor(Scene& scene, std::span<const std::filesystem::path> shipped,
@@ -70,7 +63,7 @@ void SceneEditor::selectNext(int step) {
     return;
   }
   const auto now = std::find_if(nodes.begin(), nodes.end(),
-                                [&](const Selection& node) { return sameThing(node, document_.selection()); });
+                                [&](const Selection& node) { return sameNode(node, document_.selection()); });
   const auto count = static_cast<int>(nodes.size());
   const int start = now != nodes.end() ? static_cast<int>(now - nodes.begin()) : step > 0 ? -1 : 0;
   select(nodes[static_cast<size_t>((start + step + count) % count)]);
@@ -82,12 +75,12 @@ void SceneEditor::toggle(const Selection& node) {
   forgetPath();
   const Selection first = document_.selection();
   const auto other =
-      std::find_if(others_.begin(), others_.end(), [&](const Selection& other) { return sameThing(other, node); });
+      std::find_if(others_.begin(), others_.end(), [&](const Selection& other) { return sameNode(other, node); });
   if (!first) {
     document_.select(node);
   } else if (other != others_.end()) {
     others_.erase(other);
-  } else if (!sameThing(first, node)) {
+  } else if (!sameNode(first, node)) {
     others_.push_back({.kind = node.kind, .index = node.index});
   } else {
     document_.select(others_.empty() ? Selection() : others_.front());
@@ -167,7 +160,9 @@ void SceneEditor::release() {
 
 void SceneEditor::cancelDrag() {
   if (drag_) {
-    beforeChange_();
+    if (document_.gestureChanges()) {
+      beforeChange_();
+    }
     drag_.reset();
     document_.cancelGesture();
   }
@@ -181,22 +176,18 @@ void SceneEditor::replace(const std::string& verb, std::span<const PlacedNode> n
   }
   document_.change(verb + " " + describe(document_.scene(), selections), selections.front(), [&](Scene& scene) {
     for (const auto& [selection, node] : nodes) {
-      replaceItem(scene.objects, selection.index, node);
-      replaceItem(scene.lights, selection.index, node);
-      replaceItem(scene.mirrors, selection.index, node);
+      withNodes(scene, selection.kind, [&](auto& nodes, const auto&) {
+        nodes.at(selection.index) = std::get<typename std::decay_t<decltype(nodes)>::value_type>(node);
+      });
     }
   });
 }
 
-void SceneEditor::edit(const Thing& node, bool continued) {
-  const Selection selected = document_.selection();
-  if (!selected) {
-    return;
-  }
+void SceneEditor::edit(const Selection& target, const SceneNode& node, bool continued) {
   if (continued && !document_.inGesture()) {
     document_.beginGesture();
   }
-  replace("edit", std::array{PlacedNode(selected, node)});
+  replace("edit", std::array{PlacedNode(target, node)});
   if (!continued) {
     endEdit();
   }
@@ -295,7 +286,7 @@ void SceneEditor::step(void (SceneDocument::*way)()) {
   const Selection first = document_.selection();
   (document_.*way)();
   forgetPath();
-  if (document_.structureRevision() != structure || !sameThing(document_.selection(), first)) {
+  if (document_.structureRevision() != structure || !sameNode(document_.selection(), first)) {
     others_.clear();
   }
 }

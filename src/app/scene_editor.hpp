@@ -45,8 +45,8 @@ class SceneEditor {
   void setMode(GizmoMode mode) { mode_ = mode; }
   void toggleMode() { mode_ = mode_ == GizmoMode::move ? GizmoMode::turn : GizmoMode::move; }
 
-  // Replaces the selected node. With `continued` further edits until endEdit() belong to the same step of undo.
-  void edit(const Thing& node, bool continued);
+  // Replaces a node by one of its kind. With `continued` further edits until endEdit() belong to the same step of undo.
+  void edit(const Selection& target, const SceneNode& node, bool continued);
   void endEdit();
   void addMirror(const SceneView& view);  // in the middle of the view, as the next two
   void addLight(const SceneView& view);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/screenshot.hpp"
 #include "platform/folders.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
@@ -74,19 +73,27 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
 }
 
 std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene) {
-  if (!options.bookmark.empty()) {
-    const CameraSpec camera = cameraOf(bookmarkNamed(options.bookmark, scene), scene.camera);
-    return lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
-  }
-  if (!options.camera) {
+  if (options.bookmark.empty() && !options.camera) {
     return std::nullopt;
   }
-  const auto& [eye, target, up] = *options.camera;
+  const CameraSpec camera =
+      cameraOf(options.camera ? *options.camera : bookmarkNamed(options.bookmark, scene), scene.camera);
   try {
-    return lookAt(eye, target, up.value_or(scene.camera.up), scene.camera.verticalFov, scene.camera.near);
+    return lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
   } catch (const std::invalid_argument& error) {
     throw UsageError("--camera: " + std::string(error.what()) + " (position:target:up, of which the three differ)");
   }
+}
+
+Image8 pictureOf(Pixels pixels) {
+  Image8 image;
+  image.width = static_cast<int>(pixels.extent.width);
+  image.height = static_cast<int>(pixels.extent.height);
+  image.rgba = std::move(pixels.rgba);
+  for (size_t i = 3; i < image.rgba.size(); i += 4) {
+    image.rgba[i] = 255;
+  }
+  return image;
 }
 
 DeviceOptions deviceOptions(const Options& options, Window* window) {

@@ -30,6 +30,9 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
 // The camera of --camera; nothing if it is not given. Throws UsageError for one that looks nowhere.
 std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene);
 
+// The opaque picture of what the renderer has read back.
+Image8 pictureOf(Pixels pixels);
+
 DeviceOptions deviceOptions(const Options& options, Window* window);
 RendererOptions rendererOptions(const Options& options, Window* window);
 

@@ -34,9 +34,8 @@ ordered_json metres(const std::optional<double>& value) {
 // Depth resolution of the mirror pass with that path; null for other passes and where only the background is seen.
 ordered_json depthJson(const Session& session, const std::vector<int>& path) {
   const DrawnFrame& frame = session.lastFrame();
-  const auto pass = std::find_if(frame.plan.passes.begin(), frame.plan.passes.end(),
-                                 [&](const PlannedPass& planned) { return planned.view.path == path; });
-  if (pass == frame.plan.passes.end()) {
+  const PlannedPass* pass = mirrorPass(frame.plan, path);
+  if (!pass) {
     return nullptr;
   }
   const auto readout = depthReadout(*pass, frame.plan.projection, session.scene(), frame.state);

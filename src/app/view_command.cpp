@@ -1,25 +1,27 @@
 #include "app/view_command.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <string_view>
 
-#include "frame/setting_fields.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
 
 namespace {
 
-// The shortest text that reads as the same number.
-std::string numberText(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+// Numbers are the shortest texts that read as the same.
+std::string pointText(const glm::dvec3& point) {
+  return fmt::format("{},{},{}", point.x, point.y, point.z);
 }
 
-std::string pointText(const glm::dvec3& point) {
-  return numberText(point.x) + "," + numberText(point.y) + "," + numberText(point.z);
+std::string cameraText(const Bookmark& camera, const CameraSpec& usual) {
+  std::string text = pointText(camera.position) + ":" + pointText(camera.target);
+  if (camera.up || camera.verticalFov) {
+    text += ":" + pointText(camera.up.value_or(usual.up));
+  }
+  return text + (camera.verticalFov ? fmt::format(":{}", *camera.verticalFov) : "");
 }
 
 std::string quoted(const std::string& argument) {
@@ -46,13 +48,10 @@ std::string sceneText(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> settingArguments(const Scene& scene, const Settings& settings) {
-  const Settings own = settingsOf(scene);
   std::vector<std::string> arguments;
-  for (const SettingField& field : settingFields()) {
-    const std::string value = settingValue(settings, field.key);
-    if (field.key != "view.continuous" && field.key.rfind("quality.", 0) != 0 &&
-        value != settingValue(own, field.key)) {
-      arguments.insert(arguments.end(), {"--set", std::string(field.key) + "=" + value});
+  for (const SettingChange& change : settingChanges(settingsOf(scene), settings)) {
+    if (change.key != "view.continuous" && !change.key.starts_with("quality.")) {
+      arguments.insert(arguments.end(), {"--set", change.key + "=" + change.value});
     }
   }
   return arguments;
@@ -66,11 +65,9 @@ std::string viewCommand(const Options& options, const std::filesystem::path& fil
       "speculum", "render",
       "--scene",  sceneText(file),
       "--size",   std::to_string(options.size.width) + "x" + std::to_string(options.size.height),
-      "--time",   numberText(options.time)};
+      "--time",   fmt::to_string(options.time)};
   if (options.camera) {
-    const auto& [eye, target, up] = *options.camera;
-    arguments.insert(arguments.end(),
-                     {"--camera", pointText(eye) + ":" + pointText(target) + (up ? ":" + pointText(*up) : "")});
+    arguments.insert(arguments.end(), {"--camera", cameraText(*options.camera, scene.camera)});
   }
   for (std::string& argument : settingArguments(scene, settings)) {
     arguments.push_back(std::move(argument));

@@ -67,10 +67,17 @@ void ViewController::goToNextBookmark(const Scene& scene) {
   }
 }
 
-Bookmark ViewController::bookmark(const CameraPose& pose) const {
+Bookmark ViewController::bookmark(const CameraPose& pose, const CameraSpec& usual) const {
+  const std::optional<CameraSpec> place = camera_.place();
   const glm::dvec3 ahead = pose.eye - glm::dvec3(glm::transpose(pose.worldToView)[2]);
-  const auto place = camera_.place();
-  return {.name = "view", .position = pose.eye, .target = place ? place->target : ahead};
+  Bookmark bookmark{.name = "view", .position = pose.eye, .target = place ? place->target : ahead};
+  if (place && place->up != usual.up) {
+    bookmark.up = place->up;
+  }
+  if (place && place->verticalFov != usual.verticalFov) {
+    bookmark.verticalFov = place->verticalFov;
+  }
+  return bookmark;
 }
 
 void ViewController::listBookmarks(const Scene& scene) {

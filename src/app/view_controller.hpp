@@ -18,7 +18,8 @@ class ViewController {
 
   void goToBookmark(size_t index, const Scene& scene);
   void goToNextBookmark(const Scene& scene);
-  Bookmark bookmark(const CameraPose& pose) const;  // of the present view
+  // The present view. It has an up and a field of view of its own if a bookmark gave them.
+  Bookmark bookmark(const CameraPose& pose, const CameraSpec& usual) const;
   void listBookmarks(const Scene& scene);
   void setBookmark(int index) { view_.bookmark = index; }
 

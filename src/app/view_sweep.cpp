@@ -1,6 +1,6 @@
 #include "app/view_sweep.hpp"
 
-#include "app/background_threads.hpp"
+#include "app/background_job.hpp"
 #include "app/session_subject.hpp"
 #include "app/sweep_description.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/screenshot.hpp"
 #include "app/view_command.hpp"
 #include "platform/folders.hpp"
 
@@ -68,7 +67,7 @@ void Workspace::apply(const Command& command) {
                  [&](const FrameSelection&) { frameSelection(); },
                  [&](const LookFromMirror& c) { lookFromMirror(c.side); },
                  [&](const AddBookmark&) {
-                   editor().addBookmark(camera_.bookmark(state(time()).camera));
+                   editor().addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
                    camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
                  },
                  [&](const GoToBookmark& c) { camera_.goToBookmark(c.index, scene()); },
@@ -111,7 +110,7 @@ void Workspace::apply(const Command& command) {
                  },
                  [&](const SetGizmoMode& c) { editor().setMode(c.mode); },
                  [&](const ToggleGizmoMode&) { editor().toggleMode(); },
-                 [&](const EditNode& c) { editor().edit(c.node, c.continued); },
+                 [&](const EditNode& c) { editor().edit(c.target, c.node, c.continued); },
                  [&](const EndEdit&) { editor().endEdit(); },
                  [&](const AddMirror&) {
                    if (const auto view = sceneView(time())) {
@@ -400,8 +399,8 @@ void Workspace::copyCommandLine() {
   try {
     const fs::path file = document_->savedOrCopy(loaded_->settings);
     Options options = shownOptions(file);
-    if (const auto place = camera_.camera().place()) {
-      options.camera = CameraPlace{place->eye, place->target, std::nullopt};
+    if (camera_.camera().place()) {
+      options.camera = camera_.bookmark(state(time()).camera, scene().camera);
     }
     const std::string command = viewCommand(options, file, scene(), settings_.current);
     host_.setClipboard(command);

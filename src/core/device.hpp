@@ -38,7 +38,7 @@ struct DeviceInfo {
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
   uint64_t memoryBytes = 0;  // of the largest device-local heap
   bool dynamicRendering = false;
-  std::string unusable;  // empty, or the feature that is missing
+  std::optional<std::string> missing;  // feature without which the device is not usable
 };
 
 struct DeviceCaps {

@@ -11,12 +11,4 @@ std::map<std::string, int64_t> liveObjects() {
   return all;
 }
 
-int64_t liveObjectCount() {
-  int64_t sum = 0;
-  for (const auto& [type, count] : liveObjects()) {
-    sum += count;
-  }
-  return sum;
-}
-
 }  // namespace speculum

@@ -55,7 +55,6 @@ inline std::atomic<int64_t> liveHandles{0};
 
 // Live handles by the name of the Vulkan type; types without any are left out.
 std::map<std::string, int64_t> liveObjects();
-int64_t liveObjectCount();
 
 // Owns a child of an instance or a device and destroys it with `destroy(owner, object, nullptr)`. Move-only.
 template <typename T, auto destroy>
@@ -74,16 +73,11 @@ class Handle {
   }
   Handle(Handle&& other) noexcept
       : owner_(other.owner_), object_(std::exchange(other.object_, static_cast<T>(VK_NULL_HANDLE))) {}
-  Handle& operator=(Handle&& other) noexcept {
-    if (this != &other) {
-      reset();
-      owner_ = other.owner_;
-      object_ = std::exchange(other.object_, static_cast<T>(VK_NULL_HANDLE));
-    }
+  Handle& operator=(Handle other) noexcept {
+    std::swap(owner_, other.owner_);
+    std::swap(object_, other.object_);
     return *this;
   }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
   ~Handle() { reset(); }
 
   T get() const { return object_; }

@@ -76,7 +76,7 @@ uint64_t largestLocalHeap(VkPhysicalDevice device) {
   return bytes;
 }
 
-std::string missing(const PhysicalDevice& device) {
+std::optional<std::string> missing(const PhysicalDevice& device) {
   if (device.properties.apiVersion < VK_API_VERSION_1_1) {
     return "Vulkan 1.1";
   }
@@ -89,7 +89,7 @@ std::string missing(const PhysicalDevice& device) {
   if (!(device.caps.sampleCounts & VK_SAMPLE_COUNT_1_BIT)) {
     return "RGBA16F colour and D32F depth attachments";
   }
-  return "";
+  return std::nullopt;
 }
 
 PhysicalDevice inspect(VkPhysicalDevice handle, int index) {
@@ -118,7 +118,7 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index) {
                  .type = device.properties.deviceType,
                  .memoryBytes = largestLocalHeap(handle),
                  .dynamicRendering = caps.dynamicRendering};
-  device.info.unusable = missing(device);
+  device.info.missing = missing(device);
   return device;
 }
 
@@ -160,7 +160,7 @@ const PhysicalDevice* find(const std::vector<PhysicalDevice>& devices, const std
 const PhysicalDevice* best(const std::vector<PhysicalDevice>& devices) {
   const PhysicalDevice* chosen = nullptr;
   for (const PhysicalDevice& device : devices) {
-    if (device.info.unusable.empty() && (!chosen || rank(device.info.type) < rank(chosen->info.type))) {
+    if (!device.info.missing && (!chosen || rank(device.info.type) < rank(chosen->info.type))) {
       chosen = &device;
     }
   }
@@ -191,14 +191,14 @@ const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const s
       return *chosen;
     }
     throw std::runtime_error("no GPU is usable: " + devices.front().info.name + " lacks " +
-                             devices.front().info.unusable + " (update its driver, or install mesa-vulkan-drivers)");
+                             *devices.front().info.missing + " (update its driver, or install mesa-vulkan-drivers)");
   }
   const PhysicalDevice* chosen = find(devices, wanted);
   if (!chosen) {
     throw std::runtime_error("--gpu: no GPU '" + wanted + "' (there are: " + listOf(devices) + ")");
   }
-  if (!chosen->info.unusable.empty()) {
-    throw std::runtime_error("--gpu: " + chosen->info.name + " lacks " + chosen->info.unusable +
+  if (chosen->info.missing) {
+    throw std::runtime_error("--gpu: " + chosen->info.name + " lacks " + *chosen->info.missing +
                              " (choose another: " + listOf(devices) + ")");
   }
   return *chosen;

@@ -116,7 +116,7 @@ bool uses(const PipelineDesc& desc, const std::vector<std::string>& shaders) {
     return listed(compute->comp);
   }
   const auto& graphics = std::get<GraphicsPipelineDesc>(desc);
-  return listed(graphics.vert) || listed(graphics.frag);
+  return listed(graphics.vert) || (graphics.frag && listed(*graphics.frag));
 }
 
 }  // namespace
@@ -161,8 +161,8 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
   const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.vertConstants);
   std::vector<VkPipelineShaderStageCreateInfo> stages = {vert.info()};
   std::optional<Stage> frag;
-  if (!desc.frag.empty()) {
-    frag.emplace(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(desc.frag), desc.fragConstants);
+  if (desc.frag) {
+    frag.emplace(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(*desc.frag), desc.fragConstants);
     stages.push_back(frag->info());
   }
   const auto vertexInput = vertexInputState(desc);
@@ -174,7 +174,7 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
   const auto raster = rasterization(desc, device_.caps());
   const auto samples = multisampling(desc, device_.caps());
   const auto depth = depthState(desc);
-  const auto attachment = blending(desc.adds, !desc.frag.empty());
+  const auto attachment = blending(desc.adds, desc.frag.has_value());
   const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                                   .attachmentCount = 1,
                                                   .pAttachments = &attachment};
@@ -220,12 +220,6 @@ Pipeline::Pipeline(PipelineFactory& factory, PipelineDesc desc)
       pipeline_(factory.build(desc_, layout_.get())) {
   factory_.pipelines_.push_back(this);
 }
-
-Pipeline::Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc)
-    : Pipeline(factory, PipelineDesc(std::move(desc))) {}
-
-Pipeline::Pipeline(PipelineFactory& factory, ComputePipelineDesc desc)
-    : Pipeline(factory, PipelineDesc(std::move(desc))) {}
 
 Pipeline::~Pipeline() {
   std::erase(factory_.pipelines_, this);

@@ -17,7 +17,7 @@ namespace speculum {
 struct GraphicsPipelineDesc {
   std::string name;
   std::string vert;                     // e.g. "scene.vert"
-  std::string frag;                     // empty: only depth is written
+  std::optional<std::string> frag;      // none: only depth is written
   std::vector<uint32_t> vertConstants;  // specialisation constants 0, 1, ... of the vertex shader
   std::vector<uint32_t> fragConstants;
   std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
@@ -81,8 +81,7 @@ class PipelineFactory {
 // unique_ptr or std::optional. The factory outlives it.
 class Pipeline {
  public:
-  Pipeline(PipelineFactory& factory, GraphicsPipelineDesc desc);
-  Pipeline(PipelineFactory& factory, ComputePipelineDesc desc);
+  Pipeline(PipelineFactory& factory, PipelineDesc desc);
   ~Pipeline();  // the Vulkan objects go to the retire queue
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
@@ -98,7 +97,6 @@ class Pipeline {
 
  private:
   friend class PipelineFactory;
-  Pipeline(PipelineFactory& factory, PipelineDesc desc);
   VkPipelineBindPoint bindPoint() const;
   void pushBytes(VkCommandBuffer commands, const void* data, uint32_t bytes) const;
 

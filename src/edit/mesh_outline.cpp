@@ -5,7 +5,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
+
+#include "geometry/weld.hpp"
 
 namespace speculum {
 
@@ -14,39 +15,24 @@ namespace {
 constexpr size_t mostPoints = 512;
 constexpr size_t mostTriangles = 50'000;
 
-bool before(const glm::dvec3& a, const glm::dvec3& b) {
-  return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-}
-
-// Index of the first vertex at the same position, one per vertex: normals and textures split vertices.
-std::vector<uint32_t> firstAtPosition(const Mesh& mesh) {
-  const auto at = [&](uint32_t i) -> const glm::dvec3& { return mesh.vertices[i].position; };
-  std::vector<uint32_t> order(mesh.vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return before(at(a), at(b)); });
-  std::vector<uint32_t> first(order.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    first[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? first[order[i - 1]] : order[i];
-  }
-  return first;
-}
-
 std::vector<MeshEdge> edgesOf(const Mesh& mesh) {
-  const std::vector<uint32_t> first = firstAtPosition(mesh);
-  std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> third;  // vertices beside an edge
+  PointWelder welder;                                                    // normals and textures split vertices
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> third;  // points beside an edge
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const std::array<uint32_t, 3> corner{first[mesh.indices[i]], first[mesh.indices[i + 1]],
-                                         first[mesh.indices[i + 2]]};
+    std::array<uint32_t, 3> corner{};
+    for (size_t k = 0; k < 3; ++k) {
+      corner[k] = welder.weld(mesh.vertices[mesh.indices[i + k]].position);
+    }
     const bool flat = corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0];
     for (size_t k = 0; !flat && k < 3; ++k) {
       third[std::minmax({corner[k], corner[(k + 1) % 3]})].push_back(corner[(k + 2) % 3]);
     }
   }
+  const std::vector<glm::dvec3>& at = welder.points();
   std::vector<MeshEdge> edges;
   edges.reserve(third.size());
   for (const auto& [ends, beside] : third) {
-    const auto at = [&](uint32_t i) { return mesh.vertices[i].position; };
-    edges.push_back({at(ends.first), at(ends.second), at(beside.front()), at(beside.back()), beside.size() != 2});
+    edges.push_back({at[ends.first], at[ends.second], at[beside.front()], at[beside.back()], beside.size() != 2});
   }
   return edges;
 }

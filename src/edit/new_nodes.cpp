@@ -50,8 +50,8 @@ glm::dvec3 stepInPlane(const MirrorState& state) {
 }
 
 // An orbit moves along, so that the light circles as before.
-Thing copyMoved(const Thing& node, const glm::dvec3& step) {
-  Thing copy = moved(node, step, 0.0);
+SceneNode copyMoved(const SceneNode& node, const glm::dvec3& step) {
+  SceneNode copy = moved(node, step, 0.0);
   if (auto* light = std::get_if<PointLight>(&copy); light && light->orbit) {
     light->orbit->center += step;
   }
@@ -81,7 +81,7 @@ Object newObject(const Scene& scene, int mesh, const glm::dvec3& position) {
   return object;
 }
 
-Thing copyBeside(const Scene& scene, const Selection& selection) {
+SceneNode copyBeside(const Scene& scene, const Selection& selection) {
   const size_t index = selection.index;
   switch (selection.kind) {
     case Selection::Kind::object: {
@@ -98,7 +98,7 @@ Thing copyBeside(const Scene& scene, const Selection& selection) {
   }
 }
 
-std::vector<Thing> copiesBeside(const Scene& scene, std::span<const Selection> nodes) {
+std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes) {
   const SceneState state = evaluate(scene, 0.0);
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -110,9 +110,9 @@ std::vector<Thing> copiesBeside(const Scene& scene, std::span<const Selection> n
     low = std::min(low, x + std::min(row, 0.0) - reach);
     high = std::max(high, x + std::max(row, 0.0) + reach);
   }
-  std::vector<Thing> copies;
+  std::vector<SceneNode> copies;
   for (const Selection& node : nodes) {
-    copies.push_back(copyMoved(thingOf(scene, node), {1.1 * (high - low), 0.0, 0.0}));
+    copies.push_back(copyMoved(nodeOf(scene, node), {1.1 * (high - low), 0.0, 0.0}));
   }
   return copies;
 }

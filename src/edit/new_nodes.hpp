@@ -19,9 +19,9 @@ PointLight newLight(const glm::dvec3& position, const glm::dvec3& viewer);
 Object newObject(const Scene& scene, int mesh, const glm::dvec3& position);
 
 // A copy a little beside the node; an object with copies as a whole. Throws std::out_of_range for what does not exist.
-Thing copyBeside(const Scene& scene, const Selection& selection);
+SceneNode copyBeside(const Scene& scene, const Selection& selection);
 // Copies of several nodes, moved by the same step so that they stay together beside the originals.
-std::vector<Thing> copiesBeside(const Scene& scene, std::span<const Selection> nodes);
+std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes);
 
 // "teapot", "teapot 2", "teapot 3": the first name that is not taken, counting on from the number that `wanted` ends
 // in. No name stays none.

@@ -3,14 +3,8 @@
 #include <algorithm>
 
 #include "geometry/reflection.hpp"
-#include "scene/fresnel.hpp"
-#include "scene/trace_world.hpp"
 
 namespace speculum {
-
-struct Picker::World : TraceWorld {
-  using TraceWorld::TraceWorld;
-};
 
 namespace {
 
@@ -44,26 +38,22 @@ Ray reflectedRay(const Ray& ray, const Plane& plane, double t) {
 
 }  // namespace
 
-Picker::Picker(const Scene& scene) : world_(std::make_unique<World>(scene)) {}
-
-Picker::~Picker() = default;
-
 std::vector<Picked> Picker::at(const SceneState& state, const PictureView& picture, const glm::dvec2& pixel,
                                const PickLimits& limits) {
-  world_->place(state);
+  world_.place(state);
   const glm::dvec3& eye = state.camera.eye;
   Ray ray{glm::dvec3(0.0), glm::normalize(picture.ray(pixel).direction)};
   Skip skip;
   std::vector<Picked> found;
   std::vector<int> path;
   glm::dvec3 throughput(1.0);
-  while (const auto hit = world_->closest(ray, skip)) {
-    found.push_back({selectionOf(*hit, *world_), path, eye + ray.at(hit->t)});
+  while (const auto hit = world_.closest(ray, skip)) {
+    found.push_back({selectionOf(*hit, world_), path, eye + ray.at(hit->t)});
     if (hit->kind != HitKind::mirror) {
       break;
     }
-    const Mirror& mirror = world_->scene().mirrors[static_cast<size_t>(hit->index)];
-    const MirrorState& placed = world_->mirrors()[static_cast<size_t>(hit->index)];
+    const Mirror& mirror = world_.scene().mirrors[static_cast<size_t>(hit->index)];
+    const MirrorState& placed = world_.mirrors()[static_cast<size_t>(hit->index)];
     path.push_back(hit->index);
     throughput *=
         mirrorReflectance(mirror.reflectance, mirror.fresnel, std::abs(glm::dot(placed.normal, ray.direction)));

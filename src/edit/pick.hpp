@@ -1,10 +1,9 @@
 #pragma once
 
-#include <memory>
-
 #include "edit/picture_view.hpp"
 #include "edit/selection.hpp"
 #include "frame/frame_plan.hpp"
+#include "scene/trace_world.hpp"
 
 namespace speculum {
 
@@ -28,10 +27,7 @@ struct PickLimits {
 class Picker {
  public:
   // Keeps a reference to the scene, whose meshes must not change; builds their hierarchies.
-  explicit Picker(const Scene& scene);
-  ~Picker();
-  Picker(const Picker&) = delete;
-  Picker& operator=(const Picker&) = delete;
+  explicit Picker(const Scene& scene) : world_(scene) {}
 
   // First the node that the ray through a point of the picture ends on, then the mirrors on its way, the one nearest to
   // the eye last; empty where the background is seen directly. Reflections are followed as planar mirrors draw them;
@@ -40,8 +36,7 @@ class Picker {
                          const PickLimits& limits);
 
  private:
-  struct World;
-  std::unique_ptr<World> world_;
+  TraceWorld world_;
 };
 
 }  // namespace speculum

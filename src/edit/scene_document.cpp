@@ -1,9 +1,9 @@
 #include "edit/scene_document.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
-#include "frame/setting_fields.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 
@@ -43,51 +43,33 @@ bool sameFile(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
-SceneDocument::SceneDocument(Scene& scene) : scene_(scene), saved_(contentOf(scene)) {
-  origins_ = saved_.origins;
-  loaded_ = {.file = scene.file,
-             .text = scene.text,
-             .title = scene.title,
-             .environment = scene.environment,
-             .camera = scene.camera,
-             .settings = scene.settings,
-             .objects = scene.objects,
-             .lights = scene.lights,
-             .mirrors = scene.mirrors,
-             .bookmarks = scene.bookmarks};
+SceneDocument::SceneDocument(Scene& scene) : scene_(scene) {
+  const auto count = [](std::vector<int>& origins, size_t size) {
+    origins.resize(size);
+    std::iota(origins.begin(), origins.end(), 0);
+  };
+  count(scene.origins.objects, scene.objects.size());
+  count(scene.origins.lights, scene.lights.size());
+  count(scene.origins.mirrors, scene.mirrors.size());
+  count(scene.origins.bookmarks, scene.bookmarks.size());
+  saved_ = scene;
+  static_cast<SceneContent&>(loaded_) = saved_;
+  loaded_.file = scene.file;
+  loaded_.text = scene.text;
+  loaded_.settings = scene.settings;
   if (!isModelFile(scene.file)) {
     savedFile_ = scene.file;
     savedText_ = scene.text;
   }
 }
 
-SceneContent SceneDocument::content() const {
-  return {.environment = scene_.environment,
-          .camera = scene_.camera,
-          .objects = scene_.objects,
-          .lights = scene_.lights,
-          .mirrors = scene_.mirrors,
-          .bookmarks = scene_.bookmarks,
-          .origins = origins_};
-}
-
-void SceneDocument::restore(const SceneContent& content) {
-  scene_.environment = content.environment;
-  scene_.camera = content.camera;
-  scene_.objects = content.objects;
-  scene_.lights = content.lights;
-  scene_.mirrors = content.mirrors;
-  scene_.bookmarks = content.bookmarks;
-  origins_ = content.origins;
-}
-
-void SceneDocument::noteChange(const SceneContent& before) {
+void SceneDocument::recordChange(const SceneContent& before) {
   ++revision_;
   structureRevision_ += sameStructure(before, content()) ? 0 : 1;
 }
 
 void SceneDocument::record(Step step) {
-  noteChange(step.content);
+  recordChange(step.content);
   selection_ = step.after;
   if (gesture_) {
     gesture_->label = std::move(step.label);
@@ -118,7 +100,7 @@ void SceneDocument::change(const std::string& label, const Selection& selection,
       throw std::logic_error("a change of values added or removed something");
     }
   } catch (...) {
-    restore(before);
+    content() = before;
     throw;
   }
   if (content() == before) {
@@ -129,59 +111,49 @@ void SceneDocument::change(const std::string& label, const Selection& selection,
 }
 
 Selection SceneDocument::structural(const std::string& label, const std::function<Selection()>& edit) {
-  SceneContent before = content();
-  const Selection selected = selection_;
-  const Selection after = edit();
-  record({.label = label, .content = std::move(before), .before = selected, .after = after});
+  Step step{.label = label, .content = content(), .before = selection_};
+  const Selection after = step.after = edit();
+  record(std::move(step));
   return after;
 }
 
-Selection SceneDocument::append(const Thing& node) {
-  const auto append = [](auto& nodes, std::vector<int>& origins, auto added, Selection::Kind kind) {
-    added.name = freeName(added.name, nodes);
-    nodes.push_back(std::move(added));
+Selection SceneDocument::append(const SceneNode& node) {
+  Selection added{.kind = kindOf(node)};
+  withNodes(content(), added.kind, [&](auto& nodes, std::vector<int>& origins) {
+    auto copy = std::get<typename std::decay_t<decltype(nodes)>::value_type>(node);
+    copy.name = freeName(copy.name, nodes);
+    added.index = static_cast<int>(nodes.size());
+    nodes.push_back(std::move(copy));
     origins.push_back(-1);
-    return Selection{.kind = kind, .index = static_cast<int>(nodes.size()) - 1};
-  };
-  if (const auto* object = std::get_if<Object>(&node)) {
-    return append(scene_.objects, origins_.objects, *object, Selection::Kind::object);
-  }
-  if (const auto* light = std::get_if<PointLight>(&node)) {
-    return append(scene_.lights, origins_.lights, *light, Selection::Kind::light);
-  }
-  return append(scene_.mirrors, origins_.mirrors, std::get<Mirror>(node), Selection::Kind::mirror);
+  });
+  return added;
 }
 
 void SceneDocument::erase(const Selection& selection) {
-  const auto erase = [&](auto& nodes, std::vector<int>& origins) {
+  withNodes(content(), selection.kind, [&](auto& nodes, std::vector<int>& origins) {
     nodes.erase(nodes.begin() + selection.index);
     origins.erase(origins.begin() + selection.index);
-  };
-  if (selection.kind == Selection::Kind::object) {
-    erase(scene_.objects, origins_.objects);
-  } else if (selection.kind == Selection::Kind::mirror) {
-    erase(scene_.mirrors, origins_.mirrors);
-  } else {
-    erase(scene_.lights, origins_.lights);
-  }
+  });
+}
+
+Selection SceneDocument::add(const SceneNode& node) {
+  Step step{.content = content(), .before = selection_};
+  const Selection added = step.after = append(node);
+  step.label = "add " + describe(scene_, added);
+  record(std::move(step));
+  return added;
 }
 
 Selection SceneDocument::addMirror(const glm::dvec3& position, const glm::dvec3& viewer) {
-  Mirror mirror = newMirror(position, viewer);
-  mirror.name = freeName(mirror.name, scene_.mirrors);
-  return structural("add mirror '" + mirror.name + "'", [&] { return append(mirror); });
+  return add(newMirror(position, viewer));
 }
 
 Selection SceneDocument::addLight(const glm::dvec3& position, const glm::dvec3& viewer) {
-  PointLight light = newLight(position, viewer);
-  light.name = freeName(light.name, scene_.lights);
-  return structural("add light '" + light.name + "'", [&] { return append(light); });
+  return add(newLight(position, viewer));
 }
 
 Selection SceneDocument::addObject(int mesh, const glm::dvec3& position) {
-  Object object = newObject(scene_, mesh, position);
-  object.name = freeName(object.name, scene_.objects);
-  return structural("add object '" + object.name + "'", [&] { return append(object); });
+  return add(newObject(scene_, mesh, position));
 }
 
 Selection SceneDocument::duplicate(const Selection& selection) {
@@ -193,7 +165,7 @@ Selection SceneDocument::duplicate(const Selection& selection) {
 std::vector<Selection> SceneDocument::duplicate(std::span<const Selection> nodes) {
   std::vector<Selection> copies;
   structural("duplicate " + describe(scene_, nodes), [&] {
-    for (const Thing& copy : copiesBeside(scene_, nodes)) {
+    for (const SceneNode& copy : copiesBeside(scene_, nodes)) {
       copies.push_back(append(copy));
     }
     return copies.front();
@@ -224,7 +196,7 @@ std::string SceneDocument::addBookmark(Bookmark bookmark) {
   bookmark.name = freeName(bookmark.name.empty() ? "view" : bookmark.name, scene_.bookmarks);
   structural("add bookmark '" + bookmark.name + "'", [&] {
     scene_.bookmarks.push_back(bookmark);
-    origins_.bookmarks.push_back(-1);
+    scene_.origins.bookmarks.push_back(-1);
     return selection_;
   });
   return bookmark.name;
@@ -233,19 +205,9 @@ std::string SceneDocument::addBookmark(Bookmark bookmark) {
 void SceneDocument::removeBookmark(size_t index) {
   structural("remove bookmark '" + scene_.bookmarks.at(index).name + "'", [&] {
     scene_.bookmarks.erase(scene_.bookmarks.begin() + static_cast<std::ptrdiff_t>(index));
-    origins_.bookmarks.erase(origins_.bookmarks.begin() + static_cast<std::ptrdiff_t>(index));
+    scene_.origins.bookmarks.erase(scene_.origins.bookmarks.begin() + static_cast<std::ptrdiff_t>(index));
     return selection_;
   });
-}
-
-std::string SceneDocument::renameBookmark(size_t index, const std::string& name) {
-  const std::string before = scene_.bookmarks.at(index).name;
-  if (name.empty() || name == before) {
-    return before;
-  }
-  const std::string chosen = freeName(name, scene_.bookmarks);
-  change("rename bookmark '" + before + "'", {}, [&](Scene& scene) { scene.bookmarks[index].name = chosen; });
-  return chosen;
 }
 
 void SceneDocument::beginGesture() {
@@ -269,13 +231,16 @@ void SceneDocument::cancelGesture() {
   if (!gesture_) {
     return;
   }
-  const Step step = *std::exchange(gesture_, std::nullopt);
-  const SceneContent now = content();
+  Step step = *std::exchange(gesture_, std::nullopt);
   selection_ = step.before;
-  if (!(now == step.content)) {
-    restore(step.content);
-    noteChange(now);
+  if (content() != step.content) {
+    swapContent(step);
   }
+}
+
+void SceneDocument::swapContent(Step& step) {
+  std::swap(content(), step.content);
+  recordChange(step.content);
 }
 
 void SceneDocument::undo() {
@@ -286,11 +251,8 @@ void SceneDocument::undo() {
   Step step = std::move(undo_.back());
   undo_.pop_back();
   undoBytes_ -= step.bytes;
-  SceneContent now = content();
-  restore(step.content);
-  noteChange(now);
+  swapContent(step);
   selection_ = step.before;
-  step.content = std::move(now);
   redo_.push_back(std::move(step));
 }
 
@@ -301,17 +263,14 @@ void SceneDocument::redo() {
   }
   Step step = std::move(redo_.back());
   redo_.pop_back();
-  SceneContent now = content();
-  restore(step.content);
-  noteChange(now);
+  swapContent(step);
   selection_ = step.after;
-  step.content = std::move(now);
   push(std::move(step));
 }
 
 bool SceneDocument::modified() const {
   if (!modified_ || modified_->first != revision_) {
-    modified_ = {revision_, !(content() == saved_)};
+    modified_ = {revision_, content() != saved_};
   }
   return modified_->second;
 }
@@ -320,11 +279,11 @@ fs::path SceneDocument::usualFile() const {
   return isModelFile(scene_.file) ? fs::path(scene_.file).replace_extension(".toml") : scene_.file;
 }
 
-std::string SceneDocument::text(const fs::path& file, std::span<const SavedSetting> settings) const {
+std::string SceneDocument::text(const fs::path& file, std::span<const SettingChange> settings) const {
   return editedText(loaded_, content(), scene_.meshes, settings, file);
 }
 
-void SceneDocument::save(const fs::path& file, std::span<const SavedSetting> settings, bool overwrite) {
+void SceneDocument::save(const fs::path& file, std::span<const SettingChange> settings, bool overwrite) {
   endGesture();
   if (isModelFile(file)) {
     throw SaveError(oneLine(file.string() + ": not saved: it is the name of a model (name a file such as " +
@@ -339,17 +298,6 @@ void SceneDocument::save(const fs::path& file, std::span<const SavedSetting> set
   scene_.settings = parseScene(file, text).settings;
   scene_.text = text;
   savedText_ = std::move(text);
-}
-
-std::vector<SavedSetting> settingChanges(const Settings& from, const Settings& to) {
-  std::vector<SavedSetting> changes;
-  for (const SettingField& field : settingFields()) {
-    std::string value = settingValue(to, field.key);
-    if (settingValue(from, field.key) != value) {
-      changes.push_back({std::string(field.key), std::move(value)});
-    }
-  }
-  return changes;
 }
 
 }  // namespace speculum

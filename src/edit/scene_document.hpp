@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "edit/new_nodes.hpp"
-#include "edit/scene_content.hpp"
 #include "edit/scene_writer.hpp"
-#include "frame/settings.hpp"
 
 namespace speculum {
 
@@ -38,6 +36,7 @@ class SceneDocument {
   void endGesture();
   void cancelGesture();  // back to the beginning
   bool inGesture() const { return gesture_.has_value(); }
+  bool gestureChanges() const { return gesture_ && content() != gesture_->content; }  // anything so far
 
   // Each adds a node in one step, selects it and returns where it is; see new_nodes.hpp.
   Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer);
@@ -54,7 +53,6 @@ class SceneDocument {
   // The bookmark gets a name that no other has; returned.
   std::string addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
-  std::string renameBookmark(size_t index, const std::string& name);
 
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }
@@ -76,11 +74,11 @@ class SceneDocument {
 
   // Where save() goes unless told otherwise: the scene's file, or a scene file beside a model.
   std::filesystem::path usualFile() const;
-  // Writes the scene with the settings that changed since it was loaded, and makes the file the scene's. Throws
-  // SaveError; see writeSceneFile for `overwrite`.
-  void save(const std::filesystem::path& file, std::span<const SavedSetting> settings, bool overwrite = false);
+  // Writes the scene with the settings that changed since it was loaded (an empty value takes the key out), and makes
+  // the file the scene's. Throws SaveError; see writeSceneFile for `overwrite`.
+  void save(const std::filesystem::path& file, std::span<const SettingChange> settings, bool overwrite = false);
   // The text that save() would write.
-  std::string text(const std::filesystem::path& file, std::span<const SavedSetting> settings) const;
+  std::string text(const std::filesystem::path& file, std::span<const SettingChange> settings) const;
 
  private:
   // Content that undo or redo restores, and the selection before and after the step.
@@ -92,19 +90,20 @@ class SceneDocument {
     size_t bytes = 0;
   };
 
-  SceneContent content() const;
-  void restore(const SceneContent& content);
-  void noteChange(const SceneContent& before);
+  SceneContent& content() { return scene_; }
+  const SceneContent& content() const { return scene_; }
+  void recordChange(const SceneContent& before);
+  void swapContent(Step& step);  // puts its content in place and keeps that which was
   void record(Step step);
   void push(Step step);
   // Records `edit` as a step; it returns what is then selected.
   Selection structural(const std::string& label, const std::function<Selection()>& edit);
-  Selection append(const Thing& node);  // with a name of its own, without a step
+  Selection add(const SceneNode& node);     // as a step
+  Selection append(const SceneNode& node);  // with a name of its own, without a step
   void erase(const Selection& selection);
 
   Scene& scene_;
   Scene loaded_;  // without meshes and textures
-  SceneContent::Origins origins_;
   std::deque<Step> undo_;
   std::vector<Step> redo_;
   size_t undoBytes_ = 0;
@@ -117,8 +116,5 @@ class SceneDocument {
   uint64_t structureRevision_ = 0;
   mutable std::optional<std::pair<uint64_t, bool>> modified_;  // at a revision
 };
-
-// Settings that differ between the two, for save().
-std::vector<SavedSetting> settingChanges(const Settings& from, const Settings& to);
 
 }  // namespace speculum

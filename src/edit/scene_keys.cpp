@@ -1,6 +1,6 @@
 #include "edit/scene_keys.hpp"
 
-#include "edit/toml_text.hpp"
+#include "scene/toml_text.hpp"
 
 namespace speculum {
 

@@ -4,15 +4,13 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "edit/scene_keys.hpp"
 #include "edit/toml_editor.hpp"
-#include "edit/toml_text.hpp"
-#include "frame/settings.hpp"
 #include "platform/files.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
+#include "scene/toml_text.hpp"
 
 namespace speculum {
 
@@ -97,7 +95,7 @@ std::vector<TomlNode*> findSetting(TomlNode& table, std::string_view key) {
   return {};
 }
 
-std::string settingText(const SavedSetting& change) {
+std::string settingText(const SettingChange& change) {
   const nlohmann::ordered_json usual = settingsJson(Settings())[change.key];
   if (usual.is_string()) {
     return tomlText(std::string_view(change.value));
@@ -109,9 +107,9 @@ std::string settingText(const SavedSetting& change) {
   return text;
 }
 
-void editSettings(TomlEditor& editor, const Settings& loaded, std::span<const SavedSetting> changes) {
+void editSettings(TomlEditor& editor, const Settings& loaded, std::span<const SettingChange> changes) {
   std::vector<KeyText> fresh;
-  for (const SavedSetting& change : changes) {
+  for (const SettingChange& change : changes) {
     TomlNode* settings = editor.outline().child("settings");
     const std::vector<TomlNode*> found = settings ? findSetting(*settings, change.key) : std::vector<TomlNode*>();
     if (settingValue(loaded, change.key) == change.value) {
@@ -161,7 +159,7 @@ void check(const fs::path& file, const std::string& text, const SceneContent& co
   const std::string remedy = "undo the last changes; the file is as it was";
   try {
     const Scene read = parseScene(file, text);
-    if (!readsBack(read, content) || settingsKey(settingsOf(read)) != settingsKey(settings)) {
+    if (!readsBack(read, content) || settingsOf(read) != settings) {
       refuse(file, "what was written does not read back as the scene", remedy);
     }
   } catch (const InputError& error) {
@@ -179,31 +177,13 @@ void check(const fs::path& file, const std::string& text, const SceneContent& co
 
 }  // namespace
 
-SceneContent contentOf(const Scene& scene) {
-  SceneContent content{.environment = scene.environment,
-                       .camera = scene.camera,
-                       .objects = scene.objects,
-                       .lights = scene.lights,
-                       .mirrors = scene.mirrors,
-                       .bookmarks = scene.bookmarks};
-  const auto count = [](std::vector<int>& origins, size_t size) {
-    origins.resize(size);
-    std::iota(origins.begin(), origins.end(), 0);
-  };
-  count(content.origins.objects, scene.objects.size());
-  count(content.origins.lights, scene.lights.size());
-  count(content.origins.mirrors, scene.mirrors.size());
-  count(content.origins.bookmarks, scene.bookmarks.size());
-  return content;
-}
-
 std::string editedText(const Scene& loaded, const SceneContent& edited, std::span<const Mesh> meshes,
-                       std::span<const SavedSetting> settings, const fs::path& file) {
+                       std::span<const SettingChange> settings, const fs::path& file) {
   SceneContent content = edited;
   nameModels(loaded, meshes, file, content);
   Settings wanted = settingsOf(loaded);
   const Settings before = wanted;
-  for (const SavedSetting& change : settings) {
+  for (const SettingChange& change : settings) {
     if (change.value.empty() && change.key == "view.clear_color") {
       wanted.view.clearColor.reset();
     } else if (const auto problem = setSetting(wanted, change.key, change.value)) {
@@ -236,6 +216,28 @@ void writeSceneFile(const fs::path& file, const std::string& text, const std::op
     throw;
   } catch (const std::runtime_error& problem) {
     throw SaveError(oneLine("not saved: " + std::string(problem.what())));
+  }
+}
+
+fs::path sceneFileNamed(const fs::path& file) {
+  if (!file.has_filename()) {
+    refuse(file, "there is no file name", "add one such as scene.toml");
+  }
+  return file.extension() == ".toml" || isModelFile(file) ? file : fs::path(file) += ".toml";
+}
+
+void requireFolder(const fs::path& file) {
+  std::error_code none;
+  fs::path missing;
+  fs::path folder = fs::absolute(file, none).parent_path();  // empty in a folder that was deleted
+  for (; !folder.empty() && !fs::is_directory(folder, none); folder = folder.parent_path()) {
+    missing = folder;
+  }
+  if (folder.empty()) {
+    refuse(file, "the working folder does not exist any more", "name a whole path");
+  }
+  if (!missing.empty()) {
+    refuse(file, "there is no folder " + missing.string(), "create it, or name a file in another");
   }
 }
 

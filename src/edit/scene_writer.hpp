@@ -6,15 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "edit/scene_content.hpp"
+#include "frame/settings.hpp"
 
 namespace speculum {
-
-// A key of [settings] with its value as settingValue() gives it; an empty value takes the key out.
-struct SavedSetting {
-  std::string key;
-  std::string value;
-};
 
 // Thrown when a scene cannot be saved. what() is one line with the remedy; the file is as it was.
 class SaveError : public std::runtime_error {
@@ -22,15 +16,23 @@ class SaveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Text of the scene file with the edited content. `loaded` has the original text and file, `meshes` the models of
-// Object::mesh. Unchanged values keep their text, comments and order; paths of models are relative to the folder of
-// `file`. Throws SaveError if the text would not read back as exactly this content.
+// Text of the scene file with the edited content and changed settings, of which an empty value takes the key out.
+// `loaded` has the original text and file, `meshes` the models of Object::mesh. Unchanged values keep their text,
+// comments and order; paths of models are relative to the folder of `file`. Throws SaveError if the text would not read
+// back as exactly this content.
 std::string editedText(const Scene& loaded, const SceneContent& content, std::span<const Mesh> meshes,
-                       std::span<const SavedSetting> settings, const std::filesystem::path& file);
+                       std::span<const SettingChange> settings, const std::filesystem::path& file);
 
 // Replaces the file by `text`, whole or not at all. Throws SaveError if that fails or, without `overwrite`, if the file
 // does not hold `expected`; with no expected text, if there is a file.
 void writeSceneFile(const std::filesystem::path& file, const std::string& text,
                     const std::optional<std::string>& expected, bool overwrite);
+
+// Scene file for a name that the user typed: ".toml" is added unless it is there. Names of models stay as they are, and
+// SceneDocument::save refuses them. Throws SaveError if there is no name.
+std::filesystem::path sceneFileNamed(const std::filesystem::path& file);
+
+// Throws a SaveError with the outermost missing folder of the file's path.
+void requireFolder(const std::filesystem::path& file);
 
 }  // namespace speculum

@@ -1,25 +1,37 @@
 #include "edit/selection.hpp"
 
+#include <array>
+
 #include "frame/scene_names.hpp"
 
 namespace speculum {
 
+namespace {
+
+constexpr std::array kindNames = {"", "object", "light", "mirror"};  // by Selection::Kind
+
+}  // namespace
+
 std::string describe(const Scene& scene, const Selection& selection) {
-  const int index = selection.index;
-  switch (selection.kind) {
-    case Selection::Kind::object:
-      return nameOf("object", scene.objects.at(index).name, index);
-    case Selection::Kind::mirror:
-      return nameOf("mirror", scene.mirrors.at(index).name, index);
-    case Selection::Kind::light:
-      return nameOf("light", scene.lights.at(index).name, index);
-    default:
-      return "nothing";
-  }
+  std::string text = "nothing";
+  withNodes(scene, selection.kind, [&](const auto& nodes, const auto&) {
+    text = nameOf(kindNames[static_cast<size_t>(selection.kind)], nodes.at(selection.index).name, selection.index);
+  });
+  return text;
 }
 
-std::string describe(const Scene& scene, std::span<const Selection> things) {
-  return things.size() == 1 ? describe(scene, things.front()) : std::to_string(things.size()) + " things";
+std::string describe(const Scene& scene, std::span<const Selection> nodes) {
+  return nodes.size() == 1 ? describe(scene, nodes.front()) : std::to_string(nodes.size()) + " nodes";
+}
+
+SceneNode nodeOf(const Scene& scene, const Selection& selection) {
+  SceneNode node;
+  withNodes(scene, selection.kind, [&](const auto& nodes, const auto&) {
+    if (selection.index >= 0 && static_cast<size_t>(selection.index) < nodes.size()) {
+      node = nodes[selection.index];
+    }
+  });
+  return node;
 }
 
 std::vector<Selection> allNodes(const Scene& scene) {
@@ -35,7 +47,7 @@ std::vector<Selection> allNodes(const Scene& scene) {
   return nodes;
 }
 
-bool sameThing(const Selection& a, const Selection& b) {
+bool sameNode(const Selection& a, const Selection& b) {
   return a.kind == b.kind && a.index == b.index;
 }
 

@@ -2,18 +2,19 @@
 
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "scene/scene.hpp"
 
 namespace speculum {
 
-// The thing of a scene that the person works on.
+// The node of a scene that the user works on.
 struct Selection {
-  enum class Kind { none, object, mirror, light };
+  enum class Kind { none, object, light, mirror };
 
   Kind kind = Kind::none;
-  int index = -1;  // into Scene::objects, mirrors or lights
+  int index = -1;  // into Scene::objects, lights or mirrors
   int copy = 0;    // of an object with copies
 
   explicit operator bool() const { return kind != Kind::none; }
@@ -22,9 +23,34 @@ struct Selection {
 
 // "mirror 'floor'"; "nothing" for none.
 std::string describe(const Scene& scene, const Selection& selection);
-std::string describe(const Scene& scene, std::span<const Selection> things);  // "3 things"; of one as above
+std::string describe(const Scene& scene, std::span<const Selection> nodes);  // "3 nodes"; of one as above
 std::vector<Selection> allNodes(const Scene& scene);  // mirrors, lights, objects: the order of the lists
-// Whatever copy of it.
-bool sameThing(const Selection& a, const Selection& b);
+// Whether both are one node, whatever copy of it.
+bool sameNode(const Selection& a, const Selection& b);
+
+// A node by itself, in the order of Selection::Kind.
+using SceneNode = std::variant<std::monostate, Object, PointLight, Mirror>;
+
+inline Selection::Kind kindOf(const SceneNode& node) {
+  return static_cast<Selection::Kind>(node.index());
+}
+
+// Empty for a selection that the scene does not hold.
+SceneNode nodeOf(const Scene& scene, const Selection& selection);
+
+// Calls visit(nodes, origins) with the scene's nodes of a kind; not at all for none.
+template <typename Content, typename Visitor>
+void withNodes(Content& scene, Selection::Kind kind, const Visitor& visit) {
+  switch (kind) {
+    case Selection::Kind::none:
+      return;
+    case Selection::Kind::object:
+      return visit(scene.objects, scene.origins.objects);
+    case Selection::Kind::light:
+      return visit(scene.lights, scene.origins.lights);
+    case Selection::Kind::mirror:
+      return visit(scene.mirrors, scene.origins.mirrors);
+  }
+}
 
 }  // namespace speculum

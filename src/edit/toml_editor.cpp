@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "edit/toml_text.hpp"
+#include "scene/toml_text.hpp"
 
 namespace speculum {
 
@@ -74,17 +74,6 @@ std::string broken(const std::string& value, size_t before, const std::string& l
   return text + "]";
 }
 
-// Items of braces or brackets, which commas separate.
-void collectItems(const TomlNode& node, std::vector<const TomlNode*>& items) {
-  for (const auto& child : node.children) {
-    if (child->value) {
-      items.push_back(child.get());
-    } else {
-      collectItems(*child, items);
-    }
-  }
-}
-
 TextRange itemRange(const TomlNode& item) {
   return item.keyed ? *item.keyed : item.value.value();
 }
@@ -97,15 +86,15 @@ TomlEditor::TomlEditor(std::string text) : text_(std::move(text)) {
   endsInLineBreak_ = text_.empty() || text_.back() == '\n';
   text_ += endsInLineBreak_ ? "" : lineBreak_;
   root_ = outlineOf(text_);
-  noteOwners(root_, nullptr);
+  recordOwners(root_, nullptr);
 }
 
-void TomlEditor::noteOwners(const TomlNode& node, const TomlNode* list) {
+void TomlEditor::recordOwners(const TomlNode& node, const TomlNode* list) {
   owners_[&node] = list;
   linedUp_ = linedUp_ || (node.section && node.section->linedUp);
   const TomlNode* inner = node.value && node.kind != TomlNode::Kind::scalar ? &node : list;
   for (const auto& child : node.children) {
-    noteOwners(*child, inner);
+    recordOwners(*child, inner);
   }
 }
 
@@ -305,8 +294,7 @@ void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>&
 
 // Removes a run of items with the comma behind it, or at the end of the list with the comma before it.
 void TomlEditor::resolve(const TomlNode& list, const ListChange& change, std::vector<Edit>& edits) const {
-  std::vector<const TomlNode*> items;
-  collectItems(list, items);
+  const std::vector<TomlNode*> items = itemsOf(list);
   const auto removed = [&](size_t i) { return change.removed.contains(items[i]); };
   bool kept = false;
   for (size_t i = 0; i < items.size(); ++i) {

@@ -48,7 +48,7 @@ class TomlEditor {
     std::vector<std::string> added;
   };
 
-  void noteOwners(const TomlNode& node, const TomlNode* list);
+  void recordOwners(const TomlNode& node, const TomlNode* list);
   void changeKey(TomlNode& table, const std::vector<KeyText>& base, const KeyText& key);
   void patch(const TomlNode& value, const std::string& base, const std::string& edited);
   void removeSection(const TomlSection& section);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "edit/toml_text.hpp"
+#include "scene/toml_text.hpp"
 
 namespace speculum {
 
@@ -140,23 +140,12 @@ class Outliner {
 
   // Keys in braces begin behind the brace or the comma.
   void keyItems(TomlNode& braces) {
-    std::vector<TomlNode*> items;
-    collectItems(braces, items);
+    std::vector<TomlNode*> items = itemsOf(braces);
     std::sort(items.begin(), items.end(), [](auto* a, auto* b) { return a->value->begin < b->value->begin; });
     size_t end = braces.value->begin + 1;
     for (TomlNode* item : items) {
       item->keyed = TextRange{text_.find_first_not_of(" \t,", end), item->value->end};
       end = item->value->end;
-    }
-  }
-
-  static void collectItems(TomlNode& node, std::vector<TomlNode*>& items) {
-    for (const auto& child : node.children) {
-      if (child->value) {
-        items.push_back(child.get());
-      } else {
-        collectItems(*child, items);
-      }
     }
   }
 
@@ -213,6 +202,15 @@ TomlNode* TomlNode::child(std::string_view name) {
 
 const TomlNode* TomlNode::child(std::string_view name) const {
   return const_cast<TomlNode*>(this)->child(name);
+}
+
+std::vector<TomlNode*> itemsOf(const TomlNode& list) {
+  std::vector<TomlNode*> items;
+  for (const auto& child : list.children) {
+    const std::vector<TomlNode*> own = child->value ? std::vector{child.get()} : itemsOf(*child);
+    items.insert(items.end(), own.begin(), own.end());
+  }
+  return items;
 }
 
 TomlNode outlineOf(std::string_view text) {

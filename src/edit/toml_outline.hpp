@@ -45,6 +45,9 @@ struct TomlNode {
   bool inBraces() const { return kind == Kind::table && value.has_value(); }
 };
 
+// Items of braces or brackets, which commas separate: the values within, past tables that dotted keys make.
+std::vector<TomlNode*> itemsOf(const TomlNode& list);
+
 // `text` must be TOML 1.0 that has been parsed without an error.
 TomlNode outlineOf(std::string_view text);
 

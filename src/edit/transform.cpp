@@ -10,17 +10,6 @@ namespace speculum {
 
 namespace {
 
-template <typename Item>
-Thing itemOf(const std::vector<Item>& items, int index) {
-  return index >= 0 && static_cast<size_t>(index) < items.size() ? Thing(items[static_cast<size_t>(index)]) : Thing();
-}
-
-// Angles reduced as evaluate() reduces them.
-glm::dvec3 spunBy(const glm::dvec3& spin, double time) {
-  return {std::remainder(spin.x * time, 360.0), std::remainder(spin.y * time, 360.0),
-          std::remainder(spin.z * time, 360.0)};
-}
-
 // Rounds metres and degrees to nine decimals, so that files hold 30 and not 29.999999999999996. Division gives the
 // double nearest to the decimal number.
 glm::dvec3 tidy(const glm::dvec3& v) {
@@ -34,9 +23,8 @@ glm::dvec3 tidy(const glm::dvec3& v) {
 }
 
 glm::dvec3 turnedAngles(const glm::dvec3& angles, const glm::dvec3& spin, const glm::dmat3& rotation, double time) {
-  const glm::dvec3 spun = spunBy(spin, time);
-  const glm::dvec3 now = pitchYawRoll(rotation * rotationFromDegrees(angles + spun), angles + spun);
-  return tidy(now - spun);
+  const glm::dvec3 turned = angles + spunBy(spin, time);
+  return tidy(pitchYawRoll(rotation * rotationFromDegrees(turned), turned) - spunBy(spin, time));
 }
 
 glm::dvec3 about(const glm::dvec3& pivot, const glm::dmat3& rotation, const glm::dvec3& p) {
@@ -44,19 +32,6 @@ glm::dvec3 about(const glm::dvec3& pivot, const glm::dmat3& rotation, const glm:
 }
 
 }  // namespace
-
-Thing thingOf(const Scene& scene, const Selection& selection) {
-  switch (selection.kind) {
-    case Selection::Kind::object:
-      return itemOf(scene.objects, selection.index);
-    case Selection::Kind::light:
-      return itemOf(scene.lights, selection.index);
-    case Selection::Kind::mirror:
-      return itemOf(scene.mirrors, selection.index);
-    default:
-      return {};
-  }
-}
 
 const InstanceState* instanceOf(const SceneState& state, const Selection& selection) {
   const auto found = std::find_if(state.instances.begin(), state.instances.end(), [&](const InstanceState& instance) {
@@ -100,8 +75,8 @@ double reachOf(const Scene& scene, const SceneState& state, const Selection& sel
   return reach;
 }
 
-Thing moved(const Thing& node, const glm::dvec3& by, double time) {
-  Thing result = node;
+SceneNode moved(const SceneNode& node, const glm::dvec3& by, double time) {
+  SceneNode result = node;
   if (auto* object = std::get_if<Object>(&result)) {
     object->position = tidy(object->position + by);
   } else if (auto* light = std::get_if<PointLight>(&result)) {
@@ -117,8 +92,8 @@ Thing moved(const Thing& node, const glm::dvec3& by, double time) {
   return result;
 }
 
-Thing turned(const Thing& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time) {
-  Thing result = node;
+SceneNode turned(const SceneNode& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time) {
+  SceneNode result = node;
   if (auto* object = std::get_if<Object>(&result)) {
     const glm::dvec3 step = static_cast<double>(copy) * object->copies.step;
     object->position = tidy(about(pivot, rotation, object->position + step) - step);

@@ -1,17 +1,9 @@
 #pragma once
 
-#include <variant>
-
 #include "edit/selection.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
-
-// A scene node by itself.
-using Thing = std::variant<std::monostate, Object, PointLight, Mirror>;
-
-// Empty for a selection that the scene does not hold.
-Thing thingOf(const Scene& scene, const Selection& selection);
 
 // Point of a node (world) that the gizmo is at: an object's origin, or the centre of its bounding sphere if the origin
 // lies outside it; a light's centre; a mirror's middle.
@@ -23,11 +15,11 @@ double reachOf(const Scene& scene, const SceneState& state, const Selection& sel
 const InstanceState* instanceOf(const SceneState& state, const Selection& selection);
 
 // The node moved by so many metres in the world, as it is at `time`. All copies of an object move.
-Thing moved(const Thing& node, const glm::dvec3& by, double time);
+SceneNode moved(const SceneNode& node, const glm::dvec3& by, double time);
 
 // The node turned about a point of the world, as it is at `time`. `copy` turns about the pivot, the other copies about
 // their own origins. Lights do not turn.
-Thing turned(const Thing& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time);
+SceneNode turned(const SceneNode& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time);
 
 // Pitch, yaw and roll in degrees with R = Ry Rx Rz, the solution nearest to `near`. At a pitch of 90 degrees, where yaw
 // and roll turn about one axis, the roll is that of `near`.

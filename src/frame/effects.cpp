@@ -116,6 +116,8 @@ std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effe
       return {{"effects.textures", "false"}};
     case EffectKind::glyphs:
       return {{"effects.glyphs", "false"}};
+    case EffectKind::count:
+      break;
   }
   return {};
 }

@@ -20,8 +20,8 @@ enum class EffectKind {
   glyphs,
   wireframe,
   curved,
+  count
 };
-inline constexpr size_t effectKinds = 11;
 
 // An effect, whether something visible calls for it, and what that is, or why nothing does.
 struct Effect {

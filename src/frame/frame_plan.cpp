@@ -418,6 +418,12 @@ std::string_view skipReasonName(SkipReason reason) {
   return names[static_cast<size_t>(reason)];
 }
 
+const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path) {
+  const auto pass =
+      std::find_if(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& p) { return p.view.path == path; });
+  return pass == plan.passes.end() ? nullptr : &*pass;
+}
+
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
                     const FrameCache& cache) {
   return Planner(scene, state, settings, width, height, cache).plan();

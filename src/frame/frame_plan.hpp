@@ -123,6 +123,9 @@ struct FramePlan {
   TracedEffects effects;             // that all of these passes call for
 };
 
+// The mirror pass with that path; null if the plan has none.
+const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path);
+
 // Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
 // budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as
 // many texels along each side, rounded, and mirror images reflection.scale times as many as that.

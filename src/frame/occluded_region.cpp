@@ -38,20 +38,6 @@ std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, c
   return region.back().at(inside) > 0.0 ? std::optional(normal) : std::nullopt;
 }
 
-// Removes vertices that clipping put on top of another.
-std::vector<glm::dvec3> distinctVertices(const std::vector<glm::dvec3>& polygon, double least) {
-  std::vector<glm::dvec3> kept;
-  for (const glm::dvec3& p : polygon) {
-    if (kept.empty() || glm::length(p - kept.back()) > least) {
-      kept.push_back(p);
-    }
-  }
-  while (kept.size() > 1 && glm::length(kept.front() - kept.back()) <= least) {
-    kept.pop_back();
-  }
-  return kept;
-}
-
 // Directed edges of the outline of what faces the eye, by points. An edge belongs to it if just one of its triangles
 // faces the eye.
 std::vector<std::pair<uint32_t, uint32_t>> outline(const BodyOccluder& body, const glm::dvec3& eye) {

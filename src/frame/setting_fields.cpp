@@ -418,4 +418,13 @@ void copySetting(const SettingField& field, const Settings& from, Settings& to) 
       field.kind);
 }
 
+std::string settingHelp(std::string_view key) {
+  const SettingField* field = findSettingField(key);
+  if (!field) {
+    return "";
+  }
+  return std::string(key) + "\n" + std::string(field->text) + " (" + settingRangeWithUnit(*field) + ")\n\n" +
+         std::string(field->cost);
+}
+
 }  // namespace speculum

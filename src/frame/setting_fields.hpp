@@ -95,6 +95,8 @@ const SettingField* findSettingField(std::string_view key);  // null: no such ke
 // "0.125 .. 4", "1 2 4 8", "clamp | aces": what the setting takes, without its unit.
 std::string settingRange(const SettingField& field);
 std::string settingRangeWithUnit(const SettingField& field);  // "texels, 0 .. 16"
+// Tooltip of a setting: key, what it does, its range, what it costs; empty for an unknown key.
+std::string settingHelp(std::string_view key);
 bool sameSetting(const SettingField& field, const Settings& a, const Settings& b);
 void copySetting(const SettingField& field, const Settings& from, Settings& to);
 

@@ -198,6 +198,16 @@ std::string settingsKey(const Settings& settings) {
   return text;
 }
 
+std::vector<SettingChange> settingChanges(const Settings& from, const Settings& to) {
+  std::vector<SettingChange> changes;
+  for (const SettingField& field : settingFields()) {
+    if (!sameSetting(field, from, to)) {
+      changes.push_back({std::string(field.key), settingValue(to, field.key)});
+    }
+  }
+  return changes;
+}
+
 Settings settingsOf(const Scene& scene) {
   Settings settings;
   for (const SettingEntry& entry : scene.settings) {

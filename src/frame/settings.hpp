@@ -81,6 +81,8 @@ struct QualitySettings {
   double maxError = 0.0;           // mean FLIP; 0: no bound
   std::optional<double> motionMs;  // milliseconds a frame while anything moves; 0: no bound, none: by the device
   int stillPictures = 64;          // that a still picture is the mean of
+
+  bool operator==(const QualitySettings&) const = default;
 };
 
 struct DebugSettings {
@@ -99,6 +101,8 @@ struct Settings {
   EffectSettings effects;
   QualitySettings quality;
   DebugSettings debug;
+
+  bool operator==(const Settings&) const = default;
 };
 
 // Sets one key of settingFields(). The value is text as on a command line: numbers, true/false, names, colours as
@@ -107,6 +111,15 @@ std::optional<std::string> setSetting(Settings& settings, std::string_view key, 
 std::string settingValue(const Settings& settings, std::string_view key);
 // "key=value" of every key, a line each. Equal for equal settings.
 std::string settingsKey(const Settings& settings);
+
+// A setting as `--set key=value` takes it. The value is empty for a colour that is not set.
+struct SettingChange {
+  std::string key;
+  std::string value;
+  bool operator==(const SettingChange&) const = default;
+};
+// Those of `to` whose values differ from those of `from`, in the order of settingFields().
+std::vector<SettingChange> settingChanges(const Settings& from, const Settings& to);
 
 // Defaults overlaid with the scene's [settings]. Throws InputError with FILE:LINE.
 Settings settingsOf(const Scene& scene);

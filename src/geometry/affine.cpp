@@ -33,13 +33,13 @@ SineCosine sineCosine(double degrees) {
 
 }  // namespace
 
+double largestEntry(const glm::dmat3& m) {
+  const glm::dvec3 rows = glm::max(glm::abs(m[0]), glm::max(glm::abs(m[1]), glm::abs(m[2])));
+  return std::max({rows.x, rows.y, rows.z});
+}
+
 glm::dmat3 normalMatrix(const glm::dmat3& linear) {
-  double largest = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) {
-      largest = std::max(largest, std::abs(linear[c][r]));
-    }
-  }
+  const double largest = largestEntry(linear);
   if (largest == 0.0) {
     return glm::dmat3(0.0);
   }

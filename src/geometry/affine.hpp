@@ -17,6 +17,8 @@ inline Affine operator*(const Affine& a, const Affine& b) {
   return {a.linear * b.linear, a.linear * b.translation + a.translation};
 }
 
+double largestEntry(const glm::dmat3& m);  // by magnitude
+
 // The matrix that carries normals: sign(det M) * cofactor(M / max|M|). Unlike the inverse transpose it exists for
 // every scale from 1e-20 to 1e13 and keeps a surface's outside outside under negative scale. Not normalised.
 glm::dmat3 normalMatrix(const glm::dmat3& linear);

@@ -23,7 +23,8 @@ struct Bounds {
     low = glm::min(low, b.low);
     high = glm::max(high, b.high);
   }
-  glm::dvec3 center() const { return 0.5 * (low + high); }
+  // Halves first, so that the sum stays a double.
+  glm::dvec3 center() const { return 0.5 * low + 0.5 * high; }
   double halfArea() const;  // half the surface area; 0 if empty
 };
 

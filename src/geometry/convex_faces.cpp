@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 
+#include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/weld.hpp"
 
@@ -13,10 +13,9 @@ namespace speculum {
 
 namespace {
 
-using Ring = std::vector<uint32_t>;  // edges in a row, counter-clockwise
-
-// Grows faces one neighbour at a time. An edge is numbered 3 * triangle + corner and starts at that corner. A join
-// takes time in the number of the face's edges, because every sum and maximum over a face is carried along.
+// Removes edges between triangles of one plane wherever two convex faces make a convex one (Hertel and Mehlhorn, "Fast
+// Triangulation of the Plane with Respect to Simple Polygons", 1983). An edge is numbered 3 * triangle + corner and
+// starts at that corner; the edges of a face are linked in a ring, counter-clockwise.
 class FaceJoiner {
  public:
   FaceJoiner(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices) {
@@ -28,19 +27,30 @@ class FaceJoiner {
     }
     for (const auto& [points, edge] : edges) {
       const auto twin = edges.find({points.second, points.first});
-      twins_[edge] = twin == edges.end() ? none : twin->second;
+      edges_[edge].twin = twin == edges.end() ? none : twin->second;
+    }
+    for (uint32_t triangle = 0; triangle < areas_.size(); ++triangle) {
+      if (planeOf_[triangle] == none) {
+        findPlane(triangle);
+      }
     }
   }
 
   std::vector<std::vector<glm::dvec3>> faces() {
-    for (size_t i = 0; i < faces_.size(); ++i) {
-      while (grow(i)) {
+    for (bool joined = true; joined;) {
+      joined = false;
+      for (uint32_t edge = 0; edge < edges_.size(); ++edge) {
+        joined = join(edge) || joined;
       }
     }
     std::vector<std::vector<glm::dvec3>> polygons;
-    for (const Face& face : faces_) {
-      if (!face.ring.empty()) {
-        polygons.push_back(polygon(face.ring));
+    for (uint32_t first = 0; first < edges_.size(); ++first) {
+      if (!edges_[first].gone) {
+        std::vector<glm::dvec3>& polygon = polygons.emplace_back();
+        for (uint32_t edge = first; !edges_[edge].gone; edge = edges_[edge].next) {
+          polygon.push_back(point(edge));
+          edges_[edge].gone = true;
+        }
       }
     }
     return polygons;
@@ -49,10 +59,17 @@ class FaceJoiner {
  private:
   static constexpr uint32_t none = ~0u;
 
-  struct Face {
-    Ring ring;              // empty once it was joined to another
-    glm::dvec3 area{0.0};   // see newellVector
-    double diameter = 0.0;  // at least that of the ring
+  struct Edge {
+    uint32_t start = 0;    // point
+    uint32_t twin = none;  // in the opposite direction; the last one where there are several
+    uint32_t next = 0;
+    uint32_t before = 0;
+    bool gone = false;
+  };
+  // Connected triangles of one plane.
+  struct FlatPart {
+    glm::dvec3 normal{0.0};
+    double size2 = 0.0;  // squared diameter of its bounding box
   };
 
   void addTriangle(const std::array<uint32_t, 3>& points, std::map<std::pair<uint32_t, uint32_t>, uint32_t>& edges) {
@@ -61,132 +78,107 @@ class FaceJoiner {
     if (!std::isnormal(polygonArea(p))) {
       return;
     }
-    const auto first = static_cast<uint32_t>(starts_.size());
+    const auto first = static_cast<uint32_t>(edges_.size());
     for (uint32_t k = 0; k < 3; ++k) {
       edges[{points[k], points[(k + 1) % 3]}] = first + k;
-      starts_.push_back(points[k]);
-      owners_.push_back(faces_.size());
-      twins_.push_back(none);
+      edges_.push_back({.start = points[k], .next = first + (k + 1) % 3, .before = first + (k + 2) % 3});
     }
-    const double longest = std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
-    faces_.push_back({{first, first + 1, first + 2}, newellVector(p), longest});
+    faceOf_.push_back(static_cast<uint32_t>(areas_.size()));
+    areas_.push_back(newellVector(p));
+    planeOf_.push_back(none);
   }
 
-  const glm::dvec3& point(uint32_t edge) const { return welder_.points()[starts_[edge]]; }
+  const glm::dvec3& point(uint32_t edge) const { return welder_.points()[edges_[edge].start]; }
 
-  std::vector<glm::dvec3> polygon(const Ring& ring) const {
-    std::vector<glm::dvec3> points;
-    points.reserve(ring.size());
-    for (const uint32_t edge : ring) {
-      points.push_back(point(edge));
-    }
-    return points;
-  }
-
-  // Joins one neighbour to a face, or returns false when none fits.
-  bool grow(size_t index) {
-    for (size_t i = 0; i < faces_[index].ring.size(); ++i) {
-      const uint32_t twin = twins_[faces_[index].ring[i]];
-      if (twin == none || owners_[twin] == index) {
-        continue;
+  // Takes neighbours in as long as they lie in the plane that the triangles so far span.
+  void findPlane(uint32_t seed) {
+    const glm::dvec3 origin = point(3 * seed);
+    const auto number = static_cast<uint32_t>(parts_.size());
+    glm::dvec3 area(0.0);
+    Bounds box;
+    std::vector<uint32_t> found;
+    const auto add = [&](uint32_t triangle) {
+      planeOf_[triangle] = number;
+      area += areas_[triangle];
+      for (uint32_t edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+        box.add(point(edge));
       }
-      Face& other = faces_[owners_[twin]];
-      if (std::optional<Face> joined = join(faces_[index], i, other, twin)) {
-        for (const uint32_t edge : other.ring) {
-          owners_[edge] = index;
-        }
-        other = {};
-        faces_[index] = std::move(*joined);
-        return true;
-      }
-    }
-    return false;
-  }
-
-  // Joins two faces across edge `start` of `a`, which is `twin` in `b`, and those beside it that are common too.
-  std::optional<Face> join(const Face& a, size_t start, const Face& b, uint32_t twin) const {
-    const auto found = std::find(b.ring.begin(), b.ring.end(), twin);
-    if (found == b.ring.end() || !(glm::dot(a.area, b.area) > 0.0)) {
-      return std::nullopt;
-    }
-    const size_t n = a.ring.size();
-    const size_t m = b.ring.size();
-    const size_t end = static_cast<size_t>(found - b.ring.begin()) + 1;  // in b, where edge `start` begins
-    const auto common = [&](size_t i, size_t k) { return starts_[a.ring[i % n]] == starts_[b.ring[k % m]]; };
-    size_t before = 0;  // common edges before and after the point at `start`
-    size_t after = 0;
-    while (before < std::min(n, m) && common(start + n - before - 1, end + before + 1)) {
-      ++before;
-    }
-    while (after < std::min(n, m) && common(start + after + 1, end + 2 * m - after - 1)) {
-      ++after;
-    }
-    if (before + after < 1 || before + after >= std::min(n, m)) {
-      return std::nullopt;
-    }
-    Ring added;
-    for (size_t i = 0; i < m - before - after; ++i) {
-      added.push_back(b.ring[(end + before + i) % m]);
-    }
-    Face joined{{}, a.area + b.area, std::max(a.diameter, b.diameter)};
-    if (!isFlat(joined, added, point(a.ring[(start + after) % n]))) {
-      return std::nullopt;
-    }
-    const size_t kept = n - before - after;
-    joined.ring.reserve(kept + added.size());
-    for (size_t i = 0; i < kept; ++i) {
-      joined.ring.push_back(a.ring[(start + after + i) % n]);
-    }
-    joined.ring.insert(joined.ring.end(), added.begin(), added.end());
-    return isFace(joined, kept) ? std::optional(std::move(joined)) : std::nullopt;
-  }
-
-  bool isFlat(const Face& face, std::span<const uint32_t> ring, const glm::dvec3& origin) const {
-    const double twice = glm::length(face.area);
-    const Plane plane{origin, face.area / twice};
-    const double flat = 1e-6 * std::sqrt(0.5 * twice);
-    return std::all_of(ring.begin(), ring.end(),
-                       [&](uint32_t edge) { return std::abs(plane.distance(point(edge))) <= flat; });
-  }
-
-  // Updates the diameter; the edges from `kept` on were added to the face.
-  bool isFace(Face& face, size_t kept) const {
-    const std::span<const uint32_t> ring = face.ring;
-    for (const uint32_t edge : ring.subspan(kept + 1)) {
-      for (const uint32_t old : ring.first(kept + 1)) {
-        if (starts_[edge] == starts_[old]) {
-          return false;
-        }
-        face.diameter = std::max(face.diameter, glm::distance(point(edge), point(old)));
-      }
-    }
-    const double scale = face.diameter * face.diameter;
-    const size_t n = ring.size();
-    const glm::dvec3 normal = glm::normalize(face.area);
-    const auto turnsLeft = [&](size_t i) {
-      const glm::dvec3& p = point(ring[i]);
-      const glm::dvec3 in = p - point(ring[(i + n - 1) % n]);
-      const glm::dvec3 out = point(ring[(i + 1) % n]) - p;
-      return glm::dot(normal, glm::cross(in, out)) >= -1e-9 * scale;
+      found.push_back(triangle);
     };
-    // Tests the two points where the faces meet first, because joins seldom fail elsewhere.
-    if (!turnsLeft(0) || !turnsLeft(kept) || !(0.5 * glm::length(face.area) >= 1e-8 * scale) ||
-        !isFlat(face, ring, point(ring[0]))) {
+    add(seed);
+    for (size_t i = 0; i < found.size(); ++i) {
+      for (uint32_t edge = 3 * found[i]; edge < 3 * found[i] + 3; ++edge) {
+        const uint32_t twin = edges_[edge].twin;
+        const uint32_t other = twin / 3;
+        if (twin == none || planeOf_[other] != none || !(glm::dot(area, areas_[other]) > 0.0)) {
+          continue;
+        }
+        const double twice = glm::length(area);
+        const double height = glm::dot(area, point(edges_[edges_[twin].next].next) - origin) / twice;
+        if (std::abs(height) <= 1e-6 * std::sqrt(0.5 * (twice + glm::length(areas_[other])))) {
+          add(other);
+        }
+      }
+    }
+    const glm::dvec3 sides = box.high - box.low;
+    parts_.push_back({glm::normalize(area), glm::dot(sides, sides)});
+  }
+
+  uint32_t faceOf(uint32_t triangle) {
+    while (faceOf_[triangle] != triangle) {
+      triangle = faceOf_[triangle] = faceOf_[faceOf_[triangle]];
+    }
+    return triangle;
+  }
+
+  // Whether the outline is convex where `edge` follows on `before`.
+  bool turnsLeft(uint32_t before, uint32_t edge) const {
+    const FlatPart& part = parts_[planeOf_[edge / 3]];
+    const glm::dvec3& corner = point(edge);
+    const glm::dvec3 turn = glm::cross(corner - point(before), point(edges_[edge].next) - corner);
+    return glm::dot(part.normal, turn) >= -1e-9 * part.size2;
+  }
+
+  // Joins the faces on both sides of an edge, across all the edges in a row that they share.
+  bool join(uint32_t edge) {
+    const uint32_t twin = edges_[edge].twin;
+    if (edges_[edge].gone || twin == none || planeOf_[edge / 3] != planeOf_[twin / 3]) {
       return false;
     }
-    for (size_t i = 0; i < n; ++i) {
-      if (!turnsLeft(i)) {
-        return false;
-      }
+    const uint32_t face = faceOf(edge / 3);
+    const uint32_t other = faceOf(twin / 3);
+    uint32_t first = edge;
+    uint32_t last = edge;
+    while (edges_[edges_[first].before].twin == edges_[edges_[first].twin].next && edges_[first].before != last) {
+      first = edges_[first].before;
     }
+    while (edges_[edges_[last].next].twin == edges_[edges_[last].twin].before && edges_[last].next != first) {
+      last = edges_[last].next;
+    }
+    const uint32_t in = edges_[first].before;
+    const uint32_t out = edges_[edges_[first].twin].next;
+    const uint32_t otherIn = edges_[edges_[last].twin].before;
+    const uint32_t otherOut = edges_[last].next;
+    if (face == other || edges_[in].twin == out || !turnsLeft(in, out) || !turnsLeft(otherIn, otherOut)) {
+      return false;
+    }
+    for (uint32_t gone = first; gone != otherOut; gone = edges_[gone].next) {
+      edges_[gone].gone = edges_[edges_[gone].twin].gone = true;
+    }
+    edges_[in].next = out;
+    edges_[out].before = in;
+    edges_[otherIn].next = otherOut;
+    edges_[otherOut].before = otherIn;
+    faceOf_[other] = face;
     return true;
   }
 
   PointWelder welder_;
-  std::vector<uint32_t> starts_;  // by edge, its first point
-  std::vector<uint32_t> twins_;   // by edge, the one in the opposite direction; the last one where there are several
-  std::vector<size_t> owners_;    // by edge, its face
-  std::vector<Face> faces_;
+  std::vector<Edge> edges_;
+  std::vector<glm::dvec3> areas_;  // by triangle, see newellVector
+  std::vector<uint32_t> planeOf_;  // by triangle, index into parts_
+  std::vector<uint32_t> faceOf_;   // by triangle, another of its face; the last is its own
+  std::vector<FlatPart> parts_;
 };
 
 }  // namespace

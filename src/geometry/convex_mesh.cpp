@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/weld.hpp"
 
@@ -39,17 +40,16 @@ std::optional<std::vector<ConvexMesh::Edge>> edgesOf(const std::vector<ConvexMes
 
 // The points in a box whose longest side is 1; none if it has no such side.
 std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
-  glm::dvec3 low = points[0];
-  glm::dvec3 high = points[0];
+  Bounds box;
   for (const glm::dvec3& p : points) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+    box.add(p);
   }
-  const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const glm::dvec3 sides = box.high - box.low;
+  const double side = std::max({sides.x, sides.y, sides.z});
   std::vector<glm::dvec3> scaled;
   if (std::isnormal(side)) {
     for (const glm::dvec3& p : points) {
-      scaled.push_back((p - low) / side);
+      scaled.push_back((p - box.low) / side);
     }
   }
   return scaled;

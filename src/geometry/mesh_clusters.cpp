@@ -3,7 +3,8 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <limits>
+
+#include "geometry/bvh.hpp"
 
 namespace speculum {
 
@@ -14,14 +15,11 @@ constexpr size_t fewestClusters = 8;
 
 MeshCluster clusterOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices, uint32_t first,
                       uint32_t count) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity());
-  glm::dvec3 high = -low;
+  Bounds box;
   for (uint32_t i = first; i < first + count; ++i) {
-    const glm::dvec3& p = vertices[indices[i]].position;
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+    box.add(vertices[indices[i]].position);
   }
-  return {first, count, 0.5 * (low + high), 0.5 * (high - low)};
+  return {first, count, box.center(), 0.5 * (box.high - box.low)};
 }
 
 // Positions scaled to about unit size, so that floats can hold them.

@@ -17,20 +17,6 @@ double diameter(std::span<const glm::dvec3> polygon) {
   return largest;
 }
 
-// Vertices that are apart; one within rounding of the vertex before it would give its edge any direction.
-std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, double least) {
-  std::vector<glm::dvec3> distinct;
-  for (const glm::dvec3& p : polygon) {
-    if (distinct.empty() || glm::length(p - distinct.back()) > least) {
-      distinct.push_back(p);
-    }
-  }
-  while (distinct.size() > 1 && glm::length(distinct.front() - distinct.back()) <= least) {
-    distinct.pop_back();
-  }
-  return distinct;
-}
-
 // Whether no vertex lies farther than `tolerance` outside the line of any edge. Looking at the turn from one edge to
 // the next is not enough: many small turns to the wrong side add up to a hollow.
 bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, double tolerance) {
@@ -97,6 +83,19 @@ std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {
     return "is not convex";
   }
   return std::nullopt;
+}
+
+std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, double least) {
+  std::vector<glm::dvec3> distinct;
+  for (const glm::dvec3& p : polygon) {
+    if (distinct.empty() || glm::length(p - distinct.back()) > least) {
+      distinct.push_back(p);
+    }
+  }
+  while (distinct.size() > 1 && glm::length(distinct.front() - distinct.back()) <= least) {
+    distinct.pop_back();
+  }
+  return distinct;
 }
 
 std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {

@@ -30,6 +30,9 @@ double polygonArea(std::span<const glm::dvec3> polygon);
 // diameter^2, a vertex farther than 1e-4 diameters off the plane or 1e-5 diameters outside the line of an edge.
 std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon);
 
+// Vertices farther than `least` from the one before: a vertex within rounding of it would give its edge any direction.
+std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, double least);
+
 // Sutherland-Hodgman (1974): the part of a convex polygon with dot(normal, v - point) >= 0.
 std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep);
 

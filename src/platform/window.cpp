@@ -18,49 +18,13 @@ constexpr std::array<int, static_cast<size_t>(GamepadButton::count)> buttonCodes
     GLFW_GAMEPAD_BUTTON_BACK,       GLFW_GAMEPAD_BUTTON_START,       GLFW_GAMEPAD_BUTTON_LEFT_THUMB,
     GLFW_GAMEPAD_BUTTON_RIGHT_THUMB};
 
-constexpr std::array<std::pair<Key, int>, 32> keyCodes{{
-    {Key::escape, GLFW_KEY_ESCAPE},
-    {Key::enter, GLFW_KEY_ENTER},
-    {Key::tab, GLFW_KEY_TAB},
-    {Key::space, GLFW_KEY_SPACE},
-    {Key::del, GLFW_KEY_DELETE},
-    {Key::leftShift, GLFW_KEY_LEFT_SHIFT},
-    {Key::rightShift, GLFW_KEY_RIGHT_SHIFT},
-    {Key::leftControl, GLFW_KEY_LEFT_CONTROL},
-    {Key::rightControl, GLFW_KEY_RIGHT_CONTROL},
-    {Key::w, GLFW_KEY_W},
-    {Key::a, GLFW_KEY_A},
-    {Key::s, GLFW_KEY_S},
-    {Key::d, GLFW_KEY_D},
-    {Key::q, GLFW_KEY_Q},
-    {Key::e, GLFW_KEY_E},
-    {Key::b, GLFW_KEY_B},
-    {Key::m, GLFW_KEY_M},
-    {Key::r, GLFW_KEY_R},
-    {Key::f, GLFW_KEY_F},
-    {Key::g, GLFW_KEY_G},
-    {Key::n, GLFW_KEY_N},
-    {Key::y, GLFW_KEY_Y},
-    {Key::z, GLFW_KEY_Z},
-    {Key::comma, GLFW_KEY_COMMA},
-    {Key::period, GLFW_KEY_PERIOD},
-    {Key::leftBracket, GLFW_KEY_LEFT_BRACKET},
-    {Key::rightBracket, GLFW_KEY_RIGHT_BRACKET},
-    {Key::f1, GLFW_KEY_F1},
-    {Key::f2, GLFW_KEY_F2},
-    {Key::f10, GLFW_KEY_F10},
-    {Key::f11, GLFW_KEY_F11},
-    {Key::f12, GLFW_KEY_F12},
-}};
-
-Key keyOf(int code) {
-  for (const auto& [key, known] : keyCodes) {
-    if (known == code) {
-      return key;
-    }
-  }
-  return Key::unknown;
-}
+static_assert(static_cast<int>(Key::leftBracket) == GLFW_KEY_LEFT_BRACKET &&
+                  static_cast<int>(Key::rightBracket) == GLFW_KEY_RIGHT_BRACKET &&
+                  static_cast<int>(Key::tab) == GLFW_KEY_TAB && static_cast<int>(Key::del) == GLFW_KEY_DELETE &&
+                  static_cast<int>(Key::f2) == GLFW_KEY_F2 && static_cast<int>(Key::f12) == GLFW_KEY_F12 &&
+                  static_cast<int>(Key::leftControl) == GLFW_KEY_LEFT_CONTROL &&
+                  static_cast<int>(Key::rightControl) == GLFW_KEY_RIGHT_CONTROL,
+              "codes of Key are GLFW's");
 
 // The character on a key; empty for keys without one.
 std::string_view printedOn(int code, int scancode) {
@@ -180,8 +144,8 @@ void Window::installCallbacks() {
       const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
       // Each call of glfwGetKeyName may write over what the last one gave.
       const std::string printed(printedOn(code, scancode));
-      key({keyMeant(keyOf(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE, action == GLFW_REPEAT,
-           (modifiers & GLFW_MOD_SHIFT) != 0, control});
+      key({keyMeant(static_cast<Key>(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE,
+           action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0, control});
     }
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int modifiers) {
@@ -358,17 +322,8 @@ std::optional<GamepadState> Window::gamepad() const {
   return pad;
 }
 
-void Window::setTitle(const std::string& title) {
-  glfwSetWindowTitle(window_.get(), title.c_str());
-}
-
 bool Window::keyDown(Key key) const {
-  for (const auto& [known, code] : keyCodes) {
-    if (known == key) {
-      return glfwGetKey(window_.get(), code) == GLFW_PRESS;
-    }
-  }
-  return false;
+  return glfwGetKey(window_.get(), static_cast<int>(key)) == GLFW_PRESS;
 }
 
 void Window::setClipboard(const std::string& text) {

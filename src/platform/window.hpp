@@ -19,40 +19,41 @@ struct GLFWwindow;
 
 namespace speculum {
 
+// The keys that the program knows, by GLFW's codes; those that print something have the code of that character.
 enum class Key {
-  unknown,
-  escape,
-  enter,
-  tab,
-  space,
-  del,
-  leftShift,
-  rightShift,
-  leftControl,
-  rightControl,
-  w,
-  a,
-  s,
-  d,
-  q,
-  e,
+  unknown = -1,
+  space = ' ',
+  comma = ',',
+  period = '.',
+  a = 'A',
   b,
-  m,
-  r,
+  d = 'D',
+  e,
   f,
   g,
+  m = 'M',
   n,
-  y,
+  q = 'Q',
+  r,
+  s,
+  w = 'W',
+  y = 'Y',
   z,
-  comma,
-  period,
-  leftBracket,
-  rightBracket,
-  f1,
+  leftBracket = '[',
+  rightBracket = ']',
+  escape = 256,
+  enter,
+  tab,
+  del = 261,
+  f1 = 290,
   f2,
-  f10,
+  f10 = 299,
   f11,
-  f12
+  f12,
+  leftShift = 340,
+  leftControl,
+  rightShift = 344,
+  rightControl
 };
 // The meaning of the key at `place` of an American keyboard with the character `printed` on it (empty: none, or not
 // known). The six keys that fly go by their place; all others by their character, and with Control all do. Characters
@@ -127,7 +128,6 @@ class Window {
   // a monitor that is gone. `workAreas`: of the monitors that are there.
   void followMonitors(std::span<const ScreenRect> workAreas);
   void followContentScale(float scale);  // the window is on a monitor of another scale
-  void setTitle(const std::string& title);
   bool keyDown(Key key) const;
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text

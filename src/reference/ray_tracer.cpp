@@ -44,94 +44,51 @@ Environment environmentOf(const Scene& scene, const TraceOptions& options) {
   return environment;
 }
 
-PickResult::Kind kindOf(HitKind kind) {
-  switch (kind) {
-    case HitKind::object:
-      return PickResult::Kind::object;
-    case HitKind::mirror:
-      return PickResult::Kind::mirror;
-    case HitKind::glyph:
-      return PickResult::Kind::light;
-  }
-  return PickResult::Kind::nothing;
-}
-
 }  // namespace
 
-struct RayTracer::Impl {
-  TraceWorld world;
-  CameraPose camera;
-  double time = 0.0;
-
-  explicit Impl(const Scene& scene) : world(scene) {}
-
-  void place(const SceneState& state) {
-    world.place(state);
-    camera = state.camera;
-    time = state.time;
-  }
-
-  // The ray through (x, y), in pixels from the top left corner; the eye is the origin.
-  Ray cameraRay(int width, int height, double x, double y) const {
-    const double tangent = std::tan(0.5 * camera.verticalFov);
-    const glm::dvec3 view((2.0 * x / width - 1.0) * tangent * width / height, (1.0 - 2.0 * y / height) * tangent, -1.0);
-    return {glm::dvec3(0.0), glm::normalize(glm::transpose(camera.worldToView) * view)};
-  }
-
-  Ray worldRay(const glm::dvec3& origin, const glm::dvec3& direction) const { return {origin - camera.eye, direction}; }
-
-  PickResult pick(const Ray& ray) const {
-    const auto hit = world.closest(ray, {});
-    if (!hit) {
-      return {};
-    }
-    const int64_t triangle = hit->kind == HitKind::object ? int64_t{hit->triangle} : -1;
-    return {kindOf(hit->kind), hit->index, triangle, hit->t, hit->mirrorFront};
-  }
-
-  glm::dvec3 pixel(const Environment& environment, const TraceOptions& options, int x, int y) const {
-    const int side = gridSize(options.samples);
-    PathTracer tracer(world, environment, options, time,
-                      MicrofacetSampler(static_cast<uint32_t>(x), static_cast<uint32_t>(y)));
-    glm::dvec3 sum(0.0);
-    for (int j = 0; j < side; ++j) {
-      for (int i = 0; i < side; ++i) {
-        sum += tracer.radiance(cameraRay(options.width, options.height, x + (i + 0.5) / side, y + (j + 0.5) / side));
-      }
-    }
-    return sum / static_cast<double>(options.samples);
-  }
-
-  void tile(const Environment& environment, const TraceOptions& options, int x0, int y0, TraceResult& result) const {
-    for (int y = y0; y < std::min(y0 + tileSize, options.height); ++y) {
-      for (int x = x0; x < std::min(x0 + tileSize, options.width); ++x) {
-        const size_t i = static_cast<size_t>(y) * options.width + x;
-        result.image.pixels[i] = glm::vec3(pixel(environment, options, x, y));
-        const PathTracer center(world, environment, options, time, MicrofacetSampler(0, 0));
-        const MirrorChain chain = center.followMirrors(cameraRay(options.width, options.height, x + 0.5, y + 0.5));
-        result.mirrorDepth[i] = static_cast<uint8_t>(chain.count);
-        result.mirrorThroughput[i] = chain.throughput;
-        result.mirrorMask[i] = chain.count > 0;
-        result.backgroundMask[i] = chain.background;
-      }
-    }
-  }
-};
-
-RayTracer::RayTracer(const Scene& scene, const SceneState& state) : impl_(std::make_unique<Impl>(scene)) {
-  impl_->place(state);
+Ray RayTracer::cameraRay(int width, int height, double x, double y) const {
+  const double tangent = std::tan(0.5 * camera_.verticalFov);
+  const glm::dvec3 view((2.0 * x / width - 1.0) * tangent * width / height, (1.0 - 2.0 * y / height) * tangent, -1.0);
+  return {glm::dvec3(0.0), glm::normalize(glm::transpose(camera_.worldToView) * view)};
 }
-RayTracer::~RayTracer() = default;
-RayTracer::RayTracer(RayTracer&&) noexcept = default;
-RayTracer& RayTracer::operator=(RayTracer&&) noexcept = default;
 
-void RayTracer::setState(const SceneState& state) {
-  impl_->place(state);
+glm::dvec3 RayTracer::pixel(const Environment& environment, const TraceOptions& options, int x, int y) const {
+  const int side = gridSize(options.samples);
+  PathTracer tracer(world_, environment, options, time_,
+                    MicrofacetSampler(static_cast<uint32_t>(x), static_cast<uint32_t>(y)));
+  glm::dvec3 sum(0.0);
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      sum += tracer.radiance(cameraRay(options.width, options.height, x + (i + 0.5) / side, y + (j + 0.5) / side));
+    }
+  }
+  return sum / static_cast<double>(options.samples);
+}
+
+void RayTracer::tile(const Environment& environment, const TraceOptions& options, int x0, int y0,
+                     TraceResult& result) const {
+  for (int y = y0; y < std::min(y0 + tileSize, options.height); ++y) {
+    for (int x = x0; x < std::min(x0 + tileSize, options.width); ++x) {
+      const size_t i = static_cast<size_t>(y) * options.width + x;
+      result.image.pixels[i] = glm::vec3(pixel(environment, options, x, y));
+      const PathTracer center(world_, environment, options, time_, MicrofacetSampler(0, 0));
+      const MirrorChain chain = center.followMirrors(cameraRay(options.width, options.height, x + 0.5, y + 0.5));
+      result.mirrorDepth[i] = static_cast<uint8_t>(chain.count);
+      result.mirrorThroughput[i] = chain.throughput;
+      result.mirrorMask[i] = chain.count > 0;
+      result.backgroundMask[i] = chain.background;
+    }
+  }
+}
+
+RayTracer::RayTracer(const Scene& scene, const SceneState& state)
+    : world_(scene), camera_(state.camera), time_(state.time) {
+  world_.place(state);
 }
 
 std::optional<TraceResult> RayTracer::render(const TraceOptions& options, const Progress& progress) const {
   check(options);
-  const Environment environment = environmentOf(impl_->world.scene(), options);
+  const Environment environment = environmentOf(world_.scene(), options);
   const size_t pixels = static_cast<size_t>(options.width) * options.height;
   TraceResult result{LinearImage(options.width, options.height), std::vector<uint8_t>(pixels),
                      std::vector<uint8_t>(pixels), std::vector<uint8_t>(pixels), std::vector<double>(pixels)};
@@ -142,7 +99,7 @@ std::optional<TraceResult> RayTracer::render(const TraceOptions& options, const 
   int done = 0;
   tbb::parallel_for(tbb::blocked_range<int>(0, tiles, 1), [&](const tbb::blocked_range<int>& range) {
     for (int t = range.begin(); t < range.end() && !cancelled; ++t) {
-      impl_->tile(environment, options, t % columns * tileSize, t / columns * tileSize, result);
+      tile(environment, options, t % columns * tileSize, t / columns * tileSize, result);
       const std::lock_guard lock(reporting);
       ++done;
       if (progress && !cancelled && !progress(static_cast<double>(done) / tiles)) {
@@ -153,25 +110,12 @@ std::optional<TraceResult> RayTracer::render(const TraceOptions& options, const 
   return cancelled ? std::nullopt : std::optional(std::move(result));
 }
 
-glm::dvec3 RayTracer::pixel(const TraceOptions& options, int x, int y) const {
-  check(options);
-  return impl_->pixel(environmentOf(impl_->world.scene(), options), options, x, y);
-}
-
 glm::dvec3 RayTracer::radiance(const TraceOptions& options, const glm::dvec3& origin,
                                const glm::dvec3& direction) const {
   check(options);
-  const Environment environment = environmentOf(impl_->world.scene(), options);
-  PathTracer tracer(impl_->world, environment, options, impl_->time, MicrofacetSampler(0, 0));
-  return tracer.radiance(impl_->worldRay(origin, glm::normalize(direction)));
-}
-
-PickResult RayTracer::pick(const glm::dvec3& origin, const glm::dvec3& direction) const {
-  return impl_->pick(impl_->worldRay(origin, direction));
-}
-
-PickResult RayTracer::pickPixel(int width, int height, double x, double y) const {
-  return impl_->pick(impl_->cameraRay(width, height, x, y));
+  const Environment environment = environmentOf(world_.scene(), options);
+  PathTracer tracer(world_, environment, options, time_, MicrofacetSampler(0, 0));
+  return tracer.radiance({origin - camera_.eye, glm::normalize(direction)});
 }
 
 }  // namespace speculum

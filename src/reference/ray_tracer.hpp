@@ -3,12 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "image/image.hpp"
-#include "scene/scene_state.hpp"
+#include "scene/trace_world.hpp"
 
 namespace speculum {
 
@@ -31,16 +30,6 @@ struct TraceResult {
   std::vector<double> mirrorThroughput;  // product of their reflectances, mean of the channels; 1 without any
 };
 
-// The first surface on a ray.
-struct PickResult {
-  enum class Kind { nothing, object, mirror, light };
-  Kind kind = Kind::nothing;
-  int index = -1;           // into SceneState::instances, mirrors or lights
-  int64_t triangle = -1;    // of objects: three indices from Mesh::indices[3 * triangle] on
-  double distance = 0.0;    // metres (lengths of the given direction)
-  bool mirrorFront = true;  // of mirrors
-};
-
 // Ray tracer in double precision, whose pictures are the reference: each sample is the radiance that docs/picture.md
 // defines. Reflections are traced from the reflected eye, starting at the mirror, so nothing is moved off a surface.
 // Rough mirrors are sampled with a fixed low-discrepancy sequence per pixel, so every run gives the same bits whatever
@@ -53,12 +42,6 @@ class RayTracer {
  public:
   // Keeps a reference to `scene`, which must outlive the tracer and not change.
   RayTracer(const Scene& scene, const SceneState& state);
-  ~RayTracer();
-  RayTracer(RayTracer&&) noexcept;
-  RayTracer& operator=(RayTracer&&) noexcept;
-
-  // Moves to another time or camera of the same scene and keeps the hierarchies of its meshes.
-  void setState(const SceneState& state);
 
   // Receives the finished fraction, 0 .. 1, from one thread of the arena at a time; returning false cancels.
   using Progress = std::function<bool(double)>;
@@ -67,19 +50,18 @@ class RayTracer {
   // rough sample.
   std::optional<TraceResult> render(const TraceOptions& options, const Progress& progress = {}) const;
 
-  // Mean radiance of one pixel, as render() computes it.
-  glm::dvec3 pixel(const TraceOptions& options, int x, int y) const;
-
   // Radiance along a ray given in world space; `direction` of any length > 0.
   glm::dvec3 radiance(const TraceOptions& options, const glm::dvec3& origin, const glm::dvec3& direction) const;
 
-  PickResult pick(const glm::dvec3& origin, const glm::dvec3& direction) const;
-  // `x`, `y` in pixels from the top left corner of a picture of the given size; pixel centres are at + 0.5.
-  PickResult pickPixel(int width, int height, double x, double y) const;
-
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  // Ray through a point of the picture, pixels from the top left corner; the eye is the origin.
+  Ray cameraRay(int width, int height, double x, double y) const;
+  glm::dvec3 pixel(const Environment& environment, const TraceOptions& options, int x, int y) const;
+  void tile(const Environment& environment, const TraceOptions& options, int x0, int y0, TraceResult& result) const;
+
+  TraceWorld world_;
+  CameraPose camera_;
+  double time_;  // seconds
 };
 
 }  // namespace speculum

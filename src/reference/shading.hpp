@@ -2,7 +2,6 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/fresnel.hpp"
 #include "scene/trace_world.hpp"
 
 namespace speculum {

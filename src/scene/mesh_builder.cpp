@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
 #include "geometry/convex_mesh.hpp"
 #include "geometry/mesh_clusters.hpp"
@@ -59,13 +59,11 @@ void rebase(Mesh& mesh) {
   if (mesh.vertices.empty()) {
     return;
   }
-  glm::dvec3 low(std::numeric_limits<double>::infinity());
-  glm::dvec3 high = -low;
+  Bounds box;
   for (const Vertex& vertex : mesh.vertices) {
-    low = glm::min(low, vertex.position);
-    high = glm::max(high, vertex.position);
+    box.add(vertex.position);
   }
-  mesh.center = 0.5 * low + 0.5 * high;
+  mesh.center = box.center();
   for (Vertex& vertex : mesh.vertices) {
     vertex.position -= mesh.center;
     mesh.halfExtent = glm::max(mesh.halfExtent, glm::abs(vertex.position));

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "scene/input_error.hpp"
-#include "scene/obj_loader.hpp"
 #include "scene/scene_loader.hpp"
+#include "scene/toml_text.hpp"
 
 namespace speculum {
 
@@ -20,30 +20,12 @@ constexpr double kGap = 0.03;   // radii between the model and the mirror below 
 constexpr double kStage = 3.6;  // radii that the mirror measures
 constexpr double kFieldOfView = 36.0;
 
-std::string text(const glm::dvec3& v) {
-  return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
-}
-
-// A TOML string.
-std::string quoted(const std::string& name) {
-  std::string result = "\"";
-  for (const char c : name) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code == 0x7f) {
-      result += fmt::format("\\u{:04X}", code);
-    } else {
-      result.append(c == '"' || c == '\\' ? 1 : 0, '\\').append(1, c);
-    }
-  }
-  return result + "\"";
-}
-
 std::string disc(double radius) {
   constexpr int kCorners = 96;
   std::string corners;
   for (int i = 0; i < kCorners; ++i) {
     const double turn = glm::radians(360.0) * i / kCorners;
-    corners += fmt::format("  {},\n", text({radius * std::cos(turn), 0.0, -radius * std::sin(turn)}));
+    corners += fmt::format("  {},\n", tomlText(glm::dvec3(radius * std::cos(turn), 0.0, -radius * std::sin(turn))));
   }
   return "[\n" + corners + "]";
 }
@@ -57,24 +39,24 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));
   const glm::dvec3 eye = target + 1.3 * r / std::sin(glm::radians(0.5 * kFieldOfView)) * towards;
   std::string toml = fmt::format("# {} by itself, over a mirror of its size.\ntitle = {}\n\n",
-                                 oneLine(file.filename().string()), quoted(file.stem().string()));
+                                 oneLine(file.filename().string()), tomlText(file.stem().string()));
   toml +=
       "[environment]\n"
       "sky     = { zenith = [0.1, 0.21, 0.45], horizon = [0.8, 0.8, 0.78], ground = [0.5, 0.5, 0.5] }\n"
       "ambient = [0.17, 0.185, 0.21]\n\n";
   toml += fmt::format(
       "[camera]\nposition     = {}\ntarget       = {}\nvertical_fov = {}\nnear         = {}\norbit_speed  = 10\n\n",
-      text(eye), text(target), kFieldOfView, 1e-3 * r);
-  toml += fmt::format("[[object]]\nname     = {}\nmodel    = {}\nposition = {}\n\n", quoted(file.stem().string()),
-                      quoted(file.filename().string()), text(center - mesh.center));
+      tomlText(eye), tomlText(target), kFieldOfView, 1e-3 * r);
+  toml += fmt::format("[[object]]\nname     = {}\nmodel    = {}\nposition = {}\n\n", tomlText(file.stem().string()),
+                      tomlText(file.filename().string()), tomlText(center - mesh.center));
   toml += fmt::format(
       "[[light]]\nname         = \"key\"\nposition     = {}\nintensity    = {}\nradius       = {}\n"
       "glow         = 0\ncolor        = [1, 0.95, 0.88]\ncasts_shadow = true\n\n",
-      text(center + r * glm::dvec3(-2.2, 3.2, 2.6)), 58.0 * r * r, 0.05 * r);
+      tomlText(center + r * glm::dvec3(-2.2, 3.2, 2.6)), 58.0 * r * r, 0.05 * r);
   toml += fmt::format(
       "[[light]]\nname      = \"rim\"\nposition  = {}\nintensity = {}\nradius    = {}\n"
       "glow      = 0\ncolor     = [0.75, 0.85, 1]\n\n",
-      text(center + r * glm::dvec3(2.8, 1.8, -2.4)), 12.0 * r * r, 0.05 * r);
+      tomlText(center + r * glm::dvec3(2.8, 1.8, -2.4)), 12.0 * r * r, 0.05 * r);
   toml += fmt::format(
       "[[mirror]]\nname        = \"floor\"\npolygon     = {}\nreflectance = [0.34, 0.35, 0.36]\n"
       "base_color  = [0.2, 0.2, 0.205]\ntwo_sided   = true\n",

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "scene/load_progress.hpp"
+#include "scene/obj_loader.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {

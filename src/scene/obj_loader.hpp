@@ -1,12 +1,16 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "geometry/mesh.hpp"
-#include "scene/load_progress.hpp"
 
 namespace speculum {
+
+// Receives now and then the file that is read and the share of all files that is done, 0 .. 1. An exception from it
+// ends the loading.
+using LoadProgress = std::function<void(const std::filesystem::path& file, double done)>;
 
 // Reads a Wavefront OBJ file with its MTL files; appends the textures that its materials name to `textures`. Logs
 // warnings about missing materials and dropped triangles. Throws InputError.

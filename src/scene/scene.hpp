@@ -51,6 +51,10 @@ struct Copies {
 
 enum class Fresnel { none, schlick };
 
+// Reflectance F of a mirror for `cosine`, the cosine between its normal and the viewer: the same at every angle, or
+// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
+glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine);
+
 // What makes an object a curved mirror.
 struct ObjectMirror {
   glm::dvec3 reflectance{0.95};
@@ -144,17 +148,32 @@ struct SettingEntry {
   int line = 0;
 };
 
-struct Scene {
-  std::filesystem::path file;
-  std::string text;  // of the file, as it was read
-  std::string title;
+// The part of a scene that can be edited.
+struct SceneContent {
+  // Index of each node in the file that the scene was loaded from, -1 if it was added since. Loaded nodes come first,
+  // in their order. Empty until a SceneDocument edits the scene.
+  struct Origins {
+    std::vector<int> objects, lights, mirrors, bookmarks;
+
+    bool operator==(const Origins&) const = default;
+  };
+
   Environment environment;
   CameraSpec camera;
-  std::vector<SettingEntry> settings;
   std::vector<Object> objects;
   std::vector<PointLight> lights;
   std::vector<Mirror> mirrors;
   std::vector<Bookmark> bookmarks;
+  Origins origins;
+
+  bool operator==(const SceneContent&) const = default;
+};
+
+struct Scene : SceneContent {
+  std::filesystem::path file;
+  std::string text;  // of the file, as it was read
+  std::string title;
+  std::vector<SettingEntry> settings;
   std::vector<Mesh> meshes;       // each model file once
   std::vector<Texture> textures;  // each picture file once
 };

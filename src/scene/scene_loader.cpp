@@ -7,7 +7,6 @@
 
 #include "scene/input_error.hpp"
 #include "scene/model_scene.hpp"
-#include "scene/obj_loader.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"
 
@@ -128,7 +127,9 @@ void addBookmarks(const TableReader& reader, Scene& scene) {
 
 // Reads everything but the models.
 Scene readScene(const TableReader& reader, const fs::path& file, std::string text) {
-  Scene scene{.file = file, .text = std::move(text)};
+  Scene scene;
+  scene.file = file;
+  scene.text = std::move(text);
   scene.title = reader.text("title", "");
   scene.environment = readEnvironment(reader);
   scene.camera = readCamera(reader);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "scene/input_error.hpp"
-#include "scene/load_progress.hpp"
+#include "scene/obj_loader.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {

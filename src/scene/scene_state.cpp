@@ -10,19 +10,10 @@ namespace speculum {
 
 namespace {
 
-// Reduces the angles before it adds them, so that a long run loses no precision to a large sum.
-glm::dvec3 spun(const glm::dvec3& rotation, const glm::dvec3& spin, double time) {
-  glm::dvec3 angles;
-  for (int i = 0; i < 3; ++i) {
-    angles[i] = rotation[i] + std::remainder(spin[i] * time, 360.0);
-  }
-  return angles;
-}
-
 void addInstances(const Scene& scene, int objectIndex, double time, std::vector<InstanceState>& instances) {
   const Object& object = scene.objects[objectIndex];
   const Mesh& mesh = scene.meshes[object.mesh];
-  const glm::dmat3 rotation = rotationFromDegrees(spun(object.rotation, object.spin, time));
+  const glm::dmat3 rotation = rotationFromDegrees(object.rotation + spunBy(object.spin, time));
   const glm::dmat3 linear =
       glm::dmat3(rotation[0] * object.scale.x, rotation[1] * object.scale.y, rotation[2] * object.scale.z);
   const double largestScale = std::max({std::abs(object.scale.x), std::abs(object.scale.y), std::abs(object.scale.z)});
@@ -66,7 +57,7 @@ MirrorState mirrorState(const Mirror& mirror, double time) {
     state.axisY = glm::cross(state.normal, state.axisX);
     return state;
   }
-  const glm::dmat3 rotation = rotationFromDegrees(spun(mirror.rotation, mirror.spin, time));
+  const glm::dmat3 rotation = rotationFromDegrees(mirror.rotation + spunBy(mirror.spin, time));
   state.origin = mirror.position;
   state.axisX = rotation[0];
   state.axisY = rotation[1];
@@ -102,6 +93,22 @@ glm::dvec3 Environment::radiance(const glm::dvec3& d) const {
   }
   return d.y >= 0.0 ? glm::mix(sky->horizon, sky->zenith, std::sqrt(d.y))
                     : glm::mix(sky->horizon, sky->ground, std::min(1.0, -8.0 * d.y));
+}
+
+glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine) {
+  if (fresnel == Fresnel::none) {
+    return reflectance;
+  }
+  const double grazing = 1.0 - std::clamp(cosine, 0.0, 1.0);
+  return reflectance + (1.0 - reflectance) * std::pow(grazing, 5.0);
+}
+
+glm::dvec3 spunBy(const glm::dvec3& spin, double time) {
+  glm::dvec3 angles;
+  for (int i = 0; i < 3; ++i) {
+    angles[i] = std::remainder(spin[i] * time, 360.0);
+  }
+  return angles;
 }
 
 CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,

@@ -25,6 +25,10 @@ struct CameraPose {
 CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,
                   double near);
 
+// Degrees that `spin` (degrees per second) has added to a rotation. Each is reduced before anything is added to it, so
+// that a long run loses no precision to a large sum.
+glm::dvec3 spunBy(const glm::dvec3& spin, double time);
+
 struct InstanceState {
   int object = 0;  // index into Scene::objects
   int copy = 0;

@@ -10,12 +10,8 @@ namespace {
 
 // Scales the matrix first, because entries from 1e-20 to 1e13 must not leave the range of double.
 glm::dmat3 inverseOf(const glm::dmat3& m) {
-  double largest = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    const glm::dvec3 a = glm::abs(m[c]);
-    largest = std::max({largest, a.x, a.y, a.z});
-  }
-  return glm::inverse(m * (1.0 / largest)) * (1.0 / largest);
+  const double scale = 1.0 / largestEntry(m);
+  return glm::inverse(m * scale) * scale;
 }
 
 bool isInvertible(const glm::dmat3& m) {

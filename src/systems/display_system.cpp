@@ -117,7 +117,7 @@ std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const Frame
 }
 
 std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
-                                                       KeptDepth& depth) {
+                                                       WatchedDepth& depth) {
   const std::optional<Placement> placement = placementOf(plan, debug);
   if (!placement) {
     return std::nullopt;

@@ -6,9 +6,9 @@
 #include "image/image.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
-#include "systems/kept_depth.hpp"
 #include "systems/pipeline_variants.hpp"
 #include "systems/recorded_pass.hpp"
+#include "systems/watched_depth.hpp"
 
 namespace speculum {
 
@@ -43,7 +43,7 @@ class DisplaySystem {
   std::optional<RecordedPass> recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
                                           const MirrorImage& radiance, const Settings& settings);
   std::optional<RecordedPass> recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
-                                          KeptDepth& depth);
+                                          WatchedDepth& depth);
   // Gives back the pipelines that only debug views needed.
   void releaseView();
 

@@ -24,7 +24,7 @@ class EffectLedger {
   void pipeline(EffectKind kind, bool takesPart = true) { (*this)[kind].pipelines += takesPart; }
 
  private:
-  std::array<EffectCost, effectKinds> costs_{};
+  std::array<EffectCost, static_cast<size_t>(EffectKind::count)> costs_{};
 };
 
 }  // namespace speculum

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <vector>
 
+#include "geometry/bvh.hpp"
 #include "scene/scene.hpp"
 #include "shaders/gpu_data.h"
 
@@ -17,5 +19,9 @@ gpu::MaterialChange materialChange(const Object& object);
 gpu::DrawConstants drawConstants(const Material& material, const Object& object, float handedness);
 // The normal matrix of a linear map, at unit size: shaders normalise, and a float would overflow at the extremes.
 glm::dmat3 unitNormalMatrix(const glm::dmat3& linear);
+
+// Appends a hierarchy's nodes. Its primitives stand in `order()` from `firstPrimitive` on. Boxes grow by a millionth of
+// their coordinates, so that what they hold stays inside when it becomes float.
+void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<gpu::TraceNode>& nodes);
 
 }  // namespace speculum

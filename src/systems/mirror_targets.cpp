@@ -44,9 +44,9 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
   cachedTargets_ = std::move(targets);
 }
 
-void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> kept,
+void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched,
                           RetireQueue& retired) {
-  kept_ = kept;
+  watched_ = watched;
   takeCached(plan);
   const bool needless = plan.passes.empty() && plan.cached.empty();
   if (pool_ && (restart_ || depths_.front().image->samples() != samples || needless)) {
@@ -88,14 +88,14 @@ std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const Pas
 }
 
 // Whether a pass's image outlives its use in this frame: for the debug view, or for the next frames.
-bool MirrorTargets::isKept(const FramePlan& plan, int pass) const {
-  return pass == kept_ || std::any_of(plan.cached.begin(), plan.cached.end(),
-                                      [&](const CachedImage& image) { return image.pass == pass; });
+bool MirrorTargets::isNeededLater(const FramePlan& plan, int pass) const {
+  return pass == watched_ || std::any_of(plan.cached.begin(), plan.cached.end(),
+                                         [&](const CachedImage& image) { return image.pass == pass; });
 }
 
 void MirrorTargets::releaseShown(const FramePlan& plan, const PlannedPass& pass) {
   for (const MirrorDraw& draw : pass.mirrors) {
-    if (draw.pass >= 0 && !isKept(plan, draw.pass)) {
+    if (draw.pass >= 0 && !isNeededLater(plan, draw.pass)) {
       pool_->release(*targets_[static_cast<size_t>(draw.pass)]);
     }
   }
@@ -114,8 +114,9 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
       cachedTargets_[i] = targets_[static_cast<size_t>(plan.cached[i].pass)];
     }
   }
-  if (kept_ && std::find(cachedTargets_.begin(), cachedTargets_.end(), targets_[*kept_]) == cachedTargets_.end()) {
-    pool_->release(*targets_[*kept_]);
+  if (watched_ &&
+      std::find(cachedTargets_.begin(), cachedTargets_.end(), targets_[*watched_]) == cachedTargets_.end()) {
+    pool_->release(*targets_[*watched_]);
   }
   cachedImages_ = plan.cached;
   if (!pool_) {

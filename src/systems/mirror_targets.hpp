@@ -18,9 +18,9 @@ class MirrorTargets {
   const std::vector<CachedImage>& cachedImages() const { return cachedImages_; }
   void restart();  // drops them and, in the next frame, every target
 
-  // Begins the plan's frame and takes over the cached images that it reuses. `kept` is a pass whose image is not
-  // released before the frame ends.
-  void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> kept, RetireQueue& retired);
+  // Begins the plan's frame and takes over the cached images that it reuses. The image of the pass that the debug view
+  // shows, `watched`, is not released before the frame ends.
+  void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched, RetireQueue& retired);
   // Targets for the passes of a range, in order, each with depth of its own; none is one that the range looks up.
   std::vector<PassTargets> acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired);
   // Releases the images that a recorded pass looked up.
@@ -41,7 +41,7 @@ class MirrorTargets {
     int frames = 0;           // since then
   };
   void takeCached(const FramePlan& plan);
-  bool isKept(const FramePlan& plan, int pass) const;
+  bool isNeededLater(const FramePlan& plan, int pass) const;
   SharedDepth& depth(size_t place, VkExtent2D needed);
   void fitDepth(RetireQueue& retired);
   void dropDepth(size_t from, RetireQueue& retired);
@@ -54,7 +54,7 @@ class MirrorTargets {
   std::vector<CachedImage> cachedImages_;
   std::vector<OffScreen*> cachedTargets_;  // of cachedImages_ between frames, of the plan's in one
   std::vector<MirrorImage> cachedDescriptors_;
-  std::optional<int> kept_;
+  std::optional<int> watched_;
   bool restart_ = false;
 };
 

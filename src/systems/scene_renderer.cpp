@@ -62,7 +62,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
       watch_(renderer),
       display_(renderer),
-      watchedDepth_(std::make_unique<KeptDepth>(renderer, display_.layout())),
+      watchedDepth_(std::make_unique<WatchedDepth>(renderer, display_.layout())),
       probe_(renderer),
       mirrorTargets_(device_),
       environmentTargets_(device_) {}
@@ -222,7 +222,7 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
                   {{0, 0}, extentOf(view.rect.width, view.rect.height)}, viewportOf(view), view, info.environment));
     desc.clearDepth = MaskSystem::clearDepth(info.data.passes()[i]);
     desc.grouped = true;
-    keepDepth(info, i, desc);
+    watchDepth(info, i, desc);
   }
   const size_t firstRecorded = recorded_.size();
   {
@@ -253,7 +253,7 @@ void SceneRenderer::recordMain(const FrameInfo& info) {
     const PassDesc whole = fullPass("main view", main_->targets());
     PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment);
     desc.storeSamples = main_->desc().readSamples;
-    keepDepth(info, index, desc);
+    watchDepth(info, index, desc);
     drawScene(info, index, desc, {{.kind = PassKind::main}, desc.name, -1, 0, main.areaPx});
     finishDepth(info, index);
     checkTarget(info, recorded_.back(), *main_, main_->extent());
@@ -315,7 +315,7 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
   recorded_.push_back(std::move(pass));
 }
 
-void SceneRenderer::keepDepth(const FrameInfo& info, size_t pass, PassDesc& desc) {
+void SceneRenderer::watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc) {
   if (depthPass_ == static_cast<int>(pass)) {
     watchedDepth_->prepare(desc, *info.frame.retired);
   }

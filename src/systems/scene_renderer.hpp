@@ -10,7 +10,6 @@
 #include "systems/environment_targets.hpp"
 #include "systems/finite_watch.hpp"
 #include "systems/frame_info.hpp"
-#include "systems/kept_depth.hpp"
 #include "systems/mask_system.hpp"
 #include "systems/mirror_system.hpp"
 #include "systems/mirror_targets.hpp"
@@ -18,6 +17,7 @@
 #include "systems/recorded_pass.hpp"
 #include "systems/render_system.hpp"
 #include "systems/texel_probe.hpp"
+#include "systems/watched_depth.hpp"
 
 namespace speculum {
 
@@ -76,7 +76,7 @@ class SceneRenderer {
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
   void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
   // Keeps the depth of the pass that the debug view shows; call it before the pass and after it.
-  void keepDepth(const FrameInfo& info, size_t pass, PassDesc& desc);
+  void watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc);
   void finishDepth(const FrameInfo& info, size_t pass);
   void checkTarget(const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
   // The target of plan.passes[pass], or of the main view for their number.
@@ -94,7 +94,7 @@ class SceneRenderer {
   MirrorSystem mirrorSystem_;
   FiniteWatch watch_;
   DisplaySystem display_;
-  std::unique_ptr<KeptDepth> watchedDepth_;
+  std::unique_ptr<WatchedDepth> watchedDepth_;
   TexelProbe probe_;
   std::unique_ptr<OffScreen> main_;
   glm::ivec2 pictureSize_{0};  // of the last recorded frame

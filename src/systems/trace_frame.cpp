@@ -9,7 +9,6 @@
 
 #include "geometry/reflection.hpp"
 #include "systems/gpu_conversion.hpp"
-#include "systems/trace_nodes.hpp"
 
 namespace speculum {
 

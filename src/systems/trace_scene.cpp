@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/bvh.hpp"
-#include "systems/trace_nodes.hpp"
+#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 

@@ -1,13 +1,12 @@
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <cstdio>
 
 #include "frame/setting_fields.hpp"
 #include "ui/panels.hpp"
-#include "ui/setting_help.hpp"
 
 namespace speculum::panels {
 
@@ -67,9 +66,7 @@ void forTicks(double low, double high, const Draw& draw) {
 }
 
 std::string figure(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), value < 1000.0 ? "%.3g" : "%.0f", value);
-  return text;
+  return value < 1000.0 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 
 void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
@@ -138,7 +135,7 @@ void plot(PanelContext& ui) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 15.0f * ImGui::GetFontSize());
   ImGui::InvisibleButton("plot", size);
-  notePlace(ui, "accuracy.plot");
+  recordWidget(ui, "accuracy.plot");
   const Plot plot = plotOf(accuracy, corner, size);
   const int hovered = ImGui::IsItemHovered() ? nearestPoint(plot, accuracy, ImGui::GetMousePos()) : -1;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -184,7 +181,7 @@ void frontSlider(PanelContext& ui) {
       last >= 0) {
     ui.send(ApplyPoint{accuracy.front[index]});
   }
-  notePlace(ui, "accuracy.slider");
+  recordWidget(ui, "accuracy.slider");
 }
 
 void budget(PanelContext& ui) {
@@ -194,7 +191,7 @@ void budget(PanelContext& ui) {
     if (ImGui::Checkbox(findSettingField(key)->label, &active)) {
       value = active ? usual : 0.0;
     }
-    notePlace(ui, key);
+    recordWidget(ui, key);
     tip(settingHelp(key).c_str());
     if (active) {
       ImGui::SameLine();
@@ -217,7 +214,7 @@ void budget(PanelContext& ui) {
 void differenceView(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   ImGui::Checkbox("Show difference from the reference", &ui.state.showDifference);
-  notePlace(ui, "accuracy.difference");
+  recordWidget(ui, "accuracy.difference");
   if (!ui.state.showDifference) {
     return;
   }

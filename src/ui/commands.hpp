@@ -89,8 +89,9 @@ struct SetGizmoMode {
   GizmoMode mode = GizmoMode::move;
 };
 struct ToggleGizmoMode {};
-struct EditNode {  // the selected one
-  Thing node;
+struct EditNode {
+  Selection target;
+  SceneNode node;          // of the target's kind
   bool continued = false;  // a widget is held: what follows until EndEdit is the same step of undo
 };
 struct EndEdit {};

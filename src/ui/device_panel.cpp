@@ -15,12 +15,6 @@ void fact(const char* name, const std::string& value) {
   ImGui::TextWrapped("%s", value.c_str());
 }
 
-std::string mebibytes(uint64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
-  return text;
-}
-
 bool beginFacts(const char* id) {
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) {
     return false;
@@ -42,9 +36,9 @@ void device(PanelContext& ui) {
     fact("Vulkan", device.vulkan);
     fact("render path", device.renderPath);
     fact("samples a pixel", device.samples);
-    fact("memory in use here", mebibytes(frame.deviceBytes));
-    fact("memory of the process", mebibytes(frame.usedBytes));
-    fact("memory offered", mebibytes(frame.budgetBytes));
+    fact("memory in use here", mebibytes(frame.deviceBytes) + " MiB");
+    fact("memory of the process", mebibytes(frame.usedBytes) + " MiB");
+    fact("memory offered", mebibytes(frame.budgetBytes) + " MiB");
     fact("validation layer",
          frame.validationMessages < 0 ? "off" : std::to_string(frame.validationMessages) + " messages");
     ImGui::EndTable();

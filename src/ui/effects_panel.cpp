@@ -5,16 +5,6 @@
 
 namespace speculum::panels {
 
-namespace {
-
-std::string mebibytes(uint64_t bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", static_cast<double>(bytes) / (1024.0 * 1024.0));
-  return text;
-}
-
-}  // namespace
-
 void effects(PanelContext& ui) {
   int called = 0;
   for (const EffectView& effect : ui.view.frame.effects) {

@@ -4,12 +4,11 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 
-#include "image/color.hpp"
 #include "scene/scene_fields.hpp"
+#include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
 
@@ -44,14 +43,8 @@ bool colorWidget(const Field& field, const char* label, glm::dvec3& color) {
   if (std::max({color.r, color.g, color.b}) > 1.0) {
     return dragNumbers(field, label, &color.x, 3);
   }
-  std::array<float, 3> encoded{};
-  for (int i = 0; i < 3; ++i) {
-    encoded[i] = static_cast<float>(srgbEncode(std::clamp(color[i], 0.0, 1.0)));
-  }
-  const bool changed = ImGui::ColorEdit3(label, encoded.data(), ImGuiColorEditFlags_Float);
-  for (int i = 0; changed && i < 3; ++i) {
-    color[i] = std::round(srgbDecode(encoded[i]) * 1e6) / 1e6;
-  }
+  const bool changed = colorEdit(label, color, ImGuiColorEditFlags_Float);
+  color = changed ? glm::round(color * 1e6) / 1e6 : color;
   return changed;
 }
 
@@ -68,17 +61,10 @@ bool scaleWidget(const Field& field, const char* label, glm::dvec3& scale) {
 
 template <typename Enum>
 bool choiceWidget(const char* label, Enum& value) {
-  const auto names = choicesOf(value);
-  bool changed = false;
-  if (ImGui::BeginCombo(label, names[static_cast<size_t>(value)].data())) {
-    for (size_t i = 0; i < names.size(); ++i) {
-      if (ImGui::Selectable(names[i].data(), i == static_cast<size_t>(value))) {
-        value = static_cast<Enum>(i);
-        changed = true;
-      }
-    }
-    ImGui::EndCombo();
-  }
+  const auto known = choicesOf(value);
+  int index = static_cast<int>(value);
+  const bool changed = choice(label, index, std::vector<std::string>(known.begin(), known.end()));
+  value = static_cast<Enum>(index);
   return changed;
 }
 
@@ -110,8 +96,8 @@ constexpr bool isNumbers = std::is_same_v<Value, double> || std::is_same_v<Value
 
 class FieldRows {
  public:
-  explicit FieldRows(const NotePlace& note, std::function<bool()> polygon = {})
-      : note_(note), polygon_(std::move(polygon)) {}
+  explicit FieldRows(const RecordWidget& record, std::function<bool()> polygon = {})
+      : record_(record), polygon_(std::move(polygon)) {}
 
   // True if the user changed a field.
   template <Described Node>
@@ -167,28 +153,28 @@ class FieldRows {
   }
 
   void explain(const std::string& path, std::string_view text, bool number) {
-    note_("edit." + path);
+    record_("edit." + path);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
       ImGui::SetTooltip("%s%s", std::string(text).c_str(), number ? "\ndrag, or click to type" : "");
     }
   }
 
-  const NotePlace& note_;
+  const RecordWidget& record_;
   std::function<bool()> polygon_;
 };
 
 }  // namespace
 
-bool fieldRows(Object& object, const NotePlace& note) {
-  return FieldRows(note).edit(object);
+bool fieldRows(Object& object, const RecordWidget& record) {
+  return FieldRows(record).edit(object);
 }
 
-bool fieldRows(PointLight& light, const NotePlace& note) {
-  return FieldRows(note).edit(light);
+bool fieldRows(PointLight& light, const RecordWidget& record) {
+  return FieldRows(record).edit(light);
 }
 
-bool fieldRows(Mirror& mirror, const NotePlace& note, const std::function<bool()>& polygon) {
-  return FieldRows(note, polygon).edit(mirror);
+bool fieldRows(Mirror& mirror, const RecordWidget& record, const std::function<bool()>& polygon) {
+  return FieldRows(record, polygon).edit(mirror);
 }
 
 }  // namespace speculum::panels

@@ -1,8 +1,9 @@
 #include "ui/frame_history.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace speculum {
@@ -12,9 +13,7 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string field(double ms) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4f", ms);
-  return std::isnan(ms) ? "" : text;
+  return std::isnan(ms) ? "" : fmt::format("{:.4f}", ms);
 }
 
 std::string quoted(const std::string& name) {
@@ -100,8 +99,7 @@ std::string FrameHistory::csv() const {
     text += "," + quoted(name + " ms");
   }
   for (const Row& row : rows_) {
-    text +=
-        "\n" + std::to_string(row.number) + "," + field(row.frameMs) + "," + field(row.cpuMs) + "," + field(row.gpuMs);
+    text += fmt::format("\n{},{},{},{}", row.number, field(row.frameMs), field(row.cpuMs), field(row.gpuMs));
     for (const size_t column : columns) {
       text += "," + field(passOf(row.passes, column));
     }

@@ -28,7 +28,7 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
   if (ImGui::InvisibleButton("scene", {size.x, size.y + titleHeight}) && !shown) {
     ui.send(OpenScene{scene.file});
   }
-  notePlace(ui, "gallery." + scene.name);
+  recordWidget(ui, "gallery." + scene.name);
   const bool hot = ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible);
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s\n%s", scene.name.c_str(), scene.file.c_str());

@@ -21,9 +21,9 @@ void nodeList(PanelContext& ui) {
   int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the row that was scrolled to
   int row = 0;
   for (const Selection& node : allNodes(*edit.scene)) {
-    const bool selected = sameThing(node, edit.selected);
+    const bool selected = sameNode(node, edit.selected);
     const bool other = std::any_of(edit.others.begin(), edit.others.end(),
-                                   [&](const Selection& selection) { return sameThing(selection, node); });
+                                   [&](const Selection& selection) { return sameNode(selection, node); });
     ImGui::PushID(row);
     if (ImGui::Selectable(describe(*edit.scene, node).c_str(), selected || other)) {
       const ImGuiIO& io = ImGui::GetIO();
@@ -32,7 +32,7 @@ void nodeList(PanelContext& ui) {
     if (selected && std::exchange(*shown, row) != row) {
       ImGui::SetScrollHereY();
     }
-    notePlace(ui, "edit.node." + std::to_string(row));
+    recordWidget(ui, "edit.node." + std::to_string(row));
     ImGui::PopID();
     ++row;
   }
@@ -49,7 +49,7 @@ void modelChoice(PanelContext& ui) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool open =
       ImGui::BeginCombo("##model", chosen ? chosen->stem().c_str() : fileName, ImGuiComboFlags_HeightLargest);
-  notePlace(ui, "edit.model");
+  recordWidget(ui, "edit.model");
   if (open) {
     for (size_t i = 0; i <= models.size(); ++i) {
       ImGui::PushID(static_cast<int>(i));  // names may repeat
@@ -58,7 +58,7 @@ void modelChoice(PanelContext& ui) {
       if (ImGui::Selectable(name.c_str(), model == chosen)) {
         chosen = model;
       }
-      notePlace(ui, "edit.model." + (model ? name : "file"));
+      recordWidget(ui, "edit.model." + (model ? name : "file"));
       ImGui::PopID();
     }
     ImGui::EndCombo();
@@ -66,7 +66,7 @@ void modelChoice(PanelContext& ui) {
   if (!chosen) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::InputTextWithHint("##model file", "OBJ file, absolute or from the scene's folder", &ui.state.modelFile);
-    notePlace(ui, "edit.model_file");
+    recordWidget(ui, "edit.model_file");
   }
 }
 

@@ -19,7 +19,7 @@ bool vertexButton(PanelContext& ui, const char* label, const std::string& key, b
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label, {ImGui::GetFrameHeight(), 0.0f});
   ImGui::EndDisabled();
-  notePlace(ui, "edit." + key);
+  recordWidget(ui, "edit." + key);
   tip(about);
   return pressed;
 }
@@ -32,7 +32,7 @@ bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i
   const double high = farthest;
   bool changed = ImGui::DragScalarN("##vertex", ImGuiDataType_Double, &vertices[i].x, 3, 0.01f, &low, &high, "%.6g",
                                     ImGuiSliderFlags_AlwaysClamp);
-  notePlace(ui, "edit." + key);
+  recordWidget(ui, "edit." + key);
   tip("metres; the polygon must stay planar and convex");
   const glm::dvec3 middle = 0.5 * (vertices[i] + vertices[(i + 1) % vertices.size()]);
   if (vertexButton(ui, "+", key + ".add", true, "another vertex, halfway to the next one")) {
@@ -67,9 +67,7 @@ bool polygonRows(PanelContext& ui, Mirror& mirror) {
   }
   const bool applied = changed && !polygon.problem;
   if (polygon.problem) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
-    ImGui::TextWrapped("Not applied: %s", polygon.problem->c_str());
-    ImGui::PopStyleColor();
+    coloredText(errorColor, "Not applied: " + *polygon.problem);
     if (button(ui, "Revert", "edit.polygon.reset", "Back to the mirror's vertices")) {
       polygon = {};
     }
@@ -88,7 +86,7 @@ void throughButtons(PanelContext& ui) {
     if (ImGui::SmallButton(speculum::describe(*ui.view.edit.scene, mirror).c_str())) {
       ui.send(SelectNode{mirror});
     }
-    notePlace(ui, "edit.through." + std::to_string(i));
+    recordWidget(ui, "edit.through." + std::to_string(i));
     ImGui::PopID();
     tip("Select it");
   }
@@ -100,7 +98,7 @@ void gizmoMode(PanelContext& ui) {
     if (ImGui::RadioButton(label, ui.view.edit.mode == mode)) {
       ui.send(SetGizmoMode{mode});
     }
-    notePlace(ui, key);
+    recordWidget(ui, key);
     ImGui::SameLine();
   }
   ImGui::TextDisabled("  G: switch   Ctrl: snap");
@@ -131,20 +129,20 @@ void selectedNode(PanelContext& ui) {
   }
   gizmoMode(ui);
   ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
-  const NotePlace note = [&](const std::string& name) { notePlace(ui, name); };
-  Thing node = thingOf(*edit.scene, edit.selected);
+  const RecordWidget record = [&](const std::string& name) { recordWidget(ui, name); };
+  SceneNode node = nodeOf(*edit.scene, edit.selected);
   bool edited = false;
   if (auto* object = std::get_if<Object>(&node)) {
-    edited = fieldRows(*object, note);
+    edited = fieldRows(*object, record);
   } else if (auto* light = std::get_if<PointLight>(&node)) {
-    edited = fieldRows(*light, note);
+    edited = fieldRows(*light, record);
   } else if (auto* mirror = std::get_if<Mirror>(&node)) {
-    edited = fieldRows(*mirror, note, [&] { return polygonRows(ui, *mirror); });
+    edited = fieldRows(*mirror, record, [&] { return polygonRows(ui, *mirror); });
   }
   ImGui::PopItemWidth();
   if (edited) {
     ui.state.editing = ImGui::IsAnyItemActive();
-    ui.send(EditNode{std::move(node), ui.state.editing});
+    ui.send(EditNode{edit.selected, std::move(node), ui.state.editing});
   }
 }
 

@@ -1,7 +1,5 @@
 #include <imgui.h>
 
-#include <cstdio>
-
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -20,9 +18,7 @@ void loading(PanelContext& ui) {
                    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoFocusOnAppearing)) {
     ImGui::Text("Loading %s", browser.loading.c_str());
-    char percent[16];
-    std::snprintf(percent, sizeof(percent), "%.0f %%", 100.0 * browser.loaded);
-    ImGui::ProgressBar(static_cast<float>(browser.loaded), ImVec2(-5.0f * unit, 0.0f), percent);
+    ImGui::ProgressBar(static_cast<float>(browser.loaded), ImVec2(-5.0f * unit, 0.0f));
     ImGui::SameLine();
     if (button(ui, "Cancel", "loading.cancel", "")) {
       ui.send(CancelLoading{});

@@ -6,17 +6,7 @@ namespace speculum::panels {
 
 namespace {
 
-ImVec4 colorOf(LogLevel level) {
-  switch (level) {
-    case LogLevel::info:
-      break;
-    case LogLevel::warning:
-      return {0.85f, 0.60f, 0.10f, 1.0f};
-    case LogLevel::error:
-      return {0.92f, 0.38f, 0.28f, 1.0f};
-  }
-  return ImGui::GetStyleColorVec4(ImGuiCol_Text);
-}
+constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 
 }  // namespace
 
@@ -24,7 +14,7 @@ void log(PanelContext& ui) {
   PanelState& state = ui.state;
   ImGui::SetNextItemWidth(11.0f * ImGui::GetFontSize());
   ImGui::InputTextWithHint("##filter", "Filter", state.logFilter.data(), state.logFilter.size());
-  notePlace(ui, "log.filter");
+  recordWidget(ui, "log.filter");
   tip("Only lines that contain this");
   ImGui::SameLine();
   int least = static_cast<int>(state.logLevel);
@@ -44,9 +34,11 @@ void log(PanelContext& ui) {
   ImGui::Separator();
   ImGui::BeginChild("lines");
   for (const LogLine& line : lines) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colorOf(line.level));
-    ImGui::TextWrapped("%s", line.text.c_str());
-    ImGui::PopStyleColor();
+    if (line.level == LogLevel::info) {
+      ImGui::TextWrapped("%s", line.text.c_str());
+    } else {
+      coloredText(line.level == LogLevel::error ? errorColor : warningColor, line.text);
+    }
   }
   // Follows the newest line unless somebody reads above it.
   if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) {

@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::string_view openWord = "open";
 constexpr std::string_view percentWord = "percent";
+constexpr std::string_view themeWord = "theme";
+constexpr std::string_view lightWord = "light";
 
 std::filesystem::path choicesFile() {
   return userConfigDir() / "panels";
@@ -32,6 +34,9 @@ PanelChoices savedPanelChoices() {
     for (const PanelName& panel : panelNames) {
       choices.*panel.open = choices.*panel.open || (word == openWord && value == panel.name);
     }
+    if (word == themeWord) {
+      choices.theme = value == lightWord ? Theme::light : Theme::dark;
+    }
     if (word == percentWord) {
       choices.percent = std::clamp(std::atoi(value.c_str()), 50, 300);
     }
@@ -41,11 +46,12 @@ PanelChoices savedPanelChoices() {
 
 void savePanelChoices(const PanelChoices& choices) {
   std::string text = std::string(percentWord) + " " + std::to_string(choices.percent) + "\n";
+  text += choices.theme == Theme::light ? std::string(themeWord) + " " + std::string(lightWord) + "\n" : "";
   for (const PanelName& panel : panelNames) {
     text += choices.*panel.open ? std::string(openWord) + " " + std::string(panel.name) + "\n" : "";
   }
   if (!storeFile(choicesFile(), text)) {
-    spdlog::warn("{} cannot be written: the open panels are not remembered", choicesFile().string());
+    spdlog::warn("{} cannot be written: the choices of the panel are not remembered", choicesFile().string());
   }
 }
 

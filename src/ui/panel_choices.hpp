@@ -3,9 +3,11 @@
 #include <array>
 #include <string_view>
 
+#include "ui/theme.hpp"
+
 namespace speculum {
 
-// Which windows of the panel are open, and how large everything is in them; kept beside the layout in userConfigDir().
+// Which windows of the panel are open, and how they look; kept beside the layout in userConfigDir().
 struct PanelChoices {
   bool scenes = false;
   bool performance = false;
@@ -13,6 +15,7 @@ struct PanelChoices {
   bool device = false;
   bool log = false;
   bool accuracy = false;
+  Theme theme = Theme::dark;
   int percent = 100;  // of the size that the monitor's scale asks for, 50 .. 300
 
   bool operator==(const PanelChoices&) const = default;

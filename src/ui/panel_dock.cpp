@@ -2,9 +2,9 @@
 
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -78,16 +78,15 @@ std::string PanelDock::saved() const {
   std::string text;
   for (const auto& [name, panel] : panels_) {
     std::string lines = panel.collapsed ? "Collapsed=1\n" : "";
-    std::array<char, 64> line{};
+    const auto line = [&](const char* key, const glm::vec2& v) {
+      lines += fmt::format("{}={:.0f},{:.0f}\n", key, v.x, v.y);
+    };
     if (!panel.docked) {
-      std::snprintf(line.data(), line.size(), "Pos=%.0f,%.0f\n", panel.wish.corner.x, panel.wish.corner.y);
-      lines += line.data();
-      std::snprintf(line.data(), line.size(), "Display=%.0f,%.0f\n", panel.display.x, panel.display.y);
-      lines += line.data();
+      line("Pos", panel.wish.corner);
+      line("Display", panel.display);
     }
     if (panel.wish.size.x > 0.0f) {
-      std::snprintf(line.data(), line.size(), "Size=%.0f,%.0f\n", panel.wish.size.x, panel.wish.size.y);
-      lines += line.data();
+      line("Size", panel.wish.size);
     }
     text += lines.empty() ? "" : "[Panel][" + name + "]\n" + lines + "\n";
   }

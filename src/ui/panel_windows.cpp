@@ -10,10 +10,7 @@
 namespace speculum {
 
 PanelWindows::PanelWindows()
-    : state_{.choices = savedPanelChoices()},
-      savedChoices_(state_.choices),
-      pendingPercent_(state_.choices.percent),
-      theme_(savedTheme()) {}
+    : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
 
 UiOutput PanelWindows::build(const UiView& view) {
   PanelContext ui{.view = view, .state = state_, .settings = view.settings.current, .output = {}};
@@ -47,7 +44,7 @@ UiOutput PanelWindows::build(const UiView& view) {
   if (difference != view.accuracy.showsDifference) {
     ui.send(ShowDifference{difference});
   }
-  if (settingsKey(ui.settings) != settingsKey(view.settings.current)) {
+  if (ui.settings != view.settings.current) {
     ui.output.commands.insert(ui.output.commands.begin(), SetSettings{ui.settings});
   }
   return std::move(ui.output);
@@ -79,19 +76,19 @@ void PanelWindows::windowChoices(PanelContext& ui) {
     for (const PanelName& panel : panelNames) {
       ImGui::TableNextColumn();
       ImGui::Checkbox(panel.name.data(), &(state_.choices.*panel.open));
-      panels::notePlace(ui, "panel." + std::string(panel.name));
+      panels::recordWidget(ui, "panel." + std::string(panel.name));
       panels::tip(panel.about);
     }
     ImGui::EndTable();
   }
   const bool open = ImGui::CollapsingHeader("Window");
-  panels::notePlace(ui, "section.window");
+  panels::recordWidget(ui, "section.window");
   if (!open) {
     return;
   }
   themeChoice(ui);
   ImGui::SliderInt("size", &pendingPercent_, 50, 300, "%d %%", ImGuiSliderFlags_AlwaysClamp);
-  panels::notePlace(ui, "window.size");
+  panels::recordWidget(ui, "window.size");
   panels::tip("Size of text and widgets, relative to the monitor's scale");
   if (!ImGui::IsItemActive()) {
     state_.choices.percent = pendingPercent_;
@@ -108,10 +105,10 @@ void PanelWindows::themeChoice(PanelContext& ui) {
   for (const auto& [name, place, theme] :
        {std::tuple("dark", "theme.dark", Theme::dark), std::tuple("light", "theme.light", Theme::light)}) {
     ImGui::SameLine();
-    if (ImGui::RadioButton(name, theme_ == theme)) {
-      theme_ = theme;
+    if (ImGui::RadioButton(name, state_.choices.theme == theme)) {
+      state_.choices.theme = theme;
     }
-    panels::notePlace(ui, place);
+    panels::recordWidget(ui, place);
   }
 }
 
@@ -125,7 +122,7 @@ void PanelWindows::presentModes(PanelContext& ui) {
     if (ImGui::RadioButton(name.c_str(), device.presentMode == i)) {
       ui.send(SetPresentMode{i});
     }
-    panels::notePlace(ui, "present." + name);
+    panels::recordWidget(ui, "present." + name);
     panels::tip(
         "fifo waits for the screen and never tears; mailbox shows the newest picture at each refresh;\n"
         "immediate shows pictures at once and may tear");

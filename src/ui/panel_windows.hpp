@@ -1,7 +1,6 @@
 #pragma once
 
 #include "ui/panels.hpp"
-#include "ui/theme.hpp"
 
 namespace speculum {
 
@@ -19,7 +18,6 @@ class PanelWindows {
   Thumbnails& thumbnails() { return thumbnails_; }
 
   const PanelState& state() const { return state_; }
-  Theme theme() const { return theme_; }
   bool visible() const { return visible_; }
   void setVisible(bool visible) { visible_ = visible; }
   void toggleHelp();
@@ -39,7 +37,6 @@ class PanelWindows {
   PanelState state_;
   PanelChoices savedChoices_;
   int pendingPercent_;  // while its slider is held
-  Theme theme_;
   Thumbnails thumbnails_;
   float statusWidth_ = 0.0f;  // pixels
   bool visible_ = true;

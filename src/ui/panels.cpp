@@ -1,11 +1,11 @@
 #include "ui/panels.hpp"
 
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <tuple>
 
-#include "ui/setting_help.hpp"
 #include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
@@ -17,13 +17,13 @@ void bookmarks(PanelContext& ui) {
   const int shown = camera.bookmark;
   ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
   const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? camera.bookmarks[shown].c_str() : "bookmarks");
-  notePlace(ui, "bookmarks");
+  recordWidget(ui, "bookmarks");
   if (open) {
     for (size_t i = 0; i < camera.bookmarks.size(); ++i) {
       if (ImGui::Selectable(camera.bookmarks[i].c_str(), static_cast<int>(i) == shown)) {
         ui.send(GoToBookmark{i});
       }
-      notePlace(ui, "bookmark." + camera.bookmarks[i]);
+      recordWidget(ui, "bookmark." + camera.bookmarks[i]);
     }
     ImGui::EndCombo();
   }
@@ -44,7 +44,7 @@ void sceneChoice(PanelContext& ui) {
   const BrowserView& browser = ui.view.browser;
   const SceneEntry& shown = browser.scenes[browser.shown];
   const bool open = ImGui::BeginCombo("scene", shown.name.c_str(), ImGuiComboFlags_HeightLargest);
-  notePlace(ui, "scene");
+  recordWidget(ui, "scene");
   if (!open) {
     return tip((shown.file.string() + "\nThe window \"Scenes\" has pictures of all scenes.").c_str());
   }
@@ -54,7 +54,7 @@ void sceneChoice(PanelContext& ui) {
       ui.send(OpenScene{browser.scenes[i].file});
     }
     ImGui::PopID();
-    notePlace(ui, "scene." + browser.scenes[i].name);
+    recordWidget(ui, "scene." + browser.scenes[i].name);
   }
   ImGui::EndCombo();
 }
@@ -76,21 +76,22 @@ void cameraMode(PanelContext& ui) {
 }  // namespace
 
 void describe(PanelContext& ui, std::string_view key) {
-  notePlace(ui, key);
+  recordWidget(ui, key);
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("%s", settingHelp(key).c_str());
   }
   const Settings& ofScene = ui.view.settings.ofScene;
-  if (!differs(ui.settings, ofScene, key)) {
+  const SettingField& field = *findSettingField(key);
+  if (sameSetting(field, ui.settings, ofScene)) {
     return;
   }
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
   ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
   if (ImGui::ArrowButton(("reset " + std::string(key)).c_str(), ImGuiDir_Left)) {
-    resetSetting(ui.settings, ofScene, key);
+    copySetting(field, ofScene, ui.settings);
   }
   ImGui::PopStyleVar();
-  notePlace(ui, "reset." + std::string(key));
+  recordWidget(ui, "reset." + std::string(key));
   if (ImGui::IsItemHovered()) {
     const std::string value = settingValue(ofScene, key);
     ImGui::SetTooltip("Reset to scene: %s", value.empty() ? "background and sky" : value.c_str());
@@ -103,7 +104,7 @@ void tip(const char* text) {
   }
 }
 
-void notePlace(PanelContext& ui, std::string_view key) {
+void recordWidget(PanelContext& ui, std::string_view key) {
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 size = ImGui::GetItemRectSize();
   ui.state.widgets.emplace_back(key, PixelRect{static_cast<int>(low.x), static_cast<int>(low.y),
@@ -114,18 +115,26 @@ bool button(PanelContext& ui, const char* label, std::string_view key, const cha
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label);
   ImGui::EndDisabled();
-  notePlace(ui, key);
+  recordWidget(ui, key);
   if (about[0] != '\0') {
     tip(about);
   }
   return pressed;
 }
 
+std::string mebibytes(uint64_t bytes) {
+  return fmt::format("{:.1f}", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+void coloredText(const glm::vec3& color, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(color.r, color.g, color.b, 1.0f));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
 void message(const PanelContext& ui) {
   if (!ui.view.message.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.92f, 0.38f, 0.28f, 1.0f));
-    ImGui::TextWrapped("%s", ui.view.message.c_str());
-    ImGui::PopStyleColor();
+    coloredText(errorColor, ui.view.message);
   }
 }
 

@@ -94,14 +94,18 @@ void editOverlay(const OverlayView& overlay);
 float statusHeight();  // pixels
 void statusLine(const StatusView& status, float width);
 
-// After each widget of a setting: notes its place, explains it, and at the line's end offers the scene's value if the
-// setting has another. The place of that button is noted as "reset." and the key.
+// After each widget of a setting: records it, explains it, and at the line's end offers the scene's value if the
+// setting has another. That button is recorded as "reset." and the key.
 void describe(PanelContext& ui, std::string_view key);
 // After a widget: explains it while the pointer is on it.
 void tip(const char* text);
-// After a widget: records where it stands.
-void notePlace(PanelContext& ui, std::string_view key);
-// Notes the place of a button, and explains it.
+// After a widget: records where it stands, by name.
+void recordWidget(PanelContext& ui, std::string_view key);
+std::string mebibytes(uint64_t bytes);  // without the unit
+// Wraps at the window's edge.
+inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
+void coloredText(const glm::vec3& color, const std::string& text);
+// A button that is recorded and explained.
 bool button(PanelContext& ui, const char* label, std::string_view key, const char* tip, bool enabled = true);
 
 }  // namespace panels

@@ -1,9 +1,8 @@
 // The tree of passes, and the outline of the mirror that is pointed at in it.
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
@@ -13,12 +12,7 @@ namespace speculum::panels {
 namespace {
 
 std::string metres(const std::optional<double>& value) {
-  if (!value) {
-    return "never";
-  }
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2g", *value);
-  return text.data();
+  return value ? fmt::format("{:.2g}", *value) : "never";
 }
 
 void depthResolution(const PassView& pass, ClipMethod inUse) {
@@ -64,7 +58,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
   ImGui::TableNextColumn();
   const std::string title = std::to_string(node.skipped.size()) + " skipped###skipped";
   const bool open = ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
-  notePlace(ui, "skipped in " + ui.view.frame.passes[static_cast<size_t>(node.pass)].name);
+  recordWidget(ui, "skipped in " + ui.view.frame.passes[static_cast<size_t>(node.pass)].name);
   if (!open) {
     return;
   }
@@ -78,7 +72,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
     const bool nameHovered = ImGui::IsItemHovered();
     ImGui::TableNextColumn();
     textAcrossColumns(why);
-    notePlace(ui, "skipped." + skip.name);
+    recordWidget(ui, "skipped." + skip.name);
     if (nameHovered || ImGui::IsItemHovered()) {
       ui.output.hoveredSkipped = skip.path;
       ImGui::SetTooltip("%s\n%s", skip.name.c_str(), why.c_str());
@@ -104,7 +98,7 @@ void passRow(PanelContext& ui, const PassNode& node) {
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
     ui.state.hoveredPass = node.pass;
   }
-  notePlace(ui, "pass." + pass.name);
+  recordWidget(ui, "pass." + pass.name);
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
@@ -178,8 +172,8 @@ void passes(PanelContext& ui) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
   }
-  ImGui::TextWrapped("CPU %.2f ms   GPU %.2f ms   %.1f MiB of device memory", frame.cpuMs, frame.gpuMs,
-                     static_cast<double>(frame.deviceBytes) / (1024.0 * 1024.0));
+  ImGui::TextWrapped("CPU %.2f ms   GPU %.2f ms   %s MiB of device memory", frame.cpuMs, frame.gpuMs,
+                     mebibytes(frame.deviceBytes).c_str());
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("passes", 5, flags)) {
     return;

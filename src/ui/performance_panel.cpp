@@ -1,4 +1,5 @@
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -15,9 +16,7 @@ constexpr std::string_view mirrorWord = "mirror ";
 constexpr size_t fewest = 60;  // frames across a graph
 
 std::string milliseconds(double ms) {
-  char text[32];
-  std::snprintf(text, sizeof text, ms < 10.0 ? "%.2f" : "%.1f", ms);
-  return std::isnan(ms) ? "-" : text;
+  return std::isnan(ms) ? "-" : ms < 10.0 ? fmt::format("{:.2f}", ms) : fmt::format("{:.1f}", ms);
 }
 
 // From 0 up; frames whose figure is not known leave a gap.
@@ -59,7 +58,7 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
   }
   ImGui::TableNextColumn();
   graph(name.c_str(), values, height);
-  notePlace(ui, "graph." + name);
+  recordWidget(ui, "graph." + name);
 }
 
 bool beginRows(const char* id) {
@@ -83,7 +82,7 @@ void performance(PanelContext& ui) {
   if (ImGui::Checkbox("Pause", &paused)) {
     ui.send(PauseHistory{paused});
   }
-  notePlace(ui, "performance.pause");
+  recordWidget(ui, "performance.pause");
   ImGui::SameLine();
   if (button(ui, "Clear", "performance.clear", "")) {
     ui.send(ClearHistory{});

@@ -23,7 +23,7 @@ bool enterPressed() {
 void answerButton(PanelContext& ui, const char* label, std::string_view key, Command command) {
   // Dear ImGui presses what has the keyboard with the space bar only.
   const bool pressed = ImGui::Button(label);
-  notePlace(ui, key);
+  recordWidget(ui, key);
   if (pressed || (ImGui::IsItemFocused() && enterPressed())) {
     ui.send(std::move(command));
     ImGui::CloseCurrentPopup();
@@ -51,7 +51,7 @@ void saveAs(PanelContext& ui) {
     ImGui::SetKeyboardFocusHere();
   }
   ImGui::InputText("##file", &ui.state.saveAs, ImGuiInputTextFlags_AutoSelectAll);
-  notePlace(ui, "edit.file");
+  recordWidget(ui, "edit.file");
   if (!ui.view.edit.note.empty()) {
     ImGui::TextWrapped("%s", ui.view.edit.note.c_str());
   }

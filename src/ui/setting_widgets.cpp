@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 #include "image/color.hpp"
@@ -12,20 +11,6 @@
 namespace speculum::panels {
 
 namespace {
-
-bool combo(const char* label, int& index, std::span<const std::string> names) {
-  bool changed = false;
-  if (ImGui::BeginCombo(label, names[index].c_str())) {
-    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
-      if (ImGui::Selectable(names[i].c_str(), i == index)) {
-        changed = i != index;
-        index = i;
-      }
-    }
-    ImGui::EndCombo();
-  }
-  return changed;
-}
 
 struct Widget {
   const SettingField& field;
@@ -71,7 +56,7 @@ struct Widget {
       names.push_back(std::to_string(power));
     }
     int index = std::countr_zero(static_cast<unsigned>(value)) - std::countr_zero(static_cast<unsigned>(integer.low));
-    const bool changed = combo(field.label, index, names);
+    const bool changed = choice(field.label, index, names);
     value = integer.low << index;
     return changed;
   }
@@ -80,29 +65,22 @@ struct Widget {
     return ImGui::Checkbox(field.label, &boolean.value.of(settings));
   }
 
-  bool operator()(const ChoiceSetting& choice) const {
-    std::vector<std::string> names(choice.names.begin(), choice.names.end());
+  bool operator()(const ChoiceSetting& setting) const {
+    std::vector<std::string> names(setting.names.begin(), setting.names.end());
     for (std::string& name : names) {
       std::ranges::replace(name, '_', ' ');
     }
-    int index = choice.get(settings);
-    const bool changed = combo(field.label, index, names);
-    choice.set(settings, index);
+    int index = setting.get(settings);
+    const bool changed = choice(field.label, index, names);
+    setting.set(settings, index);
     return changed;
   }
 
-  // The colour is linear in the settings and sRGB in the widget, as users know it from other programs.
   bool operator()(const ColorSetting& color) const {
     std::optional<glm::dvec3>& value = color.value.of(settings);
-    const glm::dvec3 linear = value.value_or(background);
-    std::array<float, 3> encoded{};
-    for (int i = 0; i < 3; ++i) {
-      encoded[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
-    }
-    const bool changed = ImGui::ColorEdit3(field.label, encoded.data());
-    if (changed) {
-      value = glm::dvec3(srgbDecode(encoded[0]), srgbDecode(encoded[1]), srgbDecode(encoded[2]));
-    }
+    glm::dvec3 linear = value.value_or(background);
+    const bool changed = colorEdit(field.label, linear);
+    value = changed ? linear : value;
     return changed;
   }
 
@@ -110,6 +88,31 @@ struct Widget {
 };
 
 }  // namespace
+
+bool choice(const char* label, int& index, std::span<const std::string> names) {
+  const int before = index;
+  if (ImGui::BeginCombo(label, names[index].c_str())) {
+    for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+      if (ImGui::Selectable(names[i].c_str(), i == index)) {
+        index = i;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  return index != before;
+}
+
+bool colorEdit(const char* label, glm::dvec3& linear, int flags) {
+  glm::vec3 encoded;
+  for (int i = 0; i < 3; ++i) {
+    encoded[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
+  }
+  const bool changed = ImGui::ColorEdit3(label, &encoded.x, flags);
+  for (int i = 0; changed && i < 3; ++i) {
+    linear[i] = srgbDecode(encoded[i]);
+  }
+  return changed;
+}
 
 bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background) {
   ImGui::PushID(field.key.data(), field.key.data() + field.key.size());

@@ -78,7 +78,7 @@ struct SimpleUI::Backend {
 };
 
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
-    : renderer_(renderer), window_(window), theme_(windows_.theme()), backend_(std::make_unique<Backend>(window)) {
+    : renderer_(renderer), window_(window), backend_(std::make_unique<Backend>(window)) {
   windows_.rememberLayout();
 }
 
@@ -94,14 +94,12 @@ void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
 // Between frames: what is laid out already keeps its sizes and colors.
 void SimpleUI::prepareTheme() {
   const float scale = window_.contentScale() * static_cast<float>(windows_.state().choices.percent) / 100.0f;
-  const Theme chosen = windows_.theme();
-  if (scale == scale_ && chosen == theme_) {
+  const Theme theme = windows_.state().choices.theme;
+  if (scale == scale_ && theme == theme_) {
     return;
   }
-  if (std::exchange(theme_, chosen) != chosen) {
-    saveTheme(chosen);
-  }
-  applyTheme(theme_, scale);
+  theme_ = theme;
+  applyTheme(theme, scale);
   if (std::exchange(scale_, scale) == scale) {
     return;
   }

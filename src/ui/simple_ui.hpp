@@ -47,7 +47,7 @@ class SimpleUI {
   Window& window_;
   PanelWindows windows_;  // outlives the context, which saves its layout
   Context context_;
-  Theme theme_;
+  Theme theme_ = Theme::dark;
   float scale_ = 0.0f;  // of fonts and sizes: the monitor's by the user's; 0: nothing is made yet
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;

@@ -1,9 +1,9 @@
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "ui/panels.hpp"
 
@@ -56,7 +56,7 @@ void passChoice(PanelContext& ui, const PassView* shown) {
     }
     ImGui::EndCombo();
   }
-  notePlace(ui, "targets.pass");
+  recordWidget(ui, "targets.pass");
   tip("Pass whose target is shown");
 }
 
@@ -79,7 +79,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     if (ImGui::RadioButton(choice.name, targets.kind == choice.kind)) {
       targets.kind = choice.kind;
     }
-    notePlace(ui, std::string("targets.") + choice.name);
+    recordWidget(ui, std::string("targets.") + choice.name);
     tip(choice.about);
   }
   if (button(ui, "Fit", "targets.fit", "The whole image")) {
@@ -95,7 +95,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
     ImGui::SliderFloat("##half", &half, 0.1f, 1000.0f, "grey %.3g m", ImGuiSliderFlags_Logarithmic);
     targets.halfDistance = half;
-    notePlace(ui, "targets.half");
+    recordWidget(ui, "targets.half");
     tip("Distance that is shown half bright");
   }
 }
@@ -123,16 +123,10 @@ std::string valueText(const Targets& targets, const std::optional<TexelView>& va
   if (!value || value->texel != *targets.pointed || value->depth != (targets.kind == Targets::Kind::depth)) {
     return "...";
   }
-  std::array<char, 128> text{};
-  if (!value->depth) {
-    const glm::dvec4& v = value->value;
-    std::snprintf(text.data(), text.size(), "RGB %.5g %.5g %.5g  A %.5g", v.r, v.g, v.b, v.a);
-  } else if (std::isinf(value->metres)) {
-    return "infinitely far";
-  } else {
-    std::snprintf(text.data(), text.size(), "%.6g m", value->metres);
-  }
-  return text.data();
+  const glm::dvec4& v = value->value;
+  return !value->depth               ? fmt::format("RGB {:.5g} {:.5g} {:.5g}  A {:.5g}", v.r, v.g, v.b, v.a)
+         : std::isinf(value->metres) ? "infinitely far"
+                                     : fmt::format("{:.6g} m", value->metres);
 }
 
 void maskImage(const TargetView& target, double zoom, const Rect& canvas, const glm::dvec2& corner) {
@@ -225,7 +219,7 @@ void targets(PanelContext& ui) {
   targets.shownZoom = targets.zoom > 0.0 ? targets.zoom : std::min(size.x / image.x, size.y / image.y);
   ImGui::SetCursorScreenPos(canvas.low);
   ImGui::InvisibleButton("canvas", {canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y});
-  notePlace(ui, "targets.canvas");
+  recordWidget(ui, "targets.canvas");
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const glm::dvec2 pointer(mouse.x - canvas.low.x, mouse.y - canvas.low.y);

@@ -21,7 +21,7 @@ void time(PanelContext& ui) {
   if (ImGui::SliderFloat("time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(Seek{seconds});
   }
-  notePlace(ui, "time");
+  recordWidget(ui, "time");
   tip("Seconds of animation");
   if (button(ui, "<", "time.back", "Step back by 1/60 s")) {
     ui.send(StepTime{-1});
@@ -35,7 +35,7 @@ void time(PanelContext& ui) {
   if (ImGui::Checkbox("pause", &paused)) {
     ui.send(SetPaused{paused});
   }
-  notePlace(ui, "pause");
+  recordWidget(ui, "pause");
   tip("Pauses the animation: the picture becomes exact, then no frames are drawn");
   ImGui::SameLine();
   float speed = static_cast<float>(playback.speed);
@@ -44,7 +44,7 @@ void time(PanelContext& ui) {
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(SetTimeSpeed{speed});
   }
-  notePlace(ui, "time.speed");
+  recordWidget(ui, "time.speed");
   tip("Seconds of animation a second");
 }
 

@@ -13,12 +13,8 @@
 
 namespace speculum {
 
-struct PassView {
+struct PassView : PassId {
   std::string name;
-  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
-  int depth = -1;         // -1: not a mirror's
-  PassKind kind = PassKind::mirror;
-  PassId id;
   int framesAgo = 0;  // since it ran
   double gpuMs = 0.0;
   double areaPx = 0.0;

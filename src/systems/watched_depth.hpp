@@ -10,9 +10,9 @@ namespace speculum {
 
 // Depth of the pass that the debug view shows. Other passes share depth images, so this one gets an image of its own.
 // Nothing exists on the GPU before prepare() and after release().
-class KeptDepth {
+class WatchedDepth {
  public:
-  KeptDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout);
+  WatchedDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout);
 
   // Makes the pass, which has not begun, write its depth here.
   void prepare(PassDesc& pass, RetireQueue& retired);

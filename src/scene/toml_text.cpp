@@ -1,4 +1,4 @@
-#include "edit/toml_text.hpp"
+#include "scene/toml_text.hpp"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,4 +1,4 @@
-#include "systems/kept_depth.hpp"
+#include "systems/watched_depth.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,10 +7,10 @@
 
 namespace speculum {
 
-KeptDepth::KeptDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout)
+WatchedDepth::WatchedDepth(Renderer& renderer, VkDescriptorSetLayout displayLayout)
     : renderer_(renderer), displayLayout_(displayLayout), pipelines_(renderer.pipelines()) {}
 
-void KeptDepth::prepare(PassDesc& pass, RetireQueue& retired) {
+void WatchedDepth::prepare(PassDesc& pass, RetireQueue& retired) {
   Device& device = renderer_.device();
   // The size is the colour's, because a framebuffer has one size.
   const VkExtent2D wanted = pass.targets.color->extent();
@@ -35,11 +35,11 @@ void KeptDepth::prepare(PassDesc& pass, RetireQueue& retired) {
   pass.storeDepth = true;
 }
 
-void KeptDepth::finish(VkCommandBuffer commands) {
+void WatchedDepth::finish(VkCommandBuffer commands) {
   renderer_.device().barriers().record(commands, BarrierKind::depthToSample, image_);
 }
 
-void KeptDepth::release(RetireQueue& retired) {
+void WatchedDepth::release(RetireQueue& retired) {
   if (image_) {
     retired.retire(std::exchange(image_, Image()));
     retired.retire(std::exchange(sampler_, SamplerHandle()));
@@ -47,7 +47,7 @@ void KeptDepth::release(RetireQueue& retired) {
   }
 }
 
-const Pipeline& KeptDepth::pipeline() {
+const Pipeline& WatchedDepth::pipeline() {
   const bool several = image_.samples() != VK_SAMPLE_COUNT_1_BIT;
   return pipelines_.get(several, [&] {
     return GraphicsPipelineDesc{.name = "display depth",
