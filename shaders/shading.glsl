@@ -56,7 +56,7 @@ vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface,
 
 vec3 surfaceRadiance(ViewData view, Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
-  vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
+  vec3 radiance = surface.emission + view.ambient * surface.diffuse;
   for (uint i = 0; i < view.lightCount; ++i) {
     LightData light = lights[view.firstLight + i];
     radiance += lightRadiance(light.position - surface.position, light.radius, light.irradiance, surface, toViewer);
