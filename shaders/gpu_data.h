@@ -27,7 +27,8 @@ struct ViewData {
   vec4 rayY;
   vec4 rayOrigin;
   vec4 clipPlane;  // (n, h): a relative point p is drawn where n.p + h >= 0
-  vec4 ambient;
+  vec3 ambient;
+  uint picture;  // index in a mean of pictures, each of which draws random numbers of its own
   vec3 background;
   uint hasSky;  // the background is a gradient of the next three
   vec4 zenith;
@@ -229,6 +230,11 @@ const uint itemMirror = 0x80000000u;  // bit of an item that is a mirror, not an
 struct DisplayConstants {
   vec4 lookup;
   float exposure;
+};
+
+// Push constants of the pass that adds a picture to a sum.
+struct AccumulateConstants {
+  uint begins;  // the picture is the first
 };
 
 // Push constants of the view of a depth image.

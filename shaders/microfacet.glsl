@@ -13,7 +13,11 @@ float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
 // Seed of the pixel, or of the sample where each has an invocation.
 uint pixelSeed() { return mixedBits(uint(gl_FragCoord.x * 16.0) + mixedBits(uint(gl_FragCoord.y * 16.0))); }
 
-vec2 pixelShift(uint seed) { return vec2(unitInterval(seed), unitInterval(mixedBits(seed + 1))); }
+// Where the lattice begins in a pixel, from point number `first` on: in whole numbers, which stay exact.
+vec2 pixelShift(uint seed, uint first) {
+  uvec2 step = first * uvec2(3242174889u, 2447445414u);  // of latticePoint, times 2^32
+  return vec2(unitInterval(seed), unitInterval(mixedBits(seed + 1))) + vec2(unitInterval(step.x), unitInterval(step.y));
+}
 
 // The additive recurrence of the plastic number: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences"
 // (2018).

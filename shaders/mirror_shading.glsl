@@ -184,7 +184,7 @@ vec4 blurred(vec3 ray, vec3 position) {
   float farthest = 1e4 * (length(position) + 1.0);
   float guess = clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, farthest);
   uint seed = pixelSeed();
-  vec2 shift = pixelShift(seed);
+  vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));
   vec3 sum = vec3(0.0);
   int taken = 0;
   for (int drawn = 1; drawn <= mirror.blurSamples; ++drawn) {

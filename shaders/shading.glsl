@@ -69,7 +69,7 @@ vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
 
 vec3 surfaceRadiance(Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
-  vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
+  vec3 radiance = surface.emission + view.ambient * surface.diffuse;
   if (lightCount == manyLights) {
     for (uint i = 0; i < view.lightCount; ++i) {
       radiance += lightRadiance(lights[view.firstLight + i], surface, toViewer);

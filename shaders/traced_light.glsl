@@ -83,7 +83,7 @@ bool unobstructed(Incoming incoming) {
 vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);
-  vec3 radiance = surface.emission + view.ambient.rgb * surface.diffuse;
+  vec3 radiance = surface.emission + view.ambient * surface.diffuse;
   for (uint i = 0; i < paths; ++i) {
     Incoming incoming;
     if (i < view.lightCount) {

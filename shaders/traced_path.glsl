@@ -196,8 +196,9 @@ vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
 // mirror the ray below the plane, are left out.
 vec3 tracedRadiance(Bounce bounce, vec3 direction) {
   uint seed = pixelSeed();
-  vec2 shift = pixelShift(seed);
   int wanted = bounce.alpha > 0.0 ? int(traceCounts.roughSamples) : 1;
+  uint before = view.picture * uint(wanted);
+  vec2 shift = pixelShift(seed, before);
   int most = 4 * wanted + 16;
   int taken = 0;
   vec3 layer = vec3(0.0);
@@ -211,7 +212,7 @@ vec3 tracedRadiance(Bounce bounce, vec3 direction) {
       }
     }
     Path path = Path(direction, bounce, m, view.depth, view.throughput);
-    sum += follow(path, seed + uint(drawn), taken == 0, layer);
+    sum += follow(path, seed + before + uint(drawn), taken == 0, layer);
     ++taken;
   }
   return layer + sum / float(max(taken, 1));

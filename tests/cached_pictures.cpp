@@ -286,7 +286,7 @@ TEST(CachedPictures, StatsListReusedMirrorsAndMergePasses) {
   for (int frame = 0; frame < 8; ++frame) {
     session.draw(0.0, false);
     session.finish();
-    frames.push_back(frameStats(session, session.renderer().timings()));
+    frames.push_back(frameStats(session));
     passes.push_back(passIds(session));
     ran += frames.back()["passes"].size();
   }

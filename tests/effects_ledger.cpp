@@ -157,7 +157,7 @@ Drawn drawWith(Session& session, const std::string& effect, bool on, int frames)
 }
 
 nlohmann::ordered_json effectStats(Session& session, const std::string& effect) {
-  const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
+  const nlohmann::ordered_json stats = frameStats(session);
   for (const auto& line : stats.at("effects")) {
     if (line.at("name") == effect) {
       return line;

@@ -178,7 +178,7 @@ std::vector<std::string> mapPasses(Session& session, double time) {
   session.draw(time, true);
   session.finish();
   std::vector<std::string> names;
-  const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
+  const nlohmann::ordered_json stats = frameStats(session);
   for (const auto& pass : stats["passes"]) {
     const std::string name = pass["name"];
     if (name.rfind("environment of ", 0) == 0) {
@@ -212,7 +212,7 @@ TEST(EnvironmentMaps, AreNoParentsOfMirrorPasses) {
   Session session(mapped(room("parents", "[[mirror]]\nposition = [-0.9, 1.4, -2.9]\nsize = [1, 1]\n")));
   session.draw(0.0, true);
   session.finish();
-  const nlohmann::ordered_json passes = frameStats(session, session.renderer().timings()).at("passes");
+  const nlohmann::ordered_json passes = frameStats(session).at("passes");
   const auto mirror = std::find_if(passes.begin(), passes.end(), [](const auto& p) { return p.at("depth") == 0; });
   ASSERT_NE(mirror, passes.end());
   EXPECT_EQ(passes.at(mirror->at("parent").get<size_t>()).at("name"), "main view");

@@ -73,7 +73,7 @@ Drawn drawn(const Options& options) {
   session.draw(0.0, true);
   session.finish();
   Drawn result{.picture = session.picture()};
-  const nlohmann::ordered_json stats = frameStats(session, session.renderer().timings());
+  const nlohmann::ordered_json stats = frameStats(session);
   for (const auto& pass : stats["passes"]) {
     if (pass["triangles"].is_number()) {
       (pass["depth"].is_null() ? result.mainTriangles : result.mirrorTriangles) += pass["triangles"].get<int64_t>();

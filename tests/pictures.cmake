@@ -16,3 +16,4 @@ foreach(call CreateBuffer DestroyBuffer CreateImage DestroyImage CreateShaderMod
              CmdDrawIndexed)
   target_link_options(effects_ledger_tests PRIVATE LINKER:--wrap=vk${call})
 endforeach()
+speculum_test(accumulated_tests SOURCES accumulated_pictures.cpp LIBRARIES picture_support LABELS pictures)

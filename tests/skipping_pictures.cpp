@@ -88,7 +88,7 @@ nlohmann::ordered_json statsWith(Session& session, const Settings& settings) {
   session.setSettings(settings);
   session.draw(0.0, false);
   session.finish();
-  return frameStats(session, session.renderer().timings());
+  return frameStats(session);
 }
 
 int hiddenIn(const FramePlan& plan) {

@@ -30,13 +30,15 @@ Changes best(const SweepContext& context) {
   return joined(samples(std::to_string(context.sampleCounts.back())), {{"reflection.max_depth", greatestDepth}});
 }
 
+// Of what the scene has.
+Changes drawn(const SweepContext& context, const std::string& count) {
+  return context.mirrors ? samples(count) : Changes{{"view.samples", count}};
+}
+
 // Drafts: the whole picture at a lower resolution.
 void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full) {
   const Values scales =
       full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.25", "0.5", "1"};
-  const auto drawn = [&](const std::string& count) {
-    return context.mirrors ? samples(count) : Changes{{"view.samples", count}};
-  };
   planner.series(
       {.series = {.key = "view.scale",
                   .name = "Resolution of the main view and of mirror images",
@@ -44,10 +46,22 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
                   .theorySlope = -0.5},
        .theory = Theory::fixed,
        .fitUpTo = 0.99},
-      scales, drawn(std::to_string(context.sampleCounts.back())));
+      scales, drawn(context, std::to_string(context.sampleCounts.back())));
   for (const std::string& scale : scales) {
-    planner.add(joined({{"view.scale", scale}}, drawn("1")));
+    planner.add(joined({{"view.scale", scale}}, drawn(context, "1")));
   }
+}
+
+// The way to the truth. From 16 pictures on each has one sample, whatever is set.
+void addMeans(SweepPlanner& planner, const SweepContext& context) {
+  const Changes deep = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
+  planner.series({.series = {.key = "view.accumulate",
+                             .name = "Pictures in a mean, one sample each",
+                             .note = "Edges N^-0.75, and texture, highlights and shading edges with them",
+                             .theorySlope = -0.75},
+                  .theory = Theory::fixed},
+                 {"1", "4", "16", "64"}, joined(drawn(context, "1"), deep));
+  planner.add(joined(joined(drawn(context, "4"), deep), {{"view.accumulate", "4"}}));
 }
 
 void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
@@ -104,6 +118,7 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   }
   planner.series(std::move(msaa), counts, each);
   addViewScales(planner, context, full);
+  addMeans(planner, context);
   if (context.rough) {
     addRoughSeries(planner, context, full);
   }

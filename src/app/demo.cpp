@@ -176,6 +176,7 @@ Settings Demo::settingsOfFrame() const {
   const bool watched = output_.target && !output_.target->path.empty();
   settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite && !watched;
   settings.reflection.updateInterval = watched ? 1 : settings.reflection.updateInterval;
+  settings.view.accumulate = 1;
   return settings;
 }
 

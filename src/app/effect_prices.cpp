@@ -8,7 +8,7 @@ double gpuMs(Session& session, const Settings& settings, double time) {
   session.setSettings(settings);
   session.draw(time, false);
   session.finish();
-  return session.renderer().timings().gpuMs;
+  return session.lastFrame().timings.gpuMs;
 }
 
 }  // namespace

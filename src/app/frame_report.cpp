@@ -63,6 +63,8 @@ const PlannedPass* seenIn(const FramePlan& plan, const std::vector<int>& path) {
 std::vector<glm::vec2> outlineOf(const FramePlan& plan, const std::vector<int>& path, int width, int height) {
   std::vector<glm::vec2> outline;
   const PlannedPass* parent = path.empty() ? nullptr : seenIn(plan, path);
+  Projection projection = plan.projection;
+  projection.offset = glm::dvec2(0.0);  // outlines stay while pictures are accumulated
   if (!parent) {
     return outline;
   }
@@ -70,7 +72,7 @@ std::vector<glm::vec2> outlineOf(const FramePlan& plan, const std::vector<int>& 
     if (draw.mirror != path.back()) {
       continue;
     }
-    for (const glm::dvec4& clip : toClip(parent->view, plan.projection, visiblePart(parent->view, draw.polygon))) {
+    for (const glm::dvec4& clip : toClip(parent->view, projection, visiblePart(parent->view, draw.polygon))) {
       // A vertex in the eye's plane has no place on the screen.
       if (clip.w <= 1e-12) {
         return {};

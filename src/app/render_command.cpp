@@ -38,18 +38,24 @@ int runRender(const Options& options) {
   Session session(options);
   session.renderer().setTimerDetail(options.stats.empty() ? TimerDetail::frame : TimerDetail::passes);
   installInterruptHandler();
-  Progress progress("render", count);
-  for (int i = 0; i < count; ++i) {
-    session.draw(options.time + i / options.fps, true);
-    session.finish();
-    savePicture(session, files.at(i));
+  Progress progress("render", count * session.settings().view.accumulate);
+  const auto advance = [&] {
     progress.advance();
+    return !interruptRequested();
+  };
+  for (int i = 0; i < count; ++i) {
+    session.draw(options.time + i / options.fps, true, advance);
+    session.finish();
+    if (session.lastFrame().pictures < session.settings().view.accumulate) {
+      return 1;  // interrupted
+    }
+    savePicture(session, files.at(i));
     if (interruptRequested()) {
       return 1;
     }
   }
   if (!options.stats.empty()) {
-    writeJson(options.stats, frameStats(session, session.renderer().timings()));
+    writeJson(options.stats, frameStats(session));
   }
   return session.exitCode();
 }
@@ -110,10 +116,10 @@ std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Opti
   std::vector<nlohmann::ordered_json> frames;
   std::vector<std::vector<PassId>> passes;
   for (int i = 0; i < options.warmup + measured; ++i) {
-    session.draw(options.time, false);
+    session.draw(options.time, false, [] { return !interruptRequested(); });
     session.finish();
     if (i >= options.warmup) {
-      frames.push_back(frameStats(session, session.renderer().timings()));
+      frames.push_back(frameStats(session));
       passes.push_back(passIds(session));
     }
     progress.advance();
@@ -134,7 +140,7 @@ std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double 
   Clock::time_point last{};
   session.renderer().setTimerDetail(TimerDetail::frame);
   for (int i = 0; i < untilTheyOverlap + measured; ++i) {
-    session.draw(time, false);
+    session.draw(time, false, [] { return !interruptRequested(); });
     const Clock::time_point now = Clock::now();
     if (i >= untilTheyOverlap) {
       intervals.push_back(std::chrono::duration<double, std::milli>(now - last).count());

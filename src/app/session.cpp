@@ -143,14 +143,14 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
-                               int height, const FrameCache& cache) {
+                               int height, const FrameCache& cache, int picture) {
   if (std::max(width, height) > limits_.largestSide) {
     throw UsageError("--size: " + std::to_string(width) + "x" + std::to_string(height) +
                      " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
                      " pixels a side)");
   }
   limits_.tracesRays = tracesRays_ && largestTraceBuffer(scene, state.instances.size()) <= largestBuffer_;
-  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, cache);
+  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, cache, picture);
   if (!fitted.message.empty() && message_.empty()) {
     spdlog::warn("{}", fitted.message);
   }
@@ -169,24 +169,72 @@ Session::Session(const Options& options)
   applyDebugSettings(loaded_.settings, device_);
 }
 
-const DrawnFrame& Session::draw(double time, bool capture) {
+const DrawnFrame& Session::draw(double time, bool capture, const std::function<bool()>& afterPicture) {
   start_ = Clock::now();
   renderer_.reloadShaders();
-  Frame frame = renderer_.beginFrame().value();
-  const Clock::time_point recording = Clock::now();
-  frame_.state = evaluate(loaded_.scene, time);
+  frame_ = {.state = evaluate(loaded_.scene, time)};
   frame_.state.camera = camera_.value_or(frame_.state.camera);
+  unfinished_.clear();
+  while (frame_.pictures < loaded_.settings.view.accumulate) {
+    drawPicture(capture);
+    if (afterPicture && !afterPicture()) {
+      break;
+    }
+  }
+  return frame_;
+}
+
+void Session::drawPicture(bool capture) {
+  Frame frame = renderer_.beginFrame().value();
+  collectFinished();
+  const Clock::time_point recording = Clock::now();
   FrameCache cache = sceneRenderer_.cache();
   cache.main = nullptr;  // the pass of the main view is always among those that are reported
-  FittedPlan fitted = planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, cache);
+  FittedPlan fitted =
+      planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, cache, frame_.pictures);
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
-  frame.capture = capture;
-  sceneRenderer_.record(frame, frame_.state, frame_.settings, frame_.plan);
-  frame_.cpuMs = millisecondsSince(recording);
+  const bool last = frame_.pictures + 1 == loaded_.settings.view.accumulate;
+  frame.capture = capture && last;
+  sceneRenderer_.record(frame, frame_.state, frame_.settings, frame_.plan, std::nullopt, last);
+  frame_.ledger.add(sceneRenderer_.ledger());
+  frame_.cpuMs += millisecondsSince(recording);
+  ++frame_.pictures;
+  unfinished_.push_back(frame.number);
   renderer_.endFrame(frame);
-  frame_.frameMs = 0.0;
-  return frame_;
+}
+
+// Pictures of a mean may differ in their passes, at the edge of what is seen.
+void Session::collectFinished() {
+  while (!unfinished_.empty()) {
+    const FrameTimings* timings = renderer_.timingsOf(unfinished_.front());
+    if (!timings) {
+      return;
+    }
+    const std::span<const RecordedPass> passes = sceneRenderer_.passesOf(unfinished_.front());
+    unfinished_.pop_front();
+    frame_.timings.frame = timings->frame;
+    frame_.timings.gpuMs += timings->gpuMs;
+    size_t place = 0;
+    for (size_t i = 0; i < passes.size(); ++i) {
+      const auto known = std::find_if(frame_.passes.begin(), frame_.passes.end(), [&](const RecordedPass& pass) {
+        return static_cast<const PassId&>(pass) == passes[i];
+      });
+      if (known == frame_.passes.end()) {
+        place = std::min(place, frame_.passes.size());
+        frame_.passes.insert(frame_.passes.begin() + static_cast<std::ptrdiff_t>(place), passes[i]);
+        frame_.passes[place].draws = 0;
+        frame_.timings.passes.insert(frame_.timings.passes.begin() + static_cast<std::ptrdiff_t>(place), PassTiming{});
+      } else {
+        place = static_cast<size_t>(known - frame_.passes.begin());
+      }
+      frame_.passes[place].draws += passes[i].draws;
+      if (i < timings->passes.size()) {
+        frame_.timings.passes[place] += timings->passes[i];
+      }
+      ++place;
+    }
+  }
 }
 
 void Session::setSettings(const Settings& settings) {
@@ -196,6 +244,7 @@ void Session::setSettings(const Settings& settings) {
 
 void Session::finish() {
   renderer_.waitIdle();
+  collectFinished();
   frame_.frameMs = millisecondsSince(start_);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
+#include <functional>
 #include <memory>
 
 #include "app/options.hpp"
@@ -48,7 +50,7 @@ class BudgetPlanner {
  public:
   explicit BudgetPlanner(const Device& device);
   FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                  const FrameCache& cache);
+                  const FrameCache& cache, int picture = 0);
   const std::string& message() const { return message_; }  // of the last plan; empty if nothing was lowered
 
  private:
@@ -58,13 +60,18 @@ class BudgetPlanner {
   std::string message_;
 };
 
-// One frame as it was planned and recorded.
+// One frame as it was planned and recorded: a picture, or the mean of as many as view.accumulate asks for. Times, draws
+// and counts are sums over its pictures; the GPU's are there after Session::finish.
 struct DrawnFrame {
   SceneState state;
-  FramePlan plan;
-  Settings settings;     // that the plan was made with
+  FramePlan plan;     // of the last picture
+  Settings settings;  // that the plan was made with
+  int pictures = 0;
   double cpuMs = 0.0;    // planning and recording
-  double frameMs = 0.0;  // from begin to the GPU's end; 0 before Session::finish
+  double frameMs = 0.0;  // from begin to the GPU's end
+  std::vector<RecordedPass> passes;
+  FrameTimings timings;  // of `passes`, by index
+  EffectLedger ledger;
 };
 
 // A scene drawn without a window.
@@ -74,13 +81,14 @@ class Session {
 
   // A camera in the place of the scene's.
   void setCamera(const std::optional<CameraPose>& camera) { camera_ = camera; }
-  // Draws the scene at `time`. picture() needs `capture`.
-  const DrawnFrame& draw(double time, bool capture);
+  // Draws the scene at `time`. picture() needs `capture`. Calls `afterPicture` after each picture of a mean, which ends
+  // early when it returns false.
+  const DrawnFrame& draw(double time, bool capture, const std::function<bool()>& afterPicture = {});
   // The next frame is drawn as the first one was: whatever it shows is rendered in it.
   void restart() { sceneRenderer_.restart(); }
   // From the next frame on. Throws UsageError for a debug.omit_barrier that does not exist.
   void setSettings(const Settings& settings);
-  // Waits for the GPU. Afterwards frameMs covers the whole frame, and the renderer's timings are this frame's.
+  // Waits for the GPU. Afterwards lastFrame() is whole.
   void finish();
   Image8 picture();                                             // of the last frame drawn with `capture`
   LinearImage radiance() { return sceneRenderer_.radiance(); }  // of the last frame, before the display pass
@@ -97,6 +105,9 @@ class Session {
   const DrawnFrame& lastFrame() const { return frame_; }
 
  private:
+  void drawPicture(bool capture);
+  void collectFinished();
+
   PictureSize size_;
   LoadedScene loaded_;
   std::optional<CameraPose> camera_;
@@ -105,6 +116,7 @@ class Session {
   SceneRenderer sceneRenderer_;
   BudgetPlanner planner_;
   DrawnFrame frame_;
+  std::deque<uint64_t> unfinished_;  // numbers of the renderer's frames whose figures are not in frame_ yet
   std::chrono::steady_clock::time_point start_;
 };
 

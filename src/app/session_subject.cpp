@@ -8,8 +8,8 @@ constexpr double secondsBetweenFrames = 1.0 / 30.0;
 
 }  // namespace
 
-void SessionSubject::drawBefore(int framesBefore, bool capture) {
-  session_.draw(time_ - framesBefore * secondsBetweenFrames, capture);
+void SessionSubject::drawBefore(int framesBefore, bool capture, bool whole) {
+  session_.draw(time_ - framesBefore * secondsBetweenFrames, capture, [&] { return whole; });
   session_.finish();
 }
 
@@ -21,7 +21,7 @@ std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
   for (int last = interval > 1 ? interval : 0; last < (interval > 1 ? 2 * interval : 1); ++last) {
     session_.restart();
     for (int frame = 0; frame <= last; ++frame) {
-      drawBefore(last - frame, frame == last);
+      drawBefore(last - frame, frame == last, true);
     }
     pictures.push_back(session_.picture());
   }
@@ -37,9 +37,10 @@ FrameCost SessionSubject::cost(const Settings& settings) {
   const int counted = settings.reflection.updateInterval;
   FrameCost cost;
   for (int frame = 2 * counted - 1; frame >= 0; --frame) {
-    drawBefore(counted == 1 ? 0 : frame, false);
-    if (frame < counted) {
-      cost.gpuMs += session_.renderer().timings().gpuMs / counted;
+    const bool counts = frame < counted;
+    drawBefore(counted == 1 ? 0 : frame, false, counts);
+    if (counts) {
+      cost.gpuMs += session_.lastFrame().timings.gpuMs / counted;
       cost.cpuMs += session_.lastFrame().cpuMs / counted;
       cost.frameMs += session_.lastFrame().frameMs / counted;
     }

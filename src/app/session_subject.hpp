@@ -18,7 +18,8 @@ class SessionSubject : public SweepSubject {
   FrameCost cost(const Settings& settings) override;
 
  private:
-  void drawBefore(int framesBefore, bool capture);
+  // Draws a `whole` mean, or its first picture.
+  void drawBefore(int framesBefore, bool capture, bool whole);
 
   Session& session_;
   double time_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "frame/depth_readout.hpp"
 #include "platform/files.hpp"
@@ -61,9 +62,9 @@ ordered_json parentJson(const std::vector<RecordedPass>& passes, const RecordedP
   return parent == passes.end() ? ordered_json(nullptr) : ordered_json(parent - passes.begin());
 }
 
-ordered_json passesJson(Session& session, const FrameTimings& timings) {
+ordered_json passesJson(Session& session) {
   ordered_json passes = ordered_json::array();
-  const std::vector<RecordedPass>& recorded = session.sceneRenderer().passes();
+  const auto& [recorded, timings] = std::tie(session.lastFrame().passes, session.lastFrame().timings);
   for (size_t i = 0; i < recorded.size(); ++i) {
     const RecordedPass& pass = recorded[i];
     const PassTiming timing = i < timings.passes.size() ? timings.passes[i] : PassTiming{};
@@ -100,10 +101,9 @@ ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
 ordered_json effectsJson(Session& session) {
   ordered_json json = ordered_json::array();
   const DrawnFrame& frame = session.lastFrame();
-  const EffectLedger& ledger = session.sceneRenderer().ledger();
   const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
   for (size_t i = 0; i < effects.size(); ++i) {
-    const EffectCost& cost = ledger[static_cast<EffectKind>(i)];
+    const EffectCost& cost = frame.ledger[static_cast<EffectKind>(i)];
     json.push_back({{"name", effects[i].name},
                     {"called_for", effects[i].calledFor},
                     {"why", effects[i].why},
@@ -203,7 +203,7 @@ ordered_json mergePasses(const std::vector<ordered_json>& frames, const std::vec
 
 }  // namespace
 
-ordered_json frameStats(Session& session, const FrameTimings& timings) {
+ordered_json frameStats(Session& session) {
   Device& device = session.device();
   const DrawnFrame& frame = session.lastFrame();
   ordered_json json;
@@ -213,7 +213,7 @@ ordered_json frameStats(Session& session, const FrameTimings& timings) {
   json["driver"] = device.info().driver;
   json["render_path"] = renderPathName(device.renderPath());
   json["settings"] = settingsJson(frame.settings);
-  json["passes"] = passesJson(session, timings);
+  json["passes"] = passesJson(session);
   json["skipped"] = skippedJson(session.scene(), frame.plan);
   json["effects"] = effectsJson(session);
   if (const std::optional<QualityChoice>& quality = session.quality()) {
@@ -224,8 +224,9 @@ ordered_json frameStats(Session& session, const FrameTimings& timings) {
                        {"why", quality->why}};
   }
   json["totals"] = {{"cpu_ms", frame.cpuMs},
-                    {"gpu_ms", timings.gpuMs},
+                    {"gpu_ms", frame.timings.gpuMs},
                     {"frame_ms", frame.frameMs},
+                    {"pictures", frame.pictures},
                     {"device_bytes", device.allocatedBytes()},
                     {"peak_rss_bytes", peakResidentBytes()},
                     {"pipelines", session.sceneRenderer().pipelineCount()},
@@ -237,7 +238,7 @@ ordered_json frameStats(Session& session, const FrameTimings& timings) {
 }
 
 std::vector<PassId> passIds(Session& session) {
-  const std::vector<RecordedPass>& passes = session.sceneRenderer().passes();
+  const std::vector<RecordedPass>& passes = session.lastFrame().passes;
   return {passes.begin(), passes.end()};
 }
 

@@ -6,8 +6,8 @@
 
 namespace speculum {
 
-// The figures of one frame as `render --stats` writes them; `timings` belong to that frame.
-nlohmann::ordered_json frameStats(Session& session, const FrameTimings& timings);
+// The figures of the last frame, which has finished, as `render --stats` writes them.
+nlohmann::ordered_json frameStats(Session& session);
 
 // Over the measured frames each *_ms becomes an object of median, min, p95 and max. `frames` are stats of one scene and
 // one time, whose plans differ at most in which mirrors show images of earlier frames: a pass is merged over those

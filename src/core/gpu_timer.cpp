@@ -18,6 +18,17 @@ QueryPoolHandle createPool(Device& device, VkQueryType type, uint32_t count, VkQ
 
 }  // namespace
 
+PassTiming& PassTiming::operator+=(const PassTiming& other) {
+  name = other.name;
+  gpuMs += other.gpuMs;
+  hasStatistics = other.hasStatistics;
+  triangles += other.triangles;
+  fragments += other.fragments;
+  hasSamples = other.hasSamples;
+  samples += other.samples;
+  return *this;
+}
+
 GpuTimer::GpuTimer(Device& device, const std::string& name) : device_(device) {
   if (device.caps().timestampValidBits > 0) {
     stamps_ = createPool(device, VK_QUERY_TYPE_TIMESTAMP, 2 * maxPasses, 0, name + " timestamps");

@@ -15,6 +15,8 @@ struct PassTiming {
   uint64_t fragments = 0;  // fragment shader invocations
   bool hasSamples = false;
   uint64_t samples = 0;  // that passed the depth test since beginSamples
+
+  PassTiming& operator+=(const PassTiming& other);
 };
 
 struct FrameTimings {

@@ -64,9 +64,15 @@ void Renderer::finish(Slot& slot) {
   const VkFence fence = slot.finished.get();
   check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for a frame");
   check(vkResetFences(device_.get(), 1, &fence), "reset a frame's fence");
-  timings_ = slot.timer.read();
+  slot.timings = slot.timer.read();
+  timings_ = slot.timings;
   retired_.collect(slot.number);
   slot.number = 0;
+}
+
+const FrameTimings* Renderer::timingsOf(uint64_t frame) const {
+  const auto slot = std::find_if(slots_.begin(), slots_.end(), [&](const Slot& s) { return s.timings.frame == frame; });
+  return slot == slots_.end() ? nullptr : &slot->timings;
 }
 
 void Renderer::waitIdle() {

@@ -84,6 +84,8 @@ class Renderer {
 
   // Timings of the last frame that has finished; after waitIdle() of the last one recorded.
   const FrameTimings& timings() const { return timings_; }
+  // Timings of frame number `frame`; null unless it has finished and is one of the last two.
+  const FrameTimings* timingsOf(uint64_t frame) const;
   // Applies to frames that begin from now on. TimerDetail::passes at first.
   void setTimerDetail(TimerDetail detail) { timerDetail_ = detail; }
   uint64_t frameNumber() const { return frameNumber_; }
@@ -105,7 +107,8 @@ class Renderer {
     FenceHandle finished;
     DescriptorAllocator descriptors;
     GpuTimer timer;
-    uint64_t number = 0;  // of the frame submitted last; 0: none is pending
+    FrameTimings timings;  // of the frame finished last
+    uint64_t number = 0;   // of the frame submitted last; 0: none is pending
     Buffer capture;
     VkExtent2D captureExtent{0, 0};
   };
@@ -128,7 +131,7 @@ class Renderer {
   std::array<Slot, framesInFlight> slots_;
   RetireQueue retired_;
   PipelineFactory pipelines_;
-  FrameTimings timings_;
+  FrameTimings timings_;  // the later ones of the slots'
   TimerDetail timerDetail_ = TimerDetail::passes;
   uint64_t frameNumber_ = 0;
   bool swapChainStale_ = false;

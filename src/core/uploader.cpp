@@ -131,10 +131,16 @@ std::vector<std::byte> Uploader::read(Image& image) {
 }
 
 std::vector<float> Uploader::readFloats(Image& image) {
-  if (image.format() != VK_FORMAT_R16G16B16A16_SFLOAT) {
-    throw std::logic_error("readFloats takes RGBA16F images, which " + image.desc().name + " is not");
+  const bool whole = image.format() == VK_FORMAT_R32G32B32A32_SFLOAT;
+  if (!whole && image.format() != VK_FORMAT_R16G16B16A16_SFLOAT) {
+    throw std::logic_error("readFloats takes RGBA16F and RGBA32F images, which " + image.desc().name + " is not");
   }
   const std::vector<std::byte> raw = read(image);
+  if (whole) {
+    std::vector<float> values(raw.size() / sizeof(float));
+    std::memcpy(values.data(), raw.data(), raw.size());
+    return values;
+  }
   std::vector<uint16_t> halves(raw.size() / sizeof(uint16_t));
   std::memcpy(halves.data(), raw.data(), raw.size());
   std::vector<float> values(halves.size());

@@ -13,11 +13,9 @@ constexpr double filterReach = 0.5;  // texels from where an image is read to th
 
 // View space to (x, y, w) of clip space.
 glm::dmat3 clipFromView(const Projection& projection) {
-  glm::dmat3 m(0.0);
-  m[0][0] = projection.focal / projection.aspect;
-  m[1][1] = -projection.focal;
-  m[2][2] = -1.0;
-  return m;
+  const glm::dmat4 m = projection.matrix();
+  const auto column = [&](int i) { return glm::dvec3(m[i].x, m[i].y, m[i].w); };
+  return {column(0), column(1), column(2)};
 }
 
 // Homogeneous pixels of the target that shows `view.rect` to x and y of device coordinates.

@@ -26,7 +26,7 @@ double reach(const View& view, const glm::dvec3& center, double radius) {
 glm::dvec3 middleOf(const View& view, const Projection& projection) {
   const PixelRect& rect = view.rect;
   const glm::dvec2 pixel(rect.x + 0.5 * rect.width, rect.y + 0.5 * rect.height);
-  const glm::dvec2 ndc = 2.0 * pixel / view.pictureSize - 1.0;
+  const glm::dvec2 ndc = 2.0 * pixel / view.pictureSize - 1.0 - projection.offset;
   return glm::normalize(glm::dvec3(ndc.x * projection.aspect / projection.focal, -ndc.y / projection.focal, -1.0));
 }
 

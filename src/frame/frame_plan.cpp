@@ -12,6 +12,7 @@
 #include "frame/mirror_sight.hpp"
 #include "frame/occlusion.hpp"
 #include "frame/pass_mask.hpp"
+#include "frame/picture_offset.hpp"
 
 namespace speculum {
 
@@ -56,7 +57,7 @@ std::string number(double value) {
 class Planner {
  public:
   Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-          const FrameCache& cache)
+          const FrameCache& cache, int picture)
       : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), cache_(cache) {
     // A larger `near` gains nothing, because depth is near / distance in a float, and loses the order of all that is
     // nearer, which is clamped to one depth.
@@ -64,15 +65,20 @@ class Planner {
     plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, near);
     plan_.width = width;
     plan_.height = height;
+    plan_.picture = picture;
+    const auto texels = [&](int pixels) {
+      return std::max(1, static_cast<int>(std::lround(pixels * settings.view.scale)));
+    };
+    size_ = {texels(width), texels(height)};
+    if (picture < settings.view.accumulate) {
+      plan_.projection.offset = -2.0 * pictureOffset(picture, settings) / glm::dvec2(size_);
+    }
     occlusion_.emplace(scene, state, settings, plan_.projection);
   }
 
   FramePlan plan() {
     Node& root = nodes_.emplace_back();
-    const auto texels = [&](int pixels) {
-      return std::max(1, static_cast<int>(std::lround(pixels * allSettings_.view.scale)));
-    };
-    root.pass.view = mainView(state_.camera, plan_.projection, texels(plan_.width), texels(plan_.height));
+    root.pass.view = mainView(state_.camera, plan_.projection, size_.x, size_.y);
     root.pass.areaPx = root.pass.view.rect.area();
     fill(0);
     while (!candidates_.empty()) {
@@ -87,6 +93,9 @@ class Planner {
     dropSkipsInReused();
     if (settings_.skipUnchanged && !allSettings_.view.continuous) {
       reuseMain(plan_, cache_.main, surroundings());
+    }
+    if (allSettings_.view.accumulate > 1 && plan_.picture >= allSettings_.view.accumulate) {
+      reuseMean();
     }
     return std::move(plan_);
   }
@@ -108,6 +117,7 @@ class Planner {
   void reuseImage(MirrorDraw& draw, const Node& node);
   void recordReused(int node);
   void dropSkipsInReused();
+  void reuseMean();
   bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
@@ -116,6 +126,7 @@ class Planner {
   const ReflectionSettings& settings_;
   const FrameCache& cache_;
   FramePlan plan_;
+  glm::ivec2 size_{0};  // texels of the main view
   std::vector<Node> nodes_;
   std::priority_queue<Candidate> candidates_;
   std::optional<Occlusion> occlusion_;
@@ -409,6 +420,17 @@ void Planner::dropSkipsInReused() {
   });
 }
 
+// Shows the mean of earlier frames again: draws nothing.
+void Planner::reuseMean() {
+  plan_.mainReused = true;
+  plan_.reused = std::move(plan_.passes);
+  plan_.passes.clear();
+  plan_.maps.clear();
+  for (MirrorDraw& draw : plan_.main.mirrors) {
+    draw.pass = -1;
+  }
+}
+
 }  // namespace
 
 std::string_view skipReasonName(SkipReason reason) {
@@ -425,8 +447,8 @@ const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& pat
 }
 
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    const FrameCache& cache) {
-  return Planner(scene, state, settings, width, height, cache).plan();
+                    const FrameCache& cache, int picture) {
+  return Planner(scene, state, settings, width, height, cache, picture).plan();
 }
 
 }  // namespace speculum

@@ -74,7 +74,7 @@ struct EnvironmentMap {
 };
 
 // Kinds of recorded passes.
-enum class PassKind { mirror, environment, main, display, debugView };
+enum class PassKind { mirror, environment, main, accumulation, display, debugView };
 
 // Which pass it is: equal for the same pass of different frames.
 struct PassId {
@@ -111,9 +111,10 @@ struct FramePlan {
   Projection projection;
   int width = 0;  // pixels of the picture
   int height = 0;
+  int picture = 0;                  // index in the mean that view.accumulate asks for
   std::vector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
   PlannedPass main;
-  bool mainReused = false;            // the frame before drew the same main view, which is shown again
+  bool mainReused = false;            // the frame before drew the same main view or mean, which is shown again
   std::vector<uint64_t> mainContent;  // imageContent() of the main view if it shows cached images only; else empty
   std::vector<SkippedMirror> skipped;
   std::vector<CachedImage> cached;  // reused or rendered by this frame; the next one may reuse them
@@ -137,7 +138,10 @@ const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& pat
 //
 // `cache.maps` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With the former and
 // without view.continuous, so is the main view if it too is exactly as it was.
+//
+// Plans picture number `picture` of a mean, at its offset, under pictureSettings(). At view.accumulate and beyond, all
+// pictures of the mean are drawn, which is shown again: `mainReused`.
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    const FrameCache& cache = {});
+                    const FrameCache& cache = {}, int picture = 0);
 
 }  // namespace speculum

@@ -119,7 +119,7 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
   Numbers numbers;
   const Environment environment = effectiveEnvironment(around.scene, around.settings);
   numbers.add(environment);
-  numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near);
+  numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near, around.projection.offset);
   addEffects(around, main, numbers);
   const bool all = around.effects.any() || !around.maps.empty();
   numbers.add(all);

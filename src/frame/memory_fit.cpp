@@ -6,13 +6,15 @@
 
 #include "frame/image_reuse.hpp"
 #include "frame/pass_range.hpp"
+#include "frame/picture_offset.hpp"
 
 namespace speculum {
 
 namespace {
 
-constexpr uint64_t colorBytes = 8;  // RGBA16F
-constexpr uint64_t depthBytes = 4;  // D32F
+constexpr uint64_t colorBytes = 8;     // RGBA16F
+constexpr uint64_t depthBytes = 4;     // D32F
+constexpr uint64_t sumBytes = 2 * 16;  // two images of RGBA32F
 constexpr double smallestScale = 0.125;
 constexpr int smallestMap = 16;  // texels
 
@@ -102,16 +104,18 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
   const auto imageSamples = static_cast<uint64_t>(settings.reflection.samples);
   const uint64_t multisampled = viewSamples > 1 ? viewSamples * colorBytes : 0;
   const std::vector<PassRange> ranges = independentPasses(plan);
-  return pixels(plan.main.view.rect) * (colorBytes + multisampled + viewSamples * depthBytes) +
+  const uint64_t sums = settings.view.accumulate > 1 ? sumBytes : 0;
+  return pixels(plan.main.view.rect) * (colorBytes + multisampled + viewSamples * depthBytes + sums) +
          peakPixels(plan, ranges) * imageSamples * colorBytes + depthPixels(plan, ranges) * imageSamples * depthBytes +
          environmentBytes(plan);
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height, FrameCache cache) {
-  FittedPlan fitted{{}, settings, {}};
+                      int width, int height, FrameCache cache, int picture) {
+  FittedPlan fitted{{}, pictureSettings(settings), {}};
   ReflectionSettings& reflection = fitted.settings.reflection;
   const double margins = reflection.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
+  const auto plan = [&] { fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache, picture); };
   const double largestScale = limits.largestSide / (settings.view.scale * (std::max(width, height) + margins));
   if (reflection.scale > largestScale) {
     reflection.scale = largestScale;
@@ -119,7 +123,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
-  fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);
+  plan();
   if (!limits.tracesRays && fitted.plan.effects.any()) {
     EffectSettings& effects = fitted.settings.effects;
     effects.shadows = effects.roughness = effects.ripple = effects.castsLight = false;
@@ -128,11 +132,11 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
         (fitted.message.empty() ? "" : "; ") + std::string(
                                                    "effects.* that trace rays are left out: the device lacks "
                                                    "geometryShader, storage buffers, or room in them for the scene");
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);
+    plan();
   }
   if (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && reflection.updateInterval == 1) {
     cache.images = {};
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);
+    plan();
   }
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
@@ -140,7 +144,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes &&
          lower(fitted.settings, !fitted.plan.maps.empty(), what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
-    fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache);
+    plan();
   }
   if (!lowered.empty()) {
     fitted.message += (fitted.message.empty() ? "" : "; ") + ("targets of " + mebibytes(wanted)) +

@@ -8,8 +8,8 @@
 
 namespace speculum {
 
-// Device memory of a plan's render targets: the main view, environment maps, the cached images that it reuses, and the
-// most mirror images that are alive at one time, with their depth.
+// Device memory of a plan's render targets: the main view and the sum of pictures, environment maps, the cached images
+// that it reuses, and the most mirror images that are alive at one time, with their depth.
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 
 struct TargetLimits {
@@ -27,9 +27,9 @@ struct FittedPlan {
 // Calls planFrame with settings lowered until the targets fit the limits. First unchanged images are rendered instead
 // of reused, if that needs less memory. Then these are halved step by step: samples of mirror images, samples of the
 // main view, resolution of mirror images and environment maps. A plan that still does not fit is returned as it is.
-// Traced effects are left out where the device cannot trace.
+// Traced effects are left out where the device cannot trace. `settings` become pictureSettings() before anything else.
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
-                      int width, int height, FrameCache cache = {});
+                      int width, int height, FrameCache cache = {}, int picture = 0);
 
 // Device memory of the environment maps' targets and of the depth that they share.
 uint64_t environmentBytes(const FramePlan& plan);

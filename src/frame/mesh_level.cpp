@@ -14,7 +14,7 @@ double leastCosine(const View& view, const Projection& projection) {
   double square = 0.0;
   for (const int x : {view.rect.x, view.rect.x + view.rect.width}) {
     for (const int y : {view.rect.y, view.rect.y + view.rect.height}) {
-      const glm::dvec2 device = glm::dvec2(x, y) * 2.0 / view.pictureSize - 1.0;
+      const glm::dvec2 device = glm::dvec2(x, y) * 2.0 / view.pictureSize - 1.0 - projection.offset;
       const glm::dvec2 tangent = device * glm::dvec2(projection.aspect, 1.0) / projection.focal;
       square = std::max(square, glm::dot(tangent, tangent));
     }

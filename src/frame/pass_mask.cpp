@@ -63,7 +63,8 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
     const glm::dvec3 n = view.worldToView * normal;
     const glm::dvec3 line(n.x * perDevice.x, -n.y * perDevice.y, 0.0);
     const glm::dvec2 perPixel = glm::abs(step * glm::dvec2(line));
-    const double offset = -n.z + reach * (perPixel.x + perPixel.y) + rounding * glm::length(perPixel);
+    const double offset = -n.z - glm::dot(glm::dvec2(line), projection.offset) + reach * (perPixel.x + perPixel.y) +
+                          rounding * glm::length(perPixel);
     const double length2 = glm::dot(line, line);
     if (length2 == 0.0) {
       continue;

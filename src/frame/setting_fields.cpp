@@ -145,6 +145,14 @@ constexpr SettingField fields[] = {
      .cost = "Shading of the main view grows with it. NVIDIA H200, single_plane, with those of mirror images:\n"
              "1.11 ms with 1, 3.18 ms with 4, 5.75 ms with 8.",
      .changes = mainView},
+    {.key = "view.accumulate",
+     .kind = IntegerSetting{at<&V::accumulate>, 1, 1024},
+     .label = "Accumulate",
+     .text = "mean of so many pictures, each offset by a part of a pixel",
+     .cost = "Time grows with it, error falls faster than by its square root. From 16 on each picture is drawn at one "
+             "sample.",
+     .unit = "pictures",
+     .slider = SettingSlider{1, 1024, "%d"}},
     {.key = "view.exposure",
      .kind = NumberSetting{at<&V::exposure>, 0.0, 1e6},
      .label = "Exposure",

@@ -66,20 +66,21 @@ View mainView(const CameraPose& camera, const Projection& projection, int width,
 void boundByRectangle(View& view, const Projection& projection) {
   const double fx = projection.focal / projection.aspect;
   const double fy = projection.focal;
-  const glm::dvec2 low = 2.0 * glm::dvec2(view.rect.x, view.rect.y) / view.pictureSize - 1.0;
-  const glm::dvec2 high =
-      2.0 * glm::dvec2(view.rect.x + view.rect.width, view.rect.y + view.rect.height) / view.pictureSize - 1.0;
+  const glm::dvec2 first(view.rect.x, view.rect.y);
+  const glm::dvec2 last(view.rect.x + view.rect.width, view.rect.y + view.rect.height);
+  const glm::dvec2 low = 2.0 * first / view.pictureSize - 1.0 - projection.offset;
+  const glm::dvec2 high = 2.0 * last / view.pictureSize - 1.0 - projection.offset;
   const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
   view.cone.clear();
-  // x - low.x w, high.x w - x, high.y w - y, y - low.y w >= 0 in clip space, with w = -z and y down.
+  // x - low.x w, high.x w - x, high.y w - y, y - low.y w >= 0 in clip space without offset, with w = -z and y down.
   for (const glm::dvec3& n :
        {glm::dvec3(fx, 0, low.x), glm::dvec3(-fx, 0, -high.x), glm::dvec3(0, fy, -high.y), glm::dvec3(0, -fy, low.y)}) {
     view.cone.push_back(viewToWorld * glm::normalize(n));
   }
 }
 
-// A plane's line on the screen is nx / fx x - ny / fy y - nz = 0 in device coordinates; it moves by its gradient's
-// length for each pixel.
+// A plane's line on the screen is nx / fx x - ny / fy y - nz = 0 in device coordinates without offset; it moves by its
+// gradient's length for each pixel.
 void widen(View& view, const Projection& projection, int pixels) {
   const glm::dvec2 step = 2.0 / view.pictureSize;
   for (glm::dvec3& normal : view.cone) {

@@ -61,13 +61,15 @@ glm::dmat4 Projection::matrix() const {
   glm::dmat4 m(0.0);
   m[0][0] = focal / aspect;
   m[1][1] = -focal;
+  m[2][0] = -offset.x;
+  m[2][1] = -offset.y;
   m[3][2] = near;
   m[2][3] = -1.0;
   return m;
 }
 
 glm::dvec4 Projection::clip(const glm::dvec3& view) const {
-  return {focal / aspect * view.x, -focal * view.y, near, -view.z};
+  return {focal / aspect * view.x - offset.x * view.z, -focal * view.y - offset.y * view.z, near, -view.z};
 }
 
 std::optional<glm::dmat4> obliqueProjection(const Projection& projection, const glm::dvec4& plane) {
@@ -75,7 +77,7 @@ std::optional<glm::dmat4> obliqueProjection(const Projection& projection, const 
   // The corner of the frustum opposite the plane, at infinity (depth 0), brought to view space: P^-1 (sx, sy, 0, 1).
   const double cx = sign(plane.x / m[0][0]);
   const double cy = sign(plane.y / m[1][1]);
-  const glm::dvec4 corner(cx / m[0][0], cy / m[1][1], -1.0, 0.0);
+  const glm::dvec4 corner((cx - projection.offset.x) / m[0][0], (cy - projection.offset.y) / m[1][1], -1.0, 0.0);
   const double reach = glm::dot(plane, corner);
   if (!(plane.w < 0.0) || !(reach > 0.0)) {
     return std::nullopt;

@@ -9,11 +9,13 @@ namespace speculum {
 
 // Perspective projection to Vulkan clip space (y down, depth 0..1), reversed Z with the far plane at infinity: depth is
 // near / distance, so its relative resolution is the same at every distance. View space is right-handed, looking down
-// -z. x_clip = focal / aspect * x, y_clip = -focal * y, z_clip = near, w_clip = -z.
+// -z. x_clip = focal / aspect * x + offset.x * w_clip, y_clip = -focal * y + offset.y * w_clip, z_clip = near,
+// w_clip = -z.
 struct Projection {
-  double focal = 1.0;   // cot(vertical fov / 2)
-  double aspect = 1.0;  // width / height
-  double near = 0.001;  // metres
+  double focal = 1.0;      // cot(vertical fov / 2)
+  double aspect = 1.0;     // width / height
+  double near = 0.001;     // metres
+  glm::dvec2 offset{0.0};  // of the picture, in device coordinates
 
   Projection() = default;
   Projection(double verticalFovRadians, double aspectRatio, double nearMetres);

@@ -86,8 +86,8 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
   return {{.kind = kind}, desc.name, -1, 1};
 }
 
-RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, VkExtent2D size,
-                                   const Settings& settings) {
+RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings,
+                                   int pictures) {
   const PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
   const auto texelsPerPixel = [&](VkExtent2D texels) {
     return glm::vec2(static_cast<float>(texels.width) / static_cast<float>(frame.extent.width),
@@ -95,9 +95,9 @@ RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, Vk
   };
   if (!cover_) {
     const glm::vec2 scale = texelsPerPixel(size);
-    return draw(frame, desc, PassKind::display, pipelineFor(radiance, settings, scale != glm::vec2(1.0f)),
-                radiance.descriptor,
-                gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), static_cast<float>(settings.view.exposure)});
+    return draw(
+        frame, desc, PassKind::display, pipelineFor(radiance, settings, scale != glm::vec2(1.0f)), radiance.descriptor,
+        gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), static_cast<float>(settings.view.exposure / pictures)});
   }
   const MirrorImage cover{.descriptor = cover_.descriptor(coverSampler_.get())};
   const glm::vec2 scale = texelsPerPixel(cover_.extent());

@@ -37,8 +37,9 @@ class DisplaySystem {
   // See SceneRenderer::setCover.
   void setCover(const Image8& picture);
 
-  // Records the display pass, of this radiance with `size` texels, or of the overlay image.
-  RecordedPass record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings);
+  // Records the display pass, of the overlay image or of this radiance: `size` texels, a sum of so many pictures.
+  RecordedPass record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings,
+                      int pictures);
   // Record the target of debug.pass; nothing if no part of it lies in the area.
   std::optional<RecordedPass> recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
                                           const MirrorImage& radiance, const Settings& settings);

@@ -21,6 +21,14 @@ class EffectLedger {
   EffectCost& operator[](EffectKind kind) { return costs_[static_cast<size_t>(kind)]; }
   const EffectCost& operator[](EffectKind kind) const { return costs_[static_cast<size_t>(kind)]; }
   void draw(EffectKind kind, bool takesPart = true) { (*this)[kind].draws += takesPart; }
+  // Adds the draws of another picture; what is alive is that of the later one.
+  void add(const EffectLedger& later) {
+    for (size_t i = 0; i < costs_.size(); ++i) {
+      const uint32_t before = costs_[i].draws;
+      costs_[i] = later.costs_[i];
+      costs_[i].draws += before;
+    }
+  }
   void pipeline(EffectKind kind, bool takesPart = true) { (*this)[kind].pipelines += takesPart; }
 
  private:

@@ -34,14 +34,15 @@ void setRays(gpu::ViewData& data, const View& view, const Projection& projection
   const double sy = 1.0 / projection.focal;
   const glm::dvec2 step = 2.0 / view.pictureSize;
   const glm::dvec2 origin = glm::dvec2(view.rect.x, view.rect.y) - glm::dvec2(target);
-  const glm::dvec2 corner = origin * step - 1.0;  // of the target's pixel (0, 0), in [-1, 1]
+  // Of the target's pixel (0, 0), in [-1, 1] without the projection's offset.
+  const glm::dvec2 corner = origin * step - 1.0 - projection.offset;
   data.rayX = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(step.x * sx, 0.0, 0.0)), 0.0f);
   data.rayY = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(0.0, -step.y * sy, 0.0)), 0.0f);
   data.rayOrigin = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(corner.x * sx, -corner.y * sy, -1.0)), 0.0f);
 }
 
 void setBackground(gpu::ViewData& data, const Environment& environment) {
-  data.ambient = glm::vec4(glm::vec3(environment.ambient), 0.0f);
+  data.ambient = glm::vec3(environment.ambient);
   data.background = glm::vec3(environment.background);
   data.hasSky = environment.sky.has_value();
   const Sky sky = environment.sky.value_or(Sky{});
@@ -214,6 +215,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
   setRays(view, pass.view, common, corner);
   setBackground(view, environment);
+  view.picture = static_cast<uint32_t>(plan.picture);
   view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, 0.0));
   view.throughput = glm::vec3(pass.channels);
   view.minThroughput = static_cast<float>(settings.reflection.minThroughput);

@@ -62,6 +62,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
       watch_(renderer),
       display_(renderer),
+      accumulation_(renderer),
       watchedDepth_(std::make_unique<WatchedDepth>(renderer, display_.layout())),
       probe_(renderer),
       mirrorTargets_(device_),
@@ -73,8 +74,8 @@ SceneRenderer::~SceneRenderer() {
 
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
-         mirrorSystem_.pipelineCount() + display_.pipelineCount() + watch_.pipelineCount() +
-         watchedDepth_->pipelineCount() + probe_.pipelineCount();
+         mirrorSystem_.pipelineCount() + display_.pipelineCount() + accumulation_.pipelineCount() +
+         watch_.pipelineCount() + watchedDepth_->pipelineCount() + probe_.pipelineCount();
 }
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
@@ -88,7 +89,7 @@ void SceneRenderer::uploadTextures(Frame& frame, const SceneState& state, const 
 }
 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
-                           const std::optional<DebugView>& debug) {
+                           const std::optional<DebugView>& debug, bool shown) {
   const Environment environment = effectiveEnvironment(scene_, settings);
   releaseDebugViews(debug, *frame.retired);
   prepareTargets(frame, settings, plan, debug);
@@ -116,7 +117,10 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   recordMaps(info);
   recordMirrors(info);
   recordMain(info);
-  recordDisplay(info, debug);
+  recordSum(info);
+  if (shown) {
+    recordDisplay(info, debug);
+  }
   endRecord(info);
 }
 
@@ -264,8 +268,19 @@ void SceneRenderer::recordMain(const FrameInfo& info) {
   }
 }
 
+void SceneRenderer::recordSum(const FrameInfo& info) {
+  if (info.settings.view.accumulate == 1) {
+    accumulation_.release(*info.frame.retired);
+  } else if (!info.plan.mainReused) {
+    recorded_.push_back(accumulation_.add(info.frame, main_->descriptor(), main_->extent(), info.plan.picture));
+  }
+}
+
 void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug) {
-  recorded_.push_back(display_.record(info.frame, {.descriptor = main_->descriptor()}, main_->extent(), info.settings));
+  const int pictures = accumulated();
+  recorded_.push_back(display_.record(info.frame,
+                                      {.descriptor = pictures > 0 ? accumulation_.descriptor() : main_->descriptor()},
+                                      main_->extent(), info.settings, std::max(pictures, 1)));
   if (!debug) {
     return;
   }
@@ -394,11 +409,14 @@ std::span<const RecordedPass> SceneRenderer::passesOf(uint64_t frame) const {
 
 LinearImage SceneRenderer::radiance() {
   renderer_.waitIdle();
-  const std::vector<float> texels = renderer_.uploader().readFloats(main_->color());
+  const int pictures = accumulated();
+  const std::vector<float> texels =
+      renderer_.uploader().readFloats(pictures > 0 ? accumulation_.sum() : main_->color());
   const VkExtent2D extent = main_->color().extent();
   LinearImage image(static_cast<int>(extent.width), static_cast<int>(extent.height));
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
+    image.pixels[i] /= static_cast<float>(std::max(pictures, 1));
   }
   return enlarged(image, pictureSize_.x, pictureSize_.y);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "image/image.hpp"
+#include "systems/accumulation.hpp"
 #include "systems/display_system.hpp"
 #include "systems/environment_targets.hpp"
 #include "systems/finite_watch.hpp"
@@ -37,9 +38,12 @@ class SceneRenderer {
   // Uploads the textures and materials that record() needs. Call it first: if it throws OutOfMemoryError, plan the
   // frame again without effects.textures.
   void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
-  // Records every pass up to the display pass. `plan` was made with cache().
+  // Records every pass up to the display pass. `plan` was made with cache(), `settings` are those of FittedPlan. With
+  // view.accumulate above 1, adds the picture to the mean and shows that if `shown`: see Accumulation.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
-              const std::optional<DebugView>& debug = std::nullopt);
+              const std::optional<DebugView>& debug = std::nullopt, bool shown = true);
+  // Pictures in the mean that the last recorded frame shows; 0 without one.
+  int accumulated() const { return accumulation_.pictures(); }
 
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
   // without pixels shows the scene again.
@@ -56,7 +60,8 @@ class SceneRenderer {
   size_t pipelineCount() const;
   // Share of each effect in the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
-  // Linear radiance of the main view in the last recorded frame, enlarged to the picture. Waits for the GPU.
+  // Linear radiance of the main view, or of the mean, in the last recorded frame, enlarged to the picture. Waits for
+  // the GPU.
   LinearImage radiance();
 
  private:
@@ -69,6 +74,7 @@ class SceneRenderer {
   void recordMirrors(const FrameInfo& info);
   void recordMirrorRange(const FrameInfo& info, const PassRange& range);
   void recordMain(const FrameInfo& info);
+  void recordSum(const FrameInfo& info);
   void recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug);
   void endRecord(const FrameInfo& info);
   void finishLedger(const FrameInfo& info);
@@ -94,6 +100,7 @@ class SceneRenderer {
   MirrorSystem mirrorSystem_;
   FiniteWatch watch_;
   DisplaySystem display_;
+  Accumulation accumulation_;
   std::unique_ptr<WatchedDepth> watchedDepth_;
   TexelProbe probe_;
   std::unique_ptr<OffScreen> main_;

@@ -1,0 +1,91 @@
+#include "systems/accumulation.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "shaders/gpu_data.h"
+
+namespace speculum {
+
+namespace {
+
+constexpr VkFormat sumFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+bool equal(VkExtent2D a, VkExtent2D b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+}  // namespace
+
+Accumulation::Accumulation(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {}
+
+void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
+  Device& device = renderer_.device();
+  if (!layout_) {
+    constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_FRAGMENT_BIT;
+    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
+                                 DescriptorBinding{1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages}};
+    layout_ = createDescriptorSetLayout(device, bindings, "accumulate");
+    sampler_ = createSampler(
+        device, {.filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f}, "sum");
+  }
+  for (Image& image : images_) {
+    if (image && !equal(image.extent(), extent)) {
+      retired.retire(std::exchange(image, Image()));
+    }
+    if (!image) {
+      image = Image(device, {.extent = extent,
+                             .format = sumFormat,
+                             .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                             .name = "sum of pictures"});
+    }
+  }
+}
+
+RecordedPass Accumulation::add(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D extent, int picture) {
+  if (picture == 0) {
+    begin(extent, *frame.retired);
+  } else if (picture != pictures_ || !equal(sum().extent(), extent)) {
+    throw std::logic_error("picture " + std::to_string(picture) + " of a mean does not follow " +
+                           std::to_string(pictures_) + " others of its size");
+  }
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  DescriptorWriter()
+      .image(0, radiance)
+      .image(1, picture == 0 ? radiance : descriptor())
+      .update(renderer_.device(), set);
+  current_ = 1 - current_;
+  pictures_ = picture + 1;
+  const Pipeline& pipeline = pipelines_.get(true, [&] {
+    return GraphicsPipelineDesc{.name = "accumulate",
+                                .vert = "full_screen.vert",
+                                .frag = "accumulate.frag",
+                                .setLayouts = {layout_.get()},
+                                .pushConstantBytes = sizeof(gpu::AccumulateConstants),
+                                .color = sumFormat,
+                                .depth = VK_FORMAT_UNDEFINED};
+  });
+  const PassDesc desc = fullPass("accumulate", {.color = &sum()});
+  const PassScope scope = renderer_.beginPass(frame, desc);
+  pipeline.bind(scope.commands());
+  pipeline.bindSet(scope.commands(), 0, set);
+  pipeline.push(scope.commands(), gpu::AccumulateConstants{picture == 0});
+  vkCmdDraw(scope.commands(), 3, 1, 0, 0);
+  return {{.kind = PassKind::accumulation}, desc.name, -1, 1};
+}
+
+void Accumulation::release(RetireQueue& retired) {
+  pictures_ = 0;
+  if (!layout_) {
+    return;
+  }
+  pipelines_.clear();
+  for (Image& image : images_) {
+    retired.retire(std::exchange(image, Image()));
+  }
+  retired.retire(std::exchange(sampler_, SamplerHandle()));
+  retired.retire(std::exchange(layout_, DescriptorSetLayoutHandle()));
+}
+
+}  // namespace speculum

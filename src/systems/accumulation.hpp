@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+
+#include "core/renderer.hpp"
+#include "systems/pipeline_variants.hpp"
+#include "systems/recorded_pass.hpp"
+
+namespace speculum {
+
+// Sum of the pictures of a mean (view.accumulate), in linear 32-bit float. Pictures are added one at a time, one in
+// each frame, and in between the display pass shows the mean of those that are there. Nothing exists on the GPU before
+// the first and after release().
+//
+// SceneRenderer owns it and adds what it draws. Who wants a mean draws frames with settings whose view.accumulate is
+// above 1 and plans made for pictures 0, 1, 2, ...; picture 0 begins a new mean. What is shown must stand still between
+// them: scene, time, camera, settings, size. A plan for a picture beyond the last shows the mean again and draws
+// nothing.
+class Accumulation {
+ public:
+  explicit Accumulation(Renderer& renderer);
+
+  // Adds the picture in `radiance`, which is in the layout for being sampled, as number `picture`. Throws
+  // std::logic_error if it is neither the first nor the next one, of the same size.
+  RecordedPass add(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D extent, int picture);
+  void release(RetireQueue& retired);
+
+  int pictures() const { return pictures_; }  // in the sum; 0: none
+  Image& sum() { return images_[current_]; }  // alpha is their number
+  VkDescriptorImageInfo descriptor() const { return images_[current_].descriptor(sampler_.get()); }
+  size_t pipelineCount() const { return pipelines_.size(); }
+
+ private:
+  void begin(VkExtent2D extent, RetireQueue& retired);
+
+  Renderer& renderer_;
+  DescriptorSetLayoutHandle layout_;
+  PipelineVariants<bool> pipelines_;  // one
+  SamplerHandle sampler_;
+  std::array<Image, 2> images_;  // one is read where the other is written: not every device blends 32-bit floats
+  size_t current_ = 0;
+  int pictures_ = 0;
+};
+
+}  // namespace speculum

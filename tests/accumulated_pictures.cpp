@@ -1,0 +1,221 @@
+// view.accumulate: means of pictures with sub-pixel offsets.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "accuracy/ground_truth.hpp"
+#include "frame/picture_offset.hpp"
+#include "image/color.hpp"
+#include "picture_support.hpp"
+#include "sampling.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{96, 54};
+
+Options shipped(const std::string& scene, int pictures) {
+  Options options = headless(sourceFile("scenes/" + scene + ".toml"), size);
+  set(options, {{"view.accumulate", std::to_string(pictures)}});
+  return options;
+}
+
+Image8 shown(Session& session, int pictures) {
+  Settings settings = session.settings();
+  settings.view.accumulate = pictures;
+  session.setSettings(settings);
+  session.draw(0.0, true);
+  return session.picture();
+}
+
+// One picture of a mean by itself.
+LinearImage single(Session& session, const SceneState& state, const Settings& mean, int picture) {
+  const FramePlan plan = planFrame(session.scene(), state, mean, size.width, size.height, {}, picture);
+  Settings alone = mean;
+  alone.view.accumulate = 1;
+  Frame frame = session.renderer().beginFrame().value();
+  session.sceneRenderer().record(frame, state, alone, plan);
+  session.renderer().endFrame(frame);
+  return session.sceneRenderer().radiance();
+}
+
+TEST(Accumulation, IsTheMeanOfItsPictures) {
+  for (const int pictures : {3, 17}) {
+    Options options = shipped("gallery", pictures);
+    set(options, {{"view.scale", pictures == 3 ? "1" : "0.5"}});
+    Session session(options);
+    const SceneState state = evaluate(session.scene(), 0.0);
+    const Settings mean = pictureSettings(session.settings());
+    EXPECT_EQ(mean.view.samples, pictures == 3 ? 4 : 1);
+    session.draw(0.0, true);
+    const LinearImage accumulated = session.radiance();
+    const Image8 display = toDisplay(accumulated, mean.view.exposure, mean.view.toneMap);
+    EXPECT_EQ(difference(session.picture(), display, 1).over, 0) << "neither exposure nor tone curve changes the sum";
+    if (pictures == 17) {
+      continue;  // enlarged
+    }
+    std::vector<glm::dvec3> sum(accumulated.pixels.size(), glm::dvec3(0.0));
+    for (int i = 0; i < pictures; ++i) {
+      const LinearImage image = single(session, state, mean, i);
+      for (size_t k = 0; k < sum.size(); ++k) {
+        sum[k] += glm::dvec3(image.pixels[k]);
+      }
+    }
+    for (size_t k = 0; k < sum.size(); ++k) {
+      const glm::dvec3 off = glm::abs(sum[k] / double(pictures) - glm::dvec3(accumulated.pixels[k]));
+      ASSERT_LE(std::max({off.r, off.g, off.b}), 1e-6 * (1.0 + sum[k].r + sum[k].g + sum[k].b)) << k;
+    }
+    expectQuiet(session);
+  }
+}
+
+TEST(Accumulation, BeginsWithThePictureItself) {
+  Session session(shipped("rough", 1));
+  session.draw(0.0, false);
+  const LinearImage picture = session.radiance();
+  Settings settings = session.settings();
+  settings.view.accumulate = 5;
+  session.setSettings(settings);
+  session.draw(0.0, false, [] { return false; });
+  EXPECT_EQ(session.lastFrame().pictures, 1);
+  EXPECT_TRUE(session.radiance().pixels == picture.pixels);
+  expectQuiet(session);
+}
+
+TEST(Accumulation, CountsAllPicturesInItsFigures) {
+  Session session(shipped("single_plane", 1));
+  session.draw(0.0, false);
+  session.finish();
+  const DrawnFrame one = session.lastFrame();
+  EXPECT_EQ(one.pictures, 1);
+  shown(session, 5);
+  session.finish();
+  const DrawnFrame& five = session.lastFrame();
+  EXPECT_EQ(five.pictures, 5);
+  ASSERT_EQ(five.passes.size(), one.passes.size() + 1);
+  for (size_t i = 0; i < one.passes.size(); ++i) {
+    const bool displays = one.passes[i].kind == PassKind::display;
+    const size_t k = displays ? i + 1 : i;
+    EXPECT_EQ(five.passes[k].name, one.passes[i].name);
+    EXPECT_NEAR(five.passes[k].draws, one.passes[i].draws * (displays ? 1 : 5), 0.02 * five.passes[k].draws)
+        << "clusters may differ at the edge";
+    EXPECT_NEAR(five.timings.passes[k].triangles, 5.0 * one.timings.passes[i].triangles,
+                0.05 * five.timings.passes[k].triangles + (displays ? 10 : 0));
+  }
+  EXPECT_EQ(five.passes[one.passes.size() - 1].draws, 5u) << "of the pass that adds";
+  EXPECT_GT(five.timings.gpuMs, 2.0 * one.timings.gpuMs);
+}
+
+// What is wrong in one picture is found, though the mean of several would hide it.
+TEST(Accumulation, EveryPictureIsCheckedBeforeItIsSummed) {
+  const std::filesystem::path shaders = sceneDirectory() / "shaders";
+  std::filesystem::create_directories(shaders);
+  writeShaders(shaders, "scene_shading.glsl", "  color.r = views[draw.viewIndex].picture == 2u ? -0.01 : color.r;\n");
+  Options options = shipped("no_mirror", 4);
+  options.shaderDir = shaders;
+  Session session(options);
+  session.draw(0.0, false);
+  session.finish();
+  EXPECT_EQ(session.device().validationMessages(), 0);
+  EXPECT_GT(session.sceneRenderer().finiteWatch().count(), 100u);
+}
+
+TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
+  Session session(shipped("gallery", 4));
+  const Image8 picture = shown(session, 4);
+  const SceneState state = evaluate(session.scene(), 0.0);
+  const Settings settings = pictureSettings(session.settings());
+  const FramePlan plan = planFrame(session.scene(), state, settings, size.width, size.height, {}, 4);
+  EXPECT_TRUE(plan.passes.empty());
+  Frame frame = session.renderer().beginFrame().value();
+  frame.capture = true;
+  session.sceneRenderer().record(frame, state, settings, plan);
+  session.renderer().endFrame(frame);
+  EXPECT_EQ(session.sceneRenderer().passes().size(), 1u);
+  EXPECT_EQ(session.picture().rgba, picture.rgba);
+  const FramePlan late = planFrame(session.scene(), state, settings, size.width, size.height, {}, 2);
+  frame = session.renderer().beginFrame().value();
+  EXPECT_THROW(session.sceneRenderer().record(frame, state, settings, late), std::logic_error);
+  session.renderer().endFrame(frame);
+  expectQuiet(session);
+}
+
+// Rays of rough mirrors fall elsewhere in each picture: the noise of one ray a pixel falls as if there were more.
+TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
+  for (const char* lookup : {"traced", "image"}) {
+    Options options = shipped("rough", 1);
+    set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "64"}});
+    Session session(options);
+    shown(session, 16);
+    const LinearImage truth = session.radiance();
+    const auto error = [&](int rays, int pictures) {
+      Settings settings = session.settings();
+      settings.effects.roughSamples = rays;
+      session.setSettings(settings);
+      shown(session, pictures);
+      const LinearImage image = session.radiance();
+      double squares = 0.0;
+      for (size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::vec3 off = image.pixels[i] - truth.pixels[i];
+        squares += glm::dot(off, off);
+      }
+      return std::sqrt(squares);
+    };
+    const double one = error(1, 16);
+    EXPECT_LT(one, 0.7 * error(1, 4)) << lookup;
+    EXPECT_GT(one, 1.5 * error(4, 16)) << lookup << ": what is left is the noise of rays";
+    expectQuiet(session);
+  }
+}
+
+// Against the tracer, with nothing left out that it traces.
+struct Convergence {
+  std::vector<double> flip;  // of means of 1, 4, 16, 64 pictures
+  double floor = 0.0;        // of a 9x9 grid
+};
+
+Convergence convergence(const std::string& scene) {
+  Options options = shipped(scene, 1);
+  set(options, {{"reflection.max_passes", "100000"},
+                {"reflection.min_pixels", "0"},
+                {"reflection.min_throughput", "0"},
+                {"reflection.max_depth", "32"},
+                {"view.samples", "1"},
+                {"reflection.samples", "1"}});
+  Session session(options);
+  const std::optional<GroundTruth> truth =
+      traceGroundTruth(session.scene(), evaluate(session.scene(), 0.0),
+                       {.width = size.width, .height = size.height, .settings = session.settings()}, {});
+  Convergence result{.floor = truth->floor.whole.flip};
+  for (const int pictures : {1, 4, 16, 64}) {
+    result.flip.push_back(errorsAgainst(*truth, shown(session, pictures), session.settings()).whole.flip);
+  }
+  expectQuiet(session);
+  return result;
+}
+
+class AccumulationTruth : public testing::TestWithParam<std::string> {};
+
+TEST_P(AccumulationTruth, FallsToTheNoiseFloor) {
+  const auto [flip, floor] = convergence(GetParam());
+  for (size_t i = 1; i < flip.size(); ++i) {
+    EXPECT_LT(flip[i], 0.75 * flip[i - 1]) << i;
+  }
+  EXPECT_LE(flip.back(), 1.1 * floor);
+}
+
+std::vector<std::string> scenes() {
+  if (fullTests()) {
+    return {"bounced_light", "facing_mirrors", "gallery", "many_mirrors", "mirror_ball", "mirror_maze",
+            "no_mirror",     "outdoors",       "pool",    "rough",        "shadows",     "single_plane"};
+  }
+  return {"gallery", "single_plane"};
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AccumulationTruth, testing::ValuesIn(scenes()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace speculum
