@@ -274,11 +274,15 @@ TEST(Movement, LastsAMomentAfterTheLastStep) {
 // Its frames take half a second whatever they draw.
 TEST(Pace, LowersOnlyWhatMoves) {
   Pace pace(true, 1 + 4);
+  const Scene scene;
+  const SceneState state;
+  Settings chosen;
+  chosen.quality.stillPictures = 1;
   Settings planned;
   uint64_t number = 0;
   const auto frame = [&](bool moves, double budget) {
     pace.begin({}, moves, 0.5);
-    pace.plan({}, budget, {}, {}, {}, [&](const Settings& settings) {
+    pace.plan({.scene = scene, .state = state, .chosen = chosen, .budgetMs = budget}, [&](const Settings& settings, int) {
       planned = settings;
       FittedPlan fitted{.settings = settings};
       fitted.plan.main.view.rect = {0, 0, 1280, 720};
@@ -300,6 +304,35 @@ TEST(Pace, LowersOnlyWhatMoves) {
   frame(false, 50.0);
   frame(false, 50.0);
   EXPECT_TRUE(sameMainView(planned, {}));
+}
+
+TEST(Pace, StillPicturesConvergeOnce) {
+  Pace pace(true, 1 + 4);
+  const Scene scene;
+  const SceneState state;
+  Settings chosen;
+  chosen.quality.stillPictures = 3;
+  std::vector<std::pair<int, int>> planned;  // pictures of the mean and the one that is drawn
+  const auto frame = [&](const std::string& shown, double budget = 0.0) {
+    planned.clear();
+    pace.begin({}, false, 0.1);
+    pace.plan({.scene = scene, .state = state, .chosen = chosen, .shown = shown, .budgetMs = budget},
+              [&](const Settings& settings, int picture) {
+                planned.emplace_back(settings.view.accumulate, picture);
+                return FittedPlan{.settings = settings};
+              });
+    return planned.back();
+  };
+  EXPECT_EQ(frame("a"), std::pair(1, 0)) << "full quality first";
+  for (int picture = 0; picture < 3; ++picture) {
+    EXPECT_TRUE(pace.wantsFrame());
+    EXPECT_EQ(frame("a"), std::pair(3, picture));
+  }
+  EXPECT_EQ(pace.text(), "3 of 3 pictures");
+  EXPECT_FALSE(pace.wantsFrame());
+  EXPECT_EQ(frame("a"), std::pair(3, 3)) << "the mean again";
+  EXPECT_EQ(frame("b"), std::pair(1, 0)) << "something else is shown";
+  EXPECT_EQ(frame("c", 1e-9), std::pair(3, 0)) << "full quality would take too long";
 }
 
 TEST(Pace, BudgetFollowsDeviceAndMonitor) {

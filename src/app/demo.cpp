@@ -1,5 +1,6 @@
 #include "app/demo.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -149,15 +150,26 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
 FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool showsMain = output_.target && output_.target->path.empty();
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
-  // Recorded frames take as long as they take.
-  const double budget =
-      workspace_.capture().recording() ? 0.0 : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_);
-  FittedPlan fitted = pace_.plan(settingsOfFrame(), budget, workspace_.accuracy().front(), workspace_.scene(), state,
-                                 [&](const Settings& settings) {
-                                   return planner_.plan(frame, *sceneRenderer_, workspace_.scene(), state, settings,
-                                                        showsMain, settingsMove);
-                                 });
-  const bool pauses = !pace_.text().empty() && workspace_.animates();
+  const Settings settings = settingsOfFrame();
+  const VkExtent2D size = renderer_.displayExtent();
+  const Pace::Request request{
+      .scene = workspace_.scene(),
+      .state = state,
+      .chosen = settings,
+      .shown = fmt::format("{}{} {} {} {} {}x{}", settingsKey(settings), scenes_, workspace_.revision(), state.time,
+                           renderer_.pipelines().revision(), size.width, size.height),
+      // Recorded frames take as long as they take.
+      .budgetMs = workspace_.capture().recording()
+                      ? 0.0
+                      : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
+      .front = workspace_.accuracy().front()};
+  FittedPlan fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
+    return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
+  });
+  if (pace_.wantsFrame()) {
+    pacer_.requestFrames(3);  // so that the panels show the last one's figures
+  }
+  const bool pauses = pace_.moving() && workspace_.animates();
   workspace_.setPictureText(pace_.text() + (pauses ? ". Space: pause for the exact picture" : ""));
   return fitted;
 }
@@ -176,7 +188,9 @@ Settings Demo::settingsOfFrame() const {
   const bool watched = output_.target && !output_.target->path.empty();
   settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite && !watched;
   settings.reflection.updateInterval = watched ? 1 : settings.reflection.updateInterval;
-  settings.view.accumulate = 1;
+  if (output_.target) {
+    settings.view.accumulate = settings.quality.stillPictures = 1;  // the target is of the one picture
+  }
   return settings;
 }
 
@@ -242,6 +256,7 @@ void Demo::useScene(const Scene& scene) {
   planner_.forgetScene();
   output_ = {};  // the panels asked for a target of the scene before
   sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, scene);
+  ++scenes_;
 }
 
 glm::ivec2 Demo::pictureSize() const {

@@ -94,6 +94,7 @@ class Demo : private WorkspaceHost {
   bool changes_ = false;       // in this step
   bool changeBegins_ = false;  // and not in the one before
   size_t pipelines_ = 0;       // after the last frame
+  int scenes_ = 0;             // that were shown before this one
   Settings frameSettings_;
   std::string message_;
   uint64_t nonFinite_ = 0;  // of scenes shown before

@@ -5,7 +5,7 @@
 namespace speculum {
 
 FittedPlan FramePlanner::plan(Frame& frame, SceneRenderer& sceneRenderer, const Scene& scene, const SceneState& state,
-                              Settings settings, bool rendersMain, bool settingsMove) {
+                              Settings settings, int picture, bool rendersMain, bool settingsMove) {
   const Settings asked = settings;
   std::string known;
   if (refused_ && !settingsMove && refused_->settings != asked) {
@@ -19,7 +19,7 @@ FittedPlan FramePlanner::plan(Frame& frame, SceneRenderer& sceneRenderer, const 
       cache.main = nullptr;
     }
     return planner_.plan(scene, state, settings, static_cast<int>(frame.extent.width),
-                         static_cast<int>(frame.extent.height), cache);
+                         static_cast<int>(frame.extent.height), cache, picture);
   };
   FittedPlan fitted = planNow();
   try {

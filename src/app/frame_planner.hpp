@@ -13,10 +13,10 @@ class FramePlanner {
  public:
   explicit FramePlanner(const Device& device) : planner_(device) {}
 
-  // Plans a frame and uploads its textures. `rendersMain`: the main view is not to be reused. While `settingsMove`, say
+  // Plans a frame, of picture number `picture` of a mean, and uploads its textures. `rendersMain`: the main view is not to be reused. While `settingsMove`, say
   // by a slider that is held, textures are not tried again: each trial waits for the device.
   FittedPlan plan(Frame& frame, SceneRenderer& sceneRenderer, const Scene& scene, const SceneState& state,
-                  Settings settings, bool rendersMain, bool settingsMove);
+                  Settings settings, int picture, bool rendersMain, bool settingsMove);
   void forgetScene() { refused_.reset(); }
   std::string message() const;  // what was lowered or left out; empty if nothing was
 

@@ -1,6 +1,9 @@
 #include "app/pace.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
 
 namespace speculum {
 
@@ -21,22 +24,55 @@ void Pace::begin(const CameraPose& camera, bool otherwise, double seconds) {
   }
 }
 
-FittedPlan Pace::plan(const Settings& chosen, double budgetMs, std::span<const MotionLevel> front, const Scene& scene,
-                      const SceneState& state, const Planner& plan) {
-  FittedPlan fitted;
-  const auto planned = [&](const Settings& settings) {
-    fitted = plan(settings);
-    return work_ = workOf(fitted.plan, scene, state, fitted.settings);
-  };
-  if (!moving() || budgetMs <= 0.0) {
-    controller_.stand();
-    planned(chosen);
-    text_.clear();
+FittedPlan Pace::plan(const Request& request, const Planner& plan) {
+  const Planner counted = [&](const Settings& settings, int picture) {
+    FittedPlan fitted = plan(settings, picture);
+    work_ = workOf(fitted.plan, request.scene, request.state, fitted.settings);
     return fitted;
+  };
+  if (moving() && request.budgetMs > 0.0) {
+    return planMoving(request, counted);
   }
-  const std::vector<MotionLevel> levels = motionLevels(chosen, front, sampleCounts_);
-  const size_t level = controller_.choose(levels, budgetMs, seconds_, planned);
-  text_ = "moving: " + motionText(chosen, levels[level]);
+  controller_.stand();
+  return planStill(request, counted);
+}
+
+FittedPlan Pace::planMoving(const Request& request, const Planner& plan) {
+  FittedPlan fitted;
+  const std::vector<MotionLevel> levels = motionLevels(request.chosen, request.front, sampleCounts_);
+  const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
+    fitted = plan(settings, 0);
+    return work_;
+  });
+  shown_.clear();
+  text_ = "moving: " + motionText(request.chosen, levels[level]);
+  return fitted;
+}
+
+FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
+  pictures_ = moving() ? 1 : stillPictures(request.chosen);
+  if (std::exchange(shown_, request.shown) != request.shown || moving()) {
+    picture_ = -1;
+  }
+  text_.clear();
+  Settings settings = request.chosen;
+  settings.view.accumulate = 1;
+  if (pictures_ == 1) {
+    picture_ = pictures_;
+    return plan(settings, 0);
+  }
+  if (picture_ < 0) {
+    FittedPlan full = plan(settings, 0);
+    picture_ = 0;
+    // A slow one would only delay the mean, whose pictures have one sample.
+    if (request.budgetMs <= 0.0 || controller_.predict(work_) <= request.budgetMs) {
+      return full;
+    }
+  }
+  settings.view.accumulate = pictures_;
+  FittedPlan fitted = plan(settings, picture_);
+  picture_ = std::min(picture_ + 1, pictures_);
+  text_ = fmt::format("{} of {} pictures", picture_, pictures_);
   return fitted;
 }
 
@@ -63,6 +99,10 @@ void Pace::finished(const FrameTimings& timings) {
                                           : std::min(found->frameMs, sum);
   controller_.finished(timings.frame, ms);
   drawn_.erase(drawn_.begin(), found + 1);
+}
+
+int stillPictures(const Settings& settings) {
+  return std::max(settings.view.accumulate, settings.quality.stillPictures);
 }
 
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz) {

@@ -9,8 +9,8 @@
 
 namespace speculum {
 
-// Quality of the window's frames: what was chosen while nothing moves, and as much of it as fits into a budget of
-// milliseconds while something does.
+// Quality of the window's frames: while something moves as much of what was chosen as fits into a budget of
+// milliseconds, and otherwise all of it, then the mean of pictures with offsets (view.accumulate), one in each frame.
 class Pace {
  public:
   // `sampleCounts`: those that the device has, as a sum.
@@ -21,23 +21,33 @@ class Pace {
   void begin(const CameraPose& camera, bool otherwise, double seconds);
   bool moving() const { return movement_.moving(); }
   // Whether another frame is needed although nothing happens.
-  bool wantsFrame() const { return movement_.ending(); }
+  bool wantsFrame() const { return movement_.ending() || (!moving() && picture_ < pictures_); }
 
-  // Plans the frame with the settings that were chosen or, while anything moves and `budgetMs` is above 0, lower ones.
-  // `front`: as motionLevels takes it. `plan` is called a few times, last for the plan that is returned.
-  using Planner = std::function<FittedPlan(const Settings&)>;
-  FittedPlan plan(const Settings& chosen, double budgetMs, std::span<const MotionLevel> front, const Scene& scene,
-                  const SceneState& state, const Planner& plan);
+  struct Request {
+    const Scene& scene;
+    const SceneState& state;
+    const Settings& chosen;
+    std::string shown;  // equal for frames that show the same while nothing moves
+    double budgetMs = 0.0;  // 0: nothing is lowered
+    std::span<const MotionLevel> front;  // as motionLevels takes it
+  };
+  // Plans the frame. `plan` is called with settings and the number of a picture of their mean, a few times, last for
+  // the plan that is returned.
+  using Planner = std::function<FittedPlan(const Settings&, int picture)>;
+  FittedPlan plan(const Request& request, const Planner& plan);
 
   // The frame was recorded: milliseconds of the CPU without waiting, and whether its times say what such a frame costs.
   void drawn(uint64_t number, double cpuMs, bool usual);
   // The GPU's times of an earlier frame.
   void finished(const FrameTimings& timings);
 
-  // What the picture gives up for its pace, for the user; empty if nothing moves.
+  // What the picture gives up for its pace, or how far it has converged, for the user; empty if there is nothing to say.
   const std::string& text() const { return text_; }
 
  private:
+  FittedPlan planMoving(const Request& request, const std::function<FittedPlan(const Settings&, int)>& plan);
+  FittedPlan planStill(const Request& request, const std::function<FittedPlan(const Settings&, int)>& plan);
+
   using Clock = std::chrono::steady_clock;
   struct Drawn {
     uint64_t number = 0;
@@ -55,7 +65,13 @@ class Pace {
   std::deque<Drawn> drawn_;
   FrameWork work_;  // of the frame that was planned last
   std::string text_;
+  std::string shown_;  // that the pictures show
+  int picture_ = -1;   // of the mean, that is drawn next; -1: one in full quality comes first
+  int pictures_ = 0;   // in the mean
 };
+
+// Pictures in the mean that a still picture becomes.
+int stillPictures(const Settings& settings);
 
 // quality.motion_ms, or what it is by itself: 50 on a CPU, elsewhere 0.8 of the monitor's refresh.
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/pace.hpp"
 #include "app/view_command.hpp"
 #include "platform/folders.hpp"
 
@@ -250,7 +251,9 @@ void Workspace::takeSceneChange() {
 
 void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured) {
   if (captured) {
-    const Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
+    Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
+    const std::string& picture = status_.view().picture;
+    saved.message += saved.logged && !picture.empty() ? " (" + picture + ")" : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   accuracy_.afterFrame(shown, radiance);
@@ -402,7 +405,9 @@ void Workspace::copyCommandLine() {
     if (camera_.camera().place()) {
       options.camera = camera_.bookmark(state(time()).camera, scene().camera);
     }
-    const std::string command = viewCommand(options, file, scene(), settings_.current);
+    Settings settings = settings_.current;
+    settings.view.accumulate = stillPictures(settings);
+    const std::string command = viewCommand(options, file, scene(), settings);
     host_.setClipboard(command);
     const bool copy = file != scene().file;
     status_.set("copied: " + command + (copy ? "   (of a copy of the scene: it has unsaved changes)" : ""));

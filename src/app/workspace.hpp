@@ -64,6 +64,7 @@ class Workspace {
   // Whether frames are wanted although nothing happens.
   bool animates() const { return !playback_.view().paused && moves(scene()); }
   bool working() const { return accuracy_.working() || browser_.loading(); }
+  uint64_t revision() const { return document_->editor().document().revision(); }
   bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
 
