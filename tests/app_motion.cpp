@@ -282,12 +282,13 @@ TEST(Pace, LowersOnlyWhatMoves) {
   uint64_t number = 0;
   const auto frame = [&](bool moves, double budget) {
     pace.begin({}, moves, 0.5);
-    pace.plan({.scene = scene, .state = state, .chosen = chosen, .budgetMs = budget}, [&](const Settings& settings, int) {
-      planned = settings;
-      FittedPlan fitted{.settings = settings};
-      fitted.plan.main.view.rect = {0, 0, 1280, 720};
-      return fitted;
-    });
+    pace.plan({.scene = scene, .state = state, .chosen = chosen, .budgetMs = budget},
+              [&](const Settings& settings, int) {
+                planned = settings;
+                FittedPlan fitted{.settings = settings};
+                fitted.plan.main.view.rect = {0, 0, 1280, 720};
+                return fitted;
+              });
     pace.drawn(++number, 1.0, true);
     pace.finished({.frame = number, .gpuMs = 500.0});
   };

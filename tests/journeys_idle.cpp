@@ -150,6 +150,26 @@ TEST_F(IdleWindow, MovingPictureIsLoweredAndThenExact) {
   expectQuiet();
 }
 
+TEST_F(IdleWindow, StillPictureConvergesToTheCopiedCommand) {
+  press("Tab");
+  Settings settings = view().settings.current;
+  settings.quality.stillPictures = 5;
+  demo_->apply(SetSettings{settings});
+  run(2);
+  EXPECT_EQ(view().status.picture.find("5 of"), std::string::npos) << "one picture in each frame";
+  settle();
+  EXPECT_EQ(view().status.picture, "5 of 5 pictures");
+  const Image8 shown = picture();
+  demo_->apply(CopyCommandLine{});
+  const std::string command = demo_->window().clipboard();
+  EXPECT_NE(command.find("view.accumulate=5"), std::string::npos) << command;
+  const ProcessResult result = runProcess(
+      {"bash", "-c", "cd '" + home_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
+  ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
+  EXPECT_TRUE(readImage8(home_.path() / "journey.png").rgba == shown.rgba) << command;
+  expectQuiet();
+}
+
 // Without a mirror there is little to vary, and the measurement is soon done.
 class AccuracyJourney : public Journey {
  protected:

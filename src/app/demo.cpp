@@ -159,16 +159,12 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
       .shown = fmt::format("{}{} {} {} {} {}x{}", settingsKey(settings), scenes_, workspace_.revision(), state.time,
                            renderer_.pipelines().revision(), size.width, size.height),
       // Recorded frames take as long as they take.
-      .budgetMs = workspace_.capture().recording()
-                      ? 0.0
-                      : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
+      .budgetMs =
+          workspace_.capture().recording() ? 0.0 : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
       .front = workspace_.accuracy().front()};
   FittedPlan fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });
-  if (pace_.wantsFrame()) {
-    pacer_.requestFrames(3);  // so that the panels show the last one's figures
-  }
   const bool pauses = pace_.moving() && workspace_.animates();
   workspace_.setPictureText(pace_.text() + (pauses ? ". Space: pause for the exact picture" : ""));
   return fitted;

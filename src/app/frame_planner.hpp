@@ -13,8 +13,9 @@ class FramePlanner {
  public:
   explicit FramePlanner(const Device& device) : planner_(device) {}
 
-  // Plans a frame, of picture number `picture` of a mean, and uploads its textures. `rendersMain`: the main view is not to be reused. While `settingsMove`, say
-  // by a slider that is held, textures are not tried again: each trial waits for the device.
+  // Plans a frame, of picture number `picture` of a mean, and uploads its textures. `rendersMain`: the main view is not
+  // to be reused. While `settingsMove`, say by a slider that is held, textures are not tried again: each trial waits
+  // for the device.
   FittedPlan plan(Frame& frame, SceneRenderer& sceneRenderer, const Scene& scene, const SceneState& state,
                   Settings settings, int picture, bool rendersMain, bool settingsMove);
   void forgetScene() { refused_.reset(); }

@@ -39,13 +39,15 @@ FittedPlan Pace::plan(const Request& request, const Planner& plan) {
 
 FittedPlan Pace::planMoving(const Request& request, const Planner& plan) {
   FittedPlan fitted;
-  const std::vector<MotionLevel> levels = motionLevels(request.chosen, request.front, sampleCounts_);
+  Settings chosen = request.chosen;
+  chosen.view.accumulate = 1;
+  const std::vector<MotionLevel> levels = motionLevels(chosen, request.front, sampleCounts_);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
     fitted = plan(settings, 0);
     return work_;
   });
   shown_.clear();
-  text_ = "moving: " + motionText(request.chosen, levels[level]);
+  text_ = "moving: " + motionText(chosen, levels[level]);
   return fitted;
 }
 

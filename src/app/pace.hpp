@@ -27,8 +27,8 @@ class Pace {
     const Scene& scene;
     const SceneState& state;
     const Settings& chosen;
-    std::string shown;  // equal for frames that show the same while nothing moves
-    double budgetMs = 0.0;  // 0: nothing is lowered
+    std::string shown;                   // equal for frames that show the same while nothing moves
+    double budgetMs = 0.0;               // 0: nothing is lowered
     std::span<const MotionLevel> front;  // as motionLevels takes it
   };
   // Plans the frame. `plan` is called with settings and the number of a picture of their mean, a few times, last for
@@ -41,12 +41,13 @@ class Pace {
   // The GPU's times of an earlier frame.
   void finished(const FrameTimings& timings);
 
-  // What the picture gives up for its pace, or how far it has converged, for the user; empty if there is nothing to say.
+  // What the picture gives up for its pace, or how far it has converged, for the user; empty if there is nothing to
+  // say.
   const std::string& text() const { return text_; }
 
  private:
-  FittedPlan planMoving(const Request& request, const std::function<FittedPlan(const Settings&, int)>& plan);
-  FittedPlan planStill(const Request& request, const std::function<FittedPlan(const Settings&, int)>& plan);
+  FittedPlan planMoving(const Request& request, const Planner& plan);
+  FittedPlan planStill(const Request& request, const Planner& plan);
 
   using Clock = std::chrono::steady_clock;
   struct Drawn {
