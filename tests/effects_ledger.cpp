@@ -143,7 +143,7 @@ struct Drawn {
 Drawn drawFrames(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) {
     counts.draws = 0;
-    session.draw(0.0, i + 1 == frames);
+    session.draw(0.0, true);
     session.finish();
   }
   return {counts.alive, counts.draws, session.picture().rgba};

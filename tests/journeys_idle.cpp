@@ -25,10 +25,10 @@ class IdleWindow : public Journey {
     }
     return {demo_->framesDrawn() - before, steps};
   }
-  // Until a while has gone by without a frame.
+  // Until half a second has gone by without a frame.
   void settle() {
     const auto end = Clock::now() + std::chrono::seconds(20);
-    while (during(0.3).first > 0) {
+    while (during(0.5).first > 0) {
       ASSERT_LT(Clock::now(), end) << "something goes on drawing";
     }
   }

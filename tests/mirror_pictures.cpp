@@ -232,9 +232,7 @@ TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
 }
 
 TEST(MirrorPictures, MovingFramesKeepTheirMemory) {
-  Options options = headless(sourceFile("scenes/many_mirrors.toml"), {96, 54});
-  set(options, {{"reflection.max_passes", "20"}});
-  Session session(options);
+  Session session(headless(sourceFile("scenes/many_mirrors.toml"), {96, 54}));
   for (int i = 0; i < 10; ++i) {
     session.draw(0.2 * i, false);
   }
