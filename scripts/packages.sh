@@ -4,7 +4,7 @@ build_packages=(
   build-essential cmake ninja-build ccache git pkg-config
   libvulkan-dev libglfw3-dev libglm-dev libimgui-dev libstb-dev libfreetype-dev
   glslang-tools spirv-tools
-  libtinyexr-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
+  libtinyobjloader-dev libtinyexr-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
   libtbb-dev libmeshoptimizer-dev
 )
 run_packages=(mesa-vulkan-drivers)

@@ -2,16 +2,19 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "scene/input_error.hpp"
+#include "scene/text_lines.hpp"
 
 namespace speculum {
 
@@ -23,6 +26,15 @@ namespace {
 fs::path relativeTo(const fs::path& file, std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   return (file.parent_path() / name).lexically_normal();
+}
+
+// The parser's arithmetic may round the largest doubles to infinity.
+bool allFinite(const Material& material) {
+  const auto finite = [](const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  return finite(material.diffuse) && finite(material.specular) && finite(material.emission) &&
+         std::isfinite(material.shininess);
 }
 
 Texture loadTexture(const fs::path& file) {
@@ -77,25 +89,69 @@ std::string_view textureName(const LineReader& line) {
   return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
 }
 
-double numberOf(LineReader& line) {
-  const double value = line.numbers(1, 1)[0];
-  if (!std::isfinite(value)) {
-    line.fail(line.keyword(), "is not finite", "finite numbers are needed");
-  }
-  return value;
-}
-
-glm::dvec3 colorOf(LineReader& line) {
-  const std::vector<double>& rgb = line.numbers(3, 3);
-  for (const double value : rgb) {
+// The line with its numbers written anew: the parser's arithmetic overflows on 1e2147483648.
+std::string checkedNumbers(LineReader& line, bool color) {
+  std::string text(line.keyword());
+  for (const double value : color ? line.numbers(3, 3) : line.numbers(1, 1)) {
     if (!std::isfinite(value)) {
       line.fail(line.keyword(), "is not finite", "finite numbers are needed");
     }
-    if (value < 0.0) {
+    if (color && value < 0.0) {
       line.fail(line.keyword(), "is negative", "colours are 0 or more");
     }
+    text += ' ' + fmt::to_string(value);
   }
-  return {rgb[0], rgb[1], rgb[2]};
+  return text;
+}
+
+struct MaterialLines {
+  int newmtl = 0;
+  int mapKd = 0;
+};
+
+struct CheckedMtl {
+  std::string text;                            // for the parser: the lines that are used, without comments and options
+  std::map<std::string, MaterialLines> lines;  // by material, the last one of a name
+};
+
+CheckedMtl checkMtl(const fs::path& file, std::string_view text) {
+  // The parser keeps some kilobytes for each material.
+  constexpr size_t kMostMaterials = 10'000;
+  CheckedMtl checked;
+  MaterialLines* current = nullptr;
+  size_t count = 0;
+  LineReader line(file, text, LineReader::Continuation::none);
+  while (line.next()) {
+    const std::string_view key = line.keyword();
+    const bool color = key == "Kd" || key == "Ks" || key == "Ke";
+    if (color || key == "Ns" || key == "d" || key == "Tr") {
+      checked.text.append(checkedNumbers(line, color));
+    } else if (key == "newmtl") {
+      if (++count > kMostMaterials) {
+        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
+      }
+      current = &checked.lines[std::string(line.argument())];
+      current->newmtl = line.number();
+      checked.text.append("newmtl ").append(line.argument());
+    } else if (key == "map_Kd" || key == "map_d") {
+      checked.text.append(key).append(" ").append(textureName(line));
+      if (key == "map_Kd" && current != nullptr) {
+        current->mapKd = line.number();
+      }
+    }
+    checked.text.push_back('\n');
+  }
+  return checked;
+}
+
+// Converts all but the texture.
+Material materialOf(const tinyobj::material_t& source) {
+  const auto color = [](const tinyobj::real_t(&rgb)[3]) { return glm::dvec3(rgb[0], rgb[1], rgb[2]); };
+  return {.name = source.name,
+          .diffuse = color(source.diffuse),
+          .specular = color(source.specular),
+          .emission = color(source.emission),
+          .shininess = std::max(1.0, static_cast<double>(source.shininess))};
 }
 
 }  // namespace
@@ -112,49 +168,22 @@ bool ObjMaterials::read(std::string_view name) {
   if (!filesRead_.insert(fs::weakly_canonical(file, ignored)).second) {
     return true;
   }
-  const std::string text = readInputText(file, "a Wavefront MTL file is needed");
-  LineReader line(file, text, LineReader::Continuation::none);
-  Entry unnamed;  // what stands above the first material
-  Entry* entry = &unnamed;
-  size_t count = 0;
-  while (line.next()) {
-    if (line.keyword() == "newmtl") {
-      constexpr size_t kMostMaterials = 10'000;
-      if (++count > kMostMaterials) {
-        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
-      }
-      indices_.try_emplace(std::string(line.argument()), static_cast<int>(entries_.size()));
-      entry = &entries_.emplace_back();
-      entry->material.name = line.argument();
-      entry->file = file;
-      entry->line = line.number();
-    } else {
-      readLine(line, *entry);
-    }
+  const CheckedMtl checked = checkMtl(file, readInputText(file, "a Wavefront MTL file is needed"));
+  std::vector<tinyobj::material_t> materials;
+  std::map<std::string, int> indices;
+  std::string warning;
+  std::string error;
+  std::istringstream stream(checked.text);
+  tinyobj::LoadMtl(&indices, &materials, &stream, &warning, &error);
+  for (const tinyobj::material_t& source : materials) {
+    const std::string key(trimmed(source.name));
+    const auto found = checked.lines.find(key);
+    const MaterialLines lines = found == checked.lines.end() ? MaterialLines{} : found->second;
+    indices_.try_emplace(key, static_cast<int>(entries_.size()));
+    entries_.push_back({materialOf(source), source.dissolve >= 1.0 && source.alpha_texname.empty(),
+                        source.diffuse_texname, file, lines.newmtl, lines.mapKd});
   }
   return true;
-}
-
-void ObjMaterials::readLine(LineReader& line, Entry& entry) {
-  const std::string_view key = line.keyword();
-  if (key == "Kd") {
-    entry.diffuse = colorOf(line);
-  } else if (key == "Ks") {
-    entry.material.specular = colorOf(line);
-  } else if (key == "Ke") {
-    entry.material.emission = colorOf(line);
-  } else if (key == "Ns") {
-    entry.material.shininess = std::max(1.0, numberOf(line));
-  } else if (key == "d") {
-    entry.dissolve = numberOf(line);
-  } else if (key == "Tr") {
-    entry.transparency = numberOf(line);
-  } else if (key == "map_Kd") {
-    entry.diffuseTexture = textureName(line);
-    entry.textureLine = line.number();
-  } else if (key == "map_d") {
-    entry.dissolveTexture = textureName(line);
-  }
 }
 
 int ObjMaterials::find(std::string_view name) {
@@ -176,9 +205,11 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
   }
   const Entry& entry = entries_[index];
   Material material = entry.material;
-  // Textures are multiplied by a colour that files may leave out.
-  material.diffuse = entry.diffuse.value_or(glm::dvec3(entry.diffuseTexture.empty() ? 0.0 : 0.6));
-  if (entry.dissolve.value_or(1.0 - entry.transparency) < 1.0 || !entry.dissolveTexture.empty()) {
+  if (!allFinite(material)) {
+    throwInputError(entry.file, std::max(1, entry.line), "newmtl", "has a number that is out of range",
+                    "numbers that a double can hold are needed");
+  }
+  if (!entry.opaque) {
     spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.line,
                  material.name);
   }
@@ -187,7 +218,7 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
     try {
       material.diffuseTexture = textureIndex(picture, textures);
     } catch (const FileError& error) {
-      throwInputError(entry.file, entry.textureLine, "map_Kd", picture.string() + ": " + error.problem(),
+      throwInputError(entry.file, std::max(1, entry.textureLine), "map_Kd", picture.string() + ": " + error.problem(),
                       "name a PNG or JPEG file, relative to the MTL file");
     }
   }

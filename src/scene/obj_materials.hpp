@@ -2,14 +2,12 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "geometry/mesh.hpp"
-#include "scene/text_lines.hpp"
 
 namespace speculum {
 
@@ -31,17 +29,13 @@ class ObjMaterials {
 
  private:
   struct Entry {
-    Material material;  // without what follows
-    std::optional<glm::dvec3> diffuse;
-    std::optional<double> dissolve;  // goes before the transparency
-    double transparency = 0.0;
-    std::string diffuseTexture;   // empty: none
-    std::string dissolveTexture;  // likewise
+    Material material;  // without its texture
+    bool opaque = true;
+    std::string diffuseTexture;
     std::filesystem::path file;
     int line = 0;         // of newmtl
     int textureLine = 0;  // of map_Kd
   };
-  static void readLine(LineReader& line, Entry& entry);
 
   std::filesystem::path objFile_;
   std::vector<Entry> entries_;
