@@ -1,5 +1,6 @@
 // The window draws when something changes, and only then; what it measures meanwhile.
 #include "journeys_support.hpp"
+#include "test_paths.hpp"
 
 namespace speculum {
 namespace {

@@ -113,7 +113,7 @@ TEST_F(WindowView, BookmarksAreGoneToAndSaved) {
 class TiltedBookmark : public WorkspaceTest {
  protected:
   TiltedBookmark()
-      : WorkspaceTest(corridor +
+      : WorkspaceTest(corridorScene() +
                       "[[bookmark]]\nname = \"tilted\"\nposition = [0, 1, 1]\ntarget = [0.3, 1, 0]\nup = [1, 2, 0]\n"
                       "vertical_fov = 30\n") {}
 };

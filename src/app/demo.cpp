@@ -165,7 +165,7 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
   FittedPlan fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });
-  const bool pauses = pace_.moving() && workspace_.animates();
+  const bool pauses = !pace_.text().empty() && workspace_.animates();
   workspace_.setPictureText(pace_.text() + (pauses ? ". Space: pause for the exact picture" : ""));
   return fitted;
 }
