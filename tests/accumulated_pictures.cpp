@@ -112,7 +112,7 @@ TEST(Accumulation, CountsAllPicturesInItsFigures) {
 TEST(Accumulation, EveryPictureIsCheckedBeforeItIsSummed) {
   const std::filesystem::path shaders = sceneDirectory() / "shaders";
   std::filesystem::create_directories(shaders);
-  writeShaders(shaders, "scene_shading.glsl", "  color.r = views[draw.viewIndex].picture == 2u ? -0.01 : color.r;\n");
+  writeShaders(shaders, "scene_shading.glsl", "  color.r = view.picture == 2u ? -0.01 : color.r;\n");
   Options options = shipped("no_mirror", 4);
   options.shaderDir = shaders;
   Session session(options);

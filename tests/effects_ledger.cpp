@@ -263,7 +263,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"textures",
              "[[object]]\nmodel = \"MODELS/chequer.obj\"\nposition = [0, 0, 9]\n",
              "[[object]]\nmodel = \"MODELS/chequer.obj\"\n",
-             {"Image"}},
+             {"Image", "Pipeline"}},
         Case{"glyphs",
              "[[light]]\nposition = [0, 1, 5]\nradius = 0.2\nglow = 2\n",
              "[[light]]\nposition = [0, 1, 1]\nradius = 0.2\nglow = 2\n",

@@ -6,6 +6,7 @@
 
 #include "sampling.hpp"
 #include "scene_text.hpp"
+#include "shaders/gpu_data.h"
 #include "truth_support.hpp"
 
 namespace speculum {
@@ -55,6 +56,42 @@ size = [6, 6]
   EXPECT_NEAR(middle[1], 188, 1);
   EXPECT_EQ(middle[2], 255);
 }
+
+// Objects of one mesh share a draw only if they look alike and have the same handedness; lights are read at fixed
+// addresses up to a number, and in a loop above it.
+class LookAlikes : public testing::TestWithParam<int> {};
+
+TEST_P(LookAlikes, AreDrawnWithTheirOwnColors) {
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.05, 0.05, 0.05]\n[camera]\nposition = [0, 1, 6]\ntarget = [0, 0.3, 0]\n"
+      << "[[mirror]]\nposition = [0, 0, -3]\nsize = [12, 8]\nbase_color = [0.1, 0.2, 0.1]\n";
+  const std::vector<std::string> looks = {"",
+                                          "scale = [-1, 1, 1]",
+                                          "color = [0.8, 0.1, 0.1]",
+                                          "color = [0.8, 0.1, 0.1]\nscale = [-1, 1, 1]",
+                                          "specular = [0.4, 0.4, 0.1]\nshininess = 9",
+                                          "specular = [0, 0, 0]",
+                                          "emission = [0.1, 0, 0.3]",
+                                          "",
+                                          "shininess = 3"};
+  for (size_t i = 0; i < looks.size(); ++i) {
+    out << "[[object]]\nmodel = \"MODELS/" << (i % 2 == 0 ? "pedestal" : "teapot") << ".obj\"\nposition = ["
+        << 0.7 * static_cast<double>(i) - 2.8 << ", -0.5, " << (i % 3) << "]\n"
+        << looks[i] << "\n";
+    out << "[[object]]\nmodel = \"MODELS/" << (i % 2 == 0 ? "teapot" : "pedestal") << ".obj\"\nposition = ["
+        << 0.7 * static_cast<double>(i) - 2.8 << ", 1, " << (i % 3) - 1.0 << "]\n"
+        << looks[i] << "\n";
+  }
+  for (int i = 0; i < GetParam(); ++i) {
+    out << "[[light]]\nposition = [" << 3.0 * std::cos(i) << ", " << 2.5 + 0.1 * i << ", " << 3.0 * std::sin(i)
+        << "]\nintensity = " << 0.5 + 0.1 * i << "\n";
+  }
+  const std::filesystem::path file = writeScene("look_alikes_" + std::to_string(GetParam()), out.str());
+  constexpr PictureSize size{160, 90};
+  expectTruth(file, size, 1, trace(file, size, 1));
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, LookAlikes, testing::Values(0, 1, int{gpu::fixedLights}, int{gpu::fixedLights} + 1));
 
 // A point in a box, as a scene file takes it.
 std::string pointText(Random& random, const glm::dvec3& low, const glm::dvec3& high) {

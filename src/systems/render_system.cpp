@@ -156,13 +156,15 @@ void RenderSystem::countPipelines(EffectLedger& ledger) const {
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::curved, variant.curved);
     ledger.pipeline(EffectKind::wireframe, variant.wireframe);
+    ledger.pipeline(EffectKind::textures, variant.diffuseLookup != gpu::textureNone);
   });
 }
 
-void RenderSystem::endFrame(const TraceVariant& trace, bool imagesShown, bool curved) {
+void RenderSystem::endFrame(const TraceVariant& trace, bool imagesShown, bool curved, bool textured) {
   objects_.endFrame([&](const Variant& variant) {
     const bool stays = imagesShown && variant.trace == trace && (curved || !variant.curved);
-    return !stays && (variant.curved || variant.trace.traced);
+    return (!stays && (variant.curved || variant.trace.traced)) ||
+           (!textured && variant.diffuseLookup != gpu::textureNone);
   });
 }
 

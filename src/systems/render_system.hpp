@@ -13,9 +13,9 @@ class RenderSystem {
   // Records pass `pass` of info.data; returns the number of draws.
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops pipelines that trace rays and have not been used for some frames. While cached images are shown, those that
-  // would render them stay.
-  void endFrame(const TraceVariant& trace, bool imagesShown, bool curved);
+  // Drops pipelines that trace rays or look up textures and have not been used for some frames. While cached images are
+  // shown, those that would render them stay. `textured` is drawsTextures().
+  void endFrame(const TraceVariant& trace, bool imagesShown, bool curved, bool textured);
   size_t pipelineCount() const { return objects_.size() + skies_.size(); }
 
  private:

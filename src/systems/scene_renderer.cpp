@@ -93,7 +93,8 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   const Environment environment = effectiveEnvironment(scene_, settings);
   releaseDebugViews(debug, *frame.retired);
   prepareTargets(frame, settings, plan, debug);
-  resources_.prepare(frame, settings.effects.textures, drawsTextures(scene_, state, settings, plan));
+  const bool textured = drawsTextures(scene_, state, settings, plan);
+  resources_.prepare(frame, settings.effects.textures, textured);
   resources_.prepareLevels(frame, meshesWithLevels(plan, state));
   pictureSize_ = {plan.width, plan.height};
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
@@ -121,7 +122,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (shown) {
     recordDisplay(info, debug);
   }
-  endRecord(info);
+  endRecord(info, textured);
 }
 
 // Gives back what only the debug view needed, as soon as it is off.
@@ -300,11 +301,11 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Deb
 }
 
 // Keeps what the next frame may reuse, and gives back what no frame needed for a while.
-void SceneRenderer::endRecord(const FrameInfo& info) {
+void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const FramePlan& plan = info.plan;
   RetireQueue& retired = *info.frame.retired;
   const bool imagesShown = !plan.reused.empty() || plan.mainReused;
-  renderSystem_.endFrame(trace_.variant(), imagesShown, plan.effects.curved.has_value());
+  renderSystem_.endFrame(trace_.variant(), imagesShown, plan.effects.curved.has_value(), textured);
   mirrorSystem_.endFrame(trace_.variant(), imagesShown);
   pointLightSystem_.endFrame(
       (plan.mainReused && !plan.main.lights.empty()) ||

@@ -76,7 +76,7 @@ class SceneRenderer {
   void recordMain(const FrameInfo& info);
   void recordSum(const FrameInfo& info);
   void recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug);
-  void endRecord(const FrameInfo& info);
+  void endRecord(const FrameInfo& info, bool textured);
   void finishLedger(const FrameInfo& info);
 
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
