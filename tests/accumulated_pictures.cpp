@@ -146,7 +146,7 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {
     Options options = shipped("rough", 1);
-    set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "64"}});
+    set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "32"}});
     Session session(options);
     shown(session, 16);
     const LinearImage truth = session.radiance();
