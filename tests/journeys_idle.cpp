@@ -118,7 +118,7 @@ TEST_F(IdleWindow, OtherSizesAndScenesAreRendered) {
   toml.replace(toml.find("[0.9, 1, 0]"), 11, "[-0.9, 1, 0]");
   const std::filesystem::path other = writeScene("other", toml);
   demo_->apply(OpenScene{other});
-  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; }));
+  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; })) << view().message;
   settle();
   expectAsRendered(other, {500, 400});
   expectQuiet();

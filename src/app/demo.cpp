@@ -152,11 +152,12 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
   const Settings settings = settingsOfFrame();
   const VkExtent2D size = renderer_.displayExtent();
+  const double time = moves(workspace_.scene()) ? state.time : 0.0;  // which otherwise changes nothing
   const Pace::Request request{
       .scene = workspace_.scene(),
       .state = state,
       .chosen = settings,
-      .shown = fmt::format("{}{} {} {} {} {}x{}", settingsKey(settings), scenes_, workspace_.revision(), state.time,
+      .shown = fmt::format("{}{} {} {} {} {}x{}", settingsKey(settings), scenes_, workspace_.revision(), time,
                            renderer_.pipelines().revision(), size.width, size.height),
       // Recorded frames take as long as they take.
       .budgetMs =

@@ -159,9 +159,7 @@ void plot(PanelContext& ui) {
     }
   }
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped(
-      "Mean FLIP (up) over GPU ms, both logarithmic. Click a point to apply it. Grey points are no more accurate "
-      "than a point that takes as long, within the spread of the times.");
+  ImGui::TextWrapped("Mean FLIP (up) over GPU ms, both logarithmic. Click a point to apply it.");
   ImGui::PopStyleColor();
 }
 
