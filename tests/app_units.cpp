@@ -173,5 +173,15 @@ TEST(Gamepad, StickBeginsWithoutAJump) {
   EXPECT_EQ(withoutDeadZone(-1.0f), -1.0f);
 }
 
+TEST(CameraController, MovesFromTheSceneCameraAtOnce) {
+  CameraSpec spec;
+  spec.position = {0, 1.9, 8.4};
+  spec.target = {0, 0.85, 0};  // above the origin
+  CameraController camera;
+  camera.reset(spec);
+  camera.drag(1.0, 0.0);
+  EXPECT_LT(glm::distance(camera.pose({}).eye, spec.position), 0.2);
+}
+
 }  // namespace
 }  // namespace speculum

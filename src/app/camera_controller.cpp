@@ -71,6 +71,7 @@ Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& se
 void CameraController::reset(const CameraSpec& spec) {
   spec_ = spec;
   touched_ = false;
+  last_ = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
 }
 
 void CameraController::stand(const CameraSpec& spec) {
