@@ -69,7 +69,7 @@ class AccuracyCommand : public testing::Test {
     return speculum({"accuracy", "--scene", scene_, "--out", out("report"), "--size", "64x36", "--sweep",
                      out("sweep.toml"), "--validation", "--set", "debug.check_finite=true"});
   }
-  // Of the first run, which the tests share.
+  // The tests share one run.
   static const ProcessResult& measured() {
     static const ProcessResult result = measure();
     return result;

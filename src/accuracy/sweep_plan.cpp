@@ -30,7 +30,7 @@ Changes best(const SweepContext& context) {
   return joined(samples(std::to_string(context.sampleCounts.back())), {{"reflection.max_depth", greatestDepth}});
 }
 
-// Of what the scene has.
+// Sets samples of the view, and of mirror images if the scene has mirrors.
 Changes drawn(const SweepContext& context, const std::string& count) {
   return context.mirrors ? samples(count) : Changes{{"view.samples", count}};
 }

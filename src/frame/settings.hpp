@@ -119,7 +119,7 @@ struct SettingChange {
   std::string value;
   bool operator==(const SettingChange&) const = default;
 };
-// Those of `to` whose values differ from those of `from`, in the order of settingFields().
+// The settings of `to` that differ from `from`, in the order of settingFields().
 std::vector<SettingChange> settingChanges(const Settings& from, const Settings& to);
 
 // Defaults overlaid with the scene's [settings]. Throws InputError with FILE:LINE.

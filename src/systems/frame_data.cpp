@@ -34,7 +34,7 @@ void setRays(gpu::ViewData& data, const View& view, const Projection& projection
   const double sy = 1.0 / projection.focal;
   const glm::dvec2 step = 2.0 / view.pictureSize;
   const glm::dvec2 origin = glm::dvec2(view.rect.x, view.rect.y) - glm::dvec2(target);
-  // Of the target's pixel (0, 0), in [-1, 1] without the projection's offset.
+  // Device coordinates of the target's pixel (0, 0), without the projection's offset.
   const glm::dvec2 corner = origin * step - 1.0 - projection.offset;
   data.rayX = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(step.x * sx, 0.0, 0.0)), 0.0f);
   data.rayY = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(0.0, -step.y * sy, 0.0)), 0.0f);
