@@ -314,26 +314,26 @@ TEST(Pace, StillPicturesConvergeOnce) {
   Settings chosen;
   chosen.quality.stillPictures = 3;
   std::vector<std::pair<int, int>> planned;  // pictures of the mean and the one that is drawn
-  const auto frame = [&](const std::string& shown, double budget = 0.0) {
+  const auto frame = [&](uint64_t revision, double budget = 0.0) {
     planned.clear();
     pace.begin({}, false, 0.1);
-    pace.plan({.scene = scene, .state = state, .chosen = chosen, .shown = shown, .budgetMs = budget},
+    pace.plan({.scene = scene, .state = state, .chosen = chosen, .shown = {.revision = revision}, .budgetMs = budget},
               [&](const Settings& settings, int picture) {
                 planned.emplace_back(settings.view.accumulate, picture);
                 return FittedPlan{.settings = settings};
               });
     return planned.back();
   };
-  EXPECT_EQ(frame("a"), std::pair(1, 0)) << "full quality first";
+  EXPECT_EQ(frame(1), std::pair(1, 0)) << "full quality first";
   for (int picture = 0; picture < 3; ++picture) {
     EXPECT_TRUE(pace.wantsFrame());
-    EXPECT_EQ(frame("a"), std::pair(3, picture));
+    EXPECT_EQ(frame(1), std::pair(3, picture));
   }
   EXPECT_EQ(pace.text(), "3 of 3 pictures");
   EXPECT_FALSE(pace.wantsFrame());
-  EXPECT_EQ(frame("a"), std::pair(3, 3)) << "the mean again";
-  EXPECT_EQ(frame("b"), std::pair(1, 0)) << "something else is shown";
-  EXPECT_EQ(frame("c", 1e-9), std::pair(3, 0)) << "full quality would take too long";
+  EXPECT_EQ(frame(1), std::pair(3, 3)) << "the mean again";
+  EXPECT_EQ(frame(2), std::pair(1, 0)) << "something else is shown";
+  EXPECT_EQ(frame(3, 1e-9), std::pair(3, 0)) << "full quality would take too long";
 }
 
 TEST(Pace, BudgetFollowsDeviceAndMonitor) {

@@ -1,6 +1,5 @@
 #include "app/demo.hpp"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -151,18 +150,19 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool showsMain = output_.target && output_.target->path.empty();
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
   const Settings settings = settingsOfFrame();
-  const VkExtent2D size = renderer_.displayExtent();
-  const double time = moves(workspace_.scene()) ? state.time : 0.0;  // which otherwise changes nothing
-  const Pace::Request request{
-      .scene = workspace_.scene(),
-      .state = state,
-      .chosen = settings,
-      .shown = fmt::format("{}{} {} {} {} {}x{}", settingsKey(settings), scenes_, workspace_.revision(), time,
-                           renderer_.pipelines().revision(), size.width, size.height),
-      // Recorded frames take as long as they take.
-      .budgetMs =
-          workspace_.capture().recording() ? 0.0 : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
-      .front = workspace_.accuracy().front()};
+  const Pace::Request request{.scene = workspace_.scene(),
+                              .state = state,
+                              .chosen = settings,
+                              .shown = {.scenes = scenes_,
+                                        .revision = workspace_.revision(),
+                                        .shaders = renderer_.pipelines().revision(),
+                                        .time = moves(workspace_.scene()) ? std::optional(state.time) : std::nullopt,
+                                        .size = pictureSize()},
+                              // Recorded frames take as long as they take.
+                              .budgetMs = workspace_.capture().recording()
+                                              ? 0.0
+                                              : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
+                              .front = workspace_.accuracy().front()};
   FittedPlan fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });

@@ -46,14 +46,15 @@ FittedPlan Pace::planMoving(const Request& request, const Planner& plan) {
     fitted = plan(settings, 0);
     return work_;
   });
-  shown_.clear();
+  shown_.reset();
   text_ = "moving: " + motionText(chosen, levels[level]);
   return fitted;
 }
 
 FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
   pictures_ = moving() ? 1 : stillPictures(request.chosen);
-  if (std::exchange(shown_, request.shown) != request.shown || moving()) {
+  const std::pair shown(request.chosen, request.shown);
+  if (std::exchange(shown_, shown) != shown || moving()) {
     picture_ = -1;
   }
   text_.clear();

@@ -23,11 +23,21 @@ class Pace {
   // Whether another frame is needed although nothing happens.
   bool wantsFrame() const { return movement_.ending() || (!moving() && picture_ < pictures_); }
 
+  // What a still picture shows, besides the settings that were chosen.
+  struct Shown {
+    int scenes = 0;              // that were shown before this one
+    uint64_t revision = 0;       // of the scene's document
+    uint64_t shaders = 0;        // revision of the pipelines
+    std::optional<double> time;  // of a scene that moves
+    glm::ivec2 size{0};          // pixels of the picture
+
+    bool operator==(const Shown&) const = default;
+  };
   struct Request {
     const Scene& scene;
     const SceneState& state;
     const Settings& chosen;
-    std::string shown;                   // equal for frames that show the same while nothing moves
+    Shown shown;
     double budgetMs = 0.0;               // 0: nothing is lowered
     std::span<const MotionLevel> front;  // as motionLevels takes it
   };
@@ -66,9 +76,10 @@ class Pace {
   std::deque<Drawn> drawn_;
   FrameWork work_;  // of the frame that was planned last
   std::string text_;
-  std::string shown_;  // that the pictures show
-  int picture_ = -1;   // of the mean, that is drawn next; -1: one in full quality comes first
-  int pictures_ = 0;   // in the mean
+  // What the pictures show; nothing while the picture moves.
+  std::optional<std::pair<Settings, Shown>> shown_;
+  int picture_ = -1;  // of the mean, that is drawn next; -1: one in full quality comes first
+  int pictures_ = 0;  // in the mean
 };
 
 // Pictures in the mean that a still picture becomes.
