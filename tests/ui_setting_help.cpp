@@ -22,7 +22,7 @@ TEST(SettingHelp, NamesEffectRangeAndCost) {
 }
 
 TEST(SettingHelp, FiguresStandInTheMeasurements) {
-  std::ifstream file(sourceDir() / "docs/measurements.md");
+  std::ifstream file(sourceDir() / "docs/performance.md");
   std::stringstream measurements;
   measurements << file.rdbuf();
   const std::regex figure("[0-9]+\\.[0-9]+");
