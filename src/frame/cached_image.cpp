@@ -11,14 +11,14 @@ namespace {
 constexpr double eyePlane = 1e-12;
 constexpr double filterReach = 0.5;  // texels from where an image is read to the farthest centre that counts
 
-// View space to (x, y, w) of clip space.
+// Takes view space to (x, y, w) of clip space.
 glm::dmat3 clipFromView(const Projection& projection) {
   const glm::dmat4 m = projection.matrix();
   const auto column = [&](int i) { return glm::dvec3(m[i].x, m[i].y, m[i].w); };
   return {column(0), column(1), column(2)};
 }
 
-// Homogeneous pixels of the target that shows `view.rect` to x and y of device coordinates.
+// Takes homogeneous pixels of the target that shows `view.rect` to x and y of device coordinates.
 glm::dmat3 deviceFromPixel(const View& view) {
   const glm::dvec2 step = 2.0 / view.pictureSize;
   glm::dmat3 m(1.0);
@@ -37,7 +37,8 @@ glm::dmat3 pixelFromDevice(const View& view) {
   return m;
 }
 
-// Texel of the image for a vector relative to its eye; nothing unless it is in front of it.
+// Returns the image's texel that shows a point, given relative to the image's eye; nothing if the point is behind the
+// eye.
 std::optional<glm::dvec2> texelOf(const View& view, const Projection& projection, const glm::dvec3& relative) {
   const glm::dvec3 clip = clipFromView(projection) * (view.worldToView * relative);
   if (!(clip.z > eyePlane * glm::length(relative))) {
@@ -72,7 +73,7 @@ bool covers(const CachedImage& cached, const View& now, std::span<const glm::dve
 
 double largestShift(const CachedImage& cached, const View& now, const Projection& projection,
                     std::span<const glm::dvec3> visible) {
-  // In the image's own pixels, whatever rectangle the present view has.
+  // Compare in the image's own pixels, whatever rectangle the present view has.
   View present = now;
   present.rect = cached.view.rect;
   double largest = 0.0;

@@ -37,22 +37,22 @@ struct CachedLookup {
   glm::dvec3 texelFromDisparity{0.0};
 };
 
-// In what follows, `now` is the view that the image's mirror makes in this frame, and `visible` its visible region.
+// Below, `now` is the view that the image's mirror makes in this frame, and `visible` its visible region.
 
 // Says whether view, projection and mirror are exactly what they were.
 bool unmoved(const CachedImage& image, const View& now, const Projection& projection,
              std::span<const glm::dvec3> visible);
 
-// Says whether the image shows all that is to be seen, at every distance behind the mirror. It does if it shows the
+// Says whether the image shows all that the mirror shows now, at every distance behind it. It does if it shows the
 // corners of the visible region both at the mirror's own distance and infinitely far away: all between is convex.
 bool covers(const CachedImage& image, const View& now, std::span<const glm::dvec3> visible);
 
-// The farthest that one of these corners moved in the image since it was rendered, in texels. Infinite where a corner
-// is not in front of both eyes.
+// Returns how far the corner that moved most moved in the image since it was rendered, in texels. Infinite where a
+// corner is not in front of both eyes.
 double largestShift(const CachedImage& image, const View& now, const Projection& projection,
                     std::span<const glm::dvec3> visible);
 
-// The lookup by a pass that looks through `parent`, in which the mirror is drawn. Projections are reversed and
+// Returns the lookup for a pass with view `parent`, in which the mirror is drawn. Projections are reversed and
 // infinite, so clip space (x, y, w) is linear in position. With V R the linear part of a view, P its projection, e its
 // eye, and primes for the image's: (x, y, w)' = P' V'R' (V R)^-1 P^-1 (x, y, w) + P' V'R' (e - e'); divided by w.
 CachedLookup cachedLookup(const CachedImage& image, const View& parent, const View& now, const Projection& projection);

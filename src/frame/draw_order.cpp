@@ -8,8 +8,8 @@ namespace speculum {
 
 namespace {
 
-// Metres to the far end of the bounding sphere. A room reaches nearer to the eye than what it holds and must still be
-// drawn after it.
+// Metres to the far end of the bounding sphere: a room, which begins nearer to the eye than the objects in it, comes
+// after them.
 double distanceOf(const View& view, const InstanceState& instance) {
   return glm::length(instance.center - view.eye) + instance.radius;
 }

@@ -90,7 +90,8 @@ void addMirror(const Mirror& material, const MirrorState& mirror, int index, con
 PlannedPass faceOf(const Scene& scene, const SceneState& state, const EnvironmentMap& map, const FaceAxes& axes) {
   CameraPose pose;
   pose.eye = map.center;
-  pose.worldToView = glm::transpose(glm::dmat3(glm::cross(axes.forward, axes.up), axes.up, -axes.forward));  // its rows
+  pose.worldToView =
+      glm::transpose(glm::dmat3(glm::cross(axes.forward, axes.up), axes.up, -axes.forward));  // the axes are its rows
   PlannedPass face;
   face.view = mainView(pose, map.projection, map.size, map.size);
   face.areaPx = face.view.rect.area();

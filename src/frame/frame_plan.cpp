@@ -147,8 +147,8 @@ void Planner::addInstance(PlannedPass& pass, const View& readable, int i) {
   }
 }
 
-// The view with what is read of its image beyond the visible region. Cached images are read farthest; all views get
-// their margin, so that what is drawn, and in which order, is the same with every update interval.
+// Widens the view by what look-ups read of its image beyond the visible region. Cached images are read farthest; all
+// views get that margin, so that the same is drawn in the same order with every update interval.
 View Planner::readable(const View& view) const {
   View readable = view;
   if (!view.path.empty()) {
@@ -176,7 +176,7 @@ void Planner::fill(int node) {
       nodes_[node].pass.lights.push_back(static_cast<int>(i));
     }
   }
-  // No edge of a polygon that is cut may lie where the image is read.
+  // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
@@ -223,7 +223,7 @@ void Planner::consider(int node, int mirror, const View& drawn) {
   propose(node, std::move(sight));
 }
 
-// Adds a visible mirror to what is drawn, and makes it a candidate if it is worth a pass.
+// Adds a visible mirror to the draws, and makes it a candidate if it is worth a pass.
 void Planner::propose(int node, Sight sight) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
@@ -333,7 +333,7 @@ ImageSurroundings Planner::surroundings() const {
   return around;
 }
 
-// Finds the images, of those that would be rendered, that would come out as they were.
+// Reuses the cached images that would come out the same if they were rendered.
 void Planner::reuseUnchanged() {
   const View& main = nodes_[0].pass.view;
   reuseMaps(plan_.maps, cache_.maps, {scene_, state_, allSettings_, plan_.projection, plan_.effects, {}}, main);
@@ -411,7 +411,7 @@ void Planner::reuseImage(MirrorDraw& draw, const Node& node) {
   plan_.cached.push_back(image);
 }
 
-// Drops what was found out about mirrors that are seen in reused images only.
+// Drops the reasons of mirrors that are seen in reused images only.
 void Planner::dropSkipsInReused() {
   std::erase_if(plan_.skipped, [&](const SkippedMirror& skipped) {
     return skipped.depth > 0 && std::any_of(plan_.cached.begin(), plan_.cached.end(), [&](const CachedImage& image) {
@@ -420,7 +420,7 @@ void Planner::dropSkipsInReused() {
   });
 }
 
-// Shows the mean of earlier frames again: draws nothing.
+// Shows the complete mean again and draws nothing.
 void Planner::reuseMean() {
   plan_.mainReused = true;
   plan_.reused = std::move(plan_.passes);

@@ -16,7 +16,7 @@ enum class SkipReason {
   behind,         // behind the eye
   backface,       // the eye sees its back, or its edge
   outside,        // outside the view, the mirror it is seen in, or behind that mirror's plane
-  hidden,         // behind something else
+  hidden,         // behind occluders
   minPixels,      // smaller than reflection.min_pixels
   minThroughput,  // lets less through than reflection.min_throughput
   maxDepth,       // reflection.max_depth
@@ -44,7 +44,7 @@ struct PlannedPass {
   int depth = -1;              // depth level of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
   double areaPx = 0.0;         // area of the mirror's visible region, in texels of its image
   double throughput = 1.0;     // upper bound over that region, largest channel, with this mirror's own reflectance
-  glm::dvec3 channels{1.0};    // the same for each channel
+  glm::dvec3 channels{1.0};    // upper bound of each channel
   std::vector<int> instances;  // visible ones, indices into SceneState::instances, ascending
   std::vector<PartialInstance> partial;        // instances that are seen in part, ascending
   std::vector<SimplifiedInstance> simplified;  // instances that are drawn with fewer triangles, ascending
@@ -76,7 +76,7 @@ struct EnvironmentMap {
 // Kinds of recorded passes.
 enum class PassKind { mirror, environment, main, accumulation, display, debugView };
 
-// Which pass it is: equal for the same pass of different frames.
+// Identifies a pass. Equal for the same pass of different frames.
 struct PassId {
   PassKind kind = PassKind::mirror;
   std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
@@ -111,7 +111,7 @@ struct FramePlan {
   Projection projection;
   int width = 0;  // pixels of the picture
   int height = 0;
-  int picture = 0;                  // index in the mean that view.accumulate asks for
+  int picture = 0;                  // index in the mean of view.accumulate pictures
   std::vector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
   PlannedPass main;
   bool mainReused = false;            // the frame before drew the same main view or mean, which is shown again
@@ -136,11 +136,11 @@ const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& pat
 // younger than its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as
 // if every image were rendered, so that no image depends on which others are reused.
 //
-// `cache.maps` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With the former and
-// without view.continuous, so is the main view if it too is exactly as it was.
+// `cache.maps` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With
+// reflection.skip_unchanged and without view.continuous, so is the main view if it is exactly as it was.
 //
-// Plans picture number `picture` of a mean, at its offset, under pictureSettings(). At view.accumulate and beyond, all
-// pictures of the mean are drawn, which is shown again: `mainReused`.
+// Plans picture number `picture` of a mean, at its offset, under pictureSettings(). If that is view.accumulate or more,
+// the mean is complete and is shown again: `mainReused`.
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
                     const FrameCache& cache = {}, int picture = 0);
 

@@ -43,7 +43,7 @@ class Numbers {
   template <typename Enum>
   requires std::is_enum_v<Enum>
   void add(Enum value) { add(static_cast<double>(value)); }
-  // The fields that are read where the node is drawn; SceneState has the others.
+  // Adds the fields that are read where the node is drawn; SceneState has the others.
   template <Described Node>
   void add(const Node& node) {
     forEachField<Node>([&](const auto& field) {
@@ -103,7 +103,7 @@ void addEffects(const ImageSurroundings& around, const View& main, Numbers& numb
   numbers.add(waves ? around.state.time : 0.0);
 }
 
-// All indices below `count`, or none.
+// Returns all indices below `count`, or none.
 std::set<int> indices(bool all, size_t count) {
   std::set<int> found;
   for (size_t i = 0; all && i < count; ++i) {

@@ -19,10 +19,10 @@ struct ImageSurroundings {
   std::vector<std::pair<int, int>> maps;  // environment maps that may be looked up: instance, EnvironmentMap::serial
 };
 
-// Everything but settings, meshes and textures that the image of a mirror depends on, as numbers: images with equal
-// content under sameMirrorImages() are the same bit for bit. `passes` are the mirror's and those of all mirrors seen in
-// it. If any of them traces rays or looks up an environment map, the image depends on the whole scene, and on the time
-// if rays may meet ripples.
+// Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on. Images with
+// equal content, under settings that sameMirrorImages() calls equal, are the same bit for bit. `passes` are the
+// mirror's and those of all mirrors seen in it. If any of them traces rays or looks up an environment map, the image
+// depends on the whole scene, and on the time if rays may meet ripples.
 std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
                                    std::span<const PlannedPass* const> passes);
 

@@ -12,7 +12,8 @@ bool serves(const CachedImage& image, const ReuseRequest& request) {
           covers(image, request.view, request.visible));
 }
 
-// The margin, pixels on each side, with which a new image serves until it is due, if the motion since `image` goes on.
+// Returns the margin, in pixels on each side, with which a new image serves until it is due if the motion since `image`
+// goes on.
 int marginFor(const CachedImage& image, const ReuseRequest& request, int due) {
   constexpr double reserve = 1.25;  // motion is not quite even
   constexpr double least = 2.0;     // pixels
@@ -32,12 +33,12 @@ auto imageOf(std::span<const CachedImage> images, int mirror) {
   return std::find_if(images.begin(), images.end(), [&](const CachedImage& image) { return image.mirror == mirror; });
 }
 
-// Includes debug.*, which sameMirrorImages leaves out: images that are the same bit for bit were drawn the same way.
+// Compares debug.* too, which sameMirrorImages leaves out, so that a reused image is the same bit for bit.
 bool sameDrawing(const Settings& a, const Settings& b) {
   return sameMirrorImages(a, b) && a.debug == b.debug;
 }
 
-// Turns a map into that of the frame before if that serves, and says whether it does.
+// Replaces a map by that of the frame before if it can be reused, and says whether it did.
 bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const ImageSurroundings& around,
               const View& main) {
   const int interval = around.settings.effects.environmentInterval;
@@ -53,7 +54,7 @@ bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const I
     return other.object == map.object && other.copy == map.copy;
   });
   if (before == maps.end()) {
-    map.due = interval - map.instance % interval;  // they take turns
+    map.due = interval - map.instance % interval;  // so that maps become due in turn
     return false;
   }
   map.due = interval;

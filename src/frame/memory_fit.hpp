@@ -20,7 +20,7 @@ struct TargetLimits {
 
 struct FittedPlan {
   FramePlan plan;
-  Settings settings;    // as asked for, or lowered
+  Settings settings;    // as passed in, or lowered
   std::string message;  // what was lowered and why; empty if nothing was
 };
 

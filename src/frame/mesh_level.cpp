@@ -52,7 +52,7 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
                         std::vector<IndexRange> seen) {
   LevelChoice best{.ranges = std::move(seen)};
   if (largestError <= 0.0) {
-    return best;  // levels are made only when one may be used
+    return best;  // without making levels that nothing uses
   }
   const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
   const auto end = std::upper_bound(levels.begin(), levels.end(), largestError,

@@ -26,8 +26,8 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
 void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, const Settings& settings,
                   const Scene& scene, const SceneState& state);
 
-// Indices into Scene::meshes of which any pass of the plan draws levels, or one whose image of an earlier frame is
-// shown; each once.
+// Lists, as indices into Scene::meshes, the meshes of which a pass of the plan, or one that a cached image replaces,
+// draws a level. Each is listed once.
 std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state);
 
 // Index into MeshLevels::levels of what the pass draws for the instance; -1 for the mesh itself.

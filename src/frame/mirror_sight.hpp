@@ -14,8 +14,9 @@ struct Sight {
   std::vector<glm::dvec3> visible;  // world; visible region
 };
 
-// `drawn` is the view, widened by what is drawn beyond its edge. Polygons are cut by it before they are drawn, because
-// floats cannot tell how near the eye a polygon passes whose vertices lie far outside the view.
+// Finds what a view sees of a mirror. `drawn` is the view, widened by what is drawn beyond its edge. Polygons are cut
+// by it before they are drawn, because floats are too coarse for the depth near the eye of a polygon whose vertices lie
+// far outside the view.
 Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror);
 
 // Upper bound of the reflectance of what is visible. Schlick's F grows towards grazing; the flattest view of a polygon

@@ -35,7 +35,7 @@ struct FlatOccluder {
   double radius = 0.0;
 };
 
-// Region behind a flat occluder; nothing if it is seen edge-on or clipped away in the view.
+// Returns the region behind a flat occluder; nothing if the view sees it edge-on or clips it away.
 std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const View& view,
                                            const Projection& projection);
 
@@ -47,8 +47,8 @@ struct BodyOccluder {
   double slack = 0.0;                // metres by which the points may stand elsewhere on the GPU
 };
 
-// Hides points on `target` if the whole body is nearer than its plane, else whatever is deeper in the view than all of
-// it. Nothing if a part of the body is clipped away.
+// Returns the region behind a body: points on `target` if the whole body is nearer than the target's plane, else
+// whatever is deeper in the view than all of the body. Nothing if a part of the body is clipped away.
 std::optional<OccludedRegion> hiddenByBody(const BodyOccluder& body, const FlatOccluder& target, const View& view,
                                            const Projection& projection);
 

@@ -33,8 +33,8 @@ double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points)
   return radius;
 }
 
-// Finds occluders that are worth a closer look: they look large enough and stand before a corner or the middle of a
-// polygon, as every occluder of all of it does.
+// Filters occluders: keeps those that look large enough and stand before a corner or the middle of a polygon, as an
+// occluder of the whole polygon does.
 class Prefilter {
  public:
   Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon)
@@ -207,7 +207,7 @@ std::string Occlusion::nameOfOccluder(const Occluder& occluder) const {
 
 std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const int> instances, int mirror,
                                                std::span<const glm::dvec3> polygon) {
-  // The order that an oblique depth buffer keeps is not known here.
+  // An oblique depth buffer may keep another order, so nothing is hidden.
   const bool oblique = settings_.reflection.clip == ClipMethod::oblique && view.clip;
   if (!settings_.debug.skipHidden || settings_.view.wireframe || oblique || polygon.empty()) {
     return std::nullopt;

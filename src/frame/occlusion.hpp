@@ -12,8 +12,8 @@
 namespace speculum {
 
 // Finds the occluders that hide a mirror from a view's eye: other mirrors, flat faces of objects, and whole objects
-// that are about convex. Conservative by more than a pixel and the rounding of floats, so that a hidden mirror would
-// not have left a trace in the picture. Where two occluders meet without overlapping, a strip between them hides
+// that are about convex. It is conservative by more than a pixel and the rounding of floats, so that leaving a hidden
+// mirror out does not change the picture. Where two occluders meet without overlapping, a strip between them hides
 // nothing. Objects and mirrors are opaque on both sides.
 class Occlusion {
  public:
@@ -55,7 +55,7 @@ class Occlusion {
   const Projection& projection_;
   std::vector<FlatOccluder> mirrors_;        // parallel to SceneState::mirrors
   std::vector<double> largestFaces_;         // by mesh, radius as a part of the mesh's
-  std::vector<std::optional<Body>> bodies_;  // parallel to SceneState::instances; made when first asked for
+  std::vector<std::optional<Body>> bodies_;  // parallel to SceneState::instances; made on first use
 };
 
 }  // namespace speculum

@@ -10,7 +10,7 @@ namespace {
 // A draw call costs about as much as the vertices of 96 triangles, so shorter gaps are drawn.
 constexpr uint32_t shortestGap = 3 * 96;  // indices
 constexpr double leastSaved = 0.1;        // of the mesh's indices
-constexpr double rounding = 1e-5;  // relative to the sizes involved; float rounding on the GPU with room to spare
+constexpr double rounding = 1e-5;         // relative to the sizes involved; bound of float rounding on the GPU
 
 // A plane in the space of Vertex::position. Points with dot(normal, p) + offset >= 0 are seen.
 struct LocalPlane {

@@ -17,8 +17,8 @@ std::vector<glm::dvec3> corners(const View& view) {
   return {{x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0}};
 }
 
-// Whether edges are long and corners sharp enough, in pixels, that no triangle of the polygon's fan loses its area when
-// the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. A draw with such a triangle need not draw the
+// Says whether edges are long and corners sharp enough, in pixels, that no triangle of the polygon's fan loses its area
+// when the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. A draw with such a triangle need not draw the
 // others: lavapipe leaves out all of them.
 bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
   constexpr double shortest = 1.0 / 8.0;
@@ -52,7 +52,7 @@ double lookupReach(const Settings& settings, bool standardLocations) {
 }
 
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach) {
-  constexpr double rounding = 0.1;  // pixels; rounding of float positions on the GPU with room to spare
+  constexpr double rounding = 0.1;  // pixels; bound of the rounding of float positions on the GPU
   const glm::dvec2 step = 2.0 / view.pictureSize;
   const glm::dvec2 perDevice(projection.aspect / projection.focal, 1.0 / projection.focal);
   const std::vector<glm::dvec3> rectangle = corners(view);

@@ -18,7 +18,7 @@ struct SettingMember {
   const T& of(const Settings& settings) const { return in(const_cast<Settings&>(settings)); }
 };
 
-// Numbers from low to high. With `openEnd` high only keeps what follows in range, and users are not shown it.
+// Numbers from low to high. With `openEnd` users do not see `high`, which only guards against overflow.
 struct NumberSetting {
   SettingMember<double> value;
   double low = 0.0;
@@ -73,8 +73,8 @@ struct SettingNeed {
   std::string_view value;
 };
 
-// All that the program knows of a setting. `--set`, [settings] of scenes, JSON, comparisons, the panel, tooltips,
-// `--help`, completion and docs/settings.md follow from it; the default is the member's in settings.hpp.
+// Describes a setting. `--set`, [settings] of scenes, JSON, comparisons, the panel, tooltips, `--help`, completion and
+// docs/settings.md follow from it; the default is the member's in settings.hpp.
 struct SettingField {
   std::string_view key;
   SettingKind kind;

@@ -162,7 +162,7 @@ bool takesText(const SettingField& field) {
          std::holds_alternative<AutomaticSetting>(field.kind);
 }
 
-// Whether all settings that change `last`, or a part of the frame before it, are equal.
+// Says whether all settings that change `last`, or a part of the frame before it, are equal.
 bool sameUpTo(FramePart last, const Settings& a, const Settings& b) {
   return std::ranges::all_of(
       settingFields(), [&](const SettingField& field) { return field.changes > last || sameSetting(field, a, b); });

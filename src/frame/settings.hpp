@@ -23,7 +23,7 @@ struct ReflectionSettings {
   double minThroughput = 0.0005;
   int maxPasses = 64;
   int updateInterval = 1;     // frames
-  bool skipUnchanged = true;  // a mirror image that would come out the same is used again
+  bool skipUnchanged = true;  // reuses cached images that would come out the same
   double meshError = 0.0;     // texels by which outlines of objects in mirror images may be off
   ClipMethod clip = ClipMethod::clipDistance;
 
@@ -44,10 +44,10 @@ struct ViewSettings {
   bool operator==(const ViewSettings&) const = default;
 };
 
-// A rough mirror looks up rays, or the image of the mirror as if it were smooth.
+// Source of a rough mirror's reflection: traced rays, or the image of the mirror as if it were smooth.
 enum class RoughLookup { traced, image };
 
-// A curved mirror looks up rays, or six images about its centre.
+// Source of a curved mirror's reflection: traced rays, or an environment map.
 enum class CurvedLookup { traced, environment };
 
 // Effects are drawn where the scene calls for them, unless they are switched off here.
@@ -71,7 +71,7 @@ struct EffectSettings {
   bool operator==(const EffectSettings&) const = default;
 };
 
-// Whether an effect that a mirror or a light asks for is drawn.
+// Say whether an effect that a mirror or a light has is drawn under these settings.
 bool isSchlick(Fresnel fresnel, const EffectSettings& effects);
 bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 
@@ -81,7 +81,7 @@ struct QualitySettings {
   double budgetMs = 0.0;           // GPU milliseconds a frame; 0: no bound
   double maxError = 0.0;           // mean FLIP; 0: no bound
   std::optional<double> motionMs;  // milliseconds a frame while anything moves; 0: no bound, none: by the device
-  int stillPictures = 64;          // that a still picture is the mean of
+  int stillPictures = 64;          // whose mean the window shows of a still scene
 
   bool operator==(const QualitySettings&) const = default;
 };
@@ -89,7 +89,7 @@ struct QualitySettings {
 struct DebugSettings {
   std::string omitBarrier;   // name of a barrier that is not recorded, so that validation must notice
   bool checkFinite = false;  // searches every target of radiance for values that are negative or not finite
-  bool skipHidden = true;    // mirrors that others or objects hide have no pass
+  bool skipHidden = true;    // mirrors hidden by occluders have no pass
   bool cullClusters = true;  // draws only the clusters of an object that a view may see
   bool maskPasses = true;    // shades only the texels of a mirror image that are looked up
 
@@ -125,8 +125,7 @@ std::vector<SettingChange> settingChanges(const Settings& from, const Settings& 
 // Defaults overlaid with the scene's [settings]. Throws InputError with FILE:LINE.
 Settings settingsOf(const Scene& scene);
 
-// Whether mirror images, or the main view, rendered under one of them could have been rendered under the other: all
-// settings that change them (SettingField::changes) are equal.
+// Say whether all settings that change mirror images, or the main view, are equal (SettingField::changes).
 bool sameMirrorImages(const Settings& a, const Settings& b);
 bool sameMainView(const Settings& a, const Settings& b);
 

@@ -14,7 +14,7 @@ bool isBlack(const glm::dvec3& color) {
   return color == glm::dvec3(0.0);
 }
 
-bool asksForRays(const Scene& scene) {
+bool hasTracedEffects(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [](const PointLight& l) { return l.castsShadow; }) ||
          std::any_of(scene.objects.begin(), scene.objects.end(),
                      [](const Object& o) { return o.mirror.has_value(); }) ||
@@ -115,7 +115,8 @@ class Collector {
 
   bool twoSided(const MirroredLight& path) const { return scene_.mirrors[path.mirror].twoSided; }
 
-  // The light's image shines through the mirror's polygon as through a window: only objects that meet its cone are lit.
+  // The light's mirror image shines through the mirror's polygon as through a window: it lights only objects that meet
+  // the cone through that window.
   bool reachesSomething(const MirroredLight& path) const {
     if (lit_.mirrors || reflectsRays()) {
       return true;
@@ -136,7 +137,7 @@ class Collector {
     for (size_t k = 0; inside && k < mirror.polygon.size(); ++k) {
       const glm::dvec3 a = mirror.polygon[k] - image;
       const glm::dvec3 b = mirror.polygon[(k + 1) % mirror.polygon.size()] - image;
-      // Towards the polygon's inside: it is counter-clockwise seen from the front, the image lies behind it.
+      // Points inwards: the polygon is counter-clockwise seen from the front, and the light's image lies behind it.
       const glm::dvec3 normal = side * glm::cross(a, b);
       inside = glm::dot(normal, instance.center - image) >= -instance.radius * glm::length(normal);
     }
@@ -154,7 +155,7 @@ class Collector {
 
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
                             std::span<const PlannedPass* const> passes) {
-  if (!asksForRays(scene)) {
+  if (!hasTracedEffects(scene)) {
     return {};
   }
   Collector collector(scene, state, settings.effects);

@@ -9,8 +9,8 @@ namespace speculum {
 
 namespace {
 
-// Angle at the eye. Rounding turns the plane through a shorter edge by more than 1e-7, and what that edge bounds is no
-// wider than rounding.
+// Angle at the eye below which an edge bounds nothing: rounding turns the plane through it by more than 1e-7, and what
+// it bounds is no wider than rounding.
 constexpr double shortestEdge = 1e-9;
 
 // Planes through the eye and the polygon's edges, turned inwards. An edge that points at the eye bounds nothing.
@@ -72,7 +72,8 @@ void boundByRectangle(View& view, const Projection& projection) {
   const glm::dvec2 high = 2.0 * last / view.pictureSize - 1.0 - projection.offset;
   const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
   view.cone.clear();
-  // x - low.x w, high.x w - x, high.y w - y, y - low.y w >= 0 in clip space without offset, with w = -z and y down.
+  // The planes are x - low.x w, high.x w - x, high.y w - y, y - low.y w >= 0 in clip space without offset, with w = -z
+  // and y down.
   for (const glm::dvec3& n :
        {glm::dvec3(fx, 0, low.x), glm::dvec3(-fx, 0, -high.x), glm::dvec3(0, fy, -high.y), glm::dvec3(0, -fy, low.y)}) {
     view.cone.push_back(viewToWorld * glm::normalize(n));
@@ -137,7 +138,7 @@ bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& 
   const glm::dvec3 axes = glm::dvec3(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
                                      glm::length(worldFromBox.linear[2])) *
                           halfExtent;
-  const double rounding = 1e-5 * (axes.x + axes.y + axes.z);  // float rounding on the GPU, with room to spare
+  const double rounding = 1e-5 * (axes.x + axes.y + axes.z);  // bound of float rounding on the GPU
   const auto reach = [&](const glm::dvec3& normal) {
     const glm::dvec3 along = glm::abs(normal * worldFromBox.linear) * halfExtent;
     return along.x + along.y + along.z + rounding;

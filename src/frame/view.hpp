@@ -49,7 +49,7 @@ std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 
-// Whether the view may see a part of the box with `halfExtent` about the origin of its own space.
+// Says whether the view may see a part of the box with `halfExtent` about the origin of the box's own space.
 bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent);
 
 // Takes world positions to clip space, subtracting the eye first.
