@@ -12,10 +12,9 @@ namespace speculum {
 // each frame, and in between the display pass shows the mean of those that are there. Nothing exists on the GPU before
 // the first and after release().
 //
-// SceneRenderer owns it and adds what it draws. Who wants a mean draws frames with settings whose view.accumulate is
-// above 1 and plans made for pictures 0, 1, 2, ...; picture 0 begins a new mean. What is shown must stand still between
-// them: scene, time, camera, settings, size. A plan for a picture beyond the last shows the mean again and draws
-// nothing.
+// SceneRenderer owns it and adds the pictures it draws. To draw a mean, draw frames with view.accumulate above 1 and
+// plans made for pictures 0, 1, 2, ...; picture 0 begins a new mean. Scene, time, camera, settings and size must stay
+// the same between them. A plan for a picture beyond the last shows the mean again and draws nothing.
 class Accumulation {
  public:
   explicit Accumulation(Renderer& renderer);
@@ -25,8 +24,8 @@ class Accumulation {
   RecordedPass add(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D extent, int picture);
   void release(RetireQueue& retired);
 
-  int pictures() const { return pictures_; }  // in the sum; 0: none
-  Image& sum() { return images_[current_]; }  // alpha is their number
+  int pictures() const { return pictures_; }  // number in the sum
+  Image& sum() { return images_[current_]; }  // alpha is the number of pictures
   VkDescriptorImageInfo descriptor() const { return images_[current_].descriptor(sampler_.get()); }
   size_t pipelineCount() const { return pipelines_.size(); }
 

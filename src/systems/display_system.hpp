@@ -16,36 +16,37 @@ enum class TargetKind { color, depth };
 
 // A pass's target, shown over the picture in an area of the display image.
 struct DebugView {
-  int pass = 0;    // index into FramePlan::passes; their number stands for the main view
+  int pass = 0;    // index into FramePlan::passes; passes.size() is the main view
   PixelRect area;  // pixels
   TargetKind kind = TargetKind::color;
-  double zoom = 0.0;                // pixels of the display a texel; 0: the image is fitted into the area
-  glm::dvec2 origin{0.0};           // texel at the area's upper left corner; with a zoom
+  double zoom = 0.0;                // display pixels for each texel; 0 fits the image into the area
+  glm::dvec2 origin{0.0};           // texel at the area's upper left corner; only if zoom > 0
   double halfDistance = 1.0;        // metres from the eye that depth shows half bright
-  std::optional<glm::ivec2> probe;  // texel to be read: see SceneRenderer::probed
+  std::optional<glm::ivec2> probe;  // texel to read: see SceneRenderer::probed
 };
 
-// Draws into the display image: the picture, through exposure, tone curve and sRGB, and over it the target of a debug
-// view.
+// Draws into the display image: the picture with exposure, tone curve and sRGB encoding, and over it the target of a
+// debug view.
 class DisplaySystem {
  public:
   explicit DisplaySystem(Renderer& renderer);
 
-  // One combined image, in set 0.
+  // Layout of set 0: one combined image sampler.
   VkDescriptorSetLayout layout() const { return layout_.get(); }
 
   // See SceneRenderer::setCover.
   void setCover(const Image8& picture);
 
-  // Records the display pass, of the overlay image or of this radiance: `size` texels, a sum of so many pictures.
+  // Records the display pass. It shows the image of setCover(), or else `radiance`: `size` texels, the sum of so many
+  // pictures.
   RecordedPass record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings,
                       int pictures);
-  // Record the target of debug.pass; nothing if no part of it lies in the area.
+  // Record a pass that shows the target of debug.pass; nothing if no part of it lies in the area.
   std::optional<RecordedPass> recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
                                           const MirrorImage& radiance, const Settings& settings);
   std::optional<RecordedPass> recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
                                           WatchedDepth& depth);
-  // Gives back the pipelines that only debug views needed.
+  // Drops the pipelines that only debug views need.
   void releaseView();
 
   size_t pipelineCount() const { return pipelines_.size(); }

@@ -6,7 +6,7 @@
 
 namespace speculum {
 
-// Frames without a call for an effect after which its resources are given back.
+// Number of frames without a call for an effect after which its resources are released.
 inline constexpr int idleFramesKept = 120;
 
 // Cost of an effect in the last recorded frame.
@@ -21,7 +21,7 @@ class EffectLedger {
   EffectCost& operator[](EffectKind kind) { return costs_[static_cast<size_t>(kind)]; }
   const EffectCost& operator[](EffectKind kind) const { return costs_[static_cast<size_t>(kind)]; }
   void draw(EffectKind kind, bool takesPart = true) { (*this)[kind].draws += takesPart; }
-  // Adds the draws of another picture; what is alive is that of the later one.
+  // Adds the draws of a later picture and takes over its bytes and pipelines.
   void add(const EffectLedger& later) {
     for (size_t i = 0; i < costs_.size(); ++i) {
       const uint32_t before = costs_[i].draws;

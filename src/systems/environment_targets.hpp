@@ -12,7 +12,7 @@ class EnvironmentTargets {
 
   // Maps that the next plan may reuse.
   std::span<const EnvironmentMap> cached() const { return cached_; }
-  void restart();  // drops them
+  void restart();  // drops the cached maps
 
   // Takes the targets of the plan's maps, at the start of its frame; those of other maps become free.
   void prepare(const FramePlan& plan, RetireQueue& retired);
@@ -26,7 +26,7 @@ class EnvironmentTargets {
   Device& device_;
   std::unique_ptr<SharedDepth> depth_;
   std::unique_ptr<ImagePool> pool_;
-  std::vector<OffScreen*> targets_;  // of cached_ between frames, of the plan's maps in one
+  std::vector<OffScreen*> targets_;  // parallel to cached_ between frames, to the plan's maps within one
   std::vector<EnvironmentMap> cached_;
   bool restart_ = false;
 };

@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// Results start where a descriptor may: no device asks for more than 256 bytes.
+// Distance between the results of targets: no device requires offsets of descriptors to be multiples of more.
 constexpr VkDeviceSize place = 256;
 constexpr VkDeviceSize targetBytes = 2 * place;
 constexpr uint32_t groupWidth = 16;
@@ -124,7 +124,7 @@ void FiniteWatch::release() {
 }
 
 void FiniteWatch::collect() {
-  // The slots' frames in their order.
+  // Read the older frame first.
   const bool firstIsOlder = slots_[0].frame < slots_[1].frame;
   read(slots_[firstIsOlder ? 0 : 1]);
   read(slots_[firstIsOlder ? 1 : 0]);

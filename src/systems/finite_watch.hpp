@@ -14,13 +14,13 @@ namespace speculum {
 // A finding in a target of a pass: a value that is NaN, infinite, below 0 or above 65504, the largest half float.
 struct NonFinite {
   PassId id;
-  bool samples = false;  // found in what is resolved to the pass's output
+  bool samples = false;  // found in the samples, not in the resolved image
   std::string pass;      // name for the user
   int x = 0;             // pixel of the pass's target, from its top left; the first one row by row
   int y = 0;
   int sample = 0;
   glm::vec4 value{0.0f};  // radiance, and disparity in 1/m
-  uint64_t count = 0;     // samples of the target that are so
+  uint64_t count = 0;     // number of such samples in the target
 };
 std::string describe(const NonFinite& found);  // one line
 
@@ -33,15 +33,15 @@ class FiniteWatch {
   // Begins a frame in which up to `targets` are checked.
   void begin(const Frame& frame, size_t targets);
   // Checks the upper left part, `used` pixels, of the image that an ended pass drew; `descriptor` is the image's. The
-  // image is then in the layout for being sampled.
-  // With `samples`, it is what is resolved to the pass's output.
+  // image is then in the layout for being sampled. `samples` says that it is the multisampled image, not the resolved
+  // one.
   void check(Frame& frame, const RecordedPass& pass, bool samples, Image& image,
              const VkDescriptorImageInfo& descriptor, VkExtent2D used);
   void end(Frame& frame);
-  // Gives the GPU's objects back as soon as the frames that were watched have finished.
+  // Releases the GPU's objects as soon as the frames that were watched have finished.
   void release();
 
-  // Takes in the frames that have finished. The first finding of a pass is an error in the log, once for each pass.
+  // Reads the results of the frames that have finished. Logs the first finding of each pass as an error.
   void collect();
   // Findings of the last finished frame that had any: one for each target, in the order of recording.
   const std::vector<NonFinite>& findings() const { return findings_; }

@@ -89,7 +89,7 @@ Lookup lookupFor(const glm::dvec2& ratio) {
   return ratio.x < 1.0 ? Lookup::bilinear : Lookup::box;
 }
 
-// The view that the image was rendered with, or null.
+// Returns the view that the cached or rendered image was drawn with; null without an image.
 const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
   return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.cached ? &plan.cached[draw.cached->image].view : nullptr;
 }
@@ -268,8 +268,8 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     return effects.curved && scene.objects[static_cast<size_t>(state.instances[i].object)].mirror.has_value();
   };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
-  // Plain instances of a mesh at one level that look alike share a draw, its curved mirrors another; each that is seen
-  // in part has its own.
+  // Instances of a mesh at one level that look alike share a draw, curved mirrors another one. Each instance that is
+  // seen in part has its own.
   for (auto first = order.begin(); first != order.end();) {
     const int mesh = state.instances[*first].mesh;
     const auto last = std::find_if(first, order.end(), [&](int i) { return state.instances[i].mesh != mesh; });
@@ -331,10 +331,9 @@ void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, in
 
 namespace {
 
-// In pixels: as much as vertices snapped to 1/256 of a pixel are off by. Any wider, and it shows in mirrors to
-// depth 32.
+// Pixels: the error of vertices snapped to 1/256 of a pixel. A wider fringe shows at recursion depth 32.
 constexpr double fringeWidth = 1.0 / 256.0;
-// Behind everything but the background, at any distance.
+// Depth behind everything but the background.
 constexpr double fringeDepth = 1e-25;
 
 // Triangles of a convex polygon in clip space.

@@ -31,11 +31,11 @@ struct Batch {
   float handedness = 1.0f;  // of all
   uint32_t firstInstance = 0;
   uint32_t count = 0;
-  bool curved = false;             // they are mirrors
-  bool environment = false;        // that look up an environment map; one instance then
+  bool curved = false;             // the object is a curved mirror
+  bool environment = false;        // it looks up an environment map; the batch then has one instance
   int map = -1;                    // index into FramePlan::maps; -1: it shows the background
   int level = -1;                  // index into MeshLevels::levels; -1: the mesh itself
-  std::vector<IndexRange> ranges;  // of its indices; none: all. Only a single instance has any
+  std::vector<IndexRange> ranges;  // indices that are drawn; empty: all. Only a batch of one instance has ranges
 };
 
 struct MirrorRange {
@@ -47,7 +47,7 @@ struct MirrorRange {
   bool reprojected = false;
   MirrorShows shows = MirrorShows::background;
   Lookup lookup = Lookup::fetch;  // of its image
-  bool blurs = false;             // its image is blurred
+  bool blurs = false;             // a rough mirror blurs its image
   bool scatters = false;          // its reflection is traced
   bool rippled = false;
   bool rough = false;
@@ -89,7 +89,7 @@ class FrameData {
   // Bindings of interface.glsl; the next one is that of SceneResources::materials().
   enum Kind { passBlocks, mirrors, lights, instances, environments, mirrorVertices, kindCount };
 
-  // Uniform blocks at dynamic offsets, of which no device asks more than a multiple of 256.
+  // Uniform blocks at dynamic offsets. No device requires offsets to be multiples of more than 256.
   struct alignas(256) PassBlock {
     gpu::ViewData view;
     gpu::LightData lights[gpu::fixedLights];  // all, if there are no more
@@ -112,7 +112,7 @@ class FrameData {
   void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
   void addLights(const Source& source, const PlannedPass& pass, PassBlock& block);
   void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
-  // Makes an instance's batch one that looks up its map.
+  // Makes the instance's batch look up its environment map.
   void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);
   void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
                   const EffectSettings& effects, PassData& data);
@@ -132,8 +132,7 @@ class FrameData {
   VkBuffer instanceBuffer_ = VK_NULL_HANDLE;
 };
 
-// Data of an instance seen in a view. `clipFromRelative` takes world space minus the view's eye to
-// clip space.
+// Returns the data of an instance in a view. `clipFromRelative` takes world space minus the view's eye to clip space.
 gpu::InstanceData instanceData(const InstanceState& instance, const View& view, const glm::dmat4& clipFromRelative);
 
 // Sign of the determinant of the instance's transform.
@@ -142,8 +141,8 @@ float handednessOf(const InstanceState& instance);
 // Value of `lightCount` in shading.glsl for a scene with so many lights.
 uint32_t fixedLightCount(const Scene& scene);
 
-// The projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. To clip space
-// whose unit square is `overscan(view)` times the picture.
+// Returns the projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. The
+// unit square of its clip space is `overscan(view)` times the picture.
 glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip);
 
 // Corner of an environment map's face in its target, in texels.

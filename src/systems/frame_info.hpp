@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// Inputs of the systems for one frame, with a window or headless.
+// Inputs of the systems for one frame.
 struct FrameInfo {
   Frame& frame;
   const Scene& scene;
@@ -22,7 +22,7 @@ struct FrameInfo {
   EffectLedger& ledger;                 // systems enter their draws
   std::span<const MirrorImage> images;  // of plan.passes, by index; valid while their parent is recorded
   std::span<const MirrorImage> cached;  // parallel to FramePlan::cached; set where an earlier frame rendered the image
-  std::span<const VkDescriptorSet> maps;  // of plan.maps, by index; in the place of an object's texture
+  std::span<const VkDescriptorSet> maps;  // of plan.maps, by index; bound instead of an object's texture
 };
 
 // Properties of a pass that decide which pipelines draw in it.

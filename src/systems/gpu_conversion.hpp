@@ -13,11 +13,12 @@ namespace speculum {
 
 // Row `r` of a matrix, and `w`.
 glm::vec4 row(const glm::dmat3& m, int r, double w);
-// Colours that an object has in place of its material's.
+// Returns the colours that replace those of the object's material.
 gpu::MaterialChange materialChange(const Object& object);
-// Constants of the draws of an object's part, but for firstTriangle.
+// Returns the constants for drawing a part of an object; the caller sets firstTriangle.
 gpu::DrawConstants drawConstants(const Material& material, const Object& object, float handedness);
-// The normal matrix of a linear map, at unit size: shaders normalise, and a float would overflow at the extremes.
+// Returns the normal matrix of a linear map, scaled to unit size: shaders normalise normals, and unscaled it may
+// overflow a float.
 glm::dmat3 unitNormalMatrix(const glm::dmat3& linear);
 
 // Appends a hierarchy's nodes. Its primitives stand in `order()` from `firstPrimitive` on. Boxes grow by a millionth of

@@ -8,17 +8,17 @@
 
 namespace speculum {
 
-// Targets for mirror images and environment maps, which keep their samples. A target is taken for a pass and released
-// as soon as the pass that samples it is recorded, so that a frame needs no more than the images alive at one time.
-// Targets serve later frames, and are dropped after framesKept frames without use.
+// Pool of targets for mirror images and environment maps, which keep their samples. A pass acquires a target, which is
+// released as soon as the pass that samples it is recorded, so that a frame needs no more than the images alive at one
+// time. Later frames use the targets again; those unused for framesKept frames are dropped.
 class ImagePool {
  public:
-  static constexpr int framesKept = 30;  // without need of a target
+  static constexpr int framesKept = 30;
 
-  // Targets are called by `name` and a number.
+  // The debug names of targets are `name` and a number.
   ImagePool(Device& device, SharedDepth& depth, std::string name);
 
-  // A target that covers `extent`, free until release().
+  // Returns a target that covers `extent` and is taken until release().
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
   void release(const OffScreen& target);
   void endFrame(RetireQueue& retired);

@@ -5,8 +5,8 @@
 
 namespace speculum {
 
-// Keeps a mirror pass from shading what no lookup reads. A pass with a mask clears its depth to the nearest, which
-// nothing is in front of; the mask, drawn first, opens its polygon with the farthest depth.
+// Keeps a mirror pass from shading what no lookup reads. A pass with a mask clears its depth to the nearest value, so
+// that nothing passes the depth test; the mask, drawn first, opens its polygon with the farthest depth.
 class MaskSystem {
  public:
   MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout);

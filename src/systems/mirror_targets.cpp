@@ -25,8 +25,8 @@ void MirrorTargets::restart() {
   restart_ = true;
 }
 
-// Gives back what the plan shows no more: its targets serve passes of this frame. Nothing to wait for, barriers order
-// frames as they do passes.
+// Releases cached images that the plan no longer shows; passes of this frame can use their targets at once, because
+// barriers order frames as they do passes.
 void MirrorTargets::takeCached(const FramePlan& plan) {
   std::vector<OffScreen*> targets(plan.cached.size(), nullptr);
   cachedDescriptors_.assign(plan.cached.size(), {});
@@ -87,7 +87,7 @@ std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const Pas
   return targets;
 }
 
-// Whether a pass's image outlives its use in this frame: for the debug view, or for the next frames.
+// Says whether a pass's image outlives its use in this frame: for the debug view, or for the next frames.
 bool MirrorTargets::isNeededLater(const FramePlan& plan, int pass) const {
   return pass == watched_ || std::any_of(plan.cached.begin(), plan.cached.end(),
                                          [&](const CachedImage& image) { return image.pass == pass; });

@@ -8,20 +8,21 @@
 
 namespace speculum {
 
-// The targets of mirror passes: a frame's while their images are needed, and those of cached images until the next
-// frame. Nothing exists while no frame has a mirror image.
+// Owns the targets of mirror passes: those of this frame while their images are needed, and those of cached images
+// until the next frame. Nothing exists while no frame has a mirror image.
 class MirrorTargets {
  public:
   explicit MirrorTargets(Device& device);
 
   // Images that the next plan may reuse.
   const std::vector<CachedImage>& cachedImages() const { return cachedImages_; }
-  void restart();  // drops them and, in the next frame, every target
+  void restart();  // drops the cached images and, in the next frame, every target
 
-  // Begins the plan's frame and takes over the cached images that it reuses. The image of the pass that the debug view
-  // shows, `watched`, is not released before the frame ends.
+  // Begins the plan's frame and takes over the cached images that it reuses. `watched` is the pass that the debug view
+  // shows; its image is not released before the frame ends.
   void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched, RetireQueue& retired);
-  // Targets for the passes of a range, in order, each with depth of its own; none is one that the range looks up.
+  // Returns targets for the passes of a range, in order, each with a depth image of its own. The images that the range
+  // looks up stay untouched.
   std::vector<PassTargets> acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired);
   // Releases the images that a recorded pass looked up.
   void releaseShown(const FramePlan& plan, const PlannedPass& pass);
@@ -37,8 +38,8 @@ class MirrorTargets {
   struct Depth {
     std::unique_ptr<SharedDepth> image;
     int idleFrames = 0;
-    VkExtent2D needed{0, 0};  // since it was last made to fit
-    int frames = 0;           // since then
+    VkExtent2D needed{0, 0};  // largest extent since the image was last fitted
+    int frames = 0;           // frames since then
   };
   void takeCached(const FramePlan& plan);
   bool isNeededLater(const FramePlan& plan, int pass) const;
@@ -52,7 +53,7 @@ class MirrorTargets {
   std::vector<OffScreen*> targets_;
   std::vector<MirrorImage> images_;
   std::vector<CachedImage> cachedImages_;
-  std::vector<OffScreen*> cachedTargets_;  // of cachedImages_ between frames, of the plan's in one
+  std::vector<OffScreen*> cachedTargets_;  // parallel to cachedImages_ between frames, to FramePlan::cached within one
   std::vector<MirrorImage> cachedDescriptors_;
   std::optional<int> watched_;
   bool restart_ = false;

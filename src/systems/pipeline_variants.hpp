@@ -9,13 +9,13 @@
 
 namespace speculum {
 
-// Pipelines of one system by what they differ in. Each is made when it is first drawn with.
+// Pipelines of one system, one for each value of Variant. Each is made on its first use.
 template <typename Variant>
 class PipelineVariants {
  public:
   explicit PipelineVariants(PipelineFactory& factory) : factory_(factory) {}
 
-  // `describe()` gives the description of a pipeline that is not there yet.
+  // Returns the pipeline of a variant. If it does not exist yet, describe() returns its description.
   template <typename Describe>
   const Pipeline& get(const Variant& variant, Describe describe) {
     Entry& entry = entries_[variant];
@@ -26,7 +26,7 @@ class PipelineVariants {
     return *entry.pipeline;
   }
 
-  // Drops the pipelines that idle(variant) held for in more than idleFramesKept frames since they were drawn with.
+  // Drops the pipelines for which idle(variant) was true in more than idleFramesKept frames since their last use.
   template <typename Idle>
   void endFrame(Idle idle) {
     for (auto& [variant, entry] : entries_) {

@@ -12,7 +12,7 @@ class PointLightSystem {
   PointLightSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
-  // Drops pipelines that have not been used for some frames. They stay if `stays`: cached images show glyphs.
+  // Drops pipelines that have not been used for some frames. `stays` prevents that, while cached images show glyphs.
   void endFrame(bool stays);
   size_t pipelineCount() const { return pipelines_.size(); }
 

@@ -18,7 +18,7 @@ bool RenderSystem::tracesRays(const Variant& variant) {
 
 namespace {
 
-// Locations of scene.vert.
+// Adds the inputs of scene.vert.
 void addVertexInput(GraphicsPipelineDesc& desc) {
   desc.vertexBindings = {{0, sizeof(GpuVertex), VK_VERTEX_INPUT_RATE_VERTEX},
                          {1, sizeof(gpu::InstanceData), VK_VERTEX_INPUT_RATE_INSTANCE}};

@@ -14,7 +14,7 @@ class RenderSystem {
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines that trace rays or look up textures and have not been used for some frames. While cached images are
-  // shown, those that would render them stay. `textured` is drawsTextures().
+  // shown, the pipelines that rendered them stay. `textured` is drawsTextures().
   void endFrame(const TraceVariant& trace, bool imagesShown, bool curved, bool textured);
   size_t pipelineCount() const { return objects_.size() + skies_.size(); }
 
@@ -25,7 +25,7 @@ class RenderSystem {
     bool clampDepth;
     bool wireframe;
     bool curved;
-    bool environment;        // curved mirrors that look up a map
+    bool environment;        // curved mirrors that look up an environment map
     uint32_t diffuseLookup;  // constants of scene_shading.glsl and shading.glsl
     bool glossy;
     uint32_t lightCount;

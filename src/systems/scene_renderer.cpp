@@ -22,7 +22,7 @@ std::array<float, 4> clearColor(const Environment& environment) {
   return {color.r, color.g, color.b, 0.0f};  // infinitely far
 }
 
-// The target's corner is the rectangle's; the viewport is as large as what is drawn of the picture's plane.
+// Places the picture's plane so that the target's corner is that of the view's rectangle.
 PassViewport viewportOf(const View& view) {
   const glm::dvec2 size = overscan(view) * view.pictureSize;
   const glm::dvec2 corner = 0.5 * (view.pictureSize - size) - glm::dvec2(view.rect.x, view.rect.y);
@@ -34,7 +34,7 @@ VkFrontFace frontFace(const View& view) {
   return view.mirrored() ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
 }
 
-// A pass that draws the scene into `area` of its targets.
+// Describes a pass that draws the scene into `area` of its targets.
 PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const PassViewport& viewport,
                    const View& view, const Environment& environment) {
   return {.name = std::move(name),
@@ -125,7 +125,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   endRecord(info, textured);
 }
 
-// Gives back what only the debug view needed, as soon as it is off.
+// Releases what only the debug view needs, once it is off.
 void SceneRenderer::releaseDebugViews(const std::optional<DebugView>& debug, RetireQueue& retired) {
   depthPass_ = debug && debug->kind == TargetKind::depth ? std::optional(debug->pass) : std::nullopt;
   if (!depthPass_) {
@@ -204,7 +204,7 @@ void SceneRenderer::recordMap(const FrameInfo& info, size_t map, size_t firstFac
     pass.name = desc.name;
     pass.areaPx = planned.faces[face].areaPx;
     drawScene(info, firstFace + face, desc, std::move(pass));
-    // Counts each draw once, although curved mirrors seen in the face were entered already.
+    // Count each draw once: curved mirrors seen in the face are entered already.
     ledger_[EffectKind::curved].draws = drawsBefore + recorded_.back().draws;
   }
   checkTarget(info, recorded_.back(), target, {3 * size.width, 2 * size.height});
@@ -216,7 +216,7 @@ void SceneRenderer::recordMirrors(const FrameInfo& info) {
   }
 }
 
-// Images are given back and checked when the whole range is drawn: barriers stand around it.
+// Releases and checks images after the whole range, because its barriers stand around it.
 void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& range) {
   const std::vector<PassTargets> targets = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
   std::vector<PassDesc> descs;
@@ -300,7 +300,7 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Deb
   }
 }
 
-// Keeps what the next frame may reuse, and gives back what no frame needed for a while.
+// Keeps what the next frame may reuse, and releases what no frame needed for a while.
 void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const FramePlan& plan = info.plan;
   RetireQueue& retired = *info.frame.retired;
@@ -358,7 +358,7 @@ OffScreen& SceneRenderer::targetOf(const FramePlan& plan, int pass) {
   return pass == static_cast<int>(plan.passes.size()) ? *main_ : mirrorTargets_[static_cast<size_t>(pass)];
 }
 
-// Completes what is not entered draw by draw.
+// Enters the costs that are not entered draw by draw.
 void SceneRenderer::finishLedger(const FrameInfo& info) {
   const Settings& settings = info.settings;
   const TracedEffects& effects = info.plan.effects;

@@ -39,7 +39,7 @@ class SceneRenderer {
   // frame again without effects.textures.
   void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
   // Records every pass up to the display pass. `plan` was made with cache(), `settings` are those of FittedPlan. With
-  // view.accumulate above 1, adds the picture to the mean and shows that if `shown`: see Accumulation.
+  // view.accumulate above 1, adds the picture to the mean (see Accumulation) and, if `shown`, shows the mean.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt, bool shown = true);
   // Pictures in the mean that the last recorded frame shows; 0 without one.
@@ -51,14 +51,14 @@ class SceneRenderer {
 
   // Passes of the last recorded frame, in order.
   const std::vector<RecordedPass>& passes() const { return recorded_; }
-  // Passes of frame number `frame`, if it is one of the last three recorded: the GPU's timings are of an earlier frame.
+  // Passes of frame number `frame`, if it is one of the last three recorded. The GPU's timings arrive that late.
   std::span<const RecordedPass> passesOf(uint64_t frame) const;
   // Findings of debug.check_finite in the frames that have finished.
   const FiniteWatch& finiteWatch();
-  // Answer to DebugView::probe, from the last frame that asked and has finished.
+  // Value at DebugView::probe in the last frame that had a probe and has finished.
   const std::optional<TexelValue>& probed() { return probe_.value(); }
   size_t pipelineCount() const;
-  // Share of each effect in the last recorded frame that drew the main view.
+  // Cost of each effect in the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
   // Linear radiance of the main view, or of the mean, in the last recorded frame, enlarged to the picture. Waits for
   // the GPU.
@@ -81,11 +81,11 @@ class SceneRenderer {
 
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
   void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
-  // Keeps the depth of the pass that the debug view shows; call it before the pass and after it.
+  // Keep the depth of the pass that the debug view shows. Call watchDepth() before the pass, finishDepth() after it.
   void watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc);
   void finishDepth(const FrameInfo& info, size_t pass);
   void checkTarget(const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
-  // The target of plan.passes[pass], or of the main view for their number.
+  // Returns the target of plan.passes[pass], or of the main view if `pass` is passes.size().
   OffScreen& targetOf(const FramePlan& plan, int pass);
 
   Renderer& renderer_;
@@ -107,7 +107,7 @@ class SceneRenderer {
   glm::ivec2 pictureSize_{0};  // of the last recorded frame
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
-  MainImage mainImage_;         // its content is empty if it is not to be reused
+  MainImage mainImage_;         // content is empty if the main view must not be reused
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
   std::vector<RecordedPass> recorded_;

@@ -53,8 +53,8 @@ SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& 
   createMeshes();
 }
 
-void SceneResources::upload(Frame& frame, bool asked, bool drawn) {
-  const bool textured = asked && !scene_.textures.empty();
+void SceneResources::upload(Frame& frame, bool enabled, bool drawn) {
+  const bool textured = enabled && !scene_.textures.empty();
   const bool uploads = !materials_ || textured != textured_ || (drawn && textures_.empty());
   if (uploads) {
     // An upload waits for its own fence; frames in flight are waited for first, as in DisplaySystem::setCover.
@@ -69,8 +69,8 @@ void SceneResources::upload(Frame& frame, bool asked, bool drawn) {
   }
 }
 
-void SceneResources::prepare(Frame& frame, bool asked, bool drawn) {
-  upload(frame, asked, drawn);
+void SceneResources::prepare(Frame& frame, bool enabled, bool drawn) {
+  upload(frame, enabled, drawn);
   idleFrames_ = drawn ? 0 : idleFrames_ + 1;
   if (idleFrames_ > idleFramesKept) {
     for (Image& texture : textures_) {
@@ -87,7 +87,7 @@ Image SceneResources::upload(const Texture& texture, const std::string& name) {
 }
 
 void SceneResources::createTextures() {
-  std::vector<Image> uploaded;  // all or none
+  std::vector<Image> uploaded;  // moved into textures_ once all are there
   for (const Texture& texture : scene_.textures) {
     uploaded.push_back(upload(texture, "texture " + texture.source.filename().string()));
   }
@@ -160,7 +160,7 @@ uint64_t SceneResources::textureBytes() const {
   uint64_t bytes = 0;
   for (const Image& texture : textures_) {
     const VkExtent2D extent = texture.extent();
-    // RGBA16F; levels that halve both sides add a third.
+    // RGBA16F; mip levels add a third.
     bytes += uint64_t{8} * extent.width * extent.height * 4 / 3;
   }
   return bytes;

@@ -18,7 +18,8 @@ struct GpuVertex {
   glm::vec2 uv;
 };
 
-// Resources of a scene on the GPU: meshes and materials as long as it is shown, textures while something drawn has one.
+// Resources of a scene on the GPU: meshes and materials for as long as it is shown, textures while something with a
+// texture is drawn.
 class SceneResources {
  public:
   struct Part {
@@ -38,16 +39,16 @@ class SceneResources {
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
 
-  // Begins a frame. `asked` is effects.textures, `drawn` is drawsTextures(). Uploads are finished on return.
-  void prepare(Frame& frame, bool asked, bool drawn);
-  // The uploads of prepare(). After an OutOfMemoryError it can be called with other arguments.
-  void upload(Frame& frame, bool asked, bool drawn);
+  // Begins a frame. `enabled` is effects.textures, `drawn` is drawsTextures(). Uploads are finished on return.
+  void prepare(Frame& frame, bool enabled, bool drawn);
+  // Does the uploads of prepare(). After an OutOfMemoryError it can be called again with other arguments.
+  void upload(Frame& frame, bool enabled, bool drawn);
   // Uploads the levels of the meshes `drawn`, which is meshesWithLevels(), and drops idle ones.
   void prepareLevels(Frame& frame, std::span<const int> drawn);
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
-  uint64_t textureBytes() const;  // with all levels, of those that are there
+  uint64_t textureBytes() const;  // of the uploaded textures, with all mip levels
   VkDescriptorSet texture(const Part& part) const;
   VkDescriptorSetLayout textureLayout() const { return textureLayout_.get(); }
 
@@ -66,13 +67,13 @@ class SceneResources {
   DescriptorAllocator descriptors_;
   Image noTexture_;  // a white texel
   VkDescriptorSet noTextureSet_ = VK_NULL_HANDLE;
-  std::vector<Image> textures_;               // of the scene, or none
-  std::vector<VkDescriptorSet> textureSets_;  // made with them, and kept
+  std::vector<Image> textures_;               // all of the scene's, or empty
+  std::vector<VkDescriptorSet> textureSets_;  // made with textures_ and kept when those are dropped
   int idleFrames_ = 0;                        // since textures_ were drawn
   Buffer materials_;
-  bool textured_ = false;  // materials_ name textures
+  bool textured_ = false;  // whether materials_ refer to textures
   std::vector<GpuMesh> meshes_;
-  int idleLevelFrames_ = 0;  // since levels of any were drawn
+  int idleLevelFrames_ = 0;  // since a mesh level was drawn
 };
 
 }  // namespace speculum

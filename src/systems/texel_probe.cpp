@@ -22,7 +22,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
     slot.result = Buffer(device_, sizeof(gpu::ProbedTexel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
                          "probe texel " + std::to_string(frame.index));
   }
-  slot.asked = {.texel = texel, .depth = image.format() == depthFormat};
+  slot.pending = {.texel = texel, .depth = image.format() == depthFormat};
   slot.frame = frame.number;
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter()
@@ -75,7 +75,7 @@ void TexelProbe::collect() {
     gpu::ProbedTexel probed{};
     std::memcpy(&probed, slot.result.mapped(), sizeof probed);
     valueFrame_ = frame;
-    value_ = slot.asked;
+    value_ = slot.pending;
     value_->value = value_->depth ? glm::vec4(0.0f) : probed.mean;
     value_->storedDepth = value_->depth ? probed.first.r : 0.0f;
   }

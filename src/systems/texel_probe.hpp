@@ -17,14 +17,14 @@ struct TexelValue {
   float storedDepth = 0.0;  // of the first sample; near plane / metres along the view, 0: infinitely far
 };
 
-// Reads a texel of a target back from the GPU. Nothing exists there before probe() and after release().
+// Reads a texel of a target back from the GPU. Nothing exists on the GPU before probe() and after release().
 class TexelProbe {
  public:
   explicit TexelProbe(Renderer& renderer);
 
   // Reads a texel of a colour target or a depth that can be sampled; `descriptor` is the image's. Its layout stays.
   void probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel);
-  // Gives the GPU's objects back as soon as the frames that were probed have finished, and forgets the value.
+  // Releases the GPU's objects as soon as the frames that were probed have finished, and drops the value.
   void release();
   // Value in the last probed frame that has finished, if there is one.
   const std::optional<TexelValue>& value();
@@ -33,7 +33,7 @@ class TexelProbe {
  private:
   struct Slot {
     Buffer result;
-    TexelValue asked;
+    TexelValue pending;  // texel and kind; the value follows
     uint64_t frame = 0;  // number of the frame that probes; 0: none
   };
   void collect();

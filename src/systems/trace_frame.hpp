@@ -13,7 +13,7 @@ namespace speculum {
 
 // Traced effects of a frame, as specialisation constants of pipelines.
 struct TraceVariant {
-  bool traced = false;  // there is light that needs rays, or a mirror's bounce of light
+  bool traced = false;  // shadow rays, or light that mirrors bounce
   bool shadows = false;
   bool castsLight = false;
   bool perSample = false;
@@ -25,8 +25,8 @@ struct TraceVariant {
 // Appends `variant` to a fragment shader's constants, of which there are at most two.
 void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants);
 
-// The scene that rays meet, with the positions of the present frame. Nothing exists before a frame calls for it, and
-// all is given back after some frames without a call.
+// Buffers of the scene that rays meet, with the positions of the present frame. Nothing exists before a frame calls for
+// them, and all are released after some frames without a call.
 class TraceFrame {
  public:
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
@@ -35,7 +35,7 @@ class TraceFrame {
   static constexpr uint32_t storageBuffers = 17;  // 5 + 6 of the scene + 6 of the frame
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
-  // finished, and null if none is called for.
+  // finished, and null if no effect is called for.
   void build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects);
 
   VkDescriptorSetLayout layout() const { return layout_.get(); }

@@ -53,7 +53,7 @@ uint64_t largestTraceBuffer(const Scene& scene, size_t instances) {
   for (const Texture& texture : scene.textures) {
     texels += texture.texels.size();
   }
-  // A binary tree has less than twice as many nodes as leaves, and leaves may hold a single triangle.
+  // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle.
   return std::max({2 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle),
                    vertices * sizeof(gpu::TraceVertex), texels * sizeof(uint64_t),
                    instances * sizeof(gpu::TraceInstance),

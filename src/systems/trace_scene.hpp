@@ -9,8 +9,8 @@ namespace speculum {
 // Upper bound of the size of any buffer for a scene's rays. `instances` counts all copies.
 uint64_t largestTraceBuffer(const Scene& scene, size_t instances);
 
-// The part of a scene for rays that stays while it is shown: triangles under hierarchies of boxes, attributes of
-// their vertices, texels. Finished on return.
+// Buffers for rays that stay the same while a scene is shown: triangles under hierarchies of boxes, attributes of their
+// vertices, texels. Uploads are finished when the constructor returns.
 class TraceScene {
  public:
   // Offsets of a mesh in the buffers.
