@@ -12,7 +12,7 @@ struct SineCosine {
   double cosine;
 };
 
-// Exact at multiples of 90 degrees, where most walls stand, and after any number of turns.
+// Returns exact values at multiples of 90 degrees, where most walls stand, after any number of turns.
 SineCosine sineCosine(double degrees) {
   const double reduced = std::remainder(degrees, 360.0);
   const double quarter = std::round(reduced / 90.0);

@@ -90,7 +90,7 @@ class FaceJoiner {
 
   const glm::dvec3& point(uint32_t edge) const { return welder_.points()[edges_[edge].start]; }
 
-  // Takes neighbours in as long as they lie in the plane that the triangles so far span.
+  // Adds neighbours as long as they lie in the plane that the triangles so far span.
   void findPlane(uint32_t seed) {
     const glm::dvec3 origin = point(3 * seed);
     const auto number = static_cast<uint32_t>(parts_.size());
@@ -131,7 +131,7 @@ class FaceJoiner {
     return triangle;
   }
 
-  // Whether the outline is convex where `edge` follows on `before`.
+  // Says whether the outline is convex where `edge` follows on `before`.
   bool turnsLeft(uint32_t before, uint32_t edge) const {
     const FlatPart& part = parts_[planeOf_[edge / 3]];
     const glm::dvec3& corner = point(edge);

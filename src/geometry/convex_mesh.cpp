@@ -13,7 +13,7 @@ namespace speculum {
 
 namespace {
 
-// Nothing unless each edge has two triangles.
+// Finds the edges; nothing unless each has two triangles.
 std::optional<std::vector<ConvexMesh::Edge>> edgesOf(const std::vector<ConvexMesh::Triangle>& triangles) {
   std::map<std::pair<uint32_t, uint32_t>, size_t> known;
   std::vector<ConvexMesh::Edge> edges;
@@ -38,7 +38,7 @@ std::optional<std::vector<ConvexMesh::Edge>> edgesOf(const std::vector<ConvexMes
   return closed ? std::optional(edges) : std::nullopt;
 }
 
-// The points in a box whose longest side is 1; none if it has no such side.
+// Scales the points so that the longest side of their box is 1; none if all points are the same.
 std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
   Bounds box;
   for (const glm::dvec3& p : points) {
@@ -55,7 +55,8 @@ std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
   return scaled;
 }
 
-// Whether `inside` lies on one side of the triangle, and no point on the other. One without area bounds nothing.
+// Says whether `inside` lies on one side of the triangle and no point on the other. A triangle without area bounds
+// nothing.
 bool bounds(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& inside, std::span<const glm::dvec3> points) {
   const glm::dvec3 area = newellVector(triangle);
   if (!(glm::length(area) > convexTolerance * convexTolerance)) {

@@ -8,16 +8,16 @@
 
 namespace speculum {
 
-// How far a vertex of a mesh that counts as convex may lie outside the plane of one of its triangles, as a part of the
+// Distance by which a vertex of a convex mesh may lie outside the plane of one of its triangles, as a part of the
 // longest side of the mesh's bounding box. Models are written with four decimals: a ball of 1 m is off by 6e-5.
 constexpr double convexTolerance = 1e-4;
 
-// A closed triangle mesh (each edge has two triangles) that is convex but for the tolerance. That says little about its
-// outline: seen from aside, a thin star is as concave as a star can be.
+// A closed triangle mesh (each edge has two triangles) that is convex but for the tolerance. Its outline need not be
+// convex: a star as thin as the tolerance counts as convex, but its outline is a star.
 struct ConvexMesh {
   using Triangle = std::array<uint32_t, 3>;
   struct Edge {
-    uint32_t from = 0;  // as the first of its triangles runs along it
+    uint32_t from = 0;  // start, in the direction of its first triangle
     uint32_t to = 0;
     std::array<uint32_t, 2> triangles{};
     bool sameDirection = false;  // of both triangles along the edge: one of them is turned inside out
@@ -27,7 +27,8 @@ struct ConvexMesh {
   std::vector<Edge> edges;
 };
 
-// Empty for any other mesh, and for one of more than `mostTriangles`. Vertices at equal positions are one point.
+// Returns the mesh if it is closed and convex and has at most `mostTriangles`, else an empty one. Vertices at equal
+// positions are one point.
 ConvexMesh convexMesh(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices, size_t mostTriangles);
 
 }  // namespace speculum

@@ -68,7 +68,7 @@ std::optional<double> gap(const Ray& ray, double error) {
   return std::isfinite(s) ? std::optional(s) : std::nullopt;
 }
 
-// The row of a matrix that gives clip z, or nothing without such a projection.
+// Returns the row of the projection that gives clip z; nothing if the projection does not exist.
 std::optional<glm::dvec4> depthRow(const DepthView& view) {
   if (!view.plane) {
     return glm::dvec4(0.0, 0.0, 0.0, view.projection.near);

@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// How far apart two surfaces must be for a D32F depth buffer to keep them in order: a bound, in closed form.
+// Bounds, in closed form, the distance at which a D32F depth buffer keeps two surfaces in order.
 //
 // Along the ray through a pixel, with u its unit direction, c = -u.z and r = (L, m) the depth row of the projection,
 // depth is D(t) = L.u / c + m / (c t): near / (c t) for the common projection (L = 0, m = near), and for the oblique
@@ -15,7 +15,7 @@ namespace speculum {
 // of each surface may be wrong by e, a gap s along the ray is kept in order when D(t) - D(t + s) > 2 e, that is from
 //   s = 2 e t^2 / (m / c - 2 e t)
 // on, and never when m / c <= 2 e t. For the common projection e is a part of D itself, and s / t does not depend on t;
-// for the oblique one e is a part of a constant, and s = 2 e c t^2 / (a h): it dies with h.
+// for the oblique one e is a part of a constant, and s = 2 e c t^2 / (a h), which grows without bound as h shrinks.
 //
 // The error e is the sum of three terms; r(x) is half a unit in the last place of a float at x.
 // - Storage: r(D).

@@ -71,7 +71,7 @@ struct Mesh {
   std::vector<MeshCluster> clusters;             // see clustersOf()
   std::vector<std::vector<glm::dvec3>> faces;    // relative to `center`, see convexFaces()
   ConvexMesh convex;                             // relative to `center`, see convexMesh()
-  mutable std::shared_ptr<LevelsOfMesh> levels;  // owned by levelsOf(), which makes them when they are first asked for
+  mutable std::shared_ptr<LevelsOfMesh> levels;  // made by the first call of levelsOf()
 };
 
 }  // namespace speculum

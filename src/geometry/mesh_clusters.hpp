@@ -14,7 +14,7 @@ void sortIntoClusters(Mesh& mesh);
 
 // Cuts the mesh's triangles in their order into clusters of 64. None for a mesh that is too small to gain by it.
 std::vector<MeshCluster> clustersOf(const Mesh& mesh);
-// Cuts other triangles likewise; `parts` are ranges of `indices`.
+// Does the same for triangles that are not a Mesh; `parts` are ranges of `indices`.
 std::vector<MeshCluster> clustersOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
                                     std::span<const IndexRange> parts);
 

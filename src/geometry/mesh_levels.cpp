@@ -67,12 +67,13 @@ class Deviation {
   double largest_;
 };
 
-// Vertices of a level: one for each normal that its triangles need at a point of the mesh.
+// Collects the vertices of a level: one for each normal that its triangles need at a point of the mesh.
 class LevelVertices {
  public:
   explicit LevelVertices(std::vector<Vertex>& all) : all_(all) {}
 
-  // Index of the vertex at a point, a number that only tells points apart, with a normal near that of `vertex`.
+  // Returns the index of the vertex at `point`, a number that identifies a point, whose normal is near that of
+  // `vertex`.
   uint32_t find(uint32_t point, const Vertex& vertex) {
     constexpr double steps = 128.0;  // of a normal's coordinates; nearer normals count as one
     uint64_t key = point;
@@ -93,8 +94,8 @@ class LevelVertices {
 
 // One part of a mesh and its simplified triangles. Vertices of equal position are one point where the surface is
 // smooth, whether its normals are interpolated or those of its faces. Across hard edges and seams of texture
-// coordinates points stay apart, and meshoptimizer keeps those in which three or more sides meet: without its corners a
-// slab would be thinner than it is, and objects below it would show through.
+// coordinates points stay apart, and meshoptimizer keeps those in which three or more sides meet: a slab that loses its
+// corners becomes thinner, and objects below it would show through.
 class SimplifiedPart {
  public:
   // `firstPoint`: number of the first point, above those of the parts before.
@@ -189,7 +190,7 @@ class SimplifiedPart {
     }
   }
 
-  // The point of `coincident`, which share a position, on the same smooth surface, or a new one.
+  // Returns the point among `coincident`, which share a position, on the same smooth surface, or a new one.
   uint32_t pointFor(const Vertex& vertex, std::vector<uint32_t>& coincident) {
     constexpr double smooth = 0.77;  // cosine; bevels are steeper
     for (const uint32_t point : coincident) {
@@ -205,7 +206,7 @@ class SimplifiedPart {
     return coincident.back();
   }
 
-  // The vertex at a point that suits a triangle of this normal best.
+  // Returns the vertex at a point whose normal is nearest to a triangle's.
   Vertex vertexFor(uint32_t point, const glm::dvec3& normal) const {
     const std::vector<Vertex>& all = vertices_[point];
     Vertex best = *std::max_element(all.begin(), all.end(), [&](const Vertex& a, const Vertex& b) {

@@ -17,8 +17,8 @@ double diameter(std::span<const glm::dvec3> polygon) {
   return largest;
 }
 
-// Whether no vertex lies farther than `tolerance` outside the line of any edge. Looking at the turn from one edge to
-// the next is not enough: many small turns to the wrong side add up to a hollow.
+// Says whether no vertex lies farther than `tolerance` outside the line of any edge. Comparing each edge with the next
+// is not enough: many small turns to the wrong side add up to a hollow.
 bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, double tolerance) {
   const size_t n = polygon.size();
   double turning = 0.0;

@@ -8,7 +8,7 @@
 
 namespace speculum {
 
-// A plane as a point on it and a unit normal. Kept in this form because n.x = d loses |d| * 2^-53 to a far-off origin.
+// A plane as a point on it and a unit normal. The form n.x = d would lose |d| * 2^-53 far from the origin.
 struct Plane {
   glm::dvec3 point{0.0};
   glm::dvec3 normal{0.0, 0.0, 1.0};

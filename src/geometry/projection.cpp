@@ -8,7 +8,7 @@ namespace speculum {
 namespace {
 
 constexpr double eyePlane = 1e-12;
-constexpr double shortestEdge = 1e-6;    // pixels; below it an edge has no direction to speak of
+constexpr double shortestEdge = 1e-6;    // pixels; the direction of a shorter edge is rounding
 constexpr double sharpestCorner = 0.25;  // 1 + the cosine of the angle between its edges' normals
 
 glm::dvec2 toPixels(const glm::dvec4& clip, double width, double height) {
@@ -74,7 +74,7 @@ glm::dvec4 Projection::clip(const glm::dvec3& view) const {
 
 std::optional<glm::dmat4> obliqueProjection(const Projection& projection, const glm::dvec4& plane) {
   glm::dmat4 m = projection.matrix();
-  // The corner of the frustum opposite the plane, at infinity (depth 0), brought to view space: P^-1 (sx, sy, 0, 1).
+  // Corner of the frustum opposite the plane, at infinity (depth 0), in view space: P^-1 (sx, sy, 0, 1).
   const double cx = sign(plane.x / m[0][0]);
   const double cy = sign(plane.y / m[1][1]);
   const glm::dvec4 corner((cx - projection.offset.x) / m[0][0], (cy - projection.offset.y) / m[1][1], -1.0, 0.0);

@@ -15,7 +15,7 @@ struct Projection {
   double focal = 1.0;      // cot(vertical fov / 2)
   double aspect = 1.0;     // width / height
   double near = 0.001;     // metres
-  glm::dvec2 offset{0.0};  // of the picture, in device coordinates
+  glm::dvec2 offset{0.0};  // shift of the picture, in device coordinates
 
   Projection() = default;
   Projection(double verticalFovRadians, double aspectRatio, double nearMetres);
@@ -27,7 +27,7 @@ struct Projection {
 // The projection with its depth row replaced so that z_clip > w_clip exactly behind `plane` (view space, (n, d) with
 // n.x + d >= 0 kept): Lengyel, "Oblique View Frustum Depth Projection and Clipping" (2005), for reversed Z. Nothing
 // when it does not exist: the eye is on the kept side, or the plane misses the frustum. For comparison only: its depth
-// resolution dies with the eye's distance to the plane.
+// resolution vanishes as the eye nears the plane.
 std::optional<glm::dmat4> obliqueProjection(const Projection& projection, const glm::dvec4& plane);
 
 // A rectangle of pixels, origin top left.

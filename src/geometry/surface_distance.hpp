@@ -19,7 +19,7 @@ class SurfaceDistance {
   double to(const glm::dvec3& point) const;
 
  private:
-  // Square of the least distance; ends at the first one that is no more than `enough`, a square too.
+  // Returns the square of the least distance, or of the first one found that is no more than `enough`, a square too.
   double nearest(const glm::dvec3& point, double enough) const;
 
   Bvh bvh_;

@@ -33,7 +33,7 @@ class EarClipper {
 
  private:
   // Progress of the search for a vertex inside the triangle of a vertex and its neighbours. While the neighbours stay,
-  // vertices that were found outside stay outside, so that all searches of a vertex together pass each other one once.
+  // vertices found outside stay outside, so that repeated searches of a vertex test each other vertex once.
   struct Search {
     int before = -1;
     int after = -1;

@@ -10,9 +10,9 @@
 
 namespace speculum {
 
-// Samples of the unit square for microfacets. Mirrors seen directly use an additive recurrence with the plastic
-// number (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), shifted per pixel; deeper ones
-// from a hash, so that the levels are independent of each other.
+// Samples of the unit square for microfacets. For mirrors seen directly they come from an additive recurrence with the
+// plastic number (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), shifted per pixel; for
+// deeper ones from a hash, so that levels are independent of each other.
 class MicrofacetSampler {
  public:
   MicrofacetSampler(uint32_t x, uint32_t y);
@@ -24,7 +24,7 @@ class MicrofacetSampler {
   uint64_t drawn_ = 0;
 };
 
-// Run of reflecting sides along a ray, including the one that maxDepth cuts off.
+// Consecutive reflecting sides along a ray, including the one that maxDepth cuts off.
 struct MirrorChain {
   int count = 0;            // at most 255
   double throughput = 1.0;  // product of their reflectances, mean of the channels

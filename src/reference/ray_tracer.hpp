@@ -31,13 +31,13 @@ struct TraceResult {
 };
 
 // Ray tracer in double precision, whose pictures are the reference: each sample is the radiance that docs/picture.md
-// defines. Reflections are traced from the reflected eye, starting at the mirror, so nothing is moved off a surface.
-// Rough mirrors are sampled with a fixed low-discrepancy sequence per pixel, so every run gives the same bits whatever
-// the number of threads (those of the calling oneTBB arena).
+// defines. Reflections are traced from the reflected eye, starting at the mirror, so no origin has to be moved off a
+// surface. Rough mirrors are sampled with a fixed low-discrepancy sequence per pixel, so every run gives the same bits
+// whatever the number of threads (those of the calling oneTBB arena).
 //
-// Choices that the picture's definition leaves: a rippled mirror is one height field seen from either side; a rough
-// mirror that is cut off shows the background of the smooth reflection; the second leg of mirrored light ignores only
-// the mirror that it comes from.
+// Choices that the definition leaves open: a rippled mirror is one height field seen from either side; a rough mirror
+// that is cut off shows the background of the smooth reflection; the second leg of mirrored light ignores only the
+// mirror that it comes from.
 class RayTracer {
  public:
   // Keeps a reference to `scene`, which must outlive the tracer and not change.

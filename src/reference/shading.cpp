@@ -14,7 +14,8 @@ glm::dvec3 safeNormalize(const glm::dvec3& v) {
   return v / std::sqrt(std::max(glm::dot(v, v), 1e-200));
 }
 
-// Radiance due to a source (or its mirror image) at `toLight` from the point that gives `irradiance` at 1 m.
+// Returns the radiance due to a source or its mirror image, at `toLight` from the point, that gives `irradiance` at 1
+// m.
 glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, const glm::dvec3& irradiance,
                          double radius) {
   const glm::dvec3 l = safeNormalize(toLight);
@@ -25,7 +26,8 @@ glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, c
   return irradiance * (cosine / std::max(glm::dot(toLight, toLight), radius * radius)) * brdf;
 }
 
-// Radiance due to the light by way of one mirror: a straight line from the point to the light's image behind it.
+// Returns the radiance due to a light by way of one mirror: along the straight line from the point to the light's image
+// behind the mirror.
 glm::dvec3 mirroredLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
   const Mirror& material = world.scene().mirrors[mirror];
   const MirrorState& plane = world.mirrors()[mirror];

@@ -6,7 +6,8 @@
 
 namespace speculum {
 
-// A point of a surface with all that its radiance depends on. Positions are relative to the eye of the world's state.
+// A point of a surface with everything that its radiance depends on. Positions are relative to the eye of the world's
+// state.
 struct ShadingPoint {
   glm::dvec3 position{0.0};
   glm::dvec3 normal{0.0};    // unit, on the viewer's side; zero if the model's normals cancel
@@ -19,19 +20,19 @@ struct ShadingPoint {
   Skip self;
 };
 
-// The point at which `ray` met an object. The shading normal is negated when the triangle's geometric normal, by the
-// winding in the model file, faces away from the viewer.
+// Returns the point at which `ray` met an object. The shading normal is negated when the triangle's geometric normal,
+// by the winding in the model file, faces away from the viewer.
 ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit& hit);
 
-// Sum of emission, ambient light, and Phong-Blinn from every light and its images in mirrors that cast light, with
+// Adds up emission, ambient light, and Phong-Blinn from every light and its images in mirrors that cast light, with
 // shadows.
 glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
 
 // Interpolates linear texels bilinearly, repeated, v up; texel centres at (i + 0.5) / size.
 glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv);
 
-// The mirror's front normal at a world position relative to the eye: its plane's, or with ripples that of the height
-// field, which is the same from both sides.
+// Returns the mirror's front normal at a world position relative to the eye: its plane's, or with ripples that of the
+// height field, which is the same from both sides.
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time);
 
 }  // namespace speculum

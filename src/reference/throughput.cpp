@@ -14,7 +14,7 @@ namespace speculum {
 
 namespace {
 
-// Processor time of this thread, which other load does not change.
+// Returns the processor time of this thread, which other load does not change.
 double threadSeconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
