@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// A picture as metrics see it, in both encodings; row 0 at the top.
+// A picture in both encodings that metrics use; row 0 at the top.
 struct ComparedImage {
   std::string name;  // for messages
   int width = 0;
@@ -24,15 +24,17 @@ ComparedImage comparedImage(const Image8& image, std::string name = "the picture
 // number.
 ComparedImage comparedImage(const LinearImage& image, std::string name = "the picture");
 
-// By the file's ending: .exr is linear, everything else 8-bit sRGB. Throws std::runtime_error with the file's name.
+// Reads a picture by its file's ending: .exr is linear, everything else 8-bit sRGB. Throws std::runtime_error with the
+// file's name.
 ComparedImage readComparedImage(const std::filesystem::path& file);
 
-// 1 where the picture's red channel is 128 or more. Throws std::runtime_error if the file cannot be read.
+// Pixels whose red channel is 128 or more in a mask picture.
 struct PixelMask {
   int width = 0;
   int height = 0;
   std::vector<uint8_t> selected;
 };
+// Throws std::runtime_error if the file cannot be read.
 PixelMask readPixelMask(const std::filesystem::path& file);
 
 // Throws std::runtime_error that names both pictures and both sizes, unless they are equal and not zero.

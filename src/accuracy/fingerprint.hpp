@@ -12,11 +12,11 @@
 
 namespace speculum {
 
-// FNV-1a with 64 bits (Fowler, Noll, Vo): tells content apart that changed by accident, not by intent.
+// FNV-1a with 64 bits (Fowler, Noll, Vo): detects changes of content, but not forgeries.
 class Fingerprint {
  public:
   void add(std::span<const std::byte> bytes);
-  void add(std::string_view text);  // and its length, so that "ab" "c" differs from "a" "bc"
+  void add(std::string_view text);  // adds the length too, so that "ab" "c" differs from "a" "bc"
   template <typename T>
   requires std::is_arithmetic_v<T>
   void add(T value) { add(std::as_bytes(std::span(&value, 1))); }
@@ -27,7 +27,8 @@ class Fingerprint {
   uint64_t state_ = kFnv1aStart;
 };
 
-// Everything that a picture of the scene depends on: the scene file's text, and models and textures as they were read.
+// Adds everything that a picture of the scene depends on: the scene file's text, and models and textures as they were
+// read.
 void addScene(Fingerprint& fingerprint, const Scene& scene);
 
 }  // namespace speculum

@@ -111,7 +111,7 @@ Plane2d contrastFiltered(const Plane2d& plane, const ContrastTerm& first, const 
   return result;
 }
 
-// Filters the picture to the detail that the eye resolves; weighted CIELAB.
+// Filters the picture to the detail that the eye resolves. Returns weighted CIELAB.
 std::vector<glm::dvec3> perceivedColors(const Channels& channels) {
   const Plane2d achromatic = contrastFiltered(channels[0], {1.0, 0.0047}, {0.0, 1e-5});
   const Plane2d redGreen = contrastFiltered(channels[1], {1.0, 0.0053}, {0.0, 1e-5});
@@ -134,7 +134,7 @@ double colorError(const glm::dvec3& a, const glm::dvec3& b) {
                       : colorKneeError + (error - knee) / (largestColorError - knee) * (1.0 - colorKneeError);
 }
 
-// Positive and negative weights each scaled to a sum of 1.
+// Scales positive and negative weights each to a sum of 1.
 std::vector<double> balanced(std::vector<double> kernel) {
   double positive = 0.0;
   double negative = 0.0;

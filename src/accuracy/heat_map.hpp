@@ -11,13 +11,13 @@ namespace speculum {
 // pale yellow while the hue turns from violet over red, so it also reads in grey. Display sRGB, 0 .. 1.
 glm::dvec3 heatColor(double t);
 
-// The map in those colours, `top` (> 0) and above as the brightest one.
+// Draws the map in those colours, with `top` (> 0) and above as the brightest one.
 Image8 heatColors(const Plane2d& map, double top = 1.0);
 
-// Rows that a legend adds below a map of that width.
+// Number of rows that a legend adds below a map of that width.
 int legendHeight(int width);
 
-// heatColors with a legend from 0 to `top` below it.
+// Draws heatColors() with a legend from 0 to `top` below it.
 Image8 heatMap(const Plane2d& map, double top = 1.0);
 
 }  // namespace speculum

@@ -36,7 +36,7 @@ struct Comparison {
 
 struct CompareOptions {
   double tolerance = 2.0;           // 1/255
-  const PixelMask* mask = nullptr;  // for Comparison::masked; maps are computed on the whole picture all the same
+  const PixelMask* mask = nullptr;  // for Comparison::masked; maps always cover the whole picture
 };
 
 // Throws std::runtime_error when sizes differ or a picture has no pixels.
@@ -46,10 +46,10 @@ Comparison compareImages(const ComparedImage& reference, const ComparedImage& te
 // null stands for it.
 nlohmann::ordered_json metricsJson(const ImageMetrics& metrics);
 
-// metricsJson() of the whole picture, and that of the mask under "mask" if there is one.
+// Returns metricsJson() of the whole picture, with that of the mask under "mask" if there is one.
 nlohmann::ordered_json comparisonJson(const Comparison& comparison);
 
-// Table for the terminal: a line per metric, a column for the whole picture and one for the mask.
+// Returns a table for the terminal: a line per metric, a column for the whole picture and one for the mask.
 std::string comparisonTable(const Comparison& comparison, double tolerance);
 
 }  // namespace speculum

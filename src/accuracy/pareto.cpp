@@ -85,7 +85,7 @@ std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const Q
   }
   const auto affordable = [&](int i) { return budget.ms <= 0.0 || costMs(points[i]) <= budget.ms; };
   const auto exact = [&](int i) { return budget.error <= 0.0 || points[i].whole.flip <= budget.error; };
-  // The indices of all points, those that serve best first.
+  // Returns the indices of all points, best rank first.
   const auto ordered = [&](const auto& rank) {
     std::vector<int> order(points.size());
     std::iota(order.begin(), order.end(), 0);

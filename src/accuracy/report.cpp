@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 constexpr int mostShown = 12;
 constexpr int pictureQuality = 88;
 constexpr int legendQuality = 95;
-// Characters of pictures in a report, for pictures of up to 640x360 and in proportion for larger ones.
+// Characters that all pictures of a report may take, for pictures of up to 640x360; in proportion for larger ones.
 constexpr double pictureBudget = 1.42e6;
 constexpr double budgetPixels = 640.0 * 360.0;
 

@@ -12,7 +12,7 @@
 
 namespace speculum {
 
-// The report as one HTML file that needs nothing beside it and no network: the page of src/accuracy/page with
+// Returns the report as one HTML file that needs no other file and no network: the page of src/accuracy/page with
 // reportJson() embedded.
 std::string reportHtml(const SweepResults& results, const std::filesystem::path& folder);
 

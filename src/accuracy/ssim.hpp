@@ -10,7 +10,7 @@ namespace speculum {
 // sigma 1.5 and 11 taps, population covariance, K1 = 0.01, K2 = 0.03. Sizes must be equal.
 Plane2d ssimMap(const ComparedImage& reference, const ComparedImage& test);
 
-// Pixels nearer to the border than this see beyond it and do not count in the mean.
+// Width of the border, in pixels, whose windows reach beyond the picture; it does not count in the mean.
 constexpr int ssimBorder = 5;
 
 }  // namespace speculum

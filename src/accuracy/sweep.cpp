@@ -12,8 +12,8 @@ namespace speculum {
 
 namespace {
 
-// A fit takes no point below these multiples of the noise floor and of the error left at the greatest depth: there the
-// error is no longer the setting's, and a difference of squares is noise.
+// Multiples of the noise floor and of the error left at the greatest depth below which a fit takes no point: there
+// other errors dominate, and a difference of squares is noise.
 constexpr double leastFloors = 2.0;
 constexpr double leastRests = 1.02;
 

@@ -23,7 +23,7 @@ class SweepSubject {
   // Display pictures of the sweep's scene at its time: one, or with reflection.update_interval n the n that differ in
   // the age of their mirror images.
   virtual std::vector<Image8> pictures(const Settings& settings) = 0;
-  // Draws a frame that does not count, then one that does; with an update interval the mean over one.
+  // Draws a frame that does not count, then measures one; with an update interval, the mean over one interval.
   virtual FrameCost cost(const Settings& settings) = 0;
 };
 
@@ -44,9 +44,9 @@ struct SweepStatus {
 using SweepProgress = std::function<bool(const SweepStatus&)>;  // false cancels
 
 // Traces the ground truth, draws every configuration and compares it, then takes the times: in rounds through all
-// configurations, so that a disturbance of the machine meets all alike. Measurements in `store` are used again; new
-// ones are saved at once. Fills the truth, the points with their front and the series with their fits in `results`.
-// Blocks; calls `subject` on the caller's thread. Returns false if cancelled.
+// configurations, so that other load on the machine affects all alike. Measurements in `store` are used again; new ones
+// are saved at once. Fills the truth, the points with their front and the series with their fits in `results`. Blocks;
+// calls `subject` on the caller's thread. Returns false if cancelled.
 bool runSweep(const SweepPlan& plan, const Settings& base, const SweepScene& scene, SweepSubject& subject,
               SweepStore& store, SweepResults& results, const SweepProgress& progress);
 

@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-// results.json of `speculum accuracy`.
+// Returns results.json of `speculum accuracy`.
 nlohmann::ordered_json sweepJson(const SweepResults& results);
 
 // Throws InputError "FILE: key: what is wrong (what would be right)" for a file that is no sweep's results.json.
@@ -34,7 +34,7 @@ class JsonReader {
       fail(key);
     }
   }
-  // A number that fits an int; get<int>() would cut any other to one.
+  // Returns a number that fits an int, while get<int>() would truncate any other.
   int integer(const char* key) const;
   std::vector<int> integers(const char* key) const;
   // Finite, not negative, and no more than any figure of a sweep can be.
@@ -45,7 +45,7 @@ class JsonReader {
   JsonReader at(const char* key) const { return {file_, member(key), path_ + key + "."}; }
   std::vector<JsonReader> items(const char* key) const;
   bool null(const char* key) const { return member(key).is_null(); }
-  // The member itself: a copy of it, as get() would make, could overflow the stack when values are nested deeply.
+  // Returns the member itself, because a copy, as get() makes, could overflow the stack when values are nested deeply.
   const nlohmann::ordered_json& member(const char* key) const;
   [[noreturn]] void fail(const char* key) const;
 

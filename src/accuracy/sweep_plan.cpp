@@ -24,8 +24,8 @@ Changes samples(const std::string& count) {
   return {{"reflection.samples", count}, {"view.samples", count}};
 }
 
-// The picture's own sampling would hide what a coarse mirror image does: everything but the setting looked at is at its
-// best.
+// Sets everything but the setting of a series to its best, because the main view's own sampling would hide the errors
+// of a coarse mirror image.
 Changes best(const SweepContext& context) {
   return joined(samples(std::to_string(context.sampleCounts.back())), {{"reflection.max_depth", greatestDepth}});
 }
@@ -157,7 +157,7 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   }
   planner.add({{"reflection.samples", "1"}, {"view.samples", most}});
   planner.add({{"reflection.samples", most}, {"view.samples", "1"}});
-  if (context.effects.empty()) {  // it changes nothing in scenes that may trace rays
+  if (context.effects.empty()) {  // scenes with traced effects have no mesh levels
     for (const char* texels : full ? std::vector{"0.25", "0.5", "1", "2", "4"} : std::vector{"0.5", "2"}) {
       planner.add({{"reflection.mesh_error", texels}});
     }

@@ -6,10 +6,10 @@
 
 namespace speculum {
 
-// The built-in sweeps "quick" and "full", or a file for readSweepPlan().
+// Returns the built-in sweep "quick" or "full", or reads `wanted` as a file with readSweepPlan().
 SweepPlan sweepPlan(const std::string& wanted, const SweepContext& context);
 
-// A dozen configurations for the front of one view, without series.
+// Plans a dozen configurations for the front of one view, without series.
 SweepPlan viewSweep(const SweepContext& context);
 
 }  // namespace speculum

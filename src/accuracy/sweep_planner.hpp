@@ -51,13 +51,13 @@ class SweepPlanner {
 
   SweepPlanner(std::string name, const SweepContext& context);
 
-  // Index of the configuration; an earlier one with the same settings is found again. Throws std::invalid_argument with
-  // what setSetting says.
+  // Adds a configuration, unless one with the same settings exists, and returns its index. Throws std::invalid_argument
+  // with the message of setSetting().
   int add(const Changes& changes, const std::string& name = {});
   void grid(const std::vector<std::pair<std::string, std::vector<std::string>>>& axes);
-  // One configuration for each value. Series of less than two different configurations are left out.
+  // Adds one configuration for each value. Leaves series of fewer than two different configurations out.
   void series(PlannedSeries planned, const std::vector<std::string>& values, const Changes& fixed);
-  // Same, with the changes of each value in `each`.
+  // Does the same with the changes of each value in `each`.
   void series(PlannedSeries planned, const std::vector<std::string>& values, const std::vector<Changes>& each);
 
   SweepPlan plan;
@@ -66,10 +66,11 @@ class SweepPlanner {
   Settings base_;
 };
 
-// The changes of `first`, then those of `second`.
+// Returns the changes of `first`, then those of `second`.
 SweepPlanner::Changes joined(SweepPlanner::Changes first, const SweepPlanner::Changes& second);
 
-// Base settings with a configuration's changes. Throws std::invalid_argument with what setSetting says.
+// Returns the base settings with a configuration's changes. Throws std::invalid_argument with the message of
+// setSetting().
 Settings settingsWith(const Settings& base, const std::vector<SettingChange>& changes);
 
 }  // namespace speculum

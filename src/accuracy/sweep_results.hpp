@@ -27,7 +27,7 @@ struct SweepPoint {
   std::string heatMap;   // PNG of the FLIP error, likewise
 };
 
-// Points that differ in one setting, in ascending order of it, and what theory says of their error.
+// Points that differ in one setting, in ascending order of it, and the error that theory predicts.
 struct SweepSeries {
   enum class Axis { logarithmic, linear };  // axis of the setting; the error's is logarithmic
 
@@ -44,7 +44,7 @@ struct SweepSeries {
   std::vector<int> fitted;     // indices into `points` that the fit takes: those above the floor of other errors
 };
 
-// Error of a point in series.
+// Returns the error of a point in a series.
 double seriesError(const SweepPoint& point);
 
 // A sweep over one scene, one size, one time, one machine.
@@ -75,7 +75,7 @@ struct SweepResults {
   std::vector<SweepSeries> series;
 };
 
-// A header line, then a line per point. RFC 4180.
+// Returns a header line, then a line for each point: RFC 4180.
 std::string sweepCsv(const SweepResults& results);
 
 }  // namespace speculum

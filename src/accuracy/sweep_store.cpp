@@ -134,7 +134,7 @@ void SweepStore::keepTruth(const std::string& key, const GroundTruth& truth) con
                              {"ms", truth.ms},
                              {"threads", truth.threads},
                              {"throughput_beyond", truth.throughputBeyond}};
-  // Last: it is what says that the rest is there.
+  // This file comes last: its presence means that the others are complete.
   replaceFile(base + ".json", json.dump());
 }
 
