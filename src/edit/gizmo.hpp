@@ -9,7 +9,7 @@ enum class GizmoMode { move, turn };
 // Handle that the pointer grabs. Plane handles are named by the axes along which they move.
 enum class Grip { none, moveX, moveY, moveZ, moveYZ, moveZX, moveXY, moveView, turnX, turnY, turnZ };
 
-// World axis 0, 1 or 2 of a handle, for planes that of their normal; -1 for the view's plane and none.
+// Returns the world axis 0, 1 or 2 of a handle, or of a plane's normal; -1 for the view's plane and none.
 int axisOf(Grip handle);
 
 // One part of the gizmo as it is drawn over the picture.
@@ -20,8 +20,8 @@ struct GizmoShape {
   bool behind = false;  // the far half of a ring
 };
 
-// Handles around a point along the world's axes, of the same size on the picture at every distance. In a picture seen
-// through mirrors they belong to the mirror image.
+// Handles around a point along the world's axes, of the same size on the picture at every distance. In a PictureView
+// through mirrors they surround the point's mirror image.
 class Gizmo {
  public:
   // `pivot` in the world; `arm`: length of an axis and radius of a ring, pixels.

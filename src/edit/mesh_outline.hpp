@@ -14,7 +14,8 @@ struct MeshEdge {
   glm::dvec3 right{0.0};
   bool border = false;  // not shared by exactly two triangles: part of every outline
 
-  // Whether the surface turns away from `eye` here: both triangles lie on one side of the plane through eye and edge.
+  // Says whether the surface turns away from `eye` here: both triangles lie on one side of the plane through eye and
+  // edge.
   bool outlines(const glm::dvec3& eye) const;
 };
 

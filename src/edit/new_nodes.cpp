@@ -13,7 +13,7 @@ namespace {
 
 double distanceOf(const glm::dvec3& position, const glm::dvec3& viewer) {
   const double distance = glm::length(viewer - position);
-  // A mirror that is small for its distance from the origin is refused.
+  // The loader refuses a mirror that is too small for its distance from the origin.
   return std::max(distance > 0.0 ? distance : 1.0, 1e-8 * glm::length(position));
 }
 
@@ -32,12 +32,12 @@ glm::dvec3 halfExtent(const Object& object, const Mesh& mesh) {
          glm::abs(linear[2]) * mesh.halfExtent.z;
 }
 
-// From the first copy to the last, metres in the world.
+// Returns the vector from the first copy to the last, metres in the world.
 glm::dvec3 rowOf(const Object& object) {
   return static_cast<double>(object.copies.count - 1) * object.copies.step;
 }
 
-// A copy in the mirror's own place would be in front of it as much as behind.
+// Returns a step within the mirror's plane, so that neither copy stands before the other.
 glm::dvec3 stepInPlane(const MirrorState& state) {
   double low = 0.0;
   double high = 0.0;
@@ -49,7 +49,7 @@ glm::dvec3 stepInPlane(const MirrorState& state) {
   return 1.1 * (high - low) * state.axisX;
 }
 
-// An orbit moves along, so that the light circles as before.
+// Moves a light's orbit with it, so that it circles as before.
 SceneNode copyMoved(const SceneNode& node, const glm::dvec3& step) {
   SceneNode copy = moved(node, step, 0.0);
   if (auto* light = std::get_if<PointLight>(&copy); light && light->orbit) {

@@ -130,7 +130,7 @@ std::optional<PixelLine> lineInFront(const PictureView& picture, glm::dvec3 a, g
   return picture.line(a, b);
 }
 
-// Edges where the surface turns away from the eye; empty if they are too many to draw.
+// Returns the edges where the surface turns away from the eye; nothing if there are too many to draw.
 std::optional<std::vector<PixelLine>> silhouette(const InstanceState& instance, const PictureView& picture,
                                                  std::span<const MeshEdge> edges) {
   const Affine& placed = instance.worldFromMesh;

@@ -22,7 +22,7 @@ Selection selectionOf(const SceneHit& hit, const TraceWorld& world) {
   return {};
 }
 
-// Whether the plan skipped the mirror at the end of the path, so that it shows no image.
+// Says whether the plan skipped the mirror at the end of the path, so that it shows no image.
 bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
   return std::any_of(limits.skipped.begin(), limits.skipped.end(), [&](const SkippedMirror& skip) {
     const bool shown = skip.reason == SkipReason::maxPasses || skip.reason == SkipReason::maxDepth ||

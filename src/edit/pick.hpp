@@ -20,7 +20,7 @@ struct Picked {
 struct PickLimits {
   int maxDepth = 4;                        // reflection.max_depth
   double minThroughput = 0.0;              // reflection.min_throughput
-  std::span<const SkippedMirror> skipped;  // by the plan of the picture, if it is known
+  std::span<const SkippedMirror> skipped;  // of the picture's frame plan, if there is one
 };
 
 // Finds the nodes under a pixel, in double precision and without the GPU.
@@ -29,9 +29,9 @@ class Picker {
   // Keeps a reference to the scene, whose meshes must not change; builds their hierarchies.
   explicit Picker(const Scene& scene) : world_(scene) {}
 
-  // First the node that the ray through a point of the picture ends on, then the mirrors on its way, the one nearest to
-  // the eye last; empty where the background is seen directly. Reflections are followed as planar mirrors draw them;
-  // rippled and rough mirrors count as smooth. `picture` is the camera's view of the state.
+  // Returns the node on which the ray through a point of the picture ends, then the mirrors on its way, the one nearest
+  // to the eye last; nothing where the background is seen directly. Reflections are followed as planar mirrors draw
+  // them; rippled and rough mirrors count as smooth. `picture` is the camera's view of the state.
   std::vector<Picked> at(const SceneState& state, const PictureView& picture, const glm::dvec2& pixel,
                          const PickLimits& limits);
 

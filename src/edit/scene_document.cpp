@@ -27,7 +27,7 @@ size_t bytesOf(const SceneContent& content) {
   return bytes;
 }
 
-// Whether the lists hold the same nodes in the same order.
+// Says whether the lists hold the same nodes in the same order.
 bool sameStructure(const SceneContent& a, const SceneContent& b) {
   return a.origins.objects == b.origins.objects && a.origins.lights == b.origins.lights &&
          a.origins.mirrors == b.origins.mirrors &&

@@ -36,7 +36,7 @@ class SceneDocument {
   void endGesture();
   void cancelGesture();  // back to the beginning
   bool inGesture() const { return gesture_.has_value(); }
-  bool gestureChanges() const { return gesture_ && content() != gesture_->content; }  // anything so far
+  bool gestureChanges() const { return gesture_ && content() != gesture_->content; }
 
   // Each adds a node in one step, selects it and returns where it is; see new_nodes.hpp.
   Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer);
@@ -50,7 +50,7 @@ class SceneDocument {
   std::vector<Selection> duplicate(std::span<const Selection> nodes);
   void remove(std::span<const Selection> nodes);
 
-  // The bookmark gets a name that no other has; returned.
+  // Adds a bookmark under a name that no other has, and returns that name.
   std::string addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
 
@@ -65,14 +65,14 @@ class SceneDocument {
   const Selection& selection() const { return selection_; }
   void select(const Selection& selection) { selection_ = selection; }
 
-  // Whether the scene differs from what was saved or loaded last.
+  // Says whether the scene differs from what was saved or loaded last.
   bool modified() const;
   // Rises with every change of the scene, undo and redo included.
   uint64_t revision() const { return revision_; }
   // Rises when nodes or copies are added, removed or reordered: indices and counts from before are then stale.
   uint64_t structureRevision() const { return structureRevision_; }
 
-  // Where save() goes unless told otherwise: the scene's file, or a scene file beside a model.
+  // Default file of save(): the scene's own, or a scene file beside a model.
   std::filesystem::path usualFile() const;
   // Writes the scene with the settings that changed since it was loaded (an empty value takes the key out), and makes
   // the file the scene's. Throws SaveError; see writeSceneFile for `overwrite`.
@@ -93,13 +93,13 @@ class SceneDocument {
   SceneContent& content() { return scene_; }
   const SceneContent& content() const { return scene_; }
   void recordChange(const SceneContent& before);
-  void swapContent(Step& step);  // puts its content in place and keeps that which was
+  void swapContent(Step& step);  // exchanges its content with the scene's
   void record(Step step);
   void push(Step step);
-  // Records `edit` as a step; it returns what is then selected.
+  // Records `edit` as a step and selects what it returns.
   Selection structural(const std::string& label, const std::function<Selection()>& edit);
   Selection add(const SceneNode& node);     // as a step
-  Selection append(const SceneNode& node);  // with a name of its own, without a step
+  Selection append(const SceneNode& node);  // under a free name, without a step
   void erase(const Selection& selection);
 
   Scene& scene_;
@@ -114,7 +114,7 @@ class SceneDocument {
   std::optional<std::string> savedText_;
   uint64_t revision_ = 0;
   uint64_t structureRevision_ = 0;
-  mutable std::optional<std::pair<uint64_t, bool>> modified_;  // at a revision
+  mutable std::optional<std::pair<uint64_t, bool>> modified_;  // by revision
 };
 
 }  // namespace speculum

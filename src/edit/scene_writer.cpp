@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Path as scene files have it, with '/'; absolute only if no relative path exists.
+// Returns a path as it stands in scene files: with '/', and absolute only if no relative path exists.
 std::string pathFrom(const fs::path& folder, const fs::path& target) {
   std::error_code error;
   const fs::path from = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
@@ -77,8 +77,8 @@ void editTable(TomlEditor& editor, const std::string& name, const T& loaded, con
   }
 }
 
-// Tables from [settings] to the value of `key`, the value last; empty if the text lacks it. The key's parts may be
-// quoted together or nested.
+// Returns the tables from [settings] to the value of `key`, the value last; empty if the text lacks it. The key's parts
+// may be quoted together or nested.
 std::vector<TomlNode*> findSetting(TomlNode& table, std::string_view key) {
   for (const auto& child : table.children) {
     if (child->key == key && child->kind != TomlNode::Kind::table) {
@@ -229,7 +229,7 @@ fs::path sceneFileNamed(const fs::path& file) {
 void requireFolder(const fs::path& file) {
   std::error_code none;
   fs::path missing;
-  fs::path folder = fs::absolute(file, none).parent_path();  // empty in a folder that was deleted
+  fs::path folder = fs::absolute(file, none).parent_path();  // empty if the working folder was deleted
   for (; !folder.empty() && !fs::is_directory(folder, none); folder = folder.parent_path()) {
     missing = folder;
   }

@@ -23,19 +23,19 @@ struct Selection {
 
 // "mirror 'floor'"; "nothing" for none.
 std::string describe(const Scene& scene, const Selection& selection);
-std::string describe(const Scene& scene, std::span<const Selection> nodes);  // "3 nodes"; of one as above
+std::string describe(const Scene& scene, std::span<const Selection> nodes);  // "3 nodes"; one node as above
 std::vector<Selection> allNodes(const Scene& scene);  // mirrors, lights, objects: the order of the lists
-// Whether both are one node, whatever copy of it.
+// Says whether both are the same node, or copies of it.
 bool sameNode(const Selection& a, const Selection& b);
 
-// A node by itself, in the order of Selection::Kind.
+// A copy of a node, in the order of Selection::Kind.
 using SceneNode = std::variant<std::monostate, Object, PointLight, Mirror>;
 
 inline Selection::Kind kindOf(const SceneNode& node) {
   return static_cast<Selection::Kind>(node.index());
 }
 
-// Empty for a selection that the scene does not hold.
+// Returns the selected node; std::monostate if the scene has none there.
 SceneNode nodeOf(const Scene& scene, const Selection& selection);
 
 // Calls visit(nodes, origins) with the scene's nodes of a kind; not at all for none.

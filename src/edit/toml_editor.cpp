@@ -34,7 +34,7 @@ std::string inBraces(const std::vector<std::string>& items) {
   return "{" + text + (items.empty() ? "}" : " }");
 }
 
-// Keys of a table within as one value in braces; empty if all may be omitted.
+// Writes the keys of a nested table as one value in braces; empty if all may be omitted.
 std::string bracesText(const std::vector<KeyText>& keys, const std::string& table) {
   std::vector<std::string> items;
   for (const KeyText& key : keys) {
@@ -45,7 +45,7 @@ std::string bracesText(const std::vector<KeyText>& keys, const std::string& tabl
   return items.empty() ? std::string() : inBraces(items);
 }
 
-// Keys and values to write: tables within as braces, without omissible keys.
+// Returns the keys and values to write, nested tables in braces, without omissible keys.
 std::vector<std::pair<std::string, std::string>> statements(const std::vector<KeyText>& keys) {
   std::vector<std::pair<std::string, std::string>> list;
   for (size_t i = 0; i < keys.size(); ++i) {
@@ -184,7 +184,7 @@ void TomlEditor::addKey(const std::vector<TomlNode*>& tables, const std::string&
     }
     return addKey(outer, tomlKey(table.key) + "." + key, text);
   }
-  // The key goes under the table's header, or else below the last dotted key.
+  // Adds the key under the table's header, or else below the last dotted key.
   const std::optional<TomlSection>& section = table.section;
   const size_t at = section ? section->end : table.dotted->end;
   const std::optional<TextRange> last = section ? section->lastStatement : table.dotted;
@@ -218,7 +218,7 @@ void TomlEditor::remove(TomlNode& node) {
   }
 }
 
-// End of a section with the comments that follow it directly, unless they belong to a header right below.
+// Returns the end of a section with the comments that follow it directly, unless they belong to a header right below.
 size_t TomlEditor::contentEnd(const TomlSection& section) const {
   size_t end = section.end;
   while (end < text_.size() && line(end).starts_with('#')) {
@@ -333,7 +333,7 @@ std::string TomlEditor::text() const {
   std::string result;
   size_t at = 0;
   for (const Edit& edit : edits) {
-    // Part of a larger range that is gone already.
+    // Skips a range within a larger one that is removed.
     if (edit.text.empty() && edit.range.end <= at) {
       continue;
     }

@@ -23,7 +23,7 @@ bool isArrayOfHeaders(const toml::node& node) {
   return array && array->is_array_of_tables() && beginOf(array->front().source()) == beginOf(array->source());
 }
 
-// A table that only the headers of tables within name: it has the position of the first of them.
+// Says whether only headers of nested tables name the table; it then has the position of the first of them.
 bool isImplicit(const toml::table& table) {
   return std::any_of(table.begin(), table.end(), [&](const auto& entry) {
     const bool headed = entry.second.is_table() || isArrayOfHeaders(entry.second);
@@ -31,7 +31,7 @@ bool isImplicit(const toml::table& table) {
   });
 }
 
-// Turns the parser's tree, which knows where each node stands, into ranges of bytes.
+// Turns the parser's tree, whose nodes have positions, into ranges of bytes.
 class Outliner {
  public:
   explicit Outliner(std::string text) : text_(std::move(text)) {
@@ -178,7 +178,7 @@ class Outliner {
 
   std::string text_;
   std::vector<size_t> lines_;       // where each begins
-  TomlSection* section_ = nullptr;  // whose statements are read; null in braces
+  TomlSection* section_ = nullptr;  // section whose statements are read; null in braces
   std::vector<TomlNode*> dotted_;   // tables around the current one that dotted keys have made
 };
 

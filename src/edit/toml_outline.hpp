@@ -33,7 +33,7 @@ struct TomlNode {
   Kind kind = Kind::table;
   std::string key;                                  // unquoted; empty for the root and for elements
   std::vector<std::unique_ptr<TomlNode>> children;  // of a table, elements of an array, in the order of the text
-  std::optional<TextRange> value;                   // behind the =, or as an element of brackets
+  std::optional<TextRange> value;                   // after the =, or as an element of brackets
   std::optional<TextRange> keyed;                   // from the key to the end of the value, if it has a key of its own
   std::optional<TextRange> statement;               // the whole lines of `keyed`, unless it stands in braces
   std::optional<TomlSection> section;               // of a table with a header, and of the root

@@ -5,8 +5,8 @@
 
 namespace speculum {
 
-// Point of a node (world) that the gizmo is at: an object's origin, or the centre of its bounding sphere if the origin
-// lies outside it; a light's centre; a mirror's middle.
+// Returns the point of a node (world) at which the gizmo stands: an object's origin, or the centre of its bounding
+// sphere if the origin lies outside it; a light's centre; a mirror's middle.
 glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection& selection);
 // Radius of a sphere around the pivot that holds the node, metres.
 double reachOf(const Scene& scene, const SceneState& state, const Selection& selection);
@@ -14,15 +14,15 @@ double reachOf(const Scene& scene, const SceneState& state, const Selection& sel
 // Instance of an object's copy; null if there is none.
 const InstanceState* instanceOf(const SceneState& state, const Selection& selection);
 
-// The node moved by so many metres in the world, as it is at `time`. All copies of an object move.
+// Returns the node moved by `by` (metres, world), where it is at `time`. All copies of an object move.
 SceneNode moved(const SceneNode& node, const glm::dvec3& by, double time);
 
-// The node turned about a point of the world, as it is at `time`. `copy` turns about the pivot, the other copies about
-// their own origins. Lights do not turn.
+// Returns the node turned about a point of the world, where it is at `time`. `copy` turns about the pivot, the other
+// copies about their own origins. Lights do not turn.
 SceneNode turned(const SceneNode& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time);
 
-// Pitch, yaw and roll in degrees with R = Ry Rx Rz, the solution nearest to `near`. At a pitch of 90 degrees, where yaw
-// and roll turn about one axis, the roll is that of `near`.
+// Returns pitch, yaw and roll in degrees with R = Ry Rx Rz, the solution nearest to `near`. At a pitch of 90 degrees,
+// where yaw and roll turn about one axis, the roll is that of `near`.
 glm::dvec3 pitchYawRoll(const glm::dmat3& rotation, const glm::dvec3& near);
 
 }  // namespace speculum
