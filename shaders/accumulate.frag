@@ -1,5 +1,5 @@
 #version 450
-// Adds a picture to the sum of those before it.
+// Adds a picture to the sum of the earlier ones.
 #extension GL_GOOGLE_include_directive : require
 #include "gpu_data.h"
 

@@ -1,6 +1,7 @@
 // Searches an image of radiance and disparity for values that are not finite or not within 0 .. 65504. CHECKED_IMAGE is
-// the image's type. A first dispatch over all pixels finds the first one and counts. A second of one group, with
-// LOOK_UP, reads it: before all are through, none can say which the first is.
+// the image's type. A first dispatch over all pixels finds the first such value and counts them. A second one of one
+// group, with LOOK_UP, reads that value, because only after all invocations of the first is it certain which value
+// comes first.
 #include "gpu_data.h"
 
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -16,9 +17,9 @@ int sampleCount(sampler2DMS image) { return textureSamples(image); }
 vec4 valueOf(sampler2D image, ivec2 texel, int i) { return texelFetch(image, texel, 0); }
 vec4 valueOf(sampler2DMS image, ivec2 texel, int i) { return texelFetch(image, texel, i); }
 
-// Whether a target may hold the value. Judged by its bits, because some compilers take isnan() for false: as integers
-// those of floats from 0 up are in the floats' order, and infinity, NaN and all with the sign bit come after them. Only
-// -0 is as good as 0.
+// Says whether a target may hold the value. Compares bits, because some compilers take isnan() for false: as unsigned
+// integers, floats from 0 up keep their order, and infinity, NaN and all floats with the sign bit follow. -0 counts as
+// 0.
 bool storable(vec4 value) {
   uvec4 bits = floatBitsToUint(value);
   bvec4 zero = equal(bits, uvec4(0x80000000u));

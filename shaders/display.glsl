@@ -26,7 +26,8 @@ vec3 texelAt(ivec2 texel) {
   return texelFetch(radiance, clamp(texel, ivec2(0), textureSize(radiance, 0) - 1), 0).rgb;
 }
 
-// Bilinear: image/enlarge.hpp. The weights of samplers have few bits and differ between devices.
+// Interpolates bilinearly like image/enlarge.hpp, not with a sampler, whose weights have few bits and differ between
+// devices.
 vec3 radianceAt(vec2 position) {
   ivec2 corner = ivec2(floor(position - 0.5));
   vec2 t = position - 0.5 - vec2(corner);

@@ -1,4 +1,4 @@
-// Shows a depth image by distance: what is infinitely far is black, halfDepth half bright, the eye white. A texel with
+// Shows a depth image by distance: black infinitely far away, half bright at halfDepth, white at the eye. A texel with
 // several samples shows the first one, because depth has no mean where surfaces meet.
 #include "gpu_data.h"
 

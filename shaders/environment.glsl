@@ -3,7 +3,7 @@
 
 const float environmentBorder = 1.0;  // texels of a face beyond its edges
 
-// Texel of the map for a direction from its centre.
+// Texel of the map in a direction from its centre.
 struct MapTexel {
   ivec2 corner;  // of the face
   vec2 texel;    // in the face
@@ -22,7 +22,8 @@ MapTexel mapTexel(vec3 d, int size) {
   return MapTexel(size * ivec2(face % 3, face / 3), environmentBorder + (0.5 * clamp(p, -1.0, 1.0) + 0.5) * within);
 }
 
-// Radiance of the map, bilinear. The background is infinitely far, in direction d from everywhere.
+// Returns the map's radiance, interpolated bilinearly. The background is infinitely far, in direction d from
+// everywhere.
 vec3 mapRadiance(MapTexel at, int size, vec3 d) {
   vec2 low = clamp(floor(at.texel - 0.5), vec2(0.0), vec2(size - 2));
   vec2 weight = clamp(at.texel - 0.5 - low, 0.0, 1.0);
@@ -37,8 +38,8 @@ vec3 mapRadiance(MapTexel at, int size, vec3 d) {
   return sum;
 }
 
-// The direction from the map's centre to where a ray leaves the box: Lagarde, Zanuttini, "Local Image-based Lighting
-// With Parallax-corrected Cubemap" (2012).
+// Returns the direction from the map's centre to the point where a ray leaves the box: Lagarde, Zanuttini, "Local
+// Image-based Lighting With Parallax-corrected Cubemap" (2012).
 vec3 throughBox(EnvironmentData map, vec3 position, vec3 d) {
   vec3 from = position - map.center;
   vec3 along = vec3(abs(d.x) < 1e-20 ? 1e-20 : d.x, abs(d.y) < 1e-20 ? 1e-20 : d.y, abs(d.z) < 1e-20 ? 1e-20 : d.z);
@@ -47,9 +48,10 @@ vec3 throughBox(EnvironmentData map, vec3 position, vec3 d) {
   return t > 0.0 ? from + t * d : d;
 }
 
-// Radiance of a mirror's reflection at `surface`, seen along `direction`.
+// Returns the radiance of a mirror's reflection at `surface`, seen along `direction`.
 vec3 environmentRadiance(EnvironmentData map, Surface surface, vec3 direction, vec3 reflectance) {
-  // Turned back above the shading normal's plane, not the triangle's: triangles may be smaller than derivatives see.
+  // The reflection is kept above the shading normal's plane, not the triangle's: triangles may be too small for
+  // derivatives.
   vec3 d = mirrored(direction, surface.normal, surface.normal);
   if (map.hasMap == 0 || isLastBounce(view.depth, view.throughput * reflectance)) {
     return backgroundRadiance(d);

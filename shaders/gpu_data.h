@@ -28,14 +28,14 @@ struct ViewData {
   vec4 rayOrigin;
   vec4 clipPlane;  // (n, h): a relative point p is drawn where n.p + h >= 0
   vec3 ambient;
-  uint picture;  // index in a mean of pictures, each of which draws random numbers of its own
+  uint picture;  // index in a mean of pictures; seeds random numbers
   vec3 background;
-  uint hasSky;  // the background is a gradient of the next three
+  uint hasSky;  // the background is a gradient of the next three colours
   vec4 zenith;
   vec4 horizon;
   vec4 ground;
   vec4 traceOffset;     // added to a relative point gives one in trace space
-  vec3 throughput;      // of the mirrors up to this view
+  vec3 throughput;      // product of the reflectances of the mirrors up to this view
   float minThroughput;  // a bounce below it is dropped
   uint firstLight;      // in the buffer of lights
   uint lightCount;
@@ -52,8 +52,8 @@ struct LightData {
   uint hasGlyph;
 };
 
-// Lights of a pass that shaders read at addresses known when they are compiled. lavapipe reads any other address once for
-// each pixel; a scene with more lights has them read so.
+// Number of lights up to which shaders read a pass's lights at addresses that are known when they are compiled.
+// lavapipe reads any other address once for each pixel.
 const uint fixedLights = 16;
 
 struct MaterialData {
@@ -65,7 +65,7 @@ struct MaterialData {
   uint textureIndex;  // index into traceTextures, if hasTexture
 };
 
-// Colours that the scene gives an object in place of its material's, for rays.
+// Colours of an object that replace those of its material.
 struct MaterialChange {
   vec3 diffuse;
   uint replacesDiffuse;
@@ -85,7 +85,7 @@ struct InstanceData {
   uint padding[2];
 };
 
-// A mirror as one view shows it.
+// A mirror in one view.
 struct MirrorData {
   vec3 normal;        // of its plane, relative, towards the eye
   float eyeDistance;  // from the plane, above 0
@@ -101,10 +101,10 @@ struct MirrorData {
   vec4 texelFromPixel[3];  // reprojection: rows of the matrix from (pixel of the pass, 1, disparity) to a homogeneous texel
 };
 
-// A curved mirror as one view shows it, with the environment map that it looks up.
+// A curved mirror in one view, with the environment map that it looks up.
 struct EnvironmentData {
   vec3 center;  // of the map, relative
-  uint hasMap;  // 0: the background is shown in its place
+  uint hasMap;  // 0: the background is shown instead
   vec3 low;     // corners of the box around the map's centre, relative to the centre
   uint hasBox;
   vec3 high;
@@ -125,7 +125,8 @@ struct DrawConstants {
   uint firstTriangle;  // of the draw, in its mesh
 };
 
-// Texture of an object, number of lights, content of a mirror and lookup of its image: values of specialisation constants.
+// Values of specialisation constants: texture of an object, number of lights, content of a mirror and lookup of its
+// image.
 const uint textureNone = 0;
 const uint textureBilinear = 1;  // of the first level, exact
 const uint textureTrilinear = 2;
@@ -245,9 +246,9 @@ struct DepthViewConstants {
 
 // Finding of debug.check_finite in an image: result of the search, and the value looked up afterwards.
 struct CheckSearch {
-  uint pixel;  // y * width + x of the first; at the start all bits
+  uint pixel;  // y * width + x of the first finding; all bits are set at the start
   uint count;  // samples
-  uint any;    // 1 if there are some. A plain store: validation layer 1.3.239 does not take atomics for writes.
+  uint any;    // 1 if there are any. A plain store: validation layer 1.3.239 does not take atomics for writes.
 };
 
 struct CheckFound {
@@ -260,10 +261,10 @@ struct CheckConstants {
   uvec2 size;  // pixels of the part that is in use
 };
 
-// One texel, read back.
+// A texel that is read back.
 struct ProbedTexel {
   vec4 mean;   // of the samples
-  vec4 first;  // sample: depth has no mean
+  vec4 first;  // first sample, for depth, which has no mean
 };
 
 struct ProbeConstants {

@@ -1,4 +1,4 @@
-// Directions of rough mirrors, the same on every run. Needs shading.glsl.
+// Random directions of rough mirrors, the same on every run. Needs shading.glsl.
 
 uint mixedBits(uint x) {
   x ^= x >> 16;
@@ -10,23 +10,23 @@ uint mixedBits(uint x) {
 
 float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
 
-// Seed of the pixel, or of the sample where each has an invocation.
+// Returns a seed for the pixel or, if invocations run per sample, for the sample.
 uint pixelSeed() { return mixedBits(uint(gl_FragCoord.x * 16.0) + mixedBits(uint(gl_FragCoord.y * 16.0))); }
 
-// Where the lattice begins in a pixel, from point number `first` on: in whole numbers, which stay exact.
+// Returns the lattice's shift in a pixel, from point number `first` on. Whole numbers keep it exact.
 vec2 pixelShift(uint seed, uint first) {
   uvec2 step = first * uvec2(3242174889u, 2447445414u);  // of latticePoint, times 2^32
   return vec2(unitInterval(seed), unitInterval(mixedBits(seed + 1))) + vec2(unitInterval(step.x), unitInterval(step.y));
 }
 
-// The additive recurrence of the plastic number: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences"
-// (2018).
+// Returns a point of the additive recurrence of the plastic number: Roberts, "The Unreasonable Effectiveness of
+// Quasirandom Sequences" (2018).
 vec2 latticePoint(vec2 shift, int index) {
   return fract(shift + float(index) * vec2(0.7548776662466927, 0.5698402909980532));
 }
 
-// A normal of GGX with density D(m)(n.m) about n: Walter et al., "Microfacet Models for Refraction through Rough
-// Surfaces" (2007), equations 35 and 36.
+// Samples a normal of GGX with density D(m)(n.m) about n: Walter et al., "Microfacet Models for Refraction through
+// Rough Surfaces" (2007), equations 35 and 36.
 vec3 microfacet(vec3 n, float alpha, vec2 u) {
   float cosine2 = (1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x);
   float sine = sqrt(max(0.0, 1.0 - cosine2));
@@ -36,7 +36,7 @@ vec3 microfacet(vec3 n, float alpha, vec2 u) {
   return sine * cos(angle) * x + sine * sin(angle) * y + sqrt(cosine2) * n;
 }
 
-// Whether m faces the viewer along `direction` and mirrors it to the plane's own side.
+// Says whether m faces the viewer along `direction` and mirrors it to the plane's own side.
 bool staysAbove(vec3 direction, vec3 m, vec3 planeNormal) {
   return dot(m, direction) < 0.0 && dot(direction - 2.0 * dot(direction, m) * m, planeNormal) > 0.0;
 }

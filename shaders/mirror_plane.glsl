@@ -1,6 +1,6 @@
-// The point at which the pixel's ray meets a mirror's plane: exact at every distance and angle, where interpolation over a polygon that
-// may reach behind the eye is not. A pixel whose centre lies beyond the horizon is seen at grazing angle. Needs
-// interface.glsl.
+// Finds the point at which the pixel's ray meets a mirror's plane. This is exact at every distance and angle, unlike
+// interpolation over a polygon that may reach behind the eye. A pixel whose centre lies beyond the horizon is seen at
+// grazing angle. Needs interface.glsl.
 
 struct PlaneHit {
   vec3 ray;         // one metre long along the view's axis

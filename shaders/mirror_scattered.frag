@@ -14,7 +14,7 @@ layout(location = 0) out vec4 color;
 void main() {
   PlaneHit hit = planeHit();
   vec3 direction = safeNormalize(hit.ray);
-  // The plane is turned to the eye in double; at the horizon the ray itself may not say which side it meets.
+  // The CPU turned the normal to the eye in double; near the horizon the ray does not determine the side in float.
   bool front = dot(traceMirrors[mirror.traceMirror].normal, mirror.normal) > 0.0;
   Bounce bounce = mirrorBounce(mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front);
   color = storable(tracedRadiance(bounce, direction), hit.disparity);

@@ -11,10 +11,10 @@
 #include "traced_light.glsl"
 #endif
 
-layout(constant_id = 0) const bool baseOnly = false;   // the share of the layer under the reflection
-layout(constant_id = 1) const bool reprojects = false; // the image is cached, and something has moved since
+layout(constant_id = 0) const bool baseOnly = false;   // draws the diffuse layer under the reflection only
+layout(constant_id = 1) const bool reprojects = false; // the image is cached, and eye or mirror moved since
 layout(constant_id = 7) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
-// Constants, so that no pixel of a mirror runs code that the mirror does not need.
+// Specialisation constants: pixels run no code that their mirror does not need.
 layout(constant_id = 8) const uint shows = showsImage;
 layout(constant_id = 9) const uint lookup = lookupFetch;
 layout(constant_id = 10) const bool painted = true;    // its back, or its layer under the reflection, is not black
@@ -28,7 +28,7 @@ layout(location = 0) out vec4 color;
 // image's texel lie on one ray and its reflection.
 vec4 valueAt(ivec2 texel) { return texelFetch(reflection, texel, gl_SampleID); }
 
-// Position of the values within their texels.
+// Position of the values of valueAt() within their texels.
 vec2 valuePosition() { return gl_SamplePosition; }
 
 vec4 reflected() {
@@ -40,8 +40,8 @@ vec4 valueAt(ivec2 texel) { return texelMean(reflection, texel); }
 
 vec2 valuePosition() { return vec2(0.5); }
 
-// At `position` in texels, half a texel or more inside the part of the image that is used. Reads no neighbour of weight 0:
-// beside that part nothing was ever written, and 0 x NaN is NaN. A sampler's own filter does read it.
+// Interpolates at `position` in texels, half a texel or more inside the used part of the image. Reads no neighbour of
+// weight 0, as a sampler would: texels beside that part were never written, and 0 x NaN is NaN.
 vec4 bilinear(vec2 position) {
   vec2 corner = floor(position - 0.5);
   vec2 weight = position - 0.5 - corner;
@@ -84,7 +84,7 @@ vec4 reflected() {
 struct Reprojection {
   vec3 direction;  // homogeneous texel of what is infinitely far
   vec3 parallax;   // added to it per disparity
-  float nearest;   // disparity of the mirror itself, behind which lies all that is seen
+  float nearest;   // disparity of the mirror's surface, behind which everything in the image lies
 };
 
 Reprojection reprojection(float nearest) {
@@ -98,13 +98,13 @@ vec2 texelAt(Reprojection r, float disparity) {
   return texel.xy / max(texel.z, 1e-30);
 }
 
-// The disparity now of a point on this fragment's ray that had disparity `then` in the image.
+// Returns the present disparity of a point on this fragment's ray that had disparity `then` in the image.
 float disparityNow(Reprojection r, float then) {
   float ahead = 1.0 - then * r.parallax.z;
   return ahead > 1e-6 ? clamp(then * r.direction.z / ahead, 0.0, r.nearest) : r.nearest;
 }
 
-// The point found at a guess makes the next guess.
+// Improves a guess by the disparity of the texel that it leads to.
 float refined(Reprojection r, ivec2 last, float disparity) {
   for (int i = 0; i < 3; ++i) {
     disparity = disparityNow(r, valueAt(clamp(ivec2(floor(texelAt(r, disparity))), ivec2(0), last)).a);
@@ -112,9 +112,9 @@ float refined(Reprojection r, ivec2 last, float disparity) {
   return disparity;
 }
 
-// Finds the image's point that lies on this fragment's ray. All that may are on a line in the image, from where the mirror
-// itself was to where infinity was; the first one that is there is seen. Where none is, something hid what is seen now,
-// and the farthest point found fills the gap.
+// Finds the image's point that lies on this fragment's ray. The candidates are on a line in the image, from where the
+// mirror's surface was to where infinity was; the first whose disparity leads back to it is the one. If there is none,
+// something hid what is seen now, and the farthest candidate fills the gap.
 float foundDisparity(Reprojection r, ivec2 last) {
   float span = distance(texelAt(r, r.nearest), texelAt(r, 0.0));
   int steps = int(clamp(ceil(span), 1.0, 32.0));
@@ -138,9 +138,9 @@ float foundDisparity(Reprojection r, ivec2 last) {
   return filling;
 }
 
-// Filters by a box as wide as a pixel and at least as a texel, which is bilinear at the screen's resolution. Every value
-// counts by how far off the ray its own point is: the far ones beside a silhouette have moved by another length than the
-// near ones and would leave an outline behind. Where none counts, the farthest fills the gap.
+// Filters by a box as wide as a pixel and at least as a texel, which is bilinear at the view's resolution. Each value
+// is weighted by the distance of its own point from the ray: beside a silhouette, far points have moved by another
+// length than near ones and would leave an outline. If none has weight, the farthest fills the gap.
 vec4 reprojected(float nearest) {
   ivec2 last = mirror.imageSize - 1;
   Reprojection r = reprojection(nearest);
@@ -165,7 +165,8 @@ vec4 reprojected(float nearest) {
 }
 
 #ifndef MIRROR_OWN_SAMPLE
-// Pixel of the view at which a point behind the mirror is seen; relative, in front of the eye.
+// Returns the pixel of the view at which a point behind the mirror is seen. The point is relative and in front of the
+// eye.
 vec2 pixelOf(vec3 point) {
   vec3 x = view.rayX.xyz;
   vec3 y = view.rayY.xyz;
@@ -174,9 +175,9 @@ vec2 pixelOf(vec3 point) {
   return vec2(dot(onPlane, x) / dot(x, x), dot(onPlane, y) / dot(y, y));
 }
 
-// Mean over the microfacets of a rough mirror, looked up in the image of the smooth mirror: in each direction at the
-// distance that the image has there, guessed first from what the smooth mirror shows here. Beyond the image the background
-// is seen.
+// Returns the mean over the microfacets of a rough mirror, looked up in the image of the smooth mirror. The distance in
+// each direction is first guessed from what the smooth mirror shows here, then taken from the image. Beyond the image
+// the background is seen.
 vec4 blurred(vec3 ray, vec3 position) {
   vec3 normal = mirror.normal;
   vec3 incoming = safeNormalize(ray);
@@ -226,8 +227,8 @@ vec3 baseRadiance(vec3 position) {
 #endif
 }
 
-// The disparity stored is that of what is reflected, so that an image of this mirror can be reprojected in its turn:
-// views share one projection and reflection keeps lengths, so it is the same in the mirror's image and in its parent's.
+// Stores the disparity of the reflected surface, so that the parent's image can be reprojected too. It is the same in
+// the mirror's image and in its parent's, because views share one projection and reflection keeps lengths.
 void main() {
   PlaneHit hit = planeHit();
   float cosine = -hit.inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));

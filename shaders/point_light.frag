@@ -10,8 +10,8 @@ bool visible(vec3 ray, float t) {
   return t > 0.0 && dot(view.clipPlane.xyz, ray * t) + view.clipPlane.w >= 0.0;
 }
 
-// Ray against sphere. The squared distance of centre and ray is taken directly: the textbook discriminant cancels for
-// small, distant glyphs.
+// Intersects a ray with a sphere. Computes the squared distance of centre and ray directly, because the textbook
+// discriminant cancels for small, distant glyphs.
 void main() {
   LightData light = lights[lightIndex];
   vec3 ray = safeNormalize(rayThrough(gl_FragCoord.xy));

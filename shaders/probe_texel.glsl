@@ -1,4 +1,4 @@
-// Reads one texel of an image that is looked at. PROBED_IMAGE is its type.
+// Reads one texel of an image. PROBED_IMAGE is the image's type.
 #include "gpu_data.h"
 #include "texels.glsl"
 

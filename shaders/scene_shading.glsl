@@ -49,7 +49,7 @@ struct Corners {
   vec3 c;
 };
 
-// Weights of the corners where the line of sight through `point` meets the triangle, or of its point next to that.
+// Returns the weights of the corners at the point of the triangle that is nearest to the line of sight through `point`.
 vec3 weightsOnTriangle(vec3 point, Corners corners) {
   LocalRay sight = localRay(point, point);
   vec3 a = permuted(corners.a - point, sight.along);
@@ -68,8 +68,8 @@ vec3 relativeVertex(uint instance, uint triangle, uint corner) {
   return timesPoint(instances[instanceIndex].relativeFromMesh, vertexOf(instance, triangle, corner).position);
 }
 
-// Moves the surface onto the triangle. At a pixel that the triangle covers in part, an interpolated position lies off the triangle, and with some drivers off
-// its plane: rays would start inside the object.
+// Moves the surface onto the triangle. At a pixel that the triangle covers in part, an interpolated position lies
+// beside the triangle, and with some drivers off its plane, so that rays would start inside the object.
 void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surface) {
   Corners corners = Corners(relativeVertex(instance, triangle, 0), relativeVertex(instance, triangle, 1),
                             relativeVertex(instance, triangle, 2));
@@ -89,8 +89,8 @@ void moveOnTriangle(uint instance, uint triangle, bool front, inout Surface surf
 #endif
 
 void main() {
-  // The side that faces the viewer is lit, by the winding in the model file: front faces already turn with the view's
-  // handedness, the sign of the instance's determinant turns them back.
+  // The side that faces the viewer is lit, by the winding in the model file. gl_FrontFacing already follows the view's
+  // handedness; the sign of the instance's determinant corrects it for mirrored instances.
   bool front = gl_FrontFacing == (draw.handedness > 0.0);
   Surface surface = Surface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), draw.diffuse,
                             glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess);
@@ -136,7 +136,7 @@ void main() {
 #else
   vec3 radiance = surfaceRadiance(surface);
 #endif
-  // Not gl_FragCoord.w: at the pixel's centre, off the triangle, it is far from that of a steep one.
+  // gl_FragCoord.w would be that of the pixel's centre, which on a steep triangle may lie far from the shaded point.
   float w = (view.clipFromRelative * vec4(relativePosition, 1.0)).w;
   color = storable(radiance, 1.0 / max(w, 1e-30));
 }

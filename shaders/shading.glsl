@@ -5,7 +5,7 @@ layout(constant_id = 6) const uint lightCount = manyLights;  // view.lightCount,
 
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
-const float shareMax = 65472.0;  // largest share that is added to another: their sum rounds to halfMax at most
+const float shareMax = 65472.0;  // largest value of a layer: the sum of two rounds to halfMax at most
 
 struct Surface {
   vec3 position;  // relative
@@ -24,8 +24,8 @@ vec3 timesPoint(vec4 rows[3], vec3 p) {
 }
 vec3 timesDirection(vec4 rows[3], vec3 d) { return vec3(dot(rows[0].xyz, d), dot(rows[1].xyz, d), dot(rows[2].xyz, d)); }
 
-// The four texels that a bilinear look-up mixes, in a texture that repeats, with v upwards. By hand, because the weights
-// of a sampler have as few as 8 bits, which shows where texels differ much.
+// The four texels that a bilinear look-up mixes, in a texture that repeats, with v upwards. A sampler's weights may
+// have only 8 bits, which shows where texels differ much.
 struct BilinearTexels {
   ivec2 low;
   ivec2 high;
@@ -42,7 +42,7 @@ BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
   return BilinearTexels(low, high - size * ivec2(equal(high, size)), texel - corner);
 }
 
-// Radiance that a light at `toLight` from the surface gives it; `irradiance` is at 1 m, facing the light.
+// Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light.
 vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface, vec3 toViewer) {
   float distance2 = dot(toLight, toLight);
   vec3 l = safeNormalize(toLight);
@@ -58,7 +58,7 @@ vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface,
     float lobe2 = min(along * along / max(dot(halfway, halfway), 1e-30), 1.0);
     brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe2, 1e-12), 0.5 * surface.shininess));
   }
-  // Neither infinite nor divided by an underflow: a black channel of the surface times infinity is not a number.
+  // The bounds keep the falloff finite: infinity times a black channel of the surface would be NaN.
   float falloff = cosine / max(max(distance2, radius * radius), 1e-30);
   return min(irradiance * falloff, 1e30) * brdf;
 }
@@ -94,13 +94,13 @@ vec3 reflectanceAt(vec3 reflectance, uint followsSchlick, float cosine) {
   return followsSchlick != 0 ? schlick(reflectance, cosine) : reflectance;
 }
 
-// Whether a bounce at this depth, after which `channels` of the light are left, shows the background only.
+// Says whether a bounce at this depth, after which `channels` of the light are left, shows the background only.
 bool isLastBounce(uint depth, vec3 channels) {
   float through = max(channels.r, max(channels.g, channels.b));
   return depth >= view.maxDepth || through < view.minThroughput || through == 0.0;
 }
 
-// The direction mirrored about m, turned back above the plane if it went below.
+// Mirrors the direction about m, and turns it back above the plane if it points below.
 vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
   vec3 d = direction - 2.0 * dot(direction, m) * m;
   float outward = dot(d, planeNormal);
@@ -129,6 +129,7 @@ vec3 backgroundRadiance(vec3 direction) {
                   : mix(view.horizon.rgb, view.ground.rgb, min(1.0, -8.0 * y));
 }
 
-// Value of a target, which is half float: past its range some drivers store infinity, and one such sample spoils a
-// resolve. `disparity` is 1 / w of clip space in 1/m, 0 at infinity: a cached image is reprojected by it.
+// Returns the value as a half-float target can store it: beyond its range some drivers store infinity, and one such
+// sample spoils a resolve. `disparity` is 1 / w of clip space in 1/m, 0 at infinity: a cached image is reprojected by
+// it.
 vec4 storable(vec3 radiance, float disparity) { return clamp(vec4(radiance, disparity), 0.0, halfMax); }

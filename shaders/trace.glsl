@@ -17,7 +17,7 @@ layout(set = 2, binding = 11, std430) readonly buffer LightPaths {
   LightPath lightPaths[];
 };
 
-// Entries of the stack: as many as both hierarchies together are deep.
+// Entries of the stack: the depth of both hierarchies together.
 layout(constant_id = 2) const uint traceStackSize = 64;
 
 TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
@@ -28,17 +28,17 @@ TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
 const uint none = 0xffffffffu;
 const float infinity = 1e38;
 
-// Surfaces that a ray does not see: the one it starts on, and the mirror that it ends on.
+// Surfaces that a ray ignores: the one it starts on, and the mirror that it ends on.
 struct Skip {
   uint instance;
   uint triangle;
   uint mirror;
   uint secondMirror;
-  float near;  // metres; within them the rest of the instance is not seen either
+  float near;  // metres from the origin within which the rest of the instance is ignored too
 };
 
-// Skip::near of a point. Where triangles meet, rounding puts it beyond its own, which in a crease is inside the object: by
-// some 1e-7 of its distance from the eye, and more along a ray that leaves at grazing angle.
+// Returns Skip::near for a point. Where triangles meet, rounding may put the point inside the object: by some 1e-7 of
+// its distance from the eye, and more along a ray that leaves at grazing angle.
 float nearOf(vec3 position) { return 2e-5 * length(position); }
 
 struct Hit {
@@ -90,7 +90,7 @@ vec4 meetTriangle(TraceTriangle triangle, vec3 origin, uint along, vec3 shear) {
   return vec4(u, v, w, shear.z * (u * a.z + v * b.z + w * c.z)) / area;
 }
 
-// Parameter at which the ray meets the mirror's polygon, from either side; below zero: it does not.
+// Returns the parameter at which the ray meets the mirror's polygon, from either side; below zero if it does not.
 float meetMirror(uint mirror, vec3 origin, vec3 direction) {
   vec3 fromMirror = origin - traceMirrors[mirror].origin;
   vec3 normal = traceMirrors[mirror].normal;
@@ -132,7 +132,7 @@ LocalRay meshRay(uint instance, vec3 origin, vec3 direction) {
   return localRay(timesPoint(rows, origin), timesDirection(rows, direction));
 }
 
-// The first surface that the ray meets before tMax, or with `any` one of them. In trace space.
+// Finds the first surface that the ray meets before tMax, or with `any` one of them. In trace space.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
   if (traceCounts.items == 0) {
@@ -140,7 +140,7 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   }
   LocalRay ray = localRay(origin, direction);
   float near = skip.near / max(length(direction), 1e-30);
-  uint instance = none;  // whose mesh is being searched; none: the top
+  uint instance = none;  // instance whose mesh is searched; none: the top hierarchy
   uint used = 0;
   uint base = 0;  // entries of the stack that belong to the top
   uint current = 0;

@@ -4,7 +4,7 @@ layout(constant_id = 3) const bool shadows = false;
 layout(constant_id = 4) const bool castsLight = false;
 layout(constant_id = 5) const bool perSample = false;  // one invocation for each sample, and rays through it
 
-// A light, or its image in a mirror, as a point sees it.
+// A light, or its image in a mirror, as it illuminates a point.
 struct Incoming {
   vec3 toLight;  // from the point
   float radius;
@@ -39,7 +39,8 @@ Incoming directLight(LightData light, vec3 position, vec3 tracePosition, Skip se
   return incoming;
 }
 
-// A straight line from the point to the light's image, which has to cross the mirror.
+// Returns the light that reaches the point by way of a mirror, if the straight line to the light's image crosses the
+// mirror.
 Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
   Incoming incoming;
   uint mirror = path.mirror;
@@ -78,8 +79,7 @@ bool unobstructed(Incoming incoming) {
   return true;
 }
 
-// surfaceRadiance with all lights and their images in mirrors, added in the same order. `self` is what the surface is
-// part of.
+// Returns surfaceRadiance() with shadows and with the lights' images in mirrors. `self` identifies the surface.
 vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);

@@ -1,6 +1,6 @@
-// Radiance of what a surface reflects, by following rays from mirror to mirror as docs/picture.md defines them: ripples,
-// rough mirrors and curved ones, which no image of a plane can show. Needs trace.glsl, traced_light.glsl
-// and microfacet.glsl.
+// Computes the radiance that a surface reflects by following rays from mirror to mirror, as docs/picture.md defines it:
+// for rippled, rough and curved mirrors, whose reflections no image of a plane can show. Needs trace.glsl,
+// traced_light.glsl and microfacet.glsl.
 
 struct Bounce {
   Surface surface;  // relative; of a mirror, the layer under the reflection
@@ -49,7 +49,7 @@ Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front)
   return bounce;
 }
 
-// Makes an object's surface that of a mirror, if it is one.
+// Turns an object's surface into a mirror's, if the object is one.
 void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   uint curved = traceInstances[instance].curved;
   bounce.reflects = curved != curvedNone;
@@ -110,7 +110,7 @@ Bounce objectBounce(Hit hit, vec3 traceOrigin, vec3 direction) {
   return bounce;
 }
 
-// Glow of the first glyph that the ray meets before `t`; `t` becomes where.
+// Returns the glow of the first glyph that the ray meets before `t`, and sets `t` to its parameter.
 vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
   vec3 glow = vec3(0.0);
   for (uint i = view.firstLight; i < view.firstLight + view.lightCount; ++i) {
@@ -183,7 +183,7 @@ vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
     }
     path.m = path.bounce.surface.normal;
     if (path.bounce.alpha > 0.0 && path.bounce.reflects) {
-      // One microfacet on each further bounce; one that faces away gives way to the mirror's own normal.
+      // Each further bounce samples one microfacet; if it faces away, the mirror's own normal replaces it.
       seed = mixedBits(seed + 0x9e3779b9u);
       vec3 m = microfacet(path.m, path.bounce.alpha, vec2(unitInterval(seed), unitInterval(mixedBits(seed))));
       path.m = staysAbove(path.direction, m, path.bounce.planeNormal) ? m : path.m;
@@ -191,9 +191,9 @@ vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
   }
 }
 
-// Radiance of a surface that reflects, seen along `direction`: layer and reflection. A rough one takes the mean over
-// microfacets on the additive recurrence of the plastic number, shifted for each pixel; those that face away, or that
-// mirror the ray below the plane, are left out.
+// Returns the radiance of a reflecting surface, seen along `direction`: layer and reflection. A rough one takes the
+// mean over microfacets on the additive recurrence of the plastic number, shifted for each pixel; those that face away,
+// or that mirror the ray below the plane, are left out.
 vec3 tracedRadiance(Bounce bounce, vec3 direction) {
   uint seed = pixelSeed();
   int wanted = bounce.alpha > 0.0 ? int(traceCounts.roughSamples) : 1;
