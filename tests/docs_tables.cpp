@@ -2,6 +2,7 @@
 // them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -24,22 +25,39 @@ std::string cell(std::string_view text) {
   return cell;
 }
 
+// The default, then what else the setting takes.
+std::string settingCell(const SettingField& field) {
+  const std::string value = settingValue(Settings(), field.key);
+  const std::string usual = value.empty() ? "" : "`" + value + "`";
+  if (std::holds_alternative<BooleanSetting>(field.kind)) {
+    return usual;
+  }
+  if (const auto* choice = std::get_if<ChoiceSetting>(&field.kind)) {
+    std::string names = usual;
+    for (const std::string_view name : choice->names) {
+      names += name == value ? "" : ", " + std::string(name);
+    }
+    return names;
+  }
+  return usual + (usual.empty() ? "" : ", ") + settingRangeWithUnit(field);
+}
+
 std::string settingsTable(std::string_view group) {
-  std::string table = "| key | default | values | meaning | cost |\n|---|---|---|---|---|\n";
+  std::string table = "| key | value | meaning and cost |\n|---|---|---|\n";
   for (const SettingField& field : settingFields()) {
     if (field.key.starts_with(group)) {
-      const std::string value = settingValue(Settings(), field.key);
       const std::string need =
-          field.needs ? "; with `" + std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`" : "";
-      table += "| `" + std::string(field.key) + "` | " + (value.empty() ? "none" : "`" + value + "`") + " | " +
-               cell(settingRangeWithUnit(field)) + " | " + cell(field.text) + need + " | " + cell(field.cost) + " |\n";
+          field.needs ? ", with `" + std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`" : "";
+      table += "| `" + std::string(field.key) + "` | " + cell(settingCell(field)) + " | " + cell(field.text) + need +
+               ". " + cell(field.cost) + " |\n";
     }
   }
   return table;
 }
 
+// What a field takes without saying so by its default.
 template <typename Field>
-std::string values(const Field& field) {
+std::string shape(const Field& field) {
   using Value = typename Field::Value;
   using Inner = decltype([] {
     if constexpr (IsOptional<Value>::value) {
@@ -48,26 +66,18 @@ std::string values(const Field& field) {
       return Value();
     }
   }());
-  std::string text = field.range.shortText();
-  const auto shaped = [&](const std::string& shape) { return shape + (text.empty() ? "" : ", each " + text); };
   if constexpr (Described<Inner>) {
-    text = "table";
-  } else if constexpr (std::is_same_v<Inner, bool>) {
-    text = "true, false";
+    return "table";
   } else if constexpr (std::is_same_v<Inner, std::string>) {
-    text = "text";
+    return "text";
   } else if constexpr (std::is_same_v<Inner, glm::dvec2>) {
-    text = shaped("[width, height]");
+    return "[width,height]";
   } else if constexpr (std::is_same_v<Inner, glm::dvec3>) {
-    text = shaped(field.color ? "[r, g, b]" : field.uniform ? "number or [x, y, z]" : "[x, y, z]");
+    return field.color ? "[r,g,b]" : "[x,y,z]";
   } else if constexpr (std::is_same_v<Inner, std::vector<glm::dvec3>>) {
-    text = shaped("[[x, y, z], ...]");
-  } else if constexpr (std::is_enum_v<Inner>) {
-    for (const std::string_view name : choicesOf(Inner())) {
-      text += (text.empty() ? "" : ", ") + tomlText(name);
-    }
+    return "[[x,y,z],...]";
   }
-  return field.unit.empty() ? text : text.empty() ? std::string(field.unit) : text + "; " + std::string(field.unit);
+  return "number";
 }
 
 // The value in a node without keys; nothing for what has none.
@@ -101,16 +111,31 @@ void forEachRow(const std::string& prefix, const Visitor& visit) {
   });
 }
 
+// "required", the default or the shape; then the other choices, range and unit.
+template <typename Field, typename Node>
+std::string fieldCell(const Field& field, const Node& node) {
+  using Value = typename Field::Value;
+  std::string value = field.required ? "" : defaultText(field, node);
+  value.erase(std::remove(value.begin(), value.end(), ' '), value.end());
+  std::string text = field.required ? "required, " + shape(field) : value.empty() ? shape(field) : "`" + value + "`";
+  const auto add = [&](const std::string& part) { text += (part.empty() ? "" : ", ") + part; };
+  if constexpr (std::is_enum_v<Value>) {
+    for (const std::string_view name : choicesOf(Value())) {
+      add(tomlText(name) == value ? "" : tomlText(name));
+    }
+  }
+  add(field.uniform ? "or a number" : "");
+  add(field.color && field.range.shortText() == kNotNegative.shortText() ? "" : field.range.shortText());
+  add(std::string(field.unit));
+  return text;
+}
+
 template <Described Node>
 std::string fieldsTable() {
-  std::string table = "| key | default | values | meaning |\n|---|---|---|---|\n";
+  std::string table = "| key | value | meaning |\n|---|---|---|\n";
   forEachRow<Node>("", [&](const auto& field, const auto& node, const std::string& prefix) {
-    const std::string value = defaultText(field, node);
-    table += "| `" + prefix + std::string(field.key) + "` | " +
-             (field.required  ? "required"
-              : value.empty() ? "none"
-                              : "`" + value + "`") +
-             " | " + cell(values(field)) + " | " + cell(field.text) + " |\n";
+    table += "| `" + prefix + std::string(field.key) + "` | " + cell(fieldCell(field, node)) + " | " +
+             cell(field.text) + " |\n";
   });
   return table;
 }
@@ -136,7 +161,7 @@ void expectPart(const std::filesystem::path& name, const std::string& first, con
 }
 
 void expectTable(const std::string& page, const std::string& name, const std::string& table) {
-  expectPart("docs/" + page, "<!-- table " + name + " -->", "<!-- end -->", "\n" + table + "\n");
+  expectPart("docs/" + page, "<!--table " + name + "-->", "<!--end-->", "\n" + table + "\n");
 }
 
 TEST(Descriptions, MakeTheTableOfSettings) {

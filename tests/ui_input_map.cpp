@@ -50,7 +50,7 @@ TEST(InputMap, ListIsInTheDocs) {
     all.insert(all.end(), group.shortcuts.begin(), group.shortcuts.end());
   }
   for (const Shortcut& shortcut : all) {
-    const std::string row = "| `" + std::string(shortcut.keys) + "` | " + shortcut.help + " |";
+    const std::string row = "- `" + std::string(shortcut.keys) + "`: " + shortcut.help + "\n";
     EXPECT_NE(docs.str().find(row), std::string::npos) << row;
   }
 }

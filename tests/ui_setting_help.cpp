@@ -16,8 +16,7 @@ TEST(SettingHelp, NamesEffectRangeAndCost) {
       settingHelp("reflection.mesh_error"),
       "reflection.mesh_error\n"
       "texels by which simplified objects in mirror images may be off; 0 draws all triangles (texels, 0 .. 16)\n\n"
-      "Saves vertices of what is small in mirrors; shading shifts a little with the triangles. Without effect "
-      "while\nanything in the picture calls for rays. Simplifying takes a moment when it is first set.");
+      "Saves vertices; shading shifts a little. No effect while rays are traced.");
   EXPECT_EQ(settingHelp("no.such_key"), "");
 }
 

@@ -80,7 +80,7 @@ struct SettingField {
   SettingKind kind;
   const char* label;      // in the panel
   std::string_view text;  // what it does, one line
-  std::string_view cost;  // what it costs or saves, in the figures of docs/measurements.md where there are any
+  std::string_view cost;  // what it costs or saves, in the figures of docs/performance.md where there are any
   std::string_view unit = {};
   FramePart changes = FramePart::mirrorImages;
   bool subject = false;  // chooses what is shown, not how well: no sweep varies it
