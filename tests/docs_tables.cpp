@@ -1,5 +1,5 @@
-// The tables of docs/ that list settings follow from their descriptions. UPDATE_DOCS=1 in the environment rewrites
-// them.
+// The lists of settings and scene keys in docs/ follow from their descriptions. UPDATE_DOCS=1 in the environment
+// rewrites them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,17 +16,8 @@
 namespace speculum {
 namespace {
 
-// In a table '|' would end the cell.
-std::string cell(std::string_view text) {
-  std::string cell;
-  for (const char c : text) {
-    cell.append(c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c));
-  }
-  return cell;
-}
-
 // The default, then what else the setting takes.
-std::string settingCell(const SettingField& field) {
+std::string settingValues(const SettingField& field) {
   const std::string value = settingValue(Settings(), field.key);
   const std::string usual = value.empty() ? "" : "`" + value + "`";
   if (std::holds_alternative<BooleanSetting>(field.kind)) {
@@ -42,17 +33,17 @@ std::string settingCell(const SettingField& field) {
   return usual + (usual.empty() ? "" : ", ") + settingRangeWithUnit(field);
 }
 
-std::string settingsTable(std::string_view group) {
-  std::string table = "| key | value | meaning and cost |\n|---|---|---|\n";
+std::string settingsList(std::string_view group) {
+  std::string list;
   for (const SettingField& field : settingFields()) {
     if (field.key.starts_with(group)) {
       const std::string need =
           field.needs ? ", with `" + std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`" : "";
-      table += "| `" + std::string(field.key) + "` | " + cell(settingCell(field)) + " | " + cell(field.text) + need +
-               ". " + cell(field.cost) + " |\n";
+      list += "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need +
+              ". " + std::string(field.cost) + "\n";
     }
   }
-  return table;
+  return list;
 }
 
 // What a field takes without saying so by its default.
@@ -113,7 +104,7 @@ void forEachRow(const std::string& prefix, const Visitor& visit) {
 
 // "required", the default or the shape; then the other choices, range and unit.
 template <typename Field, typename Node>
-std::string fieldCell(const Field& field, const Node& node) {
+std::string fieldValue(const Field& field, const Node& node) {
   using Value = typename Field::Value;
   std::string value = field.required ? "" : defaultText(field, node);
   value.erase(std::remove(value.begin(), value.end(), ' '), value.end());
@@ -131,13 +122,13 @@ std::string fieldCell(const Field& field, const Node& node) {
 }
 
 template <Described Node>
-std::string fieldsTable() {
-  std::string table = "| key | value | meaning |\n|---|---|---|\n";
+std::string fieldsList() {
+  std::string list;
   forEachRow<Node>("", [&](const auto& field, const auto& node, const std::string& prefix) {
-    table += "| `" + prefix + std::string(field.key) + "` | " + cell(fieldCell(field, node)) + " | " +
-             cell(field.text) + " |\n";
+    list += "- `" + prefix + std::string(field.key) + "` (" + fieldValue(field, node) +
+            "): " + std::string(field.text) + "\n";
   });
-  return table;
+  return list;
 }
 
 // Holds a part of a file between two lines against what it should be.
@@ -160,24 +151,24 @@ void expectPart(const std::filesystem::path& name, const std::string& first, con
       << name << ": run edit_tests --gtest_filter='Descriptions*' with UPDATE_DOCS=1";
 }
 
-void expectTable(const std::string& page, const std::string& name, const std::string& table) {
-  expectPart("docs/" + page, "<!--table " + name + "-->", "<!--end-->", "\n" + table + "\n");
+void expectList(const std::string& page, const std::string& name, const std::string& list) {
+  expectPart("docs/" + page, "<!--list " + name + "-->", "<!--end-->", "\n" + list + "\n");
 }
 
-TEST(Descriptions, MakeTheTableOfSettings) {
+TEST(Descriptions, MakeTheListOfSettings) {
   for (const std::string group : {"reflection", "view", "effects", "quality", "debug"}) {
-    expectTable("settings.md", group, settingsTable(group + "."));
+    expectList("settings.md", group, settingsList(group + "."));
   }
 }
 
-TEST(Descriptions, MakeTheTablesOfSceneFiles) {
+TEST(Descriptions, MakeTheListsOfSceneKeys) {
   const std::string page = "scene_format.md";
-  expectTable(page, "environment", fieldsTable<Environment>());
-  expectTable(page, "camera", fieldsTable<CameraSpec>());
-  expectTable(page, "object", fieldsTable<Object>());
-  expectTable(page, "light", fieldsTable<PointLight>());
-  expectTable(page, "mirror", fieldsTable<Mirror>());
-  expectTable(page, "bookmark", fieldsTable<Bookmark>());
+  expectList(page, "environment", fieldsList<Environment>());
+  expectList(page, "camera", fieldsList<CameraSpec>());
+  expectList(page, "object", fieldsList<Object>());
+  expectList(page, "light", fieldsList<PointLight>());
+  expectList(page, "mirror", fieldsList<Mirror>());
+  expectList(page, "bookmark", fieldsList<Bookmark>());
 }
 
 // A word of a dictionary, quoted once more.
