@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -33,14 +34,17 @@ std::string settingValues(const SettingField& field) {
   return usual + (usual.empty() ? "" : ", ") + settingRangeWithUnit(field);
 }
 
+// Measured costs stand in docs/performance.md alone.
 std::string settingsList(std::string_view group) {
+  const std::regex figure("[0-9]\\.[0-9]");
   std::string list;
   for (const SettingField& field : settingFields()) {
     if (field.key.starts_with(group)) {
       const std::string need =
           field.needs ? ", with `" + std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`" : "";
+      const std::string cost(field.cost);
       list += "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need +
-              ". " + std::string(field.cost) + "\n";
+              (std::regex_search(cost, figure) ? "" : ". " + cost) + "\n";
     }
   }
   return list;

@@ -279,8 +279,9 @@ constexpr SettingField fields[] = {
     {.key = "quality.motion_ms",
      .kind = AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6},
      .label = "Full quality while moving",
-     .text = "milliseconds of a frame while anything moves; settings are lowered to keep them; 0: never",
-     .cost = "auto: 50 on CPUs, 0.8 of the monitor's refresh on other devices.",
+     .text = "frame time for which settings are lowered while anything moves; auto: 50 on CPUs, else 0.8 of a refresh; "
+             "0: never",
+     .cost = "Costs quality while anything moves.",
      .unit = "ms",
      .changes = none},
     {.key = "quality.still_pictures",
