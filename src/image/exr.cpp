@@ -23,7 +23,7 @@ std::string takeMessage(const char* message) {
   return text.substr(0, text.find('\n'));
 }
 
-// Encodes in memory, because SaveEXR() does not notice when the disk refuses a file's last bytes.
+// Encodes in memory, because SaveEXR() returns success even if the disk is too full for a file's last bytes.
 std::vector<uint8_t> encodeExr(const std::filesystem::path& file, const LinearImage& image) {
   // Readers expect the channels in alphabetical order.
   std::array<EXRChannelInfo, 3> channels{};

@@ -116,7 +116,7 @@ class ExrLayout {
     std::set<std::string> names;
     for (std::string name = channels.text(); !name.empty(); name = channels.text()) {
       const auto type = channels.value<uint32_t>();
-      channels.take(4);  // whether it is perceptually linear
+      channels.take(4);  // perceptually linear or not
       const auto x = channels.value<int32_t>();
       const auto y = channels.value<int32_t>();
       require(type <= 2 && x == 1 && y == 1, "its channel " + name + " is subsampled or of an unknown type");
@@ -141,7 +141,7 @@ class ExrLayout {
     }
   }
 
-  // The chunk that the next entry of the table points to.
+  // Returns the chunk that the next entry of the table points to.
   Cursor chunk(Cursor& table, int64_t chunks) const {
     const auto offset = table.value<uint64_t>();
     require(offset >= table_ + 8 * static_cast<uint64_t>(chunks), "its table of chunks is damaged or unfinished");
@@ -199,7 +199,7 @@ class ExrLayout {
     }
   }
 
-  // `data` stands at a chunk's size. Packed data of as many bytes as the pixels have is not packed.
+  // `data` is positioned at a chunk's size. Data of as many bytes as the pixels have is not packed.
   void checkData(Cursor data, int64_t pixels) const {
     const int64_t needed = pixels * pixelSize_;
     const auto size = data.value<int32_t>();

@@ -5,8 +5,8 @@
 
 namespace speculum {
 
-// Checks that the chunks of an EXR file fill every pixel of its data window once and with as much data as they need:
-// tinyexr trusts the file in this and would write outside its images or leave rows unset. Then marks the rows as
+// Checks that the chunks of an EXR file fill every pixel of its data window once and with as much data as they need,
+// because tinyexr does not check and would write outside its images or leave rows unset. Then marks the rows as
 // ascending: each chunk says where it belongs, but tinyexr turns files with descending rows upside down. Throws
 // std::runtime_error saying what is wrong, without the file's name. Limits: one part, 2^26 pixels (with the parts of
 // tiles beyond the window and all levels), 2^28 values of all channels.

@@ -15,7 +15,7 @@ namespace speculum {
 
 namespace {
 
-// stb would also take files without any signature for a TGA; only what the documentation promises is read.
+// Accepts only the documented formats: stb would also read files without any signature as TGA.
 bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
   constexpr std::array<uint8_t, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   constexpr std::array<uint8_t, 3> jpeg{0xff, 0xd8, 0xff};
@@ -25,7 +25,7 @@ bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
   return startsWith(png) || startsWith(jpeg);
 }
 
-// A small file can claim any size, and a decoder believes it.
+// Checks the size before decoding, because a small file can claim any size.
 void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   constexpr int64_t most = int64_t{1} << 26;
   int width = 0;

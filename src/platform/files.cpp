@@ -50,7 +50,8 @@ std::span<const uint8_t> bytesOf(std::string_view text) {
                   "check the folder's permissions and free space");
 }
 
-// Writes and closes the descriptor, after the content has reached the disk if it is to last. `file` is for messages.
+// Writes and closes the descriptor; with `lasting` waits until the content has reached the disk. `file` is for
+// messages.
 void writeAndClose(int descriptor, const fs::path& file, std::span<const uint8_t> content, bool lasting) {
   int error = 0;
   while (!content.empty() && error == 0) {
@@ -72,7 +73,7 @@ void writeAndClose(int descriptor, const fs::path& file, std::span<const uint8_t
   }
 }
 
-// What symbolic links at the end of the path lead to, whether or not it exists.
+// Returns the file that symbolic links at the end of the path lead to, whether or not it exists.
 fs::path behindLinks(fs::path file) {
   std::error_code error;
   for (int links = 0; links < 40 && fs::is_symlink(file, error); ++links) {

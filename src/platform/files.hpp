@@ -21,11 +21,11 @@ class FileError : public std::runtime_error {
   std::string problem_;
 };
 
-// The content of a file. Throws FileError when it is missing, unreadable, a folder, a device or pipe (which might never
-// end), or larger than `most` bytes.
+// Reads a file. Throws FileError when it is missing, unreadable, a folder, a device or pipe (which might never end), or
+// larger than `most` bytes.
 std::vector<uint8_t> readFile(const std::filesystem::path& file, uintmax_t most = 1u << 30);
 std::string readText(const std::filesystem::path& file, uintmax_t most = 1u << 30);
-// Nothing for a file that readFile() refuses.
+// Returns nothing for a file that readFile() throws for.
 std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& file);
 
 // Writes a new file beside `file` and renames it, once it is on the disk, so that a reader sees the old or the new
@@ -33,7 +33,7 @@ std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& f
 // pipes are written to. Throws FileError, also when the folder is missing.
 void replaceFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 void replaceFile(const std::filesystem::path& file, std::string_view text);
-// For files whose loss does no harm: creates the folder as well, does not wait for the disk, returns false on failure.
+// Writes a file whose loss does no harm: creates the folder too, does not wait for the disk, returns false on failure.
 bool storeFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 bool storeFile(const std::filesystem::path& file, std::string_view text);
 

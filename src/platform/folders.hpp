@@ -12,7 +12,7 @@ std::filesystem::path userConfigDir();  // $XDG_CONFIG_HOME/speculum or ~/.confi
 std::filesystem::path picturesDir();
 std::filesystem::path documentsDir();  // likewise $XDG_DOCUMENTS_DIR, ~/Documents
 
-// The directory of shipped data `name` ("shaders", "scenes", "models"): beside the executable, in
+// Returns the directory of shipped data `name` ("shaders", "scenes", "models"): beside the executable, in
 // <prefix>/share/speculum, or up to three folders above the executable. Throws std::runtime_error that lists where it
 // looked.
 std::filesystem::path dataDirectory(std::string_view name);

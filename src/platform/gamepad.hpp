@@ -25,7 +25,8 @@ struct GamepadState {
   bool operator==(const GamepadState&) const = default;
 };
 
-// The value of a stick's axis, -1 .. 1, without the dead zone that worn sticks come back to; it begins without a jump.
+// Returns the value of a stick's axis, -1 .. 1, as 0 within the dead zone where worn sticks rest, and without a jump at
+// its edge.
 float withoutDeadZone(float axis);
 
 }  // namespace speculum

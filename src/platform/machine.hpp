@@ -10,7 +10,7 @@ uint64_t peakResidentBytes();      // of this process
 
 // Keeps up to 64 MiB of freed memory a thread in the process. A Vulkan driver that draws on the CPU (lavapipe)
 // allocates and frees the vertices of every draw; the C library would hand them back to the system each time and fault
-// the same pages in again at the next draw. The user's own MALLOC_ variables win.
+// the same pages in again at the next draw. The user's own MALLOC_ variables take precedence.
 void keepFreedMemory();
 
 }  // namespace speculum

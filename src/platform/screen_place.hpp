@@ -15,8 +15,8 @@ struct ScreenRect {
   bool operator==(const ScreenRect&) const = default;
 };
 
-// Moves a window that cannot be gripped because too little of it lies on any monitor's work area: into the middle of
-// the first, no larger than that. Nothing if it may stay, or if there is no monitor.
+// Returns where to put a window that cannot be gripped because too little of it lies on any monitor's work area: in the
+// middle of the first work area, no larger than that. Nothing if the window may stay, or if there is no monitor.
 std::optional<ScreenRect> rescuedWindow(const ScreenRect& window, std::span<const ScreenRect> workAreas);
 
 }  // namespace speculum

@@ -33,7 +33,7 @@ std::string_view printedOn(int code, int scancode) {
   return name ? name : "";
 }
 
-// Characters on the keys that fly, in the layout that is in use now.
+// Returns the characters on the keys that fly, in the present layout.
 std::string printedWhereFlying() {
   std::string printed;
   for (const int code : {GLFW_KEY_W, GLFW_KEY_A, GLFW_KEY_S, GLFW_KEY_D, GLFW_KEY_Q, GLFW_KEY_E}) {
@@ -59,7 +59,7 @@ std::vector<Window*>& openWindows() {
   return windows;
 }
 
-// The first one if none shows that point; null without monitors.
+// Returns the first monitor if none shows that point; null without monitors.
 GLFWmonitor* monitorAt(int x, int y) {
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
@@ -236,13 +236,13 @@ void Window::setPlace(const ScreenRect& place) {
 }
 
 void Window::setFullScreen(bool on) {
-  // GLFW 3.3 would wait without end for one that is not on the screen, as long as there are other events.
+  // GLFW 3.3 would wait without end for a window that is not on the screen, as long as there are other events.
   if (on == fullScreen() || !glfwGetWindowAttrib(window_.get(), GLFW_VISIBLE)) {
     return;
   }
   covers_ = false;
   if (!on) {
-    // Its monitor may have gone meanwhile.
+    // The monitor may be gone meanwhile.
     return setPlace(rescuedWindow(windowed_, workAreas()).value_or(windowed_));
   }
   windowed_ = place();
@@ -254,7 +254,7 @@ void Window::setFullScreen(bool on) {
   }
 }
 
-// By then GLFW has turned a full screen window whose monitor is gone into a window of the monitor's size.
+// GLFW has already turned a full screen window whose monitor is gone into a window of the monitor's size.
 void Window::followMonitors(std::span<const ScreenRect> workAreas) {
   active_ = true;
   if (fullScreen()) {

@@ -19,7 +19,7 @@ struct GLFWwindow;
 
 namespace speculum {
 
-// The keys that the program knows, by GLFW's codes; those that print something have the code of that character.
+// Keys with a meaning in the program, by GLFW's codes; keys that print something have the code of that character.
 enum class Key {
   unknown = -1,
   space = ' ',
@@ -55,10 +55,11 @@ enum class Key {
   rightShift = 344,
   rightControl
 };
-// The meaning of the key at `place` of an American keyboard with the character `printed` on it (empty: none, or not
-// known). The six keys that fly go by their place; all others by their character, and with Control all do. Characters
-// outside the Latin alphabet leave the place to decide. `printedWhereFlying`: characters on the six; a shortcut printed
-// there yields to flying and stays where an American keyboard has it, unless another shortcut is printed there.
+// Returns the meaning of the key at `place` of an American keyboard with the character `printed` on it (empty: none or
+// unknown). The six keys that fly are identified by their place; all others, and all keys with Control, by their
+// character, or by their place if the character is not Latin. `printedWhereFlying` are the characters on the six fly
+// keys: a shortcut whose character is one of them has the key that it has on an American keyboard, unless another
+// shortcut is printed on that key.
 Key keyMeant(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying);
 
 enum class MouseButton { left, right, middle };
@@ -76,7 +77,8 @@ struct MouseButtonEvent {
   bool shift = false;
 };
 
-// Set the members of interest; positions are in screen coordinates of the window, origin top left.
+// Functions that the window calls on events; empty ones are skipped. Positions are in screen coordinates of the window,
+// origin top left.
 struct WindowCallbacks {
   std::function<void(const KeyEvent&)> key;
   std::function<void(const MouseButtonEvent&)> mouseButton;
@@ -92,7 +94,7 @@ struct WindowOptions {
   bool visible = true;
 };
 
-// A window of the desktop. The only class that talks to GLFW; use it from the main thread.
+// A window of the desktop. Use it from the main thread only.
 class Window {
  public:
   // Throws std::runtime_error when there is no display or no Vulkan surface support.
@@ -116,18 +118,18 @@ class Window {
   double refreshRate() const;  // Hz, of the monitor under the window's centre; 60 if unknown
   void iconify();
   void restore();
-  // X11 keeps the size of an iconified window, so the size alone does not tell.
+  // X11 keeps the size of an iconified window, so the size does not show it.
   bool iconified() const;
   bool paused() const;  // iconified, or without a pixel
   bool takeResized();   // whether the framebuffer changed its size since the last call
-  // Whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
+  // Says whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
   bool takeActivity();
   std::optional<GamepadState> gamepad() const;  // the first one, if there is any
   float contentScale() const { return contentScale_; }
   // Call when monitors came, went or changed: moves a window that none shows to one that does, and ends full screen on
   // a monitor that is gone. `workAreas`: of the monitors that are there.
   void followMonitors(std::span<const ScreenRect> workAreas);
-  void followContentScale(float scale);  // the window is on a monitor of another scale
+  void followContentScale(float scale);  // call when the window is on a monitor of another scale
   bool keyDown(Key key) const;
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text
@@ -156,7 +158,7 @@ class Window {
   std::unique_ptr<GLFWwindow, Destroy> window_;
   WindowCallbacks callbacks_;
   ScreenRect windowed_;  // before full screen
-  bool covers_ = false;  // a monitor, because full screen was asked for
+  bool covers_ = false;  // covers a monitor as full screen
   float contentScale_ = 1.0f;
   bool resized_ = false;
   bool active_ = true;
