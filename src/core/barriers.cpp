@@ -32,7 +32,7 @@ constexpr VkAccessFlags colorAccess = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_A
 
 constexpr Scope colorWrites{colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr Scope colorUses{colorStage, colorAccess};
-// Shaders that sampled a colour before it was copied or checked are waited for as well.
+// Includes shaders that sampled a colour before it was copied or checked.
 constexpr Scope colorWritesAndSamplings{colorStage | sampleStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr Scope depthWrites{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 constexpr Scope depthUses{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | depthWrites.access};
@@ -51,8 +51,8 @@ constexpr VkImageLayout depthAttachment = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHME
 constexpr VkImageLayout sampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout unsaid = VK_IMAGE_LAYOUT_UNDEFINED;
 
-// Rules by kind. The acquire semaphore of a swapchain image is waited for at the colour stage, which chains it to the
-// image's barrier.
+// Rules by kind. A submission waits for the acquire semaphore of a swapchain image at the colour stage, which chains it
+// to the image's barrier.
 constexpr std::array<Rule, barrierKindCount> rules = {{
     {"offscreenBeforeWrite", colorWrites, colorUses, attachment},
     {"offscreenSamplesBeforeWrite", colorWrites, colorUses, attachment},
@@ -90,7 +90,7 @@ const Rule& ruleOf(BarrierKind kind) {
   return rules[static_cast<size_t>(kind)];
 }
 
-// The uses that are waited for: for an attachment its earlier writes, and shaders that read it if any can.
+// Returns the uses that a barrier waits for: for an attachment its earlier writes, and shaders that read it if any can.
 Scope before(const Rule& rule, std::span<Image* const> images) {
   const bool writes = rule.layout == attachment || rule.layout == depthAttachment;
   const bool read = std::any_of(images.begin(), images.end(), [](const Image* image) {

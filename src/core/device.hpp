@@ -86,7 +86,7 @@ class Device {
   RenderPath renderPath() const { return renderPath_; }  // dynamic or renderPass
   bool validation() const { return instance_.validation(); }
 
-  // The wanted count or the next lower one that the device has; says so in the log, once per count.
+  // Returns the wanted count, or the next lower one that the device has; logs that once per count.
   VkSampleCountFlagBits sampleCount(int wanted);
 
   Barriers& barriers() { return barriers_; }
@@ -99,7 +99,7 @@ class Device {
   uint64_t allocatedBytes() const { return allocatedBytes_; }  // live device memory of this process
   MemoryBudget memoryBudget() const;
 
-  // Creates an object and names it: create(vkCreateFence, {.sType = ...}, "upload"). Throws as check() does.
+  // Creates a named object: create(vkCreateFence, {.sType = ...}, "upload"). Throws as check() does.
   template <typename Info, typename T>
   HandleOf<T> create(VkResult (*function)(VkDevice, const Info*, const VkAllocationCallbacks*, T*),
                      const std::type_identity_t<Info>& info, std::string_view name) const {
@@ -121,7 +121,8 @@ class Device {
   void endRendering(VkCommandBuffer commands) const;
   void setFrontFace(VkCommandBuffer commands, VkFrontFace frontFace) const;
 
-  // Called with Image::id() when an image dies; caches of framebuffers drop theirs. Returns a key for remove.
+  // Adds a function that is called with Image::id() when an image is destroyed, so that caches drop its framebuffers.
+  // Returns a key for removeImageObserver().
   int addImageObserver(std::function<void(uint64_t)> observer);
   void removeImageObserver(int key);
   void imageDestroyed(uint64_t id);
@@ -157,7 +158,7 @@ class Device {
   std::vector<std::pair<int, std::function<void(uint64_t)>>> imageObservers_;
 };
 
-// The last member of a class that owns what frames in flight may use: on destruction the GPU finishes first.
+// Waits for the GPU when it is destroyed. Make it the last member of a class that owns objects of frames in flight.
 class IdleGuard {
  public:
   explicit IdleGuard(const Device& device) : device_(device) {}

@@ -14,7 +14,7 @@ struct PassTiming {
   uint64_t triangles = 0;  // triangles after clipping
   uint64_t fragments = 0;  // fragment shader invocations
   bool hasSamples = false;
-  uint64_t samples = 0;  // that passed the depth test since beginSamples
+  uint64_t samples = 0;  // samples that passed the depth test since beginSamples()
 
   PassTiming& operator+=(const PassTiming& other);
 };

@@ -42,7 +42,7 @@ class Image {
   uint64_t id() const { return announced_ ? announced_.get_deleter().id : 0; }
   explicit operator bool() const { return static_cast<bool>(announced_); }
 
-  // The layout that recording has reached: commands run in the order of recording on the one queue.
+  // Layout after the commands recorded so far, which run in the order of recording on the one queue.
   VkImageLayout layout() const { return layout_; }
   void setLayout(VkImageLayout layout) { layout_ = layout; }
 
@@ -51,7 +51,7 @@ class Image {
   }
 
  private:
-  // Tells the device when the image dies.
+  // Notifies the device when the image is destroyed.
   struct Announce {
     uint64_t id;
     void operator()(Device* device) const { device->imageDestroyed(id); }

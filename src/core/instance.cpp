@@ -40,7 +40,7 @@ uint32_t usedVersion() {
 }
 
 // Mesa's software driver keeps compiled shaders on disk under a key that leaves out its vector width (seen in 22.3.6):
-// code of another width crashes. Each width that is asked for gets a cache of its own; one that the user chose is kept.
+// code of another width crashes. Each width gets a cache of its own; a cache that the user chose is kept.
 void separateShaderCaches() {
   const std::string width = environment("LP_NATIVE_VECTOR_WIDTH");
   constexpr const char* variable = "MESA_SHADER_CACHE_DIR";

@@ -9,7 +9,7 @@ namespace speculum {
 
 struct DeviceOptions;
 
-// The Vulkan instance, with validation and the extensions of a window if asked for.
+// The Vulkan instance, with validation and a window's extensions if the options have them.
 class Instance {
  public:
   explicit Instance(const DeviceOptions& options);

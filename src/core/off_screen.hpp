@@ -8,7 +8,7 @@
 
 namespace speculum {
 
-// One depth image that several OffScreen targets use in turn; as large as the largest asks.
+// One depth image that several OffScreen targets use in turn; as large as the largest of them.
 class SharedDepth {
  public:
   SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name);
@@ -36,7 +36,7 @@ struct OffScreenDesc {
   VkExtent2D extent{1, 1};
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool keepSamples = false;  // the output is the multisampled colour, read sample by sample; else it is resolved
-  bool readSamples = false;  // the samples that are resolved can be read as well, if the pass stores them
+  bool readSamples = false;  // the multisampled colour can be read too, if the pass stores it
   bool depth = true;
   TargetRole role = TargetRole::offscreen;
   SharedDepth* shared = nullptr;  // outlives the target; its sample count replaces `samples`
@@ -62,7 +62,7 @@ class OffScreen {
   Image* samplesImage() { return samples_ ? &samples_ : nullptr; }
   VkDescriptorImageInfo samplesDescriptor() const { return samples_.descriptor(sampler_.get()); }
   PassTargets targets();
-  // Uses `depth` in place of its own: of the same samples, grown to cover the target.
+  // Returns targets with `depth`, of the same sample count and grown to cover the target, instead of its own.
   PassTargets targets(SharedDepth& depth, RetireQueue& retired);
   VkDescriptorImageInfo descriptor() const { return color_.descriptor(sampler_.get()); }
 

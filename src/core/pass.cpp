@@ -28,7 +28,7 @@ bool storesColor(const PassDesc& desc) {
   return !desc.targets.resolve || desc.storeSamples;
 }
 
-// The barriers that guard a role's targets.
+// Barriers of the targets of a role.
 struct TargetBarriers {
   BarrierKind color;
   BarrierKind samples;

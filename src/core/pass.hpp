@@ -29,8 +29,8 @@ struct PassTargets {
   VkSampleCountFlagBits samples() const { return color->samples(); }
 };
 
-// Pixels of the target. May start outside it and be larger: an image of a part of a screen has the screen's size here
-// and minus the part's corner.
+// Viewport in pixels of the target. It may exceed the target: the image of a part of the picture has the picture's size
+// here, and minus the part's corner.
 struct PassViewport {
   float x = 0.0f;
   float y = 0.0f;
@@ -51,7 +51,7 @@ struct PassDesc {
   float clearDepth = 0.0f;  // reversed Z: infinitely far
   bool loadColor = false;   // else cleared
   bool storeDepth = false;
-  bool storeSamples = false;       // multisampled colour is kept for those who load or read it
+  bool storeSamples = false;       // keeps multisampled colour for passes that load or read it
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
   bool grouped = false;            // its barriers are those of its PassGroup
   bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path

@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// Offers of one GPU, read before anything of it is used.
+// Properties of one GPU, read before a device is created.
 struct PhysicalDevice {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
@@ -29,8 +29,8 @@ const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const s
 
 std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device);
 
-// Index of a queue family that draws and, unless `surface` is null, presents to it. Throws std::runtime_error if there
-// is none.
+// Returns the index of a queue family that draws and, unless `surface` is null, presents to it. Throws
+// std::runtime_error if there is none.
 uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface);
 
 }  // namespace speculum

@@ -30,8 +30,8 @@ struct GraphicsPipelineDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER;  // reversed Z
   bool depthClamp = true;                            // nothing is cut at the near plane; ignored where not supported
   bool sampleShading = false;                        // one invocation per sample; ignored where not supported
-  bool adds = false;   // colours and alphas are added to what the target holds; else they replace it
-  bool lines = false;  // wireframe; filled where not supported
+  bool adds = false;                                 // additive blending of colour and alpha; else they replace
+  bool lines = false;                                // wireframe; filled where not supported
   VkCullModeFlags cullMode = VK_CULL_MODE_NONE;
   std::vector<VkVertexInputBindingDescription> vertexBindings;
   std::vector<VkVertexInputAttributeDescription> vertexAttributes;
@@ -49,7 +49,7 @@ using PipelineDesc = std::variant<GraphicsPipelineDesc, ComputePipelineDesc>;
 
 class Pipeline;
 
-// Makes pipelines, and makes them anew when a shader changed.
+// Makes pipelines, and rebuilds them when a shader changed.
 class PipelineFactory {
  public:
   PipelineFactory(Device& device, ShaderLibrary& shaders, RenderPassCache& renderPasses, PipelineCache& cache,
@@ -77,7 +77,7 @@ class PipelineFactory {
   uint64_t revision_ = 0;
 };
 
-// A graphics or compute pipeline and its layout. Stays where it was made (hot reload knows its address); hold it by
+// A graphics or compute pipeline and its layout. It must not move, because hot reload keeps its address; hold it by
 // unique_ptr or std::optional. The factory outlives it.
 class Pipeline {
  public:

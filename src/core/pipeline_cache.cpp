@@ -40,7 +40,7 @@ bool madeBy(const VkPhysicalDeviceProperties& properties, std::span<const uint8_
          std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
-// The driver's part of a whole and undamaged file of this GPU; empty otherwise.
+// Returns the driver's part of a whole and undamaged file of this GPU; empty otherwise.
 std::span<const uint8_t> payload(const VkPhysicalDeviceProperties& properties, std::span<const uint8_t> file) {
   FileHeader header;
   const FileHeader expected;

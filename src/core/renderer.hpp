@@ -55,7 +55,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Waits as beginFrame does, but for the window: what is read after it is as new as the frame can show it.
+  // Waits for the GPU as beginFrame() does, but not for the window. Input that is read afterwards is as new as the
+  // frame can show.
   void waitForFrame() { finish(slots_[(frameNumber_ + 1) % framesInFlight]); }
   // Waits for the frame before the last one. Returns nothing while the window is paused or has no swapchain.
   std::optional<Frame> beginFrame();
@@ -66,11 +67,11 @@ class Renderer {
   PassScope beginOverlay(Frame& frame);
   void endFrame(Frame& frame);
 
-  // The display image as a pass target: UNORM colour without depth. The role makes barriers swapchain ones.
+  // The display image as a pass target: UNORM colour without depth. Their role is TargetRole::swapchain.
   PassTargets displayTargets(Frame& frame);
   VkFormat displayFormat() const;
   VkExtent2D displayExtent() const;
-  uint32_t displayImageCount() const;  // at least 2, as Dear ImGui wants it
+  uint32_t displayImageCount() const;  // at least 2, which Dear ImGui requires
   VkRenderPass overlayRenderPass();    // compatible with beginOverlay's; may change when displayFormat() does
   // Present modes of the window; none when headless. A new mode applies from the next frame on.
   std::vector<PresentMode> presentModes() const;

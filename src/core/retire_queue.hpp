@@ -15,7 +15,7 @@ class RetireQueue {
     entries_.push_back({frame_, {new T(std::move(object)), [](void* retired) { delete static_cast<T*>(retired); }}});
   }
   void setFrame(uint64_t frame) { frame_ = frame; }  // numbers of frames grow
-  // Destroys what was retired in frames up to and with `finished`, in the order of retirement.
+  // Destroys what was retired in frames up to and including `finished`, in the order of retirement.
   void collect(uint64_t finished) {
     while (!entries_.empty() && entries_.front().frame <= finished) {
       entries_.pop_front();

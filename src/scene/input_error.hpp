@@ -14,16 +14,15 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The message with control characters, which names and keys taken from a file may hold, replaced by '?': always one
-// line.
+// Replaces control characters, which names and keys from a file may hold, by '?', so that the message is one line.
 std::string oneLine(std::string message);
 
 // Throws InputError with `FILE:LINE: key: wrong (right)`, made one line.
 [[noreturn]] void throwInputError(const std::filesystem::path& file, int line, std::string_view key,
                                   std::string_view wrong, std::string_view right);
 
-// The content of an input file. Throws InputError for line 1 and key `file`; `right` says which file is needed, `most`
-// its largest size in bytes.
+// Reads an input file. Throws InputError for line 1 and key `file`; `right` says which file is needed, `most` is the
+// largest size in bytes.
 std::string readInputText(const std::filesystem::path& file, std::string_view right, uintmax_t most = 1u << 30);
 
 }  // namespace speculum

@@ -11,7 +11,7 @@ struct AnyInitializer {
 };
 
 // Number of members of an aggregate: the most initializers that it takes. A description that lists the members of a
-// type is held against it with static_assert, so that a member that it lacks does not compile.
+// type compares their number with it in a static_assert, so that a missing member does not compile.
 template <typename T, typename... Initializers>
 consteval size_t memberCount(Initializers... initializers) {
   if constexpr (requires { T{initializers..., AnyInitializer{}}; }) {

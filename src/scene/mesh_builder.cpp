@@ -19,13 +19,13 @@ double largestComponent(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// Length of a vector whose square may leave the range of a double.
+// Returns the length of a vector whose square may leave the range of a double.
 double length(const glm::dvec3& v) {
   const double scale = largestComponent(v);
   return scale > 0.0 ? scale * glm::length(v / scale) : 0.0;
 }
 
-// Direction of a vector of any magnitude; zero for zero.
+// Returns the direction of a vector of any length; zero for zero.
 glm::dvec3 unit(const glm::dvec3& v) {
   const double scale = largestComponent(v);
   return scale > 0.0 ? glm::normalize(v / scale) : glm::dvec3(0.0);
@@ -71,8 +71,8 @@ void rebase(Mesh& mesh) {
   }
 }
 
-// Finds what may hide mirrors. Meshes that do, such as walls, doors and cupboards, have few triangles or few large
-// ones.
+// Finds the faces and the convex mesh that may hide mirrors. Objects that hide mirrors, such as walls, doors and
+// cupboards, have few triangles or a few large ones.
 void findOccluders(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;

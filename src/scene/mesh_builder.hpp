@@ -13,7 +13,7 @@
 
 namespace speculum {
 
-// Indices into what was added before, from 0; -1: none.
+// Indices into the elements added so far, from 0; -1: none.
 struct FaceCorner {
   int position = -1;
   int texcoord = -1;

@@ -30,7 +30,7 @@ std::string disc(double radius) {
   return "[\n" + corners + "]";
 }
 
-// The model's centre stands above the origin of a world that is measured in radii of its bounding sphere.
+// Writes a scene whose unit is the radius of the model's bounding sphere, with the model's centre above the origin.
 std::string sceneText(const fs::path& file, const Mesh& mesh) {
   const double r = mesh.radius;
   const double height = mesh.halfExtent.y + kGap * r;  // of the centre

@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// A scene that shows a model by itself, whatever its size: over a round mirror, with a key light, a sky, and a camera
+// Makes a scene that shows a model of any size by itself: over a round mirror, with a key light, a sky, and a camera
 // that circles it. Throws InputError, also for a bounding sphere whose radius is not within 1e-9 .. 1e12 m.
 Scene modelScene(const std::filesystem::path& file, const LoadProgress& progress = {});
 

@@ -14,7 +14,7 @@ namespace speculum {
 
 namespace {
 
-// Triangulation takes time in the square of this.
+// Most corners of a face; triangulation takes time in their square.
 constexpr size_t kMostCorners = 1000;
 // Share of the time that reading the text of a large model takes; the rest sorts its triangles.
 constexpr double kReadShare = 0.65;
@@ -74,7 +74,7 @@ class ObjReader {
   void readLine(LineReader& line) {
     const std::string_view keyword = line.keyword();
     if (keyword == "v") {
-      // Up to a weight and three of a colour, which are not used.
+      // A weight or the three values of a colour may follow; they are not used.
       const std::vector<double>& numbers = line.numbers(3, 8);
       mesh_.addPosition({numbers[0], numbers[1], numbers[2]});
     } else if (keyword == "vt") {
@@ -105,7 +105,7 @@ class ObjReader {
     mesh_.addFace(corners_);
   }
 
-  // The first of the files that is there counts. A backslash keeps the character behind it, a blank for example.
+  // Reads the first of the named files that exists. A backslash escapes the next character, such as a blank.
   void readMaterials(const LineReader& line) {
     const std::string_view names = line.argument();
     std::string name;

@@ -8,8 +8,8 @@
 
 namespace speculum {
 
-// Receives now and then the file that is read and the share of all files that is done, 0 .. 1. An exception from it
-// ends the loading.
+// Called now and then with the file that is being read and the finished share of all files, 0 .. 1. An exception from
+// it ends the loading.
 using LoadProgress = std::function<void(const std::filesystem::path& file, double done)>;
 
 // Reads a Wavefront OBJ file with its MTL files; appends the textures that its materials name to `textures`. Logs

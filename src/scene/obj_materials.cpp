@@ -66,7 +66,7 @@ int textureIndex(const fs::path& file, std::vector<Texture>& textures) {
   return static_cast<int>(textures.size()) - 1;
 }
 
-// Number of words after an option of a texture, at most 3 for -o, -s and -t; -1 if the word is no option.
+// Returns the number of words after an option of a texture, at most 3 for -o, -s and -t; -1 if the word is no option.
 int wordsOf(std::string_view option) {
   constexpr std::array<std::string_view, 10> one{"-blendu", "-blendv", "-cc",      "-clamp", "-boost",
                                                  "-bm",     "-texres", "-imfchan", "-type",  "-colorspace"};
@@ -76,7 +76,7 @@ int wordsOf(std::string_view option) {
   return option == "-mm" ? 2 : std::find(one.begin(), one.end(), option) != one.end() ? 1 : -1;
 }
 
-// File name after the options, which are skipped. The name may hold blanks.
+// Returns the file name after the options. It may hold blanks.
 std::string_view textureName(const LineReader& line) {
   const std::vector<std::string_view>& tokens = line.tokens();
   size_t i = 1;
@@ -89,7 +89,7 @@ std::string_view textureName(const LineReader& line) {
   return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
 }
 
-// The line with its numbers written anew: the parser's arithmetic overflows on 1e2147483648.
+// Returns the line with its numbers rewritten, because the parser's arithmetic overflows on 1e2147483648.
 std::string checkedNumbers(LineReader& line, bool color) {
   std::string text(line.keyword());
   for (const double value : color ? line.numbers(3, 3) : line.numbers(1, 1)) {
@@ -144,7 +144,7 @@ CheckedMtl checkMtl(const fs::path& file, std::string_view text) {
   return checked;
 }
 
-// Converts all but the texture.
+// Converts everything but the texture.
 Material materialOf(const tinyobj::material_t& source) {
   const auto color = [](const tinyobj::real_t(&rgb)[3]) { return glm::dvec3(rgb[0], rgb[1], rgb[2]); };
   return {.name = source.name,

@@ -55,7 +55,7 @@ enum class Fresnel { none, schlick };
 // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
 glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine);
 
-// What makes an object a curved mirror.
+// Properties of an object that is a curved mirror.
 struct ObjectMirror {
   glm::dvec3 reflectance{0.95};
   Fresnel fresnel = Fresnel::none;
@@ -66,7 +66,7 @@ struct ObjectMirror {
 
 struct Object {
   std::string name;
-  std::string model;  // as the scene file names it
+  std::string model;  // path as it stands in the scene file
   int mesh = -1;      // index into Scene::meshes
   glm::dvec3 position{0.0};
   glm::dvec3 rotation{0.0};  // pitch, yaw, roll; R = Ry Rx Rz
@@ -132,7 +132,7 @@ struct Mirror {
 
 // A view that the user can return to.
 struct Bookmark {
-  std::string name;  // not empty, and no other's
+  std::string name;  // not empty, and unique
   glm::dvec3 position{0.0};
   glm::dvec3 target{0.0};
   std::optional<glm::dvec3> up;       // the camera's unless given
@@ -141,7 +141,7 @@ struct Bookmark {
   bool operator==(const Bookmark&) const = default;
 };
 
-// One entry of the scene's [settings] table, kept raw: the frame library knows the keys.
+// One entry of the scene's [settings] table, not interpreted: the keys are described in the frame library.
 struct SettingEntry {
   std::string key;
   std::variant<bool, int64_t, double, std::string, std::vector<double>> value;

@@ -11,8 +11,8 @@
 
 namespace speculum {
 
-// What becomes of a field: its value is read where the node is drawn, evaluated into SceneState, or serves users only.
-// Only the first kind belongs to the content of a mirror image beside SceneState.
+// Use of a field: its value is read where the node is drawn, is evaluated into SceneState, or is for users only. Only
+// fields of the first kind belong to the content of a mirror image beside SceneState.
 enum class FieldUse { appearance, placement, label };
 
 template <typename Owner, typename Value>
@@ -21,14 +21,14 @@ struct FieldTraits {
   Range range = kAny;        // of each number
   double floor = kAny.low;   // smaller numbers count as this one
   bool required = false;     // a file must have it
-  bool alwaysSaved = false;  // even at its default: the table that it stands in is there for it
+  bool alwaysSaved = false;  // even at its default, because its table exists for it
   bool color = false;        // linear RGB
   bool uniform = false;      // one number stands for three equal ones
   FieldUse use = FieldUse::appearance;
   double step = 0.01;                            // change for a pixel of a drag in the inspector
-  bool (*applies)(const Owner& node) = nullptr;  // else it is neither read nor saved
-  bool (*shown)(const Owner& node) = nullptr;    // else the inspector has no row for it
-  Value start = {};                              // of an optional field when a user switches it on
+  bool (*applies)(const Owner& node) = nullptr;  // if false, the field is neither read nor saved
+  bool (*shown)(const Owner& node) = nullptr;    // if false, the inspector has no row for it
+  Value start = {};                              // first value of an optional field that a user switches on
 };
 
 // One key of a scene file's table and the member that it stands for; the default is the member's.
@@ -200,7 +200,7 @@ inline const auto& fieldsOf(const Mirror*) {
             {.range = kNotNegative, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
       field(&Mirror::roughness, "roughness", "spread of the reflection: GGX with alpha = roughness squared",
             {.range = kUnit, .step = 0.002}),
-      // The loader takes ripples without height for none.
+      // The loader drops ripples without height.
       field(&Mirror::ripple, "ripple", "two trains of waves run over the mirror",
             {.applies = [](const Mirror& mirror) { return !mirror.ripple || mirror.ripple->amplitude > 0.0; },
              .start = Ripple{.amplitude = 0.002}}),

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// File that a scene's name of a model means.
+// Returns the file of a model's path in a scene file.
 fs::path modelFile(const Scene& scene, const std::string& model) {
   const fs::path named = scene.file.parent_path() / model;
   fs::path file = named.lexically_normal();

@@ -11,7 +11,7 @@
 
 namespace speculum {
 
-// Whether the name is one of a Wavefront OBJ file.
+// Says whether the name is that of a Wavefront OBJ file.
 bool isModelFile(const std::filesystem::path& file);
 
 // Reads a scene with its models and textures; for a model gives modelScene(). Logs warnings (missing MTL, dropped
@@ -21,17 +21,17 @@ Scene loadScene(const std::filesystem::path& file, const LoadProgress& progress 
 // Reads `text` as the content of `file`, without the models: each Object::mesh is -1. Throws InputError.
 Scene parseScene(const std::filesystem::path& file, std::string text);
 
-// Why a scene file with this polygon of a mirror (world) would be refused, as `polygon: what is wrong (what would be
-// right)`; empty if it would not.
+// Returns why loadScene() would refuse a mirror with this polygon (world), as `polygon: what is wrong (what would be
+// right)`; nothing if it would not.
 std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> polygon);
 
-// Index of the model among the scene's meshes, to which it is added unless it is there under any name. Throws
+// Returns the index of the model among the scene's meshes. Adds it unless it is there under any name. Throws
 // InputError; the scene is then as before.
 int addModel(Scene& scene, const std::filesystem::path& file, const LoadProgress& progress = {});
 
-// The scene's `title`, read without models; empty for a file that has none or cannot be read.
+// Reads the scene's `title` without its models; empty for a file that has none or cannot be read.
 std::string sceneTitle(const std::filesystem::path& file);
-// Whether the file looks like a scene, valid or not. Models do not.
+// Says whether the file looks like a scene file, valid or not. Models do not.
 bool isSceneFile(const std::filesystem::path& file);
 
 }  // namespace speculum

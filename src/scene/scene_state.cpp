@@ -78,7 +78,7 @@ CameraPose poseAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm
   return pose;
 }
 
-// The direction is turned, not taken from eye and target: far from the origin, rounding could make one of the two.
+// Rotates the direction instead of computing it from eye and target, which far from the origin may round to one point.
 CameraPose cameraPose(const CameraSpec& camera, double time) {
   const glm::dmat3 turn = rotationAboutAxis(camera.up, camera.orbitSpeed * time);
   const glm::dvec3 arm = turn * (camera.position - camera.target);

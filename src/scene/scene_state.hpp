@@ -10,7 +10,7 @@
 namespace speculum {
 
 // Everything that moves, at one time, in world space and double. Planner, renderer and reference tracer all read it, so
-// that they cannot disagree on positions.
+// that their positions are the same.
 
 struct CameraPose {
   glm::dvec3 eye{0.0};
@@ -58,10 +58,11 @@ struct SceneState {
   std::vector<MirrorState> mirrors;      // parallel to Scene::mirrors
 };
 
-// The scene's nodes at a time. Angles are reduced in double, so 1e6 s of animation are as exact as one.
+// Places the scene's nodes at a time. Angles are reduced in double, so that 1e6 s of animation are as exact as one
+// second.
 SceneState evaluate(const Scene& scene, double timeSeconds);
 
-// A camera at the bookmark that does not move.
+// Returns a camera at the bookmark that does not move.
 CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera);
 
 // Says whether anything depends on the time.

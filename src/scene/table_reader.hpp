@@ -15,7 +15,7 @@
 namespace speculum {
 
 // One table of a scene file. Every getter throws InputError with file, line and full key for a wrong type or a value
-// out of range. An absent key gives the fallback; without a fallback it is an error as well.
+// out of range. An absent key gives the fallback; without a fallback it is an error.
 class TableReader {
  public:
   // Throws for a key that is not among `known`. `label` is the table's full key, empty for the whole file. `file`,

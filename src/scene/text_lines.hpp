@@ -8,10 +8,10 @@
 
 namespace speculum {
 
-// `text` without leading and trailing blanks.
+// Returns `text` without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
 
-// The number that the whole of `token` spells. Infinite or NaN values, spelled or overflown, are numbers.
+// Reads the whole of `token` as a number. Infinite and NaN values, written or from overflow, are numbers.
 std::optional<double> parseNumber(std::string_view token);
 
 // Splits the text of an OBJ or MTL file into lines of tokens. Lines end with LF, CR LF or CR. A byte order mark,
@@ -29,7 +29,7 @@ class LineReader {
 
   const std::vector<std::string_view>& tokens() const { return tokens_; }
   std::string_view keyword() const { return tokens_[0]; }
-  // The line from a token on, blanks inside and a comment behind it included.
+  // Returns the line from a token on, including blanks within and a comment after it.
   std::string_view from(std::string_view token) const { return trimmed(line_.substr(token.data() - line_.data())); }
   std::string_view argument() const { return trimmed(from(keyword()).substr(keyword().size())); }
   int number() const { return number_; }  // from 1; the first of joined lines

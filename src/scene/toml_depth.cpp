@@ -7,7 +7,8 @@ namespace speculum {
 
 namespace {
 
-// End of the string that begins at `start` with a quotation mark; of an unfinished one, of what it spans.
+// Returns the end of the string that begins at `start` with a quotation mark, or of the part that an unfinished one
+// spans.
 size_t endOfString(std::string_view toml, size_t start) {
   const char quote = toml[start];
   const bool multiLine = toml.substr(start, 3) == std::string_view(quote == '"' ? "\"\"\"" : "'''");

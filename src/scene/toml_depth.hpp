@@ -4,12 +4,13 @@
 
 namespace speculum {
 
-// Line of the first dotted key or table header with more than 32 parts, or 0. The TOML library limits the nesting of
-// values but not the parts of a key: it nests a table for each, and destroying a hundred thousand overflows the stack.
+// Returns the line of the first dotted key or table header with more than 32 parts, or 0. The TOML library limits the
+// nesting of values but not the parts of a key: it nests a table for each, and destroying a hundred thousand overflows
+// the stack.
 int lineOfTooDeepKey(std::string_view toml);
 
-// Line of the first character beyond ASCII outside strings and comments, where TOML has none, or 0. The TOML library
-// (3.3) looks such characters up in a table that lacks most of them, which is undefined behaviour.
+// Returns the line of the first character beyond ASCII outside strings and comments, where TOML has none, or 0. The
+// TOML library (3.3) looks such characters up in a table that lacks most of them, which is undefined behaviour.
 int lineOfStrayCharacter(std::string_view toml);
 
 }  // namespace speculum

@@ -7,14 +7,13 @@
 
 namespace speculum {
 
-// The text of a file of at most 16 MiB; `kind` names it in messages, such as "scene file". Throws InputError.
+// Reads the text of a file of at most 16 MiB; `kind` names it in messages, such as "scene file". Throws InputError.
 std::string readTomlText(const std::filesystem::path& file, std::string_view kind);
 
-// `text` as the content of `file`. Throws InputError.
+// Parses `text` as the content of `file`. Throws InputError.
 toml::table parseToml(const std::filesystem::path& file, std::string_view text, std::string_view kind);
 
-// The content of a TOML file of at most 16 MiB; `kind` names it in messages, such as "scene file". Throws
-// InputError.
+// Reads a TOML file of at most 16 MiB; `kind` names it in messages, such as "scene file". Throws InputError.
 toml::table readToml(const std::filesystem::path& file, std::string_view kind);
 
 }  // namespace speculum
