@@ -9,4 +9,4 @@ speculum_test(core_tests SOURCES core_fixture.cpp core_retire_queue.cpp core_dev
 add_dependencies(core_tests test_shaders)
 speculum_test(core_window SOURCES core_fixture.cpp core_window.cpp
               LIBRARIES core display_support ext::spdlog LABELS window)
-add_dependencies(core_window test_shaders)
+add_dependencies(core_window test_shaders fault_layer)

@@ -6,6 +6,8 @@
 #include <functional>
 
 #include "core_fixture.hpp"
+#include "platform/process.hpp"
+#include "test_paths.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum::test {
@@ -130,6 +132,28 @@ TEST(WindowBarriers, MissingPresentBarrierIsReported) {
   const std::vector<std::string> messages = device.lastValidationMessages();
   ASSERT_FALSE(messages.empty());
   EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+}
+
+TEST(WindowCapture, NeedsNoCopyableSwapchain) {
+  const VirtualDisplay display;
+  Window window(WindowOptions{.width = 64, .height = 48});
+  const DeviceOptions options = deviceFor(window);
+  setEnvironment("VK_ADD_LAYER_PATH", (binaryDir() / "tests" / "fault_layer").string());
+  setEnvironment("VK_INSTANCE_LAYERS", "VK_LAYER_SPECULUM_fault");
+  setEnvironment("SPECULUM_HIDE", "transfer_src");
+  {
+    Device device(options);
+    Renderer renderer(device, inWindow(window));
+    SmallScene scene(renderer, renderer.displayExtent(), 4);
+    for (int i = 0; i < 9; ++i) {
+      window.pollEvents();
+      ASSERT_TRUE(scene.frame(i % 4 > 1)) << i;
+    }
+    const std::vector<uint8_t> pixels = renderer.readback().rgba;
+    EXPECT_EQ(std::vector(pixels.begin(), pixels.begin() + 3), (std::vector<uint8_t>{64, 32, 191}));
+    EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+  }
+  unsetenv("VK_INSTANCE_LAYERS");
 }
 
 TEST(WindowOptions, FifoIsAlwaysOffered) {

@@ -64,7 +64,13 @@ int runCommand(const Options& options) {
       {"info", [](const Options&) { return runInfo(); }},
       {"scenes", [](const Options&) { return runScenes(); }},
   };
-  return commands.at(options.command)(options);
+  const auto command = commands.at(options.command);
+  try {
+    return command(options);
+  } catch (const DeviceLostError& error) {
+    spdlog::warn("{}; starting again", error.what());
+  }
+  return command(options);
 }
 
 int speculumMain(int argc, const char* const* argv) {

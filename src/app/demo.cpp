@@ -118,6 +118,8 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const std::optional<DebugView> debug =
       target ? workspace_.report().target(*target, plan, fitted.settings, device_.limits().standardSampleLocations)
              : std::nullopt;
+  const bool captured = workspace_.capture().wanted();
+  frame->capture = capture_ || captured;
   const bool bare = workspace_.capture().bare();
   sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debug);
   if (!bare) {
@@ -127,8 +129,6 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const double cpuMs = milliseconds(end - start);
   const bool newPipelines = std::exchange(pipelines_, sceneRenderer_->pipelineCount()) != pipelines_;
   pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs, !timed && !newPipelines && !plan.mainReused);
-  const bool captured = workspace_.capture().wanted();
-  frame->capture = capture_ || captured;
   const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
   ++framesDrawn_;

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include "core/physical_device.hpp"
@@ -61,7 +62,7 @@ std::optional<RenderPath> renderPathFromName(std::string_view name) {
 std::vector<DeviceInfo> Device::list() {
   const Instance instance{DeviceOptions{}};
   std::vector<DeviceInfo> infos;
-  for (const PhysicalDevice& device : physicalDevices(instance.get())) {
+  for (const PhysicalDevice& device : physicalDevices(instance, VK_NULL_HANDLE)) {
     infos.push_back(device.info);
   }
   return infos;
@@ -71,17 +72,17 @@ Device::Device(const DeviceOptions& options) : instance_(options) {
   if (options.window) {
     surface_ = {instance_.get(), options.window->createSurface(instance_.get())};
   }
-  const std::vector<PhysicalDevice> devices = physicalDevices(instance_.get());
+  const std::vector<PhysicalDevice> devices = physicalDevices(instance_, surface_.get());
   const PhysicalDevice& chosen = choose(devices, options.gpu);
   physical_ = chosen.handle;
   properties_ = chosen.properties;
   info_ = chosen.info;
   caps_ = chosen.caps;
   choosePath(options.renderPath);
-  queueFamily_ = chooseQueueFamily(chosen, surface_.get());
-  caps_.timestampValidBits = queueFamilies(physical_)[queueFamily_].timestampValidBits;
+  queueFamily_ = chosen.queueFamily;
+  presentFamily_ = chosen.presentFamily;
   createDevice(chosen);
-  loadFunctions();
+  loadFunctions(chosen.core13);
   setName(queue_, "graphics queue");
   spdlog::info("GPU {}: {}, {}, render path {}", info_.index, info_.name, info_.driver, renderPathName(renderPath_));
 }
@@ -136,14 +137,17 @@ void Device::createDevice(const PhysicalDevice& chosen) {
   }
   const VkPhysicalDeviceFeatures features = usedFeatures(chosen.features);
   const float priority = 1.0f;
-  const VkDeviceQueueCreateInfo queueInfo{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-                                          .queueFamilyIndex = queueFamily_,
-                                          .queueCount = 1,
-                                          .pQueuePriorities = &priority};
+  std::vector<VkDeviceQueueCreateInfo> queues;
+  for (const uint32_t family : std::set{queueFamily_, presentFamily_}) {
+    queues.push_back({.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                      .queueFamilyIndex = family,
+                      .queueCount = 1,
+                      .pQueuePriorities = &priority});
+  }
   const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                 .pNext = next,
-                                .queueCreateInfoCount = 1,
-                                .pQueueCreateInfos = &queueInfo,
+                                .queueCreateInfoCount = static_cast<uint32_t>(queues.size()),
+                                .pQueueCreateInfos = queues.data(),
                                 .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
                                 .ppEnabledExtensionNames = extensions.data(),
                                 .pEnabledFeatures = &features};
@@ -151,15 +155,13 @@ void Device::createDevice(const PhysicalDevice& chosen) {
   check(vkCreateDevice(physical_, &info, nullptr, &device), "create the logical device of " + info_.name);
   device_.reset(device);
   vkGetDeviceQueue(device, queueFamily_, 0, &queue_);
+  vkGetDeviceQueue(device, presentFamily_, 0, &presentQueue_);
 }
 
-void Device::loadFunctions() {
+void Device::loadFunctions(bool core13) {
   functions_ = std::make_unique<Functions>();
-  const auto load = [this]<typename F>(F& function, const char* core, const char* extension) {
-    function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), core));
-    if (!function) {
-      function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), extension));
-    }
+  const auto load = [&]<typename F>(F& function, const char* core, const char* extension) {
+    function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), core13 ? core : extension));
   };
   load(functions_->beginRendering, "vkCmdBeginRendering", "vkCmdBeginRenderingKHR");
   load(functions_->endRendering, "vkCmdEndRendering", "vkCmdEndRenderingKHR");
@@ -171,6 +173,14 @@ void Device::loadFunctions() {
     loadInstance(functions_->setName, "vkSetDebugUtilsObjectNameEXT");
     loadInstance(functions_->beginLabel, "vkCmdBeginDebugUtilsLabelEXT");
     loadInstance(functions_->endLabel, "vkCmdEndDebugUtilsLabelEXT");
+  }
+}
+
+void Device::renewSurface(const Window& window) {
+  surface_.reset();
+  surface_ = {instance_.get(), window.createSurface(instance_.get())};
+  if (!presentsTo(physical_, presentFamily_, surface_.get())) {
+    throw std::runtime_error(info_.name + " no longer presents to this window (choose another with --gpu)");
   }
 }
 
@@ -217,7 +227,7 @@ void Device::setObjectName(VkObjectType type, uint64_t object, std::string_view 
                                              .objectType = type,
                                              .objectHandle = object,
                                              .pObjectName = text.c_str()};
-    check(functions_->setName(device_.get(), &info), "name a Vulkan object");
+    functions_->setName(device_.get(), &info);  // an object can do without a name
   }
 }
 

@@ -62,7 +62,8 @@ struct MemoryBudget {
 
 struct PhysicalDevice;
 
-// Instance, the chosen GPU, logical device and its one queue. Outlives everything made from it.
+// Instance, the chosen GPU, logical device, its one queue and, where that cannot present, another that does. Outlives
+// everything made from it.
 class Device {
  public:
   explicit Device(const DeviceOptions& options);
@@ -78,7 +79,11 @@ class Device {
   VkDevice get() const { return device_.get(); }
   VkQueue queue() const { return queue_; }
   uint32_t queueFamily() const { return queueFamily_; }
+  VkQueue presentQueue() const { return presentQueue_; }  // queue() where that can present
+  uint32_t presentFamily() const { return presentFamily_; }
   VkSurfaceKHR surface() const { return surface_.get(); }  // null when headless
+  // Makes the surface anew after VK_ERROR_SURFACE_LOST_KHR. No swapchain may be left.
+  void renewSurface(const Window& window);
   const DeviceInfo& info() const { return info_; }
   const DeviceCaps& caps() const { return caps_; }
   const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
@@ -138,7 +143,7 @@ class Device {
   void choosePath(RenderPath wanted);
   std::vector<const char*> deviceExtensions(const PhysicalDevice& chosen) const;
   void createDevice(const PhysicalDevice& chosen);
-  void loadFunctions();
+  void loadFunctions(bool core13);
   void setObjectName(VkObjectType type, uint64_t object, std::string_view name) const;
 
   Instance instance_;
@@ -149,8 +154,10 @@ class Device {
   DeviceCaps caps_;
   RenderPath renderPath_ = RenderPath::dynamic;
   uint32_t queueFamily_ = 0;
+  uint32_t presentFamily_ = 0;
   std::unique_ptr<VkDevice, Destroy> device_;
   VkQueue queue_ = VK_NULL_HANDLE;
+  VkQueue presentQueue_ = VK_NULL_HANDLE;
   std::unique_ptr<Functions> functions_;
   Barriers barriers_;
   std::atomic<uint64_t> allocatedBytes_{0};

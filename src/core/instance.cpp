@@ -83,12 +83,12 @@ void Instance::destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT me
   destroy(instance, messenger, allocator);
 }
 
-Instance::Instance(const DeviceOptions& options) {
+Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {
   const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                       .pApplicationName = "speculum",
                                       .applicationVersion = 1,
                                       .pEngineName = "speculum",
-                                      .apiVersion = usedVersion()};
+                                      .apiVersion = version_};
   separateShaderCaches();
   const std::vector<const char*> layers = chooseLayers(options);
   debugUtils_ = extensionPresent(VK_EXT_DEBUG_UTILS_EXTENSION_NAME) || options.validation;

@@ -15,6 +15,7 @@ class Instance {
   explicit Instance(const DeviceOptions& options);
 
   VkInstance get() const { return instance_.get(); }
+  uint32_t version() const { return version_; }  // of Vulkan, that the loader and the program have
   bool hasDebugUtils() const { return debugUtils_; }
   bool validation() const { return static_cast<bool>(messenger_); }
   const DebugMessages& messages() const { return messages_; }
@@ -29,6 +30,7 @@ class Instance {
   void createMessenger();
 
   DebugMessages messages_;
+  uint32_t version_;
   bool debugUtils_ = false;
   std::unique_ptr<VkInstance, Destroy> instance_;
   Handle<VkDebugUtilsMessengerEXT, destroyMessenger> messenger_;

@@ -14,6 +14,12 @@ Memory::Memory(Device& device, const VkMemoryRequirements& requirements, VkMemor
   if (type == types.memoryTypeCount) {
     throw std::runtime_error("the GPU has no memory of the kind that " + name + " needs");
   }
+  // Some are left for the panels.
+  const uint32_t most = device.limits().maxMemoryAllocationCount;
+  if (liveHandles<VkDeviceMemory> + 16 >= int64_t{most}) {
+    throw OutOfMemoryError("allocate memory for " + name + ": the device takes " + std::to_string(most) +
+                           " allocations (fewer textures, or a lower reflection.max_passes)");
+  }
   const VkMemoryAllocateInfo info{
       .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = requirements.size, .memoryTypeIndex = type};
   VkDeviceMemory memory = VK_NULL_HANDLE;

@@ -76,6 +76,36 @@ uint64_t largestLocalHeap(VkPhysicalDevice device) {
   return bytes;
 }
 
+// Chooses the queue families, one for everything where there is one. Says what is missing.
+std::optional<std::string> chooseQueueFamilies(PhysicalDevice& device, VkSurfaceKHR surface) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
+  // A device with a queue that draws has one that draws and computes.
+  constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  std::optional<uint32_t> draws;
+  std::optional<uint32_t> presents;
+  for (uint32_t i = 0; i < count; ++i) {
+    const bool drawing = (families[i].queueFlags & wanted) == wanted;
+    const bool presenting = surface == VK_NULL_HANDLE || (device.hasExtension(VK_KHR_SWAPCHAIN_EXTENSION_NAME) &&
+                                                          presentsTo(device.handle, i, surface));
+    if (drawing && presenting) {
+      draws = presents = i;
+      break;
+    }
+    draws = drawing && !draws ? i : draws;
+    presents = presenting && !presents ? i : presents;
+  }
+  if (!draws) {
+    return "a queue that draws";
+  }
+  device.queueFamily = *draws;
+  device.presentFamily = presents.value_or(0);
+  device.caps.timestampValidBits = families[*draws].timestampValidBits;
+  return presents ? std::nullopt : std::optional("a queue that presents to this window");
+}
+
 std::optional<std::string> missing(const PhysicalDevice& device) {
   if (device.properties.apiVersion < VK_API_VERSION_1_1) {
     return "Vulkan 1.1";
@@ -92,16 +122,16 @@ std::optional<std::string> missing(const PhysicalDevice& device) {
   return std::nullopt;
 }
 
-PhysicalDevice inspect(VkPhysicalDevice handle, int index) {
+PhysicalDevice inspect(VkPhysicalDevice handle, int index, uint32_t instanceVersion, VkSurfaceKHR surface) {
   PhysicalDevice device{.handle = handle};
   vkGetPhysicalDeviceProperties(handle, &device.properties);
   device.extensions = extensionsOf(handle);
-  device.core13 = device.properties.apiVersion >= VK_API_VERSION_1_3;
+  device.core13 = std::min(device.properties.apiVersion, instanceVersion) >= VK_API_VERSION_1_3;
   readFeatures(device);
   DeviceCaps& caps = device.caps;
   caps.sampleCounts =
       sampleCounts(handle, colorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
-      sampleCounts(handle, depthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) &
+      sampleCounts(handle, depthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
       device.properties.limits.framebufferColorSampleCounts & device.properties.limits.framebufferDepthSampleCounts;
   caps.timestampPeriod = device.properties.limits.timestampPeriod;
   caps.pipelineStatistics = device.features.pipelineStatisticsQuery;
@@ -119,6 +149,8 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index) {
                  .memoryBytes = largestLocalHeap(handle),
                  .dynamicRendering = caps.dynamicRendering};
   device.info.missing = missing(device);
+  const std::optional<std::string> missingQueue = chooseQueueFamilies(device, surface);
+  device.info.missing = device.info.missing ? device.info.missing : missingQueue;
   return device;
 }
 
@@ -173,11 +205,12 @@ bool PhysicalDevice::hasExtension(std::string_view name) const {
   return std::find(extensions.begin(), extensions.end(), name) != extensions.end();
 }
 
-std::vector<PhysicalDevice> physicalDevices(VkInstance instance) {
+std::vector<PhysicalDevice> physicalDevices(const Instance& instance, VkSurfaceKHR surface) {
   std::vector<PhysicalDevice> devices;
-  for (VkPhysicalDevice handle : enumerate<VkPhysicalDevice>(
-           "list GPUs", [&](uint32_t*count, auto*data) { return vkEnumeratePhysicalDevices(instance, count, data); })) {
-    devices.push_back(inspect(handle, static_cast<int>(devices.size())));
+  for (VkPhysicalDevice handle : enumerate<VkPhysicalDevice>("list GPUs", [&](uint32_t*count, auto*data) {
+         return vkEnumeratePhysicalDevices(instance.get(), count, data);
+       })) {
+    devices.push_back(inspect(handle, static_cast<int>(devices.size()), instance.version(), surface));
   }
   return devices;
 }
@@ -204,29 +237,10 @@ const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const s
   return *chosen;
 }
 
-std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
-  uint32_t count = 0;
-  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  return families;
-}
-
-uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface) {
-  // A device with a queue that draws has one that draws and computes.
-  constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-  const std::vector<VkQueueFamilyProperties> families = queueFamilies(device.handle);
-  for (uint32_t i = 0; i < families.size(); ++i) {
-    VkBool32 presents = VK_TRUE;
-    if (surface != VK_NULL_HANDLE) {
-      check(vkGetPhysicalDeviceSurfaceSupportKHR(device.handle, i, surface, &presents), "query presentation");
-    }
-    if ((families[i].queueFlags & wanted) == wanted && presents) {
-      return i;
-    }
-  }
-  throw std::runtime_error(device.info.name + " has no queue that draws" +
-                           (surface ? " and presents to this window (choose another with --gpu, or use render)" : ""));
+bool presentsTo(VkPhysicalDevice device, uint32_t queueFamily, VkSurfaceKHR surface) {
+  VkBool32 presents = VK_FALSE;
+  check(vkGetPhysicalDeviceSurfaceSupportKHR(device, queueFamily, surface, &presents), "query presentation");
+  return presents;
 }
 
 }  // namespace speculum

@@ -16,21 +16,20 @@ struct PhysicalDevice {
   DeviceInfo info;
   DeviceCaps caps;
   bool extendedDynamicState = false;
-  bool core13 = false;
+  bool core13 = false;         // for the loader as well
+  uint32_t queueFamily = 0;    // draws and computes
+  uint32_t presentFamily = 0;  // presents to the window; queueFamily where it can
 
   bool hasExtension(std::string_view name) const;
 };
 
-std::vector<PhysicalDevice> physicalDevices(VkInstance instance);
+// With a surface, a GPU that cannot present to it is among those that lack something.
+std::vector<PhysicalDevice> physicalDevices(const Instance& instance, VkSurfaceKHR surface);
 
 // Chooses by index or part of the name, or if that is empty the first usable one of the best type. Throws
 // std::runtime_error that lists the GPUs when nothing fits or the one named lacks a feature.
 const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const std::string& wanted);
 
-std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device);
-
-// Returns the index of a queue family that draws and, unless `surface` is null, presents to it. Throws
-// std::runtime_error if there is none.
-uint32_t chooseQueueFamily(const PhysicalDevice& device, VkSurfaceKHR surface);
+bool presentsTo(VkPhysicalDevice device, uint32_t queueFamily, VkSurfaceKHR surface);
 
 }  // namespace speculum

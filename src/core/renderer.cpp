@@ -38,23 +38,22 @@ Renderer::Renderer(Device& device, const RendererOptions& options)
   if (window_) {
     swapChain_.emplace(device, *window_, options.presentMode);
   } else {
-    createHeadlessImage(options.extent);
+    headlessImage_ = makeDisplayImage(options.extent, headlessFormat);
   }
 }
 
-void Renderer::createHeadlessImage(VkExtent2D extent) {
-  headlessImage_ = Image(device_, {.extent = extent,
-                                   .format = headlessFormat,
-                                   .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                                   .name = "display image"});
+Image Renderer::makeDisplayImage(VkExtent2D extent, VkFormat format) {
+  return Image(device_, {.extent = extent,
+                         .format = format,
+                         .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                         .name = "display image"});
 }
 
 void Renderer::resizeHeadless(VkExtent2D extent) {
   if (!headless()) {
     throw std::logic_error("resizeHeadless is for a renderer without a window");
   }
-  retired_.retire(std::move(headlessImage_));
-  createHeadlessImage(extent);
+  retired_.retire(std::exchange(headlessImage_, makeDisplayImage(extent, headlessFormat)));
 }
 
 void Renderer::finish(Slot& slot) {
@@ -88,8 +87,8 @@ bool Renderer::prepareSwapChain() {
   if (window_->paused()) {
     return false;
   }
-  if (window_->takeResized() || swapChainStale_ || !swapChain_->usable()) {
-    swapChainStale_ = false;
+  if (window_->takeResized() || swapChain_->stale()) {
+    unusedImage_.reset();
     return swapChain_->recreate();
   }
   return true;
@@ -102,10 +101,14 @@ std::optional<uint32_t> Renderer::acquireImage(Slot& slot) {
   if (!prepareSwapChain()) {
     return std::nullopt;
   }
+  if (unusedImage_) {
+    return unusedImage_;
+  }
   if (const std::optional<uint32_t> image = swapChain_->acquire(slot.acquired.get())) {
     return image;
   }
-  return swapChain_->recreate() ? swapChain_->acquire(slot.acquired.get()) : std::nullopt;
+  // One that went stale gets another chance in this frame.
+  return swapChain_->stale() && swapChain_->recreate() ? swapChain_->acquire(slot.acquired.get()) : std::nullopt;
 }
 
 std::optional<Frame> Renderer::beginFrame() {
@@ -128,7 +131,8 @@ std::optional<Frame> Renderer::beginFrame() {
                .number = frameNumber_,
                .extent = displayExtent(),
                .descriptors = &slot.descriptors,
-               .retired = &retired_};
+               .retired = &retired_,
+               .acquired = !headless() && !unusedImage_};
 }
 
 PassScope Renderer::beginPass(Frame& frame, const PassDesc& desc) {
@@ -152,40 +156,52 @@ void Renderer::endFrame(Frame& frame) {
   if (frame.capture) {
     recordCapture(slot, frame);
   }
-  if (!headless()) {
-    device_.barriers().record(frame.commands, BarrierKind::swapchainToPresent, displayImage(frame.imageIndex));
+  const bool presents = !headless() && !drawsAside(frame);
+  if (presents) {
+    device_.barriers().record(frame.commands, BarrierKind::swapchainToPresent, displayImage(frame));
   }
   check(vkEndCommandBuffer(frame.commands), "end a frame's commands");
-  submit(slot, frame);
+  submit(slot, frame, presents);
   slot.number = frame.number;
   recording_ = false;
-  if (!headless() && !swapChain_->present(frame.imageIndex)) {
-    swapChainStale_ = true;
+  unusedImage_ = headless() || presents ? std::nullopt : std::optional(frame.imageIndex);
+  if (presents) {
+    swapChain_->present(frame.imageIndex);
   }
 }
 
-void Renderer::submit(Slot& slot, const Frame& frame) {
+void Renderer::submit(Slot& slot, const Frame& frame, bool presents) {
   const VkSemaphore acquired = slot.acquired.get();
-  const VkSemaphore finished = headless() ? VK_NULL_HANDLE : swapChain_->renderFinished(frame.imageIndex);
+  const VkSemaphore finished = presents ? swapChain_->renderFinished(frame.imageIndex) : VK_NULL_HANDLE;
   const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-  const uint32_t semaphores = headless() ? 0 : 1;
   const VkSubmitInfo info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
-                          .waitSemaphoreCount = semaphores,
+                          .waitSemaphoreCount = frame.acquired,
                           .pWaitSemaphores = &acquired,
                           .pWaitDstStageMask = &stage,
                           .commandBufferCount = 1,
                           .pCommandBuffers = &frame.commands,
-                          .signalSemaphoreCount = semaphores,
+                          .signalSemaphoreCount = presents,
                           .pSignalSemaphores = &finished};
   check(vkQueueSubmit(device_.queue(), 1, &info, slot.finished.get()), "submit a frame");
 }
 
-Image& Renderer::displayImage(uint32_t imageIndex) {
-  return headless() ? headlessImage_ : swapChain_->image(imageIndex);
+bool Renderer::drawsAside(const Frame& frame) const {
+  return frame.capture && !headless() && !swapChain_->copyable();
+}
+
+Image& Renderer::displayImage(const Frame& frame) {
+  if (!drawsAside(frame)) {
+    return headless() ? headlessImage_ : swapChain_->image(frame.imageIndex);
+  }
+  const VkExtent2D extent = asideImage_.extent();
+  if (!asideImage_ || extent.width != frame.extent.width || extent.height != frame.extent.height) {
+    retired_.retire(std::exchange(asideImage_, makeDisplayImage(frame.extent, displayFormat())));
+  }
+  return asideImage_;
 }
 
 PassTargets Renderer::displayTargets(Frame& frame) {
-  return {.color = &displayImage(frame.imageIndex), .role = TargetRole::swapchain};
+  return {.color = &displayImage(frame), .role = TargetRole::swapchain};
 }
 
 VkFormat Renderer::displayFormat() const {
@@ -215,15 +231,11 @@ std::optional<PresentMode> Renderer::presentMode() const {
 void Renderer::setPresentMode(PresentMode mode) {
   if (!headless() && mode != swapChain_->presentMode()) {
     swapChain_->choosePresentMode(mode);
-    swapChainStale_ = true;
   }
 }
 
 void Renderer::recordCapture(Slot& slot, const Frame& frame) {
-  if (!headless() && !swapChain_->copyable()) {
-    throw std::runtime_error("this window's images cannot be read back (use the render command)");
-  }
-  Image& image = displayImage(frame.imageIndex);
+  Image& image = displayImage(frame);
   const VkExtent2D extent = image.extent();
   const VkDeviceSize bytes = VkDeviceSize{4} * extent.width * extent.height;
   if (slot.capture.bytes() != bytes) {

@@ -43,7 +43,8 @@ struct Frame {
   VkExtent2D extent{0, 0};                     // of the display image
   DescriptorAllocator* descriptors = nullptr;  // sets from it live for this frame only
   RetireQueue* retired = nullptr;
-  bool capture = false;  // set it before endFrame to make Renderer::readback possible
+  bool capture = false;   // set it before the display image is drawn to make Renderer::readback possible
+  bool acquired = false;  // the swapchain image, for this frame
 };
 
 // Two frames in flight on one queue, into a window's swapchain or an image in its place. Frames are ordered by
@@ -115,11 +116,13 @@ class Renderer {
   };
   void finish(Slot& slot);
   std::optional<uint32_t> acquireImage(Slot& slot);
-  Image& displayImage(uint32_t imageIndex);
+  Image& displayImage(const Frame& frame);
+  // Whether the frame is drawn into an image of its own, because the swapchain's cannot be copied.
+  bool drawsAside(const Frame& frame) const;
   bool prepareSwapChain();
   void recordCapture(Slot& slot, const Frame& frame);
-  void submit(Slot& slot, const Frame& frame);
-  void createHeadlessImage(VkExtent2D extent);
+  void submit(Slot& slot, const Frame& frame, bool presents);
+  Image makeDisplayImage(VkExtent2D extent, VkFormat format);
 
   Device& device_;
   Window* window_;
@@ -129,13 +132,14 @@ class Renderer {
   Uploader uploader_;
   std::optional<SwapChain> swapChain_;
   Image headlessImage_;
+  Image asideImage_;
+  std::optional<uint32_t> unusedImage_;  // of the swapchain: acquired for a frame that was drawn aside
   std::array<Slot, framesInFlight> slots_;
   RetireQueue retired_;
   PipelineFactory pipelines_;
   FrameTimings timings_;  // the later ones of the slots'
   TimerDetail timerDetail_ = TimerDetail::passes;
   uint64_t frameNumber_ = 0;
-  bool swapChainStale_ = false;
   bool recording_ = false;
   std::optional<uint32_t> captureSlot_;  // slot of the latest capture
   IdleGuard idle_;

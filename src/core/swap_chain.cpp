@@ -88,6 +88,7 @@ void SwapChain::choosePresentMode(PresentMode wanted) {
   const std::vector<PresentMode> offered = presentModes();
   const bool present = std::find(offered.begin(), offered.end(), wanted) != offered.end();
   mode_ = present ? wanted : PresentMode::fifo;
+  stale_ = true;
   if (!present) {
     spdlog::warn("the wanted present mode is not available here; FIFO is used");
   }
@@ -95,34 +96,49 @@ void SwapChain::choosePresentMode(PresentMode wanted) {
 
 bool SwapChain::recreate() {
   device_.waitIdle();
+  try {
+    create();
+  } catch (const SurfaceLostError&) {
+    device_.renewSurface(window_);
+    create();
+  }
+  return !stale_;
+}
+
+void SwapChain::create() {
   images_.clear();
   renderFinished_.clear();
+  stale_ = true;
+  const SwapchainHandle old = std::move(swapchain_);
   const VkSurfaceCapabilitiesKHR caps = capabilities(device_);
   extent_ = chooseExtent(caps, window_);
   if (extent_.width == 0 || extent_.height == 0) {
-    swapchain_.reset();
-    return false;
+    return;
   }
   copyable_ = caps.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   const VkImageUsageFlags copies = copyable_ ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;
-  const SwapchainHandle old = std::move(swapchain_);
-  const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
-                                      .surface = device_.surface(),
-                                      .minImageCount = chooseImageCount(caps),
-                                      .imageFormat = format_.format,
-                                      .imageColorSpace = format_.colorSpace,
-                                      .imageExtent = extent_,
-                                      .imageArrayLayers = 1,
-                                      .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | copies,
-                                      .imageSharingMode = VK_SHARING_MODE_EXCLUSIVE,
-                                      .preTransform = caps.currentTransform,
-                                      .compositeAlpha = chooseAlpha(caps),
-                                      .presentMode = vulkanMode(mode_),
-                                      .clipped = VK_TRUE,
-                                      .oldSwapchain = old.get()};
+  const uint32_t families[] = {device_.queueFamily(), device_.presentFamily()};
+  const bool shared = families[0] != families[1];
+  const VkSwapchainCreateInfoKHR info{
+      .sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
+      .surface = device_.surface(),
+      .minImageCount = chooseImageCount(caps),
+      .imageFormat = format_.format,
+      .imageColorSpace = format_.colorSpace,
+      .imageExtent = extent_,
+      .imageArrayLayers = 1,
+      .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | copies,
+      .imageSharingMode = shared ? VK_SHARING_MODE_CONCURRENT : VK_SHARING_MODE_EXCLUSIVE,
+      .queueFamilyIndexCount = shared ? 2u : 0u,
+      .pQueueFamilyIndices = families,
+      .preTransform = caps.currentTransform,
+      .compositeAlpha = chooseAlpha(caps),
+      .presentMode = vulkanMode(mode_),
+      .clipped = VK_TRUE,
+      .oldSwapchain = old.get()};
   swapchain_ = device_.create(vkCreateSwapchainKHR, info, "swapchain");
   createImages();
-  return true;
+  stale_ = false;
 }
 
 void SwapChain::createImages() {
@@ -136,21 +152,27 @@ void SwapChain::createImages() {
   }
 }
 
-std::optional<uint32_t> SwapChain::acquire(VkSemaphore acquired) {
-  uint32_t index = 0;
-  const VkResult result =
-      vkAcquireNextImageKHR(device_.get(), swapchain_.get(), UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
-  if (result == VK_ERROR_OUT_OF_DATE_KHR) {
-    return std::nullopt;
+bool SwapChain::check(VkResult result, std::string_view what) {
+  if (result == VK_SUCCESS || result == VK_TIMEOUT || result == VK_NOT_READY) {
+    return result == VK_SUCCESS;
   }
-  // A suboptimal image is still drawn: the semaphore will be signalled. Presenting it reports the same once more.
-  if (result != VK_SUCCESS && result != VK_SUBOPTIMAL_KHR) {
-    throwVulkanError(result, "acquire a swapchain image");
+  if (result != VK_ERROR_OUT_OF_DATE_KHR && result != VK_ERROR_SURFACE_LOST_KHR && result != VK_SUBOPTIMAL_KHR) {
+    throwVulkanError(result, what);
   }
-  return index;
+  stale_ = true;
+  return result == VK_SUBOPTIMAL_KHR;
 }
 
-bool SwapChain::present(uint32_t image) {
+std::optional<uint32_t> SwapChain::acquire(VkSemaphore acquired) {
+  constexpr uint64_t patience = 1'000'000'000;  // nanoseconds
+  uint32_t index = 0;
+  const VkResult result =
+      vkAcquireNextImageKHR(device_.get(), swapchain_.get(), patience, acquired, VK_NULL_HANDLE, &index);
+  // A suboptimal image is still drawn: the semaphore will be signalled.
+  return check(result, "acquire a swapchain image") ? std::optional(index) : std::nullopt;
+}
+
+void SwapChain::present(uint32_t image) {
   const VkSemaphore finished = renderFinished(image);
   const VkSwapchainKHR swapchain = swapchain_.get();
   const VkPresentInfoKHR info{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
@@ -159,12 +181,7 @@ bool SwapChain::present(uint32_t image) {
                               .swapchainCount = 1,
                               .pSwapchains = &swapchain,
                               .pImageIndices = &image};
-  const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
-  if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) {
-    return false;
-  }
-  check(result, "present");
-  return true;
+  check(vkQueuePresentKHR(device_.presentQueue(), &info), "present");
 }
 
 }  // namespace speculum

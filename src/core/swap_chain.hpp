@@ -18,20 +18,21 @@ class SwapChain {
  public:
   SwapChain(Device& device, Window& window, PresentMode mode);
 
-  // Waits until the device is idle. False, leaving the chain unusable until the next call, for a window without pixels.
+  // Waits until the device is idle. Makes a lost surface anew, once. False, leaving the chain stale, for a window
+  // without pixels.
   bool recreate();
-  bool usable() const { return static_cast<bool>(swapchain_); }
+  bool stale() const { return stale_; }  // must be made anew
 
-  // Index of an image that `acquired` will be signalled for; nothing when the chain must be made anew first.
+  // Index of an image that `acquired` will be signalled for; nothing when the chain is stale, or no image came free
+  // within a second, as may happen to a window that nobody sees.
   std::optional<uint32_t> acquire(VkSemaphore acquired);
-  // False when the chain must be made anew.
-  bool present(uint32_t image);
+  void present(uint32_t image);
 
   VkExtent2D extent() const { return extent_; }
   VkFormat format() const { return format_.format; }
   PresentMode presentMode() const { return mode_; }  // in use: FIFO where the wanted one is missing
   std::vector<PresentMode> presentModes() const;     // that the surface offers
-  // Applies from the next recreate() on.
+  // Makes the chain stale.
   void choosePresentMode(PresentMode wanted);
   bool copyable() const { return copyable_; }  // whether its images can be read back
   Image& image(uint32_t index) { return images_[index]; }
@@ -40,11 +41,15 @@ class SwapChain {
 
  private:
   void chooseFormat();
+  void create();
   void createImages();
+  // Whether a call on the chain succeeded; if not the chain is stale. Throws for other errors than these.
+  bool check(VkResult result, std::string_view what);
 
   Device& device_;
   Window& window_;
   PresentMode mode_ = PresentMode::fifo;
+  bool stale_ = true;
   bool copyable_ = false;
   VkSurfaceFormatKHR format_{};
   VkExtent2D extent_{0, 0};

@@ -46,7 +46,10 @@ void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
   check(vkQueueSubmit(device_.queue(), 1, &submit, fence_.get()), "submit an upload");
   const VkFence fence = fence_.get();
-  check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for an upload");
+  if (const VkResult result = vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX); result != VK_SUCCESS) {
+    vkDeviceWaitIdle(device_.get());  // what `record` used may die now
+    throwVulkanError(result, "wait for an upload");
+  }
   check(vkResetFences(device_.get(), 1, &fence), "reset the upload fence");
 }
 

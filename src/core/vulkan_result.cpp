@@ -10,6 +10,7 @@ std::string resultName(VkResult result) {
     SPECULUM_NAME(VK_SUCCESS)
     SPECULUM_NAME(VK_NOT_READY)
     SPECULUM_NAME(VK_TIMEOUT)
+    SPECULUM_NAME(VK_INCOMPLETE)
     SPECULUM_NAME(VK_SUBOPTIMAL_KHR)
     SPECULUM_NAME(VK_ERROR_OUT_OF_HOST_MEMORY)
     SPECULUM_NAME(VK_ERROR_OUT_OF_DEVICE_MEMORY)
@@ -19,6 +20,12 @@ std::string resultName(VkResult result) {
     SPECULUM_NAME(VK_ERROR_EXTENSION_NOT_PRESENT)
     SPECULUM_NAME(VK_ERROR_FEATURE_NOT_PRESENT)
     SPECULUM_NAME(VK_ERROR_INCOMPATIBLE_DRIVER)
+    SPECULUM_NAME(VK_ERROR_TOO_MANY_OBJECTS)
+    SPECULUM_NAME(VK_ERROR_FORMAT_NOT_SUPPORTED)
+    SPECULUM_NAME(VK_ERROR_MEMORY_MAP_FAILED)
+    SPECULUM_NAME(VK_ERROR_FRAGMENTED_POOL)
+    SPECULUM_NAME(VK_ERROR_OUT_OF_POOL_MEMORY)
+    SPECULUM_NAME(VK_ERROR_NATIVE_WINDOW_IN_USE_KHR)
     SPECULUM_NAME(VK_ERROR_SURFACE_LOST_KHR)
     SPECULUM_NAME(VK_ERROR_OUT_OF_DATE_KHR)
 #undef SPECULUM_NAME
@@ -49,6 +56,12 @@ void throwVulkanError(VkResult result, std::string_view what) {
   const std::string text = std::string(what) + ": " + resultName(result) + remedy(result);
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
     throw OutOfMemoryError(text);
+  }
+  if (result == VK_ERROR_DEVICE_LOST) {
+    throw DeviceLostError(text);
+  }
+  if (result == VK_ERROR_SURFACE_LOST_KHR) {
+    throw SurfaceLostError(text);
   }
   throw std::runtime_error(text);
 }

@@ -15,19 +15,36 @@ class OutOfMemoryError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Throws std::runtime_error that says what failed, why and how to mend it; OutOfMemoryError where memory is missing.
+class DeviceLostError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class SurfaceLostError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Throws std::runtime_error that says what failed, why and how to mend it; one of the above where it fits.
 [[noreturn]] void throwVulkanError(VkResult result, std::string_view what);
 // Throws as above unless `result` is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 std::string resultName(VkResult result);
 
-// Lists what Vulkan enumerates in two calls: query(&count, nullptr) says how many, query(&count, data) which.
+// Lists what Vulkan enumerates in two calls: query(&count, nullptr) says how many, query(&count, data) which. Asks
+// again when there came to be more in between.
 template <typename T, typename Query>
 std::vector<T> enumerate(std::string_view what, Query query) {
-  uint32_t count = 0;
-  check(query(&count, static_cast<T*>(nullptr)), what);
-  std::vector<T> items(count);
-  check(query(&count, items.data()), what);
+  std::vector<T> items;
+  VkResult result = VK_INCOMPLETE;
+  while (result == VK_INCOMPLETE) {
+    uint32_t count = 0;
+    check(query(&count, static_cast<T*>(nullptr)), what);
+    items.resize(count);
+    result = query(&count, items.data());
+    items.resize(count);
+  }
+  check(result, what);
   return items;
 }
 

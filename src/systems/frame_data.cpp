@@ -145,11 +145,18 @@ VkDescriptorType FrameData::typeOf(uint32_t kind) {
                                                : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
+// No stage has more than the four storage buffers that every device takes.
+VkShaderStageFlags FrameData::stagesOf(uint32_t kind) {
+  constexpr VkShaderStageFlags vertex = VK_SHADER_STAGE_VERTEX_BIT;
+  constexpr VkShaderStageFlags fragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+  return kind <= lights ? vertex | fragment : kind == mirrorVertices ? vertex : fragment;
+}
+
 FrameData::FrameData(Device& device)
     : device_(device), buffers_(device, bufferNames, "fewer copies of objects, or a lower reflection.max_passes") {
   std::array<DescriptorBinding, kindCount + 1> bindings{};  // the last for the materials
   for (uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i] = {.binding = i, .type = typeOf(i)};
+    bindings[i] = {.binding = i, .type = typeOf(i), .stages = stagesOf(i)};
   }
   layout_ = createDescriptorSetLayout(device, bindings, "frame");
 }

@@ -99,6 +99,7 @@ class FrameData {
   };
 
   static VkDescriptorType typeOf(uint32_t kind);
+  static VkShaderStageFlags stagesOf(uint32_t kind);
 
   // Inputs that all passes of a frame share.
   struct Source {

@@ -66,11 +66,10 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       watchedDepth_(std::make_unique<WatchedDepth>(renderer, display_.layout())),
       probe_(renderer),
       mirrorTargets_(device_),
-      environmentTargets_(device_) {}
+      environmentTargets_(device_),
+      idle_(device_) {}
 
-SceneRenderer::~SceneRenderer() {
-  renderer_.waitIdle();
-}
+SceneRenderer::~SceneRenderer() = default;
 
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +

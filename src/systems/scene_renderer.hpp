@@ -114,6 +114,7 @@ class SceneRenderer {
   std::array<std::pair<uint64_t, std::vector<RecordedPass>>, framesInFlight + 1> recordedFrames_;  // by frame number
   EffectLedger ledger_;
   std::optional<int> depthPass_;  // pass whose depth the debug view shows; passes.size() is the main view
+  IdleGuard idle_;
 };
 
 }  // namespace speculum

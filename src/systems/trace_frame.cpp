@@ -17,7 +17,7 @@ namespace {
 constexpr std::array bufferNames = {"trace boxes",   "trace items",           "trace instances",
                                     "trace mirrors", "trace mirror vertices", "light paths"};
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
-constexpr uint32_t frameDataBindings = 5;
+constexpr uint32_t frameDataBindings = 4;
 
 void setMirror(const std::optional<ObjectMirror>& mirror, const EffectSettings& effects, gpu::TraceInstance& data) {
   if (mirror && effects.curved) {

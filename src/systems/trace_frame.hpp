@@ -32,7 +32,7 @@ class TraceFrame {
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
   // Storage buffers that a fragment shader reads, with those of FrameData.
-  static constexpr uint32_t storageBuffers = 17;  // 5 + 6 of the scene + 6 of the frame
+  static constexpr uint32_t storageBuffers = 16;  // 4 + 6 of the scene + 6 of the frame
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if no effect is called for.

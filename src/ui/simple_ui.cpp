@@ -78,13 +78,11 @@ struct SimpleUI::Backend {
 };
 
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
-    : renderer_(renderer), window_(window), backend_(std::make_unique<Backend>(window)) {
+    : renderer_(renderer), window_(window), backend_(std::make_unique<Backend>(window)), idle_(renderer.device()) {
   windows_.rememberLayout();
 }
 
-SimpleUI::~SimpleUI() {
-  renderer_.waitIdle();
-}
+SimpleUI::~SimpleUI() = default;
 
 void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
   windows_.setThumbnails(std::move(pictures));
@@ -128,13 +126,13 @@ void SimpleUI::initVulkan() {
   info.ImageCount = renderer_.displayImageCount();
   info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
   info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
+  const VkRenderPass renderPass = renderer_.overlayRenderPass();
+  backend_->vulkan = true;  // from here on there is something to shut down, even if it fails
 #if IMGUI_VERSION_NUM >= 19000
-  info.RenderPass = renderer_.overlayRenderPass();
+  info.RenderPass = renderPass;
   ImGui_ImplVulkan_Init(&info);
-  backend_->vulkan = true;
 #else
-  ImGui_ImplVulkan_Init(&info, renderer_.overlayRenderPass());
-  backend_->vulkan = true;
+  ImGui_ImplVulkan_Init(&info, renderPass);
   renderer_.uploader().run([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
   ImGui_ImplVulkan_DestroyFontUploadObjects();
 #endif

@@ -51,6 +51,7 @@ class SimpleUI {
   float scale_ = 0.0f;  // of fonts and sizes: the monitor's by the user's; 0: nothing is made yet
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
+  IdleGuard idle_;
 };
 
 }  // namespace speculum

@@ -1,0 +1,86 @@
+// Devices that lack what others have: hidden by fault_layer/fault_layer.cpp.
+#include "fault_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+class Devices : public FaultTest {
+ protected:
+  // Two devices: the driver twice.
+  std::string twoDevices() {
+    const std::filesystem::path driver = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+    std::filesystem::copy_file(driver, folder_.path() / "second.json");
+    return "VK_ICD_FILENAMES=" + driver.string() + ":" + (folder_.path() / "second.json").string();
+  }
+  TemporaryDirectory folder_;
+};
+
+TEST_F(Devices, WithoutWhatIsOptionalDrawAll) {
+  const Run plain = run(render, {});
+  const Run poor = run(render,
+                       {"SPECULUM_HIDE=storage_buffers=4 timestamps statistics precise_counts primitive_id depth_clamp "
+                        "sample_shading anisotropy lines VK_EXT_memory_budget"},
+                       Place::inner);
+  EXPECT_EQ(poor.exitCode, 0);
+  EXPECT_EQ(poor.output, "");
+  EXPECT_TRUE(poor.picture == plain.picture);
+}
+
+TEST_F(Devices, OlderVersionsDrawTheSame) {
+  const Run plain = run(render, {});
+  for (const char* version : {"vulkan=1", "vulkan=2", "vulkan=2 VK_KHR_dynamic_rendering"}) {
+    const Run old = run(render, {"SPECULUM_HIDE=" + std::string(version)}, Place::inner);
+    EXPECT_EQ(old.exitCode, 0) << version;
+    EXPECT_EQ(old.output, "") << version;
+    EXPECT_TRUE(old.picture == plain.picture) << version;
+  }
+}
+
+TEST_F(Devices, OlderLoaderThanDriverDraws) {
+  const Run old = run(render, {"SPECULUM_HIDE=loader=2"}, Place::early);
+  EXPECT_EQ(old.exitCode, 0);
+  EXPECT_EQ(old.output, "");
+  EXPECT_TRUE(old.picture);
+}
+
+TEST_F(Devices, DepthSampleCountsAreAsked) {
+  const Run fewer = run(render, {"SPECULUM_HIDE=sampled_depth_samples=1"}, Place::inner);
+  EXPECT_EQ(fewer.exitCode, 0);
+  EXPECT_NE(fewer.output.find("has no 4 samples per pixel: 1 are used"), std::string::npos) << fewer.output;
+}
+
+TEST_F(Devices, NextOneIsTakenWithoutPresentation) {
+  Kind talkative = window;
+  talkative.options.back() = "info";
+  for (const char* lacks : {"SPECULUM_HIDE=present@0", "SPECULUM_HIDE=graphics@0"}) {
+    const std::string two = twoDevices();
+    const Run second = run(talkative, {two, lacks}, Place::inner);
+    EXPECT_EQ(second.exitCode, 0) << second.output;
+    EXPECT_NE(second.output.find("GPU 1: "), std::string::npos) << second.output;
+    std::filesystem::remove(folder_.path() / "second.json");
+  }
+}
+
+TEST_F(Devices, SeparatePresentQueueShows) {
+  const Run separate = run(window, {"SPECULUM_HIDE=present_queue"}, Place::inner);
+  EXPECT_EQ(separate.exitCode, 0);
+  EXPECT_EQ(separate.output, "");
+}
+
+TEST_F(Devices, TooLittleIsOneLine) {
+  const std::pair<const char*, const char*> cases[] = {{"clip_distance", "lacks shaderClipDistance"},
+                                                       {"graphics", "lacks a queue that draws"},
+                                                       {"present", "lacks a queue that presents to this window"},
+                                                       {"allocations=40", "the device takes 40 allocations"}};
+  for (const auto& [lacks, says] : cases) {
+    const Run poor = run(window, {"SPECULUM_HIDE=" + std::string(lacks)}, Place::inner);
+    EXPECT_EQ(poor.exitCode, 2) << lacks;
+    EXPECT_EQ(poor.lines, 1) << poor.output;
+    EXPECT_NE(poor.output.find(says), std::string::npos) << poor.output;
+  }
+}
+
+}  // namespace
+}  // namespace speculum

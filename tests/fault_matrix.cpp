@@ -1,0 +1,136 @@
+// Every Vulkan function that can fail fails with every result that the registry lists, over a picture that is rendered
+// and over a window: the program recovers, or ends with one line and exit code 2.
+#include <cstdio>
+#include <map>
+
+#include "core/vulkan_result.hpp"
+#include "fault_layer/failing_functions.hpp"
+#include "fault_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+struct FailingFunction {
+  std::string name;
+  std::vector<VkResult> results;
+};
+const std::vector<FailingFunction>& failingFunctions() {
+#define SPECULUM_ROW(NAME, ...) {#NAME, {__VA_ARGS__}},
+  static const std::vector<FailingFunction> rows = {SPECULUM_FAILING_FUNCTIONS(SPECULUM_ROW)};
+  return rows;
+}
+
+// Whether it is called before there is an instance.
+bool isEarly(const std::string& function) {
+  return function.starts_with("vkEnumerateInstance");
+}
+
+struct Fault {
+  std::string function;
+  VkResult result = VK_SUCCESS;
+  int call = 0;
+
+  // Recovery is possible and not only allowed.
+  bool mustRecover() const {
+    const bool ofSurface = function == "vkAcquireNextImageKHR" || function == "vkQueuePresentKHR" ||
+                           function == "vkCreateSwapchainKHR" ||
+                           function == "vkGetPhysicalDeviceSurfaceCapabilitiesKHR";
+    const bool waits = function == "vkAcquireNextImageKHR";
+    return result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR ||
+           result == VK_INCOMPLETE || (result == VK_ERROR_SURFACE_LOST_KHR && ofSurface) ||
+           ((result == VK_TIMEOUT || result == VK_NOT_READY) && waits);
+  }
+};
+
+class Faults : public FaultTest {
+ protected:
+  enum class End { recovered, line, wrong };
+
+  // Calls of each function in a run without a fault.
+  std::map<std::string, int> callsOf(const Kind& kind) {
+    const TemporaryDirectory folder;
+    const std::filesystem::path file = folder.path() / "calls";
+    const Run good = run(kind, {"SPECULUM_FAULT_CALLS=" + file.string()});
+    EXPECT_EQ(good.exitCode, 0);
+    EXPECT_EQ(good.output, "");
+    picture_ = good.picture;
+    std::map<std::string, int> calls;
+    std::ifstream stream(file);
+    std::string name;
+    for (int count = 0; stream >> name >> count;) {
+      calls[name] = count;
+    }
+    return calls;
+  }
+
+  End endOf(const Kind& kind, const Fault& fault) {
+    const std::string what =
+        kind.command + ": " + fault.function + " " + std::to_string(fault.call) + " " + resultName(fault.result);
+    const Run result = run(
+        kind,
+        {"SPECULUM_FAULT=" + fault.function + " " + std::to_string(fault.call) + " " + std::to_string(fault.result)},
+        isEarly(fault.function) ? Place::early : Place::outer);
+    // A warning says what is lower now.
+    const bool whole = result.picture == picture_;
+    const bool recovered = result.exitCode == 0 && (whole || result.lines == 1) && result.lines <= 1;
+    const bool line = result.exitCode == 2 && result.lines == 1 && (whole || !result.picture) && !fault.mustRecover();
+    const bool quiet = result.output.find("validation: ") == std::string::npos;
+    const bool good = (recovered || line) && quiet && result.otherFiles.empty();
+    EXPECT_TRUE(good) << what << ": exit code " << result.exitCode << (whole ? "" : ", other picture") << "\n"
+                      << result.output << result.otherFiles;
+    return !good ? End::wrong : recovered ? End::recovered : End::line;
+  }
+
+  // Every `stride`-th fault of the matrix.
+  void expectGoodEnds(const Kind& kind, int stride) {
+    std::map<std::string, int> calls = callsOf(kind);
+    std::vector<Fault> faults;
+    size_t functions = 0;
+    for (const FailingFunction& function : failingFunctions()) {
+      const int last = isEarly(function.name) ? 1 : calls[function.name];
+      functions += last > 0;
+      for (const VkResult result : function.results) {
+        // What comes last may be a call of the loader's own, which asks for counts.
+        for (int call = 1; call <= (result == VK_INCOMPLETE ? std::min(last, 1) : last);
+             call += std::max(last - 1, 1)) {
+          faults.push_back({function.name, result, call});
+        }
+      }
+    }
+    std::map<End, int> ends;
+    for (size_t i = 0; i < faults.size(); i += static_cast<size_t>(stride)) {
+      ++ends[endOf(kind, faults[i])];
+    }
+    std::printf("%s: %zu functions, %d faults: %d recovered, %d ended with a line, %d wrong\n", kind.command.c_str(),
+                functions, ends[End::recovered] + ends[End::line] + ends[End::wrong], ends[End::recovered],
+                ends[End::line], ends[End::wrong]);
+  }
+
+  int stride_ = environment("SPECULUM_ALL_FAULTS").empty() ? 23 : 1;
+  std::optional<std::vector<uint8_t>> picture_;
+};
+
+TEST_F(Faults, RenderEndsWell) {
+  Kind kind = render;
+  kind.options.insert(kind.options.end(), {"--render-path", "renderpass"});
+  expectGoodEnds(kind, stride_);
+}
+
+TEST_F(Faults, WindowEndsWell) {
+  expectGoodEnds(window, stride_);
+}
+
+TEST_F(Faults, LostDevicesAndSurfacesComeBack) {
+  callsOf(window);
+  for (const Fault& fault :
+       {Fault{"vkQueueSubmit", VK_ERROR_DEVICE_LOST, 9}, Fault{"vkAcquireNextImageKHR", VK_ERROR_SURFACE_LOST_KHR, 2},
+        Fault{"vkAcquireNextImageKHR", VK_TIMEOUT, 2}, Fault{"vkQueuePresentKHR", VK_ERROR_OUT_OF_DATE_KHR, 1},
+        Fault{"vkCreateSwapchainKHR", VK_ERROR_SURFACE_LOST_KHR, 1}}) {
+    endOf(window, fault);
+  }
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "command_support.hpp"
+#include "picture_support.hpp"
+#include "platform/files.hpp"
+#include "virtual_display.hpp"
+
+namespace speculum::testing_support {
+
+// The program under fault_layer/fault_layer.cpp.
+class FaultTest : public testing::Test {
+ protected:
+  struct Kind {
+    std::string command;
+    std::vector<std::string> options;
+  };
+  inline static const Kind render{"render", {"--size", "48x36", "--log-level", "warn"}};
+  inline static const Kind window{
+      "demo", {"--size", "320x240", "--frames", "4", "--present-mode", "immediate", "--log-level", "warn"}};
+  struct Run {
+    int exitCode = 0;
+    std::string output;  // stdout and stderr
+    long lines = 0;      // of it
+    std::optional<std::vector<uint8_t>> picture;
+    std::string otherFiles;  // that were left beside the picture
+  };
+
+  // Places of the layer: nearest to the program; between the validation layer and the driver, which the layer then
+  // lends its limits; before there is an instance, too.
+  enum class Place { outer, inner, early };
+
+  // `variables`: NAME=VALUE of the environment.
+  Run run(const Kind& kind, const std::vector<std::string>& variables, Place place = Place::outer) {
+    const std::string layer = (binaryDir() / "tests" / "fault_layer").string();
+    const TemporaryDirectory out;
+    const std::filesystem::path picture = out.path() / "out.png";
+    std::vector<std::string> command = {"timeout", "-k", "5", "60", "env"};
+    if (place == Place::early) {
+      command.push_back("XDG_DATA_HOME=" + layer + "/data");
+    } else {
+      // Of the layers that are named, the first that is found is nearest to the program; others come after them.
+      const std::string validation = "/usr/share/vulkan/explicit_layer.d:";
+      const bool inner = place == Place::inner;
+      command.push_back("VK_ADD_LAYER_PATH=" + (inner ? validation : "") + layer);
+      command.push_back("VK_INSTANCE_LAYERS=VK_LAYER_SPECULUM_fault" +
+                        std::string(inner ? ":VK_LAYER_KHRONOS_validation" : ""));
+    }
+    // The check of queue submissions, which the program turns on where this is not set, crashes in vkDeviceWaitIdle
+    // while images are presented (layer of 1.3.239).
+    command.push_back("VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT");
+    const auto add = [&](const std::vector<std::string>& more) {
+      command.insert(command.end(), more.begin(), more.end());
+    };
+    for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "HOME"}) {
+      add({name + ("=" + (out.path() / "home").string())});
+    }
+    add(variables);
+    add({(binaryDir() / "speculum").string(), kind.command, "--scene", scene_, "--validation"});
+    add(kind.options);
+    if (kind.command == "render") {
+      add({"--out", picture.string()});
+    }
+    const ProcessResult result = runProcess(command);
+    Run run{.exitCode = result.exitCode,
+            .output = result.output,
+            .lines = std::count(result.output.begin(), result.output.end(), '\n'),
+            .picture = readFileIfAny(picture)};
+    for (const auto& entry : std::filesystem::directory_iterator(out.path())) {
+      const std::string name = entry.path().filename().string();
+      run.otherFiles += name == "out.png" || name == "home" ? "" : name + " ";
+    }
+    return run;
+  }
+
+  test::VirtualDisplay display_;
+  // A mirror, an object with a texture, and a setting that needs a compute shader.
+  std::string scene_ = writeScene("faults", R"(
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[settings]
+"debug.check_finite" = true
+[[object]]
+model = "MODELS/column.obj"
+[[light]]
+position = [0, 3, 3]
+intensity = 10
+[[mirror]]
+position = [0, 1, -2]
+size = [5, 3]
+)")
+                           .string();
+};
+
+}  // namespace speculum::testing_support
