@@ -32,14 +32,14 @@ struct Fault {
   VkResult result = VK_SUCCESS;
   int call = 0;
 
-  // Recovery is possible and not only allowed.
+  // Recovery is possible and not only allowed. GLFW does not read lists again.
   bool mustRecover() const {
     const bool ofSurface = function == "vkAcquireNextImageKHR" || function == "vkQueuePresentKHR" ||
                            function == "vkCreateSwapchainKHR" ||
                            function == "vkGetPhysicalDeviceSurfaceCapabilitiesKHR";
     const bool waits = function == "vkAcquireNextImageKHR";
     return result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR ||
-           result == VK_INCOMPLETE || (result == VK_ERROR_SURFACE_LOST_KHR && ofSurface) ||
+           (result == VK_INCOMPLETE && !isEarly(function)) || (result == VK_ERROR_SURFACE_LOST_KHR && ofSurface) ||
            ((result == VK_TIMEOUT || result == VK_NOT_READY) && waits);
   }
 };

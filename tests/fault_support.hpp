@@ -50,6 +50,7 @@ class FaultTest : public testing::Test {
     // The check of queue submissions, which the program turns on where this is not set, crashes in vkDeviceWaitIdle
     // while images are presented (layer of 1.3.239).
     command.push_back("VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT");
+    command.push_back("NODEVICE_SELECT=1");  // a layer of Mesa's that ignores errors
     const auto add = [&](const std::vector<std::string>& more) {
       command.insert(command.end(), more.begin(), more.end());
     };
