@@ -42,7 +42,7 @@ struct Window {
   double load = 1.0;
   double mirrors = 1.0;
   MotionController controller{device.isCpu};
-  std::vector<MotionLevel> levels = motionLevels({}, {}, 1 + 4);
+  std::vector<MotionLevel> levels = motionLevels({}, {}, 1 + 4, true);
   uint64_t number = 0;
   std::deque<std::pair<uint64_t, double>> inFlight;  // frames whose time is not known yet
   std::vector<double> times{};                       // ms
@@ -220,7 +220,7 @@ TEST(MotionLevels, NothingIsRaised) {
   chosen.reflection.updateInterval = 3;
   chosen.reflection.meshError = 1.0;
   const std::vector<MotionLevel> front{{Settings(), 0.01}};
-  const std::vector<MotionLevel> levels = motionLevels(chosen, front, 1 + 2 + 4);
+  const std::vector<MotionLevel> levels = motionLevels(chosen, front, 1 + 2 + 4, true);
   ASSERT_GT(levels.size(), 5u);
   EXPECT_TRUE(sameMainView(levels[0].settings, chosen));
   for (const auto& [settings, error] : levels) {
@@ -236,12 +236,26 @@ TEST(MotionLevels, NothingIsRaised) {
 TEST(MotionLevels, FollowTheMeasuredFront) {
   MotionLevel point{Settings(), 0.02};
   point.settings.view.scale = 0.6;
-  const std::vector<MotionLevel> levels = motionLevels({}, std::span(&point, 1), 1 + 4);
+  const std::vector<MotionLevel> levels = motionLevels({}, std::span(&point, 1), 1 + 4, true);
   EXPECT_EQ(levels[1].settings.view.scale, 0.6);
   EXPECT_EQ(levels[1].settings.view.samples, 4);
   EXPECT_EQ(levels[1].error, 0.02);
   EXPECT_LT(levels.back().settings.view.scale, 0.2);
   EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end(), [](auto& a, auto& b) { return a.error < b.error; }));
+}
+
+TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
+  MotionLevel point{Settings(), 0.02};
+  point.settings.view.meshError = point.settings.reflection.meshError = 1.0;
+  const auto mostError = [&](bool simplifies) {
+    double most = 0.0;
+    for (const MotionLevel& level : motionLevels({}, std::span(&point, 1), 1 + 4, simplifies)) {
+      most = std::max({most, level.settings.view.meshError, level.settings.reflection.meshError});
+    }
+    return most;
+  };
+  EXPECT_EQ(mostError(false), 0.0);
+  EXPECT_GE(mostError(true), 1.0);
 }
 
 TEST(MotionLevels, WordsSayWhatIsGivenUp) {

@@ -1,4 +1,4 @@
-// reflection.mesh_error: which objects are drawn with how many triangles in mirrors, by the planner alone.
+// reflection.mesh_error and view.mesh_error: which objects are drawn with how many triangles, by the planner alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -96,6 +96,16 @@ TEST(MeshError, LevelsGrowWithDistanceAndError) {
     }
   }
   EXPECT_EQ(meshesWithLevels(planOf(scene, 4.0), evaluate(scene, 0.0)), std::vector{0});
+}
+
+TEST(MeshError, MainViewHasItsOwn) {
+  Scene scene = sceneOf({12, 25, 50, 100, 200});
+  EXPECT_TRUE(planOf(scene, 0.0, {{"view.mesh_error", "1"}}).passes.at(0).simplified.empty());
+  scene.camera.target = {0, 0, 10};
+  const FramePlan plan = planOf(scene, 0.0, {{"view.mesh_error", "1"}});
+  EXPECT_FALSE(plan.main.simplified.empty());
+  EXPECT_EQ(meshesWithLevels(plan, evaluate(scene, 0.0)), std::vector{0});
+  EXPECT_TRUE(planOf(scene, 0.0, {{"view.mesh_error", "1"}, {"reflection.clip", "none"}}).main.simplified.empty());
 }
 
 TEST(MeshError, EveryLevelKeepsTheBound) {

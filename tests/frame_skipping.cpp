@@ -206,6 +206,15 @@ TEST(Hidden, SimplifiedMeshesHideNothingInMirrors) {
   }
 }
 
+TEST(Hidden, SimplifiedMeshesHideNothingInTheMainView) {
+  const Scene scene = sceneWithBoxes({wall({0, 0, -4}, 0, {1, 1})}, {square({0, 0, -2}, {3, 3, 0.5})}, 2);
+  Settings settings;
+  settings.reflection.meshError = 0.5;
+  EXPECT_TRUE(isHidden(planOf(scene, settings), {0}));
+  settings.view.meshError = 0.5;
+  EXPECT_FALSE(isHidden(planOf(scene, settings), {0}));
+}
+
 // Whether a convex polygon holds a point, both in device coordinates.
 bool holds(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
   bool left = true;

@@ -162,7 +162,8 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
                               .budgetMs = workspace_.capture().recording()
                                               ? 0.0
                                               : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
-                              .front = workspace_.accuracy().front()};
+                              .front = workspace_.accuracy().front(),
+                              .simplifies = levels_.ready(workspace_.scene(), scenes_)};
   FittedPlan fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });

@@ -4,6 +4,7 @@
 
 #include "app/frame_pacer.hpp"
 #include "app/frame_planner.hpp"
+#include "app/level_job.hpp"
 #include "app/pace.hpp"
 #include "app/workspace.hpp"
 #include "ui/simple_ui.hpp"
@@ -95,6 +96,7 @@ class Demo : private WorkspaceHost {
   bool changeBegins_ = false;  // and not in the one before
   size_t pipelines_ = 0;       // after the last frame
   int scenes_ = 0;             // that were shown before this one
+  LevelJob levels_;
   Settings frameSettings_;
   std::string message_;
   uint64_t nonFinite_ = 0;  // of scenes shown before

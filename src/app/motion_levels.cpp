@@ -19,6 +19,7 @@ Settings lowered(Settings settings, const Settings& limit) {
   ReflectionSettings& reflection = settings.reflection;
   view.scale = std::min(view.scale, limit.view.scale);
   view.samples = std::min(view.samples, limit.view.samples);
+  view.meshError = std::max(view.meshError, limit.view.meshError);
   reflection.scale = std::min(reflection.scale, limit.reflection.scale);
   reflection.samples = std::min(reflection.samples, limit.reflection.samples);
   reflection.maxDepth = std::min(reflection.maxDepth, limit.reflection.maxDepth);
@@ -40,7 +41,10 @@ double mirrorSampleError(int samples) {
 double depthError(int depth) {
   return depth == 0 ? 0.2 : 0.08 / depth;
 }
-double meshError(double texels) {
+double viewMeshError(double texels) {
+  return 0.012 * texels;
+}
+double mirrorMeshError(double texels) {
   return 0.003 * texels;
 }
 
@@ -53,14 +57,15 @@ double addedError(const Settings& chosen, const Settings& lower) {
                      added(viewSampleError(chosen.view.samples), viewSampleError(lower.view.samples)) +
                      added(mirrorSampleError(a.samples), mirrorSampleError(b.samples)) +
                      added(a.maxDepth == b.maxDepth ? depthError(b.maxDepth) : 0.0, depthError(b.maxDepth)) +
-                     added(meshError(a.meshError), meshError(b.meshError));
+                     added(viewMeshError(chosen.view.meshError), viewMeshError(lower.view.meshError)) +
+                     added(mirrorMeshError(a.meshError), mirrorMeshError(b.meshError));
   return std::sqrt(sum);
 }
 
 }  // namespace
 
-std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const MotionLevel> front,
-                                      unsigned sampleCounts) {
+std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const MotionLevel> front, unsigned sampleCounts,
+                                      bool simplifies) {
   std::vector<MotionLevel> levels{{chosen}};
   const auto add = [&](const Settings& settings, double error) {
     if (!sameMainView(settings, levels.back().settings)) {
@@ -68,7 +73,12 @@ std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const Mo
     }
   };
   for (const MotionLevel& point : front) {
-    add(lowered(chosen, point.settings), point.error);
+    Settings settings = lowered(chosen, point.settings);
+    if (!simplifies) {
+      settings.reflection.meshError = chosen.reflection.meshError;
+      settings.view.meshError = chosen.view.meshError;
+    }
+    add(settings, point.error);
   }
   const MotionLevel measured = levels.back();
   const auto step = [&](const auto& change) {
@@ -82,7 +92,15 @@ std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const Mo
       step([&](Settings& s) { s.view.scale = scale; });
     }
   };
-  step([](Settings& s) { s.reflection.meshError = 0.5; });
+  const auto simplify = [&](double mirrors, double view) {
+    if (simplifies) {
+      step([&](Settings& s) {
+        s.reflection.meshError = mirrors;
+        s.view.meshError = view;
+      });
+    }
+  };
+  simplify(0.5, 0.0);
   for (const auto& samples : {+[](Settings& s) -> int& { return s.reflection.samples; },
                               +[](Settings& s) -> int& { return s.view.samples; }}) {
     for (const int count : {4, 2, 1}) {
@@ -92,9 +110,10 @@ std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const Mo
     }
   }
   scaleTo(blurredScale);
-  step([](Settings& s) { s.reflection.meshError = 2.0; });
+  simplify(2.0, 1.0);
   step([](Settings& s) { s.reflection.maxDepth = 2; });
   scaleTo(leastScale);
+  simplify(2.0, 2.0);
   step([](Settings& s) { s.reflection.maxDepth = 1; });
   return levels;
 }
@@ -117,8 +136,9 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   add(reflection.maxDepth != chosen.reflection.maxDepth, fmt::format("depth {}", reflection.maxDepth));
   add(reflection.updateInterval != chosen.reflection.updateInterval,
       fmt::format("mirrors every {} frames", reflection.updateInterval));
-  add(reflection.meshError != chosen.reflection.meshError,
-      fmt::format("meshes within {:.2g} texels", reflection.meshError));
+  const double mirrors = reflection.meshError != chosen.reflection.meshError ? reflection.meshError : 0.0;
+  const double view = settings.view.meshError != chosen.view.meshError ? settings.view.meshError : 0.0;
+  add(mirrors > 0.0 || view > 0.0, fmt::format("meshes within {:.2g} texels", std::max(mirrors, view)));
   return text.empty() ? "full quality" : text + fmt::format(", FLIP about {:.1g}", level.error);
 }
 

@@ -41,7 +41,7 @@ FittedPlan Pace::planMoving(const Request& request, const Planner& plan) {
   FittedPlan fitted;
   Settings chosen = request.chosen;
   chosen.view.accumulate = 1;
-  const std::vector<MotionLevel> levels = motionLevels(chosen, request.front, sampleCounts_);
+  const std::vector<MotionLevel> levels = motionLevels(chosen, request.front, sampleCounts_, request.simplifies);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
     fitted = plan(settings, 0);
     return work_;

@@ -40,6 +40,7 @@ class Pace {
     Shown shown;
     double budgetMs = 0.0;               // 0: nothing is lowered
     std::span<const MotionLevel> front;  // as motionLevels takes it
+    bool simplifies = false;             // likewise
   };
   // Plans the frame. `plan` is called with settings and the number of a picture of their mean, a few times, last for
   // the plan that is returned.

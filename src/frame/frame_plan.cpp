@@ -316,12 +316,14 @@ void Planner::findEffects() {
 // which would shadow their own levels. There are none without clipping either: what is drawn may then be nearer than
 // the mirror, which the level's error is measured from.
 void Planner::simplify() {
-  if (settings_.meshError <= 0.0 || settings_.clip == ClipMethod::none || plan_.effects.traces()) {
+  if (settings_.clip == ClipMethod::none || plan_.effects.traces()) {
     return;
   }
-  for (size_t i = 1; i < nodes_.size(); ++i) {
-    PlannedPass& pass = nodes_[i].pass;
-    simplifyPass(pass, readable(pass.view), plan_.projection, allSettings_, scene_, state_);
+  for (Node& node : nodes_) {
+    const double texels = meshErrorIn(node.pass.view, allSettings_);
+    if (texels > 0.0) {
+      simplifyPass(node.pass, readable(node.pass.view), plan_.projection, texels, allSettings_.effects, scene_, state_);
+    }
   }
 }
 

@@ -74,17 +74,21 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
   return best;
 }
 
-void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, const Settings& settings,
-                  const Scene& scene, const SceneState& state) {
+double meshErrorIn(const View& view, const Settings& settings) {
+  return view.path.empty() ? settings.view.meshError : settings.reflection.meshError;
+}
+
+void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, double texels,
+                  const EffectSettings& effects, const Scene& scene, const SceneState& state) {
   std::vector<PartialInstance> partial;
   for (const int i : pass.instances) {
     const InstanceState& instance = state.instances[static_cast<size_t>(i)];
     const Mesh& mesh = scene.meshes[instance.mesh];
     const PartialInstance* part = partOf(pass.partial, i);
     LevelChoice choice{.ranges = part ? part->ranges : std::vector{allOf(mesh)}};
-    const bool curved = settings.effects.curved && scene.objects[instance.object].mirror;
+    const bool curved = effects.curved && scene.objects[instance.object].mirror;
     if (!curved) {
-      const double largest = largestError(readable, projection, instance, mesh, settings.reflection.meshError);
+      const double largest = largestError(readable, projection, instance, mesh, texels);
       choice = chooseLevel(readable, largest, instance, mesh, std::move(choice.ranges));
     }
     const IndexRange all = choice.level < 0 ? allOf(mesh) : levelsOf(mesh).levels[choice.level].all;
@@ -105,6 +109,7 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
       meshes.insert(state.instances[static_cast<size_t>(simplified.instance)].mesh);
     }
   };
+  add(plan.main);
   std::for_each(plan.passes.begin(), plan.passes.end(), add);
   std::for_each(plan.reused.begin(), plan.reused.end(), add);
   return {meshes.begin(), meshes.end()};

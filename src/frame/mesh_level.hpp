@@ -21,10 +21,13 @@ struct LevelChoice {
 LevelChoice chooseLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
                         std::vector<IndexRange> seen);
 
-// Chooses a mesh level for each instance of the pass, by reflection.mesh_error. Curved mirrors keep all triangles,
-// since reflections follow their normals. `readable` is the pass's view with what look-ups read around it.
-void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, const Settings& settings,
-                  const Scene& scene, const SceneState& state);
+// Texels by which simplified objects may be off in the view: view.mesh_error or reflection.mesh_error.
+double meshErrorIn(const View& view, const Settings& settings);
+
+// Chooses a mesh level for each instance of the pass, off by at most `texels`. Curved mirrors keep all triangles, since
+// reflections follow their normals. `readable` is the pass's view with what look-ups read around it.
+void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, double texels,
+                  const EffectSettings& effects, const Scene& scene, const SceneState& state);
 
 // Lists, as indices into Scene::meshes, the meshes of which a pass of the plan, or one that a cached image replaces,
 // draws a level. Each is listed once.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
 #include "geometry/mesh_levels.hpp"
 
@@ -172,7 +173,7 @@ Occlusion::Occluders Occlusion::occludersOf(const View& view, std::span<const in
       return found;
     }
   }
-  const bool simplifies = settings_.reflection.meshError > 0.0 && !view.path.empty();
+  const bool simplifies = meshErrorIn(view, settings_) > 0.0;
   for (const int i : instances) {
     const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
     const Mesh& mesh = scene_.meshes[instance.mesh];

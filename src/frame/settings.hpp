@@ -33,7 +33,8 @@ struct ReflectionSettings {
 struct ViewSettings {
   double scale = 1.0;  // resolution of the main view relative to the picture; mirror images follow it
   int samples = 4;
-  int accumulate = 1;  // pictures whose mean is shown
+  int accumulate = 1;      // pictures whose mean is shown
+  double meshError = 0.0;  // texels by which outlines of objects in the main view may be off
   double exposure = 1.0;
   ToneMap toneMap = ToneMap::clamp;
   std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -264,14 +266,28 @@ MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, double error, MeshL
 
 struct LevelsOfMesh {
   std::once_flag once;
+  std::atomic<bool> made = false;
   MeshLevels levels;
 };
+
+namespace {
+
+std::shared_ptr<LevelsOfMesh> sharedLevels(const Mesh& mesh) {
+  static std::mutex mutex;
+  const std::scoped_lock lock(mutex);
+  if (!mesh.levels) {
+    mesh.levels = std::make_shared<LevelsOfMesh>();
+  }
+  return mesh.levels;
+}
+
+}  // namespace
 
 bool mayHaveLevels(const Mesh& mesh) {
   return mesh.indices.size() >= 3 * fewestTriangles;
 }
 
-MeshLevels simplified(const Mesh& mesh) {
+MeshLevels simplified(const Mesh& mesh, const std::function<bool()>& cancelled) {
   MeshLevels levels;
   if (!mayHaveLevels(mesh)) {
     return levels;
@@ -282,6 +298,9 @@ MeshLevels simplified(const Mesh& mesh) {
   }
   size_t last = mesh.indices.size();
   while (last >= 3 * fewestTriangles) {
+    if (cancelled && cancelled()) {
+      throw std::runtime_error("simplifying was cancelled");
+    }
     std::for_each(parts.begin(), parts.end(), [](SimplifiedPart& part) { part.simplify(); });
     const size_t left = indexCount(parts);
     if (left == 0 || static_cast<double>(left) > (1.0 - leastGain) * static_cast<double>(last)) {
@@ -297,19 +316,17 @@ MeshLevels simplified(const Mesh& mesh) {
   return levels;
 }
 
-const MeshLevels& levelsOf(const Mesh& mesh) {
-  static std::mutex mutex;
-  std::shared_ptr<LevelsOfMesh> made;
-  {
-    const std::scoped_lock lock(mutex);
-    if (!mesh.levels) {
-      mesh.levels = std::make_shared<LevelsOfMesh>();
-    }
-    made = mesh.levels;
-  }
-  // Outside the lock, because simplifying takes seconds and other meshes must not wait for it.
-  std::call_once(made->once, [&] { made->levels = simplified(mesh); });
-  return made->levels;
+const MeshLevels& levelsOf(const Mesh& mesh, const std::function<bool()>& cancelled) {
+  const std::shared_ptr<LevelsOfMesh> shared = sharedLevels(mesh);
+  std::call_once(shared->once, [&] {
+    shared->levels = simplified(mesh, cancelled);
+    shared->made = true;
+  });
+  return shared->levels;
+}
+
+bool levelsMade(const Mesh& mesh) {
+  return !mayHaveLevels(mesh) || sharedLevels(mesh)->made;
 }
 
 }  // namespace speculum

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "geometry/mesh.hpp"
@@ -29,13 +30,18 @@ struct MeshLevels {
 
 // Simplifies by quadric error metrics (Garland and Heckbert 1997) with meshoptimizer. Edges between parts stay as they
 // are, hard edges and seams of texture coordinates stay joined, and points in which three or more hard edges meet stay
-// in place. A mesh with few triangles, or one that cannot be simplified, such as a box, has no levels.
-MeshLevels simplified(const Mesh& mesh);
+// in place. A mesh with few triangles, or one that cannot be simplified, such as a box, has no levels. Throws
+// std::runtime_error once `cancelled` returns true, which is called before each level.
+MeshLevels simplified(const Mesh& mesh, const std::function<bool()>& cancelled = {});
 
 // Says whether simplified() could have levels of a mesh, without making them.
 bool mayHaveLevels(const Mesh& mesh);
 
-// The levels of a mesh, made by the first call and kept in the mesh. May be called from any thread.
-const MeshLevels& levelsOf(const Mesh& mesh);
+// The levels of a mesh, made by the first call and kept in the mesh and its copies. May be called from any thread.
+// A call that is cancelled throws as simplified() does, and the next one begins anew.
+const MeshLevels& levelsOf(const Mesh& mesh, const std::function<bool()>& cancelled = {});
+
+// Says whether levelsOf() returns at once. Copies of the mesh that are made afterwards share its levels.
+bool levelsMade(const Mesh& mesh);
 
 }  // namespace speculum

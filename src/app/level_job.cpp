@@ -1,0 +1,40 @@
+#include "app/level_job.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "geometry/mesh_levels.hpp"
+
+namespace speculum {
+
+bool LevelJob::ready(const Scene& scene, int sceneNumber) {
+  if (std::exchange(scene_, sceneNumber) != sceneNumber) {
+    job_.cancel();
+  }
+  if (job_.running()) {
+    return false;
+  }
+  std::vector<Mesh> missing;  // copies, because the scene may be replaced meanwhile
+  for (const Mesh& mesh : scene.meshes) {
+    if (!levelsMade(mesh)) {
+      missing.push_back(mesh);
+    }
+  }
+  if (missing.empty()) {
+    return true;
+  }
+  if (const std::optional<std::string> error = job_.takeError()) {
+    spdlog::debug("meshes are not simplified: {}", *error);
+    failed_ = sceneNumber;
+  }
+  if (failed_ != sceneNumber) {
+    job_.start(0.0, [meshes = std::move(missing)](const auto& report) {
+      for (const Mesh& mesh : meshes) {
+        levelsOf(mesh, [&] { return !report(0.0); });
+      }
+      return true;
+    });
+  }
+  return false;
+}
+
+}  // namespace speculum

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/background_job.hpp"
+#include "scene/scene.hpp"
+
+namespace speculum {
+
+// Makes the levels of a scene's meshes on a thread of its own, so that no frame of the window waits for them.
+class LevelJob {
+ public:
+  // Says whether the levels of all meshes are made. Starts to make those that are missing; a call with another scene
+  // ends the work for the one before.
+  bool ready(const Scene& scene, int sceneNumber);
+
+ private:
+  BackgroundJob<bool> job_;
+  int scene_ = 0;
+  std::optional<int> failed_;  // scene whose meshes could not be simplified, for lack of memory
+};
+
+}  // namespace speculum
