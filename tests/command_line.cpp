@@ -107,7 +107,21 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"frobnicate"}, "'frobnicate' is not a command (one of: demo render"},
         UsageCase{{"render", "--out", "/nowhere/at/all.png", "--size", "8x8", "--scene", "no_mirror"},
                   "/nowhere/at/all.png"},
-        UsageCase{{"bench", "--frames", "0"}, "--frames"}, UsageCase{{"bench", "--warmup", "-1"}, "--warmup"}));
+        UsageCase{{"bench", "--frames", "0"}, "--frames"}, UsageCase{{"bench", "--warmup", "-1"}, "--warmup"},
+        UsageCase{{"bench", "--against-binary", "/nowhere"}, "/nowhere"},
+        UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
+        UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
+
+// The frames of the other run take longer by more than any noise.
+TEST_F(CommandLine, BenchComparesRunsInTurn) {
+  const ProcessResult result =
+      speculum({"bench", "--scene", scene_, "--size", "32x18", "--frames", "2", "--warmup", "0",
+                "--against-set=view.accumulate=256", "--rounds", "1", "--json", out("r.json")});
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  const double ratio = readJson(out("r.json"))["ratios"]["gpu_ms"]["median"];
+  EXPECT_GT(ratio, 0.0);
+  EXPECT_LT(ratio, 0.5);
+}
 
 TEST_F(CommandLine, HelpAndVersionExitZero) {
   const ProcessResult help = speculum({"--help"});

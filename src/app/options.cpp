@@ -81,6 +81,7 @@ struct Raw {
   std::string size;
   std::string camera;
   std::vector<std::string> settings;
+  std::vector<std::string> againstSettings;
   std::string renderPath = "auto";
   std::string presentMode = "fifo";
 };
@@ -154,6 +155,13 @@ void addBench(CLI::App& app, Options& options, Raw& raw) {
   addSweepResults(app, options);
   app.add_flag("--prices", options.benchPrices, "GPU ms of each effect as well, by leaving it out in turn");
   app.add_flag("--reference", options.benchReference, "the ray tracer instead: rays per second and core");
+  app.add_option("--against-binary", options.againstBinary,
+                 "another speculum: runs both in turn and prints the ratios of their times")
+      ->check(CLI::ExistingFile);
+  app.add_option("--rounds", options.benchRounds, "runs of each of the two")->check(CLI::Range(1, 1000));
+  app.add_option("--against-set", raw.againstSettings, "key=value; the same against this program with other settings")
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
@@ -172,6 +180,38 @@ void addCompare(CLI::App& app, Options& options) {
   app.add_option("--max-flip", options.maxFlip, "exit 1 above this mean FLIP")->check(CLI::NonNegativeNumber);
   app.add_option("--max-diff", options.maxDiff, "exit 1 if a channel differs by more than N/255")
       ->check(CLI::NonNegativeNumber);
+}
+
+std::vector<std::pair<std::string, std::string>> parseSettings(const std::string& option,
+                                                               const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::string>> settings;
+  Settings scratch;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw UsageError(option + ": '" + text + "' has no value (key=value)");
+    }
+    settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    if (const auto problem = setSetting(scratch, settings.back().first, settings.back().second)) {
+      throw UsageError(option + ": " + *problem);
+    }
+  }
+  return settings;
+}
+
+// The arguments of `bench` for one of the runs that are compared.
+std::vector<std::string> benchArguments(int argc, const char* const* argv) {
+  std::vector<std::string> kept;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::string name = argument.substr(0, argument.find('='));
+    if (name != "--against-binary" && name != "--against-set" && name != "--json" && name != "--rounds") {
+      kept.push_back(argument);
+    } else if (name == argument) {
+      ++i;
+    }
+  }
+  return kept;
 }
 
 void applyRaw(const Raw& raw, Options& options) {
@@ -195,17 +235,8 @@ void applyRaw(const Raw& raw, Options& options) {
   if (options.maxFlip && !std::isfinite(*options.maxFlip)) {
     throw UsageError("--max-flip: not a finite number (a mean FLIP, such as 0.05)");
   }
-  Settings scratch;
-  for (const std::string& text : raw.settings) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw UsageError("--set: '" + text + "' has no value (key=value)");
-    }
-    options.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-    if (const auto problem = setSetting(scratch, options.settings.back().first, options.settings.back().second)) {
-      throw UsageError("--set: " + *problem);
-    }
-  }
+  options.settings = parseSettings("--set", raw.settings);
+  options.againstSettings = parseSettings("--against-set", raw.againstSettings);
   const std::optional<RenderPath> path = renderPathFromName(raw.renderPath);
   if (!path) {
     throw UsageError("--render-path: '" + raw.renderPath + "' is not a choice (auto | dynamic | renderpass)");
@@ -274,6 +305,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.command = app.get_subcommands().front()->get_name();
   }
   applyRaw(raw, options);
+  if (options.command == "bench") {
+    options.benchArguments = benchArguments(argc, argv);
+  }
   return options;
 }
 

@@ -45,10 +45,14 @@ struct Options {
   std::filesystem::path heatmap;
   std::optional<double> maxFlip;
   std::optional<int> maxDiff;
-  std::string sweep = "quick";         // accuracy: quick, full or a file
-  std::filesystem::path sweepResults;  // results.json of an earlier sweep; empty: none
-  bool benchReference = false;         // bench: the ray tracer in the place of the renderer
-  bool benchPrices = false;            // bench: what each effect costs as well
+  std::string sweep = "quick";          // accuracy: quick, full or a file
+  std::filesystem::path sweepResults;   // results.json of an earlier sweep; empty: none
+  bool benchReference = false;          // bench: the ray tracer in the place of the renderer
+  bool benchPrices = false;             // bench: what each effect costs as well
+  std::filesystem::path againstBinary;  // bench: another speculum to measure in turn; empty: none
+  std::vector<std::pair<std::string, std::string>> againstSettings;  // bench: settings to measure in turn; may be none
+  int benchRounds = 7;                                               // bench: runs of each of the two
+  std::vector<std::string> benchArguments;  // those of bench without what it is measured against, and without --json
 };
 
 // Bad usage; what() is one line.

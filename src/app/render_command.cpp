@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/bench_against.hpp"
 #include "app/commands.hpp"
 #include "app/effect_prices.hpp"
 #include "app/progress.hpp"
@@ -178,6 +179,9 @@ void printBench(const nlohmann::ordered_json& merged, int measured) {
 }  // namespace
 
 int runBench(const Options& options) {
+  if (!options.againstBinary.empty() || !options.againstSettings.empty()) {
+    return benchAgainst(options);
+  }
   if (options.benchReference) {
     return benchReference(options);
   }

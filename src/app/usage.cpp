@@ -24,7 +24,7 @@ const std::map<std::string, std::vector<std::string>>& examples() {
       {"accuracy", {"--scene gallery --out report", "--scene gallery --size 320x180 --sweep full --out report"}},
       {"bench",
        {"--scene many_mirrors --set reflection.max_depth=2 --frames 200 --json bench.json", "--scene gallery --prices",
-        "--reference"}},
+        "--scene gallery --against-set view.samples=1", "--reference"}},
       {"info", {""}},
       {"scenes", {""}},
   };
