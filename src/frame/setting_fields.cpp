@@ -148,8 +148,7 @@ constexpr SettingField fields[] = {
      .kind = NumberSetting{at<&V::meshError>, 0.0, 16.0},
      .label = "Mesh error",
      .text = "texels by which simplified objects in the main view may be off; 0 draws all triangles",
-     .cost = "Saves vertices of what is small; shading shifts a little with the triangles. Without effect while\n"
-             "anything in the picture calls for rays.",
+     .cost = "Saves vertices; shading shifts a little. No effect while rays are traced.",
      .unit = "texels",
      .changes = mainView,
      .slider = SettingSlider{0.0, 16.0}},
