@@ -18,7 +18,7 @@ double volume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   return glm::dot(a, glm::cross(b, c));
 }
 
-// Whether the segment from `eye` to `point` meets the triangle, its border included.
+// Says whether the segment from `eye` to `point` meets the triangle, its border included.
 bool meets(const glm::dvec3& eye, const glm::dvec3& point, const std::array<glm::dvec3, 3>& triangle) {
   const glm::dvec3 ray = point - eye;
   const glm::dvec3 a = triangle[0] - eye;

@@ -270,7 +270,7 @@ TEST(MainView, IsReusedOneFrameAfterItsMirrors) {
   EXPECT_TRUE(frames.next().mainReused);
 }
 
-// Whether the main view is drawn in the frame after `change` to a scene that stood still.
+// Says whether the main view is drawn in the frame after `change` to a scene that stood still.
 bool drawnAfter(const std::function<void(PlanSequence&)>& change, Scene scene = room(), double time = 0.0) {
   PlanSequence frames(std::move(scene));
   for (int frame = 0; frame < 3; ++frame) {

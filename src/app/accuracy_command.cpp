@@ -14,7 +14,7 @@ namespace speculum {
 
 namespace {
 
-// A bar for each stage, one after the other.
+// Shows a progress bar for each stage, one after the other.
 class StageProgress {
  public:
   bool operator()(const SweepStatus& status) {

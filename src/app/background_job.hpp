@@ -15,12 +15,12 @@
 
 namespace speculum {
 
-// Work on a thread of its own while the window goes on. Call everything from one thread; only the work itself runs on
-// the other.
+// Runs work on a thread of its own while the window continues. Call everything from one thread; only the work itself
+// runs on the other.
 template <typename Result, typename Progress = double>
 class BackgroundJob {
  public:
-  // Records how far the work is. False once the job is cancelled: the work ends early then, by an exception or with any
+  // Reports progress. Returns false once the job is cancelled: the work then ends early, by an exception or with any
   // result, and either is dropped.
   using Report = std::function<bool(const Progress&)>;
   using Work = std::function<Result(const Report&)>;
@@ -32,7 +32,7 @@ class BackgroundJob {
     task_->progress = std::move(first);
     task_->thread = std::thread([task = task_.get(), work = std::move(work)] { task->run(work); });
   }
-  // Does not wait: the thread ends by itself.
+  // Cancels without waiting; the thread ends by itself.
   void cancel() {
     if (task_) {
       task_->cancelled = true;
@@ -60,7 +60,7 @@ class BackgroundJob {
   std::optional<Result> takeResult() {
     return hasResult() ? std::move(std::exchange(task_, nullptr)->result) : std::nullopt;
   }
-  // Why the work failed.
+  // Returns why the work failed.
   std::optional<std::string> takeError() {
     return finished() && !task_->result ? std::optional(std::exchange(task_, nullptr)->error) : std::nullopt;
   }
@@ -102,7 +102,7 @@ class BackgroundJob {
   std::vector<std::unique_ptr<Task>> cancelled_;  // whose threads may not have ended yet
 };
 
-// Runs `work` with half of the processor's threads; the rest stays with the window.
+// Runs `work` with half of the processor's threads; the others remain for the window.
 template <typename Work>
 auto inBackground(const Work& work) {
   tbb::task_arena arena(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2));

@@ -9,8 +9,8 @@
 namespace speculum {
 
 // Screenshots and recordings of the window, in Speculum's folder of the user's pictures. While frames are recorded the
-// animation goes on by the same step from frame to frame, however long drawing and saving take, so that the sequence
-// plays evenly.
+// animation advances by the same step for each frame, however long drawing and saving take, so that the sequence plays
+// evenly.
 class Capture {
  public:
   static constexpr double framesPerSecond = 30.0;
@@ -21,14 +21,14 @@ class Capture {
   std::optional<std::string> toggleRecording(const std::string& scene, bool withPanel);
 
   bool recording() const { return folder_.has_value(); }
-  bool wanted() const { return recording() || screenshot_ != Screenshot::none; }  // of the frame that is drawn now
+  bool wanted() const { return recording() || screenshot_ != Screenshot::none; }           // of the present frame
   bool bare() const { return screenshot_ == Screenshot::bare || (recording() && bare_); }  // without panels
 
   struct Saved {
     std::string message;
     bool logged = false;
   };
-  // Saves the frame, which was wanted. A recorded picture that cannot be written ends the recording.
+  // Saves the frame; call it if wanted(). A recorded picture that cannot be written ends the recording.
   Saved save(const std::string& scene, const Image8& picture);
 
  private:
@@ -40,7 +40,7 @@ class Capture {
   std::optional<std::filesystem::path> folder_;  // of the recording
   bool bare_ = false;
   int frames_ = 0;
-  std::string recorded_;  // what was recorded so far
+  std::string recorded_;  // message about the frames recorded so far
 };
 
 }  // namespace speculum

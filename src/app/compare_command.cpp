@@ -12,7 +12,7 @@ namespace speculum {
 
 namespace {
 
-// The measures that exceed the given limits, or an empty text.
+// Lists the measures that exceed the given limits; empty if none does.
 std::string exceeded(const ImageMetrics& metrics, const Options& options) {
   std::string text;
   if (options.maxFlip && metrics.flip > *options.maxFlip) {

@@ -12,7 +12,7 @@ namespace speculum {
 namespace {
 
 constexpr std::chrono::milliseconds stillFor{400};      // before tracing begins
-constexpr std::array<int, 3> references = {4, 16, 64};  // samples a pixel: soon something to see, then better
+constexpr std::array<int, 3> references = {4, 16, 64};  // samples a pixel: a quick first result, then better ones
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void DifferenceView::startComparing(const ShownPicture& shown, Image8 image) {
   });
 }
 
-// True for a new heat map. One of settings that have changed meanwhile is dropped.
+// Returns true for a new heat map. Drops one whose settings have changed meanwhile.
 bool DifferenceView::collect() {
   bool fresh = false;
   if (std::optional<Compared> result = comparing_.takeResult(); result && result->settings == compared_) {
@@ -68,7 +68,7 @@ bool DifferenceView::collect() {
     metrics_ = result->metrics;
     fresh = true;
   }
-  // A finer reference waits while the one before is being compared with.
+  // A finer reference waits until the comparison with the last one ends.
   if (tracing_.hasResult() && !comparing_.busy()) {
     truth_ = *tracing_.takeResult();
     ++traced_;

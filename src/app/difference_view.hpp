@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// A picture of the window with all that it shows. The scene must live until DifferenceView::stop().
+// A picture of the window and everything that it depends on. The scene must live until DifferenceView::stop().
 struct ShownPicture {
   const Scene& scene;
   const SceneState& state;
@@ -16,20 +16,20 @@ struct ShownPicture {
   int height = 0;
 };
 
-// Where a still picture of the window differs from the ray-traced reference: a heat map of the FLIP error. Tracing and
-// comparing happen on other threads; whatever moves starts them anew.
+// Heat map of the FLIP error of a still picture of the window against the ray-traced reference. Tracing and comparing
+// run on other threads; any motion restarts them.
 class DifferenceView {
  public:
-  // Call once a frame, after it is drawn. `image` returns its pixels in display sRGB, and is called when they are to be
-  // compared. True when heatMap() has changed.
+  // Call once a frame, after it is drawn. `image` returns its pixels in display sRGB; it is called only when they are
+  // needed. Returns true when heatMap() has changed.
   bool update(const ShownPicture& shown, const std::function<Image8()>& image);
-  // Drops everything without waiting for work that is under way; true if there was a heat map.
+  // Drops everything without waiting for running work. Returns true if there was a heat map.
   bool reset();
-  void stop();  // waits for it as well
+  void stop();  // as reset(), but waits for running work
 
   const Image8& heatMap() const { return heatMap_; }  // without pixels until there is one
-  bool working() const;                               // update() has more to do although nothing changes
-  std::string status() const;                         // for the user: what is shown or waited for
+  bool working() const;                               // update() has work left although nothing changes
+  std::string status() const;                         // text for the user: the error, or the work that is running
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -39,7 +39,7 @@ class DifferenceView {
     ImageMetrics metrics;
   };
   using Truth = std::shared_ptr<const GroundTruth>;
-  // What the reference depends on.
+  // Everything that the reference depends on.
   struct View {
     std::filesystem::path file;
     int width = 0;
@@ -65,7 +65,7 @@ class DifferenceView {
   Truth truth_;
   Image8 heatMap_;
   ImageMetrics metrics_;
-  std::string problem_;  // that ended the work
+  std::string problem_;  // error that ended the work
 };
 
 }  // namespace speculum

@@ -25,7 +25,7 @@ constexpr double speedJump = 0.3;  // after several surprises in a row
 
 constexpr int surprisesOfAJump = 3;
 constexpr double surprise = 1.5;      // deviations
-constexpr double mostBelieved = 2.5;  // deviations: a single frame may have been disturbed
+constexpr double mostBelieved = 2.5;  // deviations: bounds the weight of a single disturbed frame
 constexpr double leastFactor = 0.02;
 
 double trianglesOf(const PlannedPass& pass, const Scene& scene, const SceneState& state) {

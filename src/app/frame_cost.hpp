@@ -6,9 +6,9 @@
 
 namespace speculum {
 
-// Amounts of work in a frame, as its plan tells them before it is drawn.
+// Amounts of work in a frame, computed from its plan before it is drawn.
 struct FrameWork {
-  double picturePixels = 0.0;  // that the display pass writes
+  double picturePixels = 0.0;  // pixels that the display pass writes
   double passes = 0.0;
   double triangles = 0.0;
   double mainTexels = 0.0;
@@ -18,7 +18,7 @@ struct FrameWork {
 };
 
 FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& state, const Settings& settings);
-// The work of a frame that was planned with settings `from`, had it been planned with `to`: by the numbers of texels
+// Estimates the work of a frame planned with settings `from` if it were planned with `to`, from the numbers of texels
 // and samples alone.
 FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to);
 
@@ -39,7 +39,7 @@ class CostModel {
 
   Vector guess(const FrameWork& work) const;  // milliseconds of each kind
 
-  Vector prices_;  // ms a unit on a usual device of the kind
+  Vector prices_;  // milliseconds for a unit of work on a usual device of the kind
   Vector factors_;
   std::array<Vector, kinds> covariance_{};  // of factors_
   int surprises_ = 0;                       // frames in a row that took longer, or (negative) less long, than expected

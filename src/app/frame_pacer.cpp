@@ -8,11 +8,11 @@ namespace speculum {
 
 namespace {
 
-// The panels take up a change in one frame, settle in a second, and show figures of the frame two before.
+// Panels show a change in one frame, settle in a second, and show figures that are two frames old.
 constexpr int framesAfterChange = 4;
-constexpr int longestInterval = 3600;  // frames: a map that is reused for longer is meant to stay as it is
+constexpr int longestInterval = 3600;  // frames: a map with a longer interval is meant to stay as it is
 
-// In which every image that is reused is rendered anew.
+// Returns the number of frames in which every cached image is rendered anew.
 int framesUntilFresh(const Settings& settings) {
   const EffectSettings& effects = settings.effects;
   const bool maps = effects.curved && effects.curvedLookup == CurvedLookup::environment;

@@ -4,18 +4,18 @@
 
 namespace speculum {
 
-// Decides whether a frame is drawn: after each change until everything shown is up to date, and none while the window
+// Says when a frame has to be drawn: after each change until everything shown is up to date, and never while the window
 // is idle.
 class FramePacer {
  public:
-  // Something changed, or goes on changing.
+  // Call when something changed or is changing.
   void change(const Settings& settings);
   void requestFrames(int frames);
   bool due() const { return due_ > 0; }
   void idle() { idled_ = true; }
 
-  // A frame begins, `seconds` after the last look at the window. Returns the milliseconds since the last frame, NaN if
-  // the window was idle.
+  // Begins a frame, `seconds` after the last step. Returns the milliseconds since the last frame, NaN if the window was
+  // idle.
   double beginFrame(double seconds);
   void frameDrawn();
 

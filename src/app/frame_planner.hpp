@@ -8,14 +8,14 @@
 namespace speculum {
 
 // Plans the frames of the window so that they fit the device's memory. Textures for which there is no memory are left
-// out until a setting changes, which may have freed some.
+// out until a setting changes, because that may free memory.
 class FramePlanner {
  public:
   explicit FramePlanner(const Device& device) : planner_(device) {}
 
-  // Plans a frame, of picture number `picture` of a mean, and uploads its textures. `rendersMain`: the main view is not
-  // to be reused. While `settingsMove`, say by a slider that is held, textures are not tried again: each trial waits
-  // for the device.
+  // Plans a frame for picture number `picture` of a mean, and uploads its textures. With `rendersMain` the main view is
+  // not reused. While `settingsMove`, as with a slider that is held, textures are not tried again, because each trial
+  // waits for the device.
   FittedPlan plan(Frame& frame, SceneRenderer& sceneRenderer, const Scene& scene, const SceneState& state,
                   Settings settings, int picture, bool rendersMain, bool settingsMove);
   void forgetScene() { refused_.reset(); }
@@ -23,7 +23,7 @@ class FramePlanner {
 
  private:
   struct Refused {
-    Settings settings;  // at which there was no memory for textures
+    Settings settings;  // settings at which there was no memory for textures
     std::string problem;
   };
 

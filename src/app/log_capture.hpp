@@ -6,8 +6,8 @@
 
 namespace speculum {
 
-// While it lives, lines of level info and above are added to a history as well, which must outlive it; where the log
-// went before, it says no more than it did. Make and destroy it while no other thread logs.
+// While it exists, adds log lines of level info and above to a history, which must outlive it. Other outputs of the log
+// keep their level. Create and destroy it while no other thread logs.
 class LogCapture {
  public:
   explicit LogCapture(LogHistory& history);

@@ -7,20 +7,21 @@ namespace speculum {
 
 namespace {
 
-// Shares of the budget. What is between the last two changes nothing.
+// Shares of the budget. Between the last two the level stays.
 constexpr double aim = 0.85;         // after going down
-constexpr double roomToRaise = 0.8;  // that a better level must leave
+constexpr double roomToRaise = 0.8;  // largest share that a better level may take
 constexpr double tooMuch = 0.95;
 constexpr double farBelow = 0.5;  // a better level within this is tried at once
 
 constexpr double leastPatience = 0.25;  // seconds
 constexpr double mostPatience = 4.0;
-constexpr double settled = 1.0;  // seconds at a better level after which it was no mistake
+constexpr double settled = 1.0;  // seconds at a better level after which it counts as right
 constexpr size_t mostPending = 8;
 
 }  // namespace
 
-// The first level from `first` on that the work of level `planned` promises to be within `ms`, otherwise the last.
+// Returns the first level from `first` on that is predicted to take at most `ms`, by the work of level `planned`, else
+// the last level.
 size_t MotionController::fittingLevel(std::span<const MotionLevel> levels, size_t first, size_t planned,
                                       const FrameWork& work, double ms) const {
   const auto fits = [&](const MotionLevel& level) {

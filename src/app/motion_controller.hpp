@@ -11,9 +11,9 @@
 namespace speculum {
 
 // Keeps the frames of a moving picture within a budget: chooses for each one of several levels, the first of which has
-// the settings that the user chose and each further one costs less. It goes down as soon as a frame is predicted to
-// take longer, however far it takes, and up by one level after a while in which that would have fitted. Knows no
-// device; see docs/window.md.
+// the settings that the user chose and each further one costs less. It goes down, by as many levels as needed, as soon
+// as a frame is predicted to take longer, and up by one level after a while in which that level would have fitted. It
+// needs no device; see docs/window.md.
 class MotionController {
  public:
   // Plans a frame with these settings and returns its work.
@@ -21,15 +21,15 @@ class MotionController {
 
   explicit MotionController(bool cpuDevice) : model_(cpuDevice) {}
 
-  // Chooses the level of the next frame, `seconds` after the last, at most `budgetMs` (above 0) of work. `plan` is
-  // called a few times, last with the settings of the level chosen.
+  // Chooses the level of the next frame, `seconds` after the last, with at most `budgetMs` (above 0) of work. Calls
+  // `plan` a few times, last with the settings of the chosen level.
   size_t choose(std::span<const MotionLevel> levels, double budgetMs, double seconds, const Planner& plan);
-  // The picture stands still: the next frame that moves may be of any level.
+  // Call when the picture stands still: the next moving frame may have any level.
   void stand() { moving_ = false; }
 
-  // Frame `number` was drawn, at any level or standing still. Those whose time says nothing are not told.
+  // Call when frame `number` was drawn, at any level or standing still, unless its time is unusual.
   void drawn(uint64_t number, const FrameWork& work);
-  // It took so long. Frames that are not known are ignored.
+  // Call with the time of frame `number` once it is known. Frames without drawn() are ignored.
   void finished(uint64_t number, double ms);
   double predict(const FrameWork& work) const { return model_.predict(work); }
 

@@ -10,7 +10,7 @@ namespace speculum {
 // that the picture does not change its quality between two steps of the pointer.
 class Movement {
  public:
-  // Once a frame, `seconds` after the last. `otherwise`: something moves besides the camera.
+  // Call once a frame, `seconds` after the last. `otherwise` says that something besides the camera moves.
   void update(const CameraPose& camera, bool otherwise, double seconds) {
     const bool moves = otherwise || (camera_ && *camera_ != camera);
     camera_ = camera;

@@ -12,18 +12,18 @@ namespace speculum {
 
 using PlacedNode = std::pair<Selection, SceneNode>;
 
-// Selected nodes that a handle moves or turns together, from press to release.
+// Moves or turns the selected nodes together by a handle, from press to release.
 class NodeDrag {
  public:
   // `nodes` are where they were at the press; all turn about the pivot of the first.
   NodeDrag(GizmoDrag gizmo, const Scene& scene, const SceneState& state, std::span<const Selection> nodes,
            const glm::dvec2& pixel);
 
-  // The nodes with the pointer at that pixel.
+  // Returns the nodes for a pointer at that pixel.
   std::vector<PlacedNode> to(const glm::dvec2& pixel, bool snap);
   Grip handle() const { return gizmo_.handle(); }
   bool turns() const { return handle() >= Grip::turnX; }
-  std::string label() const;  // how far, for the user
+  std::string label() const;  // distance or angle, for the user
   const glm::dvec2& pixel() const { return pixel_; }
 
  private:

@@ -15,7 +15,7 @@ void PointerController::cancel() {
 
 bool PointerController::button(const MouseButtonEvent& event, bool overPanels, SceneEditor& editor,
                                const CurrentView& view) {
-  // Another button while one is held belongs to nothing.
+  // Ignores another button while one is held.
   if (pressed_ ? event.button != button_ : !event.pressed) {
     return false;
   }

@@ -7,7 +7,7 @@
 namespace speculum {
 
 // Progress of long work on stderr: a bar that redraws itself on a terminal, a plain line every few seconds elsewhere.
-// Says nothing about work that is done within a second.
+// Prints nothing for work that is done within a second.
 class Progress {
  public:
   Progress(std::string what, double total);
@@ -25,7 +25,7 @@ class Progress {
   std::string what_;
   double total_;
   double done_ = 0.0;
-  double before_ = 0.0;  // done when the pace began to be taken
+  double before_ = 0.0;  // `done_` when measuring the pace began
   bool terminal_;
   bool shown_ = false;
   Clock::time_point created_;
@@ -33,8 +33,8 @@ class Progress {
   Clock::time_point last_;
 };
 
-// The file of each picture of a sequence. The pattern holds one %d or %0Nd, or none for a single picture. Endings other
-// than .png and .exr are a UsageError, so is a sequence without a number.
+// Names the file of each picture of a sequence. The pattern has one %d or %0Nd, or none for a single picture. Throws
+// UsageError for endings other than .png and .exr, and for a sequence without a number.
 class PictureFiles {
  public:
   PictureFiles(const std::filesystem::path& pattern, int count);

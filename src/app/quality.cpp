@@ -26,7 +26,7 @@ bool contains(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-// Whether a sweep measures the setting. The others choose what is shown, or change no radiance.
+// Says whether a sweep measures the setting. The others choose what is shown, or change no radiance.
 bool isQuality(const std::string& key) {
   const SettingField* field = findSettingField(key);
   return !field || (field->changes < FramePart::display && !field->subject && !key.starts_with("debug."));

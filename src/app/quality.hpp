@@ -16,19 +16,19 @@ struct QualityChoice {
   std::string why;
 };
 
-// Chooses from the file of --sweep-results for quality.budget_ms and quality.max_error, brings `settings` to the chosen
-// point, except for what --set says itself, and tells on stderr what was chosen and given up; warns where the sweep is
-// of another scene or size. Nothing without bounds. Throws UsageError for bounds of --set without a sweep, InputError
-// for a file that is none.
+// Chooses from the file of --sweep-results for quality.budget_ms and quality.max_error, sets `settings` to the chosen
+// point, except for keys of --set, and prints the choice and what it gives up on stderr. Warns if the sweep is of
+// another scene or size. Returns nothing without bounds. Throws UsageError for bounds of --set without a sweep,
+// InputError for a file that is not a sweep's.
 std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
                                            Settings& settings);
 
-// Every setting that a point's figures depend on, with its value at the point.
+// Returns every setting that a point's figures depend on, with its value at the point.
 std::vector<SettingChange> settingsOfPoint(const SweepResults& results, int point);
 bool isAtPoint(const Settings& settings, const std::vector<SettingChange>& point);
 
-// Brings settings to a point. Keys listed in `kept` stay, with a warning where they differ. Throws InputError with what
-// setSetting says.
+// Sets settings to those of a point. Keys listed in `kept` stay, with a warning where they differ. Throws InputError
+// with the message of setSetting().
 void applyPoint(const SweepResults& results, int point, const std::vector<std::string>& kept, Settings& settings);
 
 }  // namespace speculum

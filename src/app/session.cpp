@@ -132,7 +132,8 @@ int exitCodeOfChecks(int validationMessages, uint64_t nonFinite) {
 }
 
 BudgetPlanner::BudgetPlanner(const Device& device) {
-  // The rest is for meshes, textures and what else uses the device. Asked once: plans of equal frames stay equal.
+  // The rest is for meshes, textures and other programs. The budget is read once, so that plans of equal frames are
+  // equal.
   limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
   limits_.largestSide =
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
@@ -189,7 +190,7 @@ void Session::drawPicture(bool capture) {
   collectFinished();
   const Clock::time_point recording = Clock::now();
   FrameCache cache = sceneRenderer_.cache();
-  cache.main = nullptr;  // the pass of the main view is always among those that are reported
+  cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
   FittedPlan fitted =
       planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, cache, frame_.pictures);
   frame_.plan = std::move(fitted.plan);
@@ -204,7 +205,7 @@ void Session::drawPicture(bool capture) {
   renderer_.endFrame(frame);
 }
 
-// Pictures of a mean may differ in their passes, at the edge of what is seen.
+// Adds up passes by their ids, because pictures of a mean may differ in passes at the edge of the view.
 void Session::collectFinished() {
   while (!unfinished_.empty()) {
     const FrameTimings* timings = renderer_.timingsOf(unfinished_.front());

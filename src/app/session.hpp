@@ -14,12 +14,11 @@
 
 namespace speculum {
 
-// The scene file that --scene means: a path, or one that stands under the program's own data, or a shipped scene's
-// name. Throws UsageError.
+// Finds the scene file of --scene: a path, a path within the program's data, or a shipped scene's name. Throws
+// UsageError.
 std::filesystem::path findScene(const std::string& wanted);
 
-// The scene with the settings that hold for it: defaults, [settings], --set, and what a sweep has for the bounds of
-// quality.*.
+// A scene with its settings: defaults, [settings], --set, and a sweep's choice for the bounds of quality.*.
 struct LoadedScene {
   Scene scene;
   Settings settings;
@@ -29,23 +28,23 @@ LoadedScene loadSceneWithSettings(const Options& options);
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
                                   const LoadProgress& progress = {});
 
-// The camera of --camera; nothing if it is not given. Throws UsageError for one that looks nowhere.
+// Returns the camera of --camera; nothing if it is not given. Throws UsageError for one without a direction.
 std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene);
 
-// The opaque picture of what the renderer has read back.
+// Returns what the renderer read back as an opaque picture.
 Image8 pictureOf(Pixels pixels);
 
 DeviceOptions deviceOptions(const Options& options, Window* window);
 RendererOptions rendererOptions(const Options& options, Window* window);
 
-// debug.omit_barrier. Throws UsageError with the names for one that does not exist.
+// Applies debug.omit_barrier. Throws UsageError with all names for one that does not exist.
 void applyDebugSettings(const Settings& settings, Device& device);
 
-// The exit code of a run: 1 if the validation layer or debug.check_finite had anything to say, and then a line on
-// stderr for each that says how much.
+// Returns the exit code of a run: 1 if the validation layer or debug.check_finite found anything; prints a line on
+// stderr for each that did.
 int exitCodeOfChecks(int validationMessages, uint64_t nonFinite);
 
-// planWithin for what the device has; says in the log when it begins to lower settings.
+// Calls planWithin() with the device's limits, and logs when it begins to lower settings.
 class BudgetPlanner {
  public:
   explicit BudgetPlanner(const Device& device);
@@ -60,8 +59,8 @@ class BudgetPlanner {
   std::string message_;
 };
 
-// One frame as it was planned and recorded: a picture, or the mean of as many as view.accumulate asks for. Times, draws
-// and counts are sums over its pictures; the GPU's are there after Session::finish.
+// One frame as it was planned and recorded: a picture, or the mean of view.accumulate pictures. Times, draws and counts
+// are sums over its pictures; the GPU's are there after Session::finish.
 struct DrawnFrame {
   SceneState state;
   FramePlan plan;     // of the last picture
@@ -79,20 +78,20 @@ class Session {
  public:
   explicit Session(const Options& options);
 
-  // A camera in the place of the scene's.
+  // Replaces the scene's camera.
   void setCamera(const std::optional<CameraPose>& camera) { camera_ = camera; }
   // Draws the scene at `time`. picture() needs `capture`. Calls `afterPicture` after each picture of a mean, which ends
   // early when it returns false.
   const DrawnFrame& draw(double time, bool capture, const std::function<bool()>& afterPicture = {});
-  // The next frame is drawn as the first one was: whatever it shows is rendered in it.
+  // Drops all cached images: the next frame renders everything.
   void restart() { sceneRenderer_.restart(); }
-  // From the next frame on. Throws UsageError for a debug.omit_barrier that does not exist.
+  // Changes the settings from the next frame on. Throws UsageError for a debug.omit_barrier that does not exist.
   void setSettings(const Settings& settings);
-  // Waits for the GPU. Afterwards lastFrame() is whole.
+  // Waits for the GPU, after which lastFrame() is complete.
   void finish();
   Image8 picture();                                             // of the last frame drawn with `capture`
   LinearImage radiance() { return sceneRenderer_.radiance(); }  // of the last frame, before the display pass
-  // exitCodeOfChecks for the frames that have finished.
+  // Returns exitCodeOfChecks() for the frames that have finished.
   int exitCode() { return exitCodeOfChecks(device_.validationMessages(), sceneRenderer_.finiteWatch().count()); }
 
   const Scene& scene() const { return loaded_.scene; }

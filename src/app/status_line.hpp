@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// The result of the last action, shown for some seconds, and below it what the picture is.
+// The result of the last action, shown for some seconds, and below it how the picture is drawn.
 class StatusLine {
  public:
   void set(const std::string& text) {  // and logs it

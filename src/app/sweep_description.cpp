@@ -77,7 +77,7 @@ SweepContext sweepContext(Session& session) {
           .effects = effectsAskedFor(session.scene())};
 }
 
-// Another build, other shaders, another driver: everything is measured again.
+// Another build, shader or driver changes the identity, so that everything is measured again.
 std::string sweepIdentity(Session& session, const Options& options) {
   Fingerprint fingerprint;
   addFile(fingerprint, executablePath());

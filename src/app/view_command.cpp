@@ -11,7 +11,7 @@ namespace speculum {
 
 namespace {
 
-// Numbers are the shortest texts that read as the same.
+// Writes numbers as the shortest texts that read back the same.
 std::string pointText(const glm::dvec3& point) {
   return fmt::format("{},{},{}", point.x, point.y, point.z);
 }
@@ -39,7 +39,7 @@ std::string quoted(const std::string& argument) {
   return text + "'";
 }
 
-// By name if it comes with the program.
+// Returns the name of a scene that comes with the program, else the path.
 std::string sceneText(const std::filesystem::path& file) {
   const std::filesystem::path path = std::filesystem::weakly_canonical(file);
   const std::filesystem::path name =

@@ -8,10 +8,10 @@
 
 namespace speculum {
 
-// The call of `speculum render`, for a shell, that draws the view of `options` with `settings` to the same bytes:
-// scene, size, time, camera, device, and every setting that is not the scene's own. quality.* is left out, which has
-// done its work on the others; so is view.continuous, which is the window's. `file` holds what the picture shows: the
-// scene's own or a copy with the same [settings].
+// Returns a shell command of `speculum render` that draws the view of `options` with `settings` to the same bytes: with
+// scene, size, time, camera, device, and every setting that is not the scene's own. quality.* is left out, because it
+// has been applied to the others already, and view.continuous, because it is the window's. `file` has what the picture
+// shows: the scene's own file or a copy with the same [settings].
 std::string viewCommand(const Options& options, const std::filesystem::path& file, const Scene& scene,
                         const Settings& settings);
 

@@ -13,17 +13,19 @@ class ViewController {
   void sceneChanged(const Scene& scene);
   void setMode(CameraMode mode);
   void toggleMode();
-  // Along right, up and backwards of the view, each in -1 .. 1, and as far as the gamepad's sticks say.
+  // Moves the camera along right, up and backwards of the view, each in -1 .. 1, and by the gamepad's sticks.
   void move(const glm::dvec3& direction, const GamepadState& pad, double seconds);
 
   void goToBookmark(size_t index, const Scene& scene);
   void goToNextBookmark(const Scene& scene);
-  // The present view. It has an up and a field of view of its own if a bookmark gave them.
+  // Returns the present view as a bookmark. It has an up and a field of view of its own if they differ from the
+  // scene's.
   Bookmark bookmark(const CameraPose& pose, const CameraSpec& usual) const;
   void listBookmarks(const Scene& scene);
   void setBookmark(int index) { view_.bookmark = index; }
 
-  // Looks from the selected mirror, else from the one that fills most of the picture, else from the last one.
+  // Looks from the selected mirror, else from the one that fills most of the picture, else from the last one looked
+  // from.
   void lookFromMirror(MirrorSide side, const Scene& scene, const SceneState& state, const Selection& selected,
                       std::span<const PassView> passes, double aspect);
 
@@ -34,7 +36,7 @@ class ViewController {
  private:
   CameraController camera_;
   CameraView view_;
-  int lastMirror_ = -1;  // that was looked from; -1: none yet
+  int lastMirror_ = -1;  // last mirror looked from; -1: none yet
 };
 
 }  // namespace speculum

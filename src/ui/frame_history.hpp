@@ -9,8 +9,8 @@
 
 namespace speculum {
 
-// Milliseconds of the last frames, by frame number: what the CPU and the window know at once, and what the GPU tells
-// some frames later. What is not known is NaN.
+// Milliseconds of the last frames, by frame number: those of the CPU and the window, which are there at once, and those
+// of the GPU, which arrive some frames later. Missing figures are NaN.
 class FrameHistory {
  public:
   static constexpr size_t longest = 300;  // frames
@@ -19,8 +19,8 @@ class FrameHistory {
 
   // Numbers ascend. `frameMs` is the time since the frame before, NaN if nothing was drawn for a while.
   void add(uint64_t number, double frameMs, double cpuMs);
-  // The frame must have been added; one that has been dropped, or has its figures, is ignored. Times of
-  // passes of one name add up.
+  // Adds the GPU's figures to a frame from add(). Ignores frames that were dropped or have their figures. Times of
+  // passes with the same name add up.
   void addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes);
   void clear();
 
@@ -30,12 +30,12 @@ class FrameHistory {
 
   size_t frames() const { return rows_.size(); }
   std::vector<float> series(Figure figure) const;  // oldest first
-  // In the order of their first recording; those that no frame here has are left out.
+  // Names of passes in the order of their first recording, without those that no frame here has.
   std::vector<std::string> passNames() const;
   std::vector<float> passSeries(const std::string& pass) const;
 
-  // A line of names with units, then one for each frame, oldest first; unknown figures are empty. A pass's name is
-  // quoted as RFC 4180 has it.
+  // Returns a line of names with units, then one for each frame, oldest first; missing figures are empty. Names of
+  // passes are quoted by RFC 4180.
   std::string csv() const;
 
  private:
@@ -51,7 +51,8 @@ class FrameHistory {
   bool paused_ = false;
 };
 
-// The share of the known values that are not above it, nearest rank: 0.5 is the median. NaN if none is known.
+// Returns the value that `share` of the values are not above, by nearest rank: 0.5 gives the median. Ignores NaN; NaN
+// if there is no other value.
 double percentile(std::span<const float> values, double share);
 
 }  // namespace speculum

@@ -11,7 +11,7 @@ namespace {
 constexpr float tileEms = 10.5f;  // width of a tile, in sizes of the font
 constexpr float tileAspect = 192.0f / 108.0f;
 
-// Text that does not fit ends at the tile's border.
+// Draws text that is clipped at the tile's border.
 void textWithin(const std::string& text, const ImVec2& low, const ImVec2& high, float align) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(low.x + std::max(0.0f, align * (high.x - low.x - size.x)), low.y + 0.5f * (high.y - low.y - size.y));

@@ -10,7 +10,7 @@ namespace speculum {
 
 namespace {
 
-// GLFW's callbacks know their window only.
+// The instance for GLFW's callbacks, which receive the window only.
 struct Chain {
   InputQueue* queue = nullptr;
   GLFWkeyfun key = nullptr;
@@ -36,7 +36,7 @@ bool isCommand(int key, int modifiers) {
   return !modifier && (!character || (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0);
 }
 
-// Shortcuts of text fields go by the printed letter too; what is typed comes as text.
+// Returns the key for shortcuts of text fields, by its printed letter. Typed text comes as characters.
 int meantCode(int key, int scancode) {
   const char* name = key >= GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2 ? glfwGetKeyName(key, scancode) : nullptr;
   const bool letter = name && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0';
@@ -137,7 +137,7 @@ void GlfwInput::newFrame() {
   }
   ImGui_ImplGlfw_NewFrame();
 #if IMGUI_VERSION_NUM < 18700
-  // The backend asked GLFW, which is ahead of the queue.
+  // The backend read the pointer from GLFW, which is ahead of the queue.
   ImGuiIO& io = ImGui::GetIO();
   for (size_t i = 0; i < buttons_.size(); ++i) {
     io.MouseDown[i] = buttons_[i];

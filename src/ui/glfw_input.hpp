@@ -8,11 +8,11 @@ struct GLFWwindow;
 
 namespace speculum {
 
-// Brings what GLFW tells of a window to Dear ImGui's GLFW backend, one step a frame: version 1.86 reads keys, buttons
-// and pointer as they are when the frame begins. The backend must have installed no callbacks. One instance a process.
+// Passes GLFW's events on to Dear ImGui's GLFW backend, one step a frame, because version 1.86 reads keys, buttons and
+// pointer only once, when a frame begins. The backend must not install callbacks. One instance a process.
 class GlfwInput {
  public:
-  // Callbacks that the window has already are called first, and at once.
+  // Callbacks that the window already has are called first, without waiting for a frame.
   explicit GlfwInput(GLFWwindow* window);
   ~GlfwInput();
   GlfwInput(const GlfwInput&) = delete;
@@ -20,7 +20,7 @@ class GlfwInput {
 
   // Calls the backend's ImGui_ImplGlfw_NewFrame.
   void newFrame();
-  bool waiting() const { return !queue_.empty(); }  // for a frame
+  bool waiting() const { return !queue_.empty(); }  // events wait for a frame
 
  private:
   void give(const InputEvent& event);
@@ -30,7 +30,7 @@ class GlfwInput {
   std::array<bool, 3> buttons_{};
   double x_ = 0.0;
   double y_ = 0.0;
-  bool moved_ = false;  // the pointer, since the beginning
+  bool moved_ = false;  // the pointer has moved since the start
 };
 
 }  // namespace speculum

@@ -33,7 +33,7 @@ void statusLine(const StatusView& status, float width) {
   const std::string shown = status.text + (status.text.empty() || picture.empty() ? "" : "\n") + picture;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
-  // Paths have no spaces to wrap at: beyond the panel if need be.
+  // Paths cannot wrap, so the line may be wider than the panel.
   const float text = ImGui::CalcTextSize(shown.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
   const float most = std::max(width, mostWidth * display.x);
   const bool oneLine = width == 0.0f && text <= most;

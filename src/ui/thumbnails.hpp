@@ -11,12 +11,12 @@ namespace speculum {
 // Small pictures within the font atlas, the one texture that ImGui's Vulkan backend draws.
 class Thumbnails {
  public:
-  // A picture without pixels stands for none.
+  // A picture without pixels means that there is none.
   explicit Thumbnails(std::vector<Image8> pictures = {}) : pictures_(std::move(pictures)) {}
 
-  // After the fonts were added and before the atlas is uploaded: packs the pictures with them.
+  // Packs the pictures with the fonts. Call it after the fonts are added and before the atlas is uploaded.
   void addTo(ImFontAtlas& atlas);
-  // Draws one into a rectangle of the screen, by the current window's draw list; false if there is none.
+  // Draws a picture into a rectangle of the screen with the current window's draw list. Returns false if there is none.
   bool draw(size_t picture, const glm::vec2& low, const glm::vec2& high) const;
 
  private:

@@ -23,7 +23,7 @@ inline bool unit(const glm::dvec3& v) {
   return std::abs(glm::length(v) - 1.0) <= 1e-9;
 }
 
-// Whether `read` accepted the input. Throws BrokenPromise for an InputError that is not one line.
+// Says whether `read` accepted the input. Throws BrokenPromise for an InputError that is not one line.
 template <typename Read>
 bool accepted(const Read& read) {
   try {
