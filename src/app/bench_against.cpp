@@ -72,8 +72,8 @@ int benchAgainst(const Options& options) {
   Progress progress("bench", 2 * rounds);
   for (int round = 0; round < rounds; ++round) {
     std::array<std::map<std::string, double>, 2> times;
-    // The order changes, because a machine that warms up or slows down would favour one of them. The other one is first,
-    // because it is the one that may not run at all.
+    // The order changes, because a machine that warms up or slows down would favour one of them. The other one is
+    // first, because it is the one that may not run at all.
     for (const size_t side : round % 2 == 0 ? std::array<size_t, 2>{1, 0} : std::array<size_t, 2>{0, 1}) {
       const auto medians = measured(side == 0 ? own : other, json);
       if (!medians) {

@@ -16,7 +16,7 @@ namespace speculum {
 
 namespace {
 
-// Pictures and figures go to stdout; everything that is said about them goes to stderr.
+// Sends log lines to stderr, because stdout is for pictures and figures.
 void setUpLog(const std::string& level) {
   const auto logger = std::make_shared<spdlog::logger>("speculum", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_pattern("%l: %v");
@@ -45,7 +45,7 @@ int runScenes() {
     }
   }
   for (const auto& [file, title] : titles) {
-    // The name that --scene takes: hard/corner for a scene in a folder.
+    // Names scenes as --scene takes them: hard/corner for a scene in a folder.
     const std::filesystem::path name = std::filesystem::path(file).lexically_relative(dataDirectory("scenes"));
     std::printf("%-24s %s\n%25s%s\n", std::filesystem::path(name).replace_extension().c_str(), title.c_str(), "",
                 file.c_str());
@@ -83,7 +83,7 @@ int speculumMain(int argc, const char* const* argv) {
     setUpLog(options->logLevel);
     return runCommand(*options);
   } catch (const std::exception& error) {
-    // Usage, input and a machine without a usable GPU alike: nothing was done, and the line says what would help.
+    // Bad usage, bad input and a missing GPU all end here: nothing was done, and the line says what would help.
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }

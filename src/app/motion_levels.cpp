@@ -11,7 +11,7 @@ namespace speculum {
 namespace {
 
 constexpr double scaleStep = 0.9;
-constexpr double blurredScale = 0.4;  // below it, fewer reflections are missed less than detail
+constexpr double blurredScale = 0.4;  // below it, losing reflections is seen less than losing detail
 constexpr double leastScale = 0.125;
 
 Settings lowered(Settings settings, const Settings& limit) {
@@ -28,7 +28,8 @@ Settings lowered(Settings settings, const Settings& limit) {
   return settings;
 }
 
-// Mean FLIP that each setting adds, on average over the shipped scenes without traced effects (docs/window.md).
+// Return the mean FLIP that each setting adds, on average over the shipped scenes without traced effects
+// (docs/window.md).
 double scaleError(double scale) {
   return 0.055 * std::pow(1.0 / scale - 1.0, 0.62);
 }
@@ -48,7 +49,7 @@ double mirrorMeshError(double texels) {
   return 0.003 * texels;
 }
 
-// Errors of different kinds add up like independent ones.
+// Adds errors of different kinds as squares, like independent ones.
 double addedError(const Settings& chosen, const Settings& lower) {
   const auto added = [](double less, double more) { return std::max(0.0, more * more - less * less); };
   const ReflectionSettings& a = chosen.reflection;

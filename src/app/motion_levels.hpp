@@ -14,14 +14,14 @@ struct MotionLevel {
   double error = 0.0;  // mean FLIP, about
 };
 
-// Levels for a picture of these settings, each cheaper than the one before: the settings themselves, the front of the
-// scene's measured sweep (most accurate first; may be empty), then steps in an order that holds for most scenes
-// (docs/window.md). No level is above the first in anything. `sampleCounts`: those that the device has, as a sum.
-// `simplifies`: whether levels may simplify meshes.
+// Returns levels for a picture with these settings, each cheaper than the one before: the settings themselves, the
+// front of the scene's measured sweep (most accurate first; may be empty), then steps in an order that holds for most
+// scenes (docs/window.md). No level is above the first in any setting. `sampleCounts` are those that the device has, as
+// a sum. `simplifies`: whether levels may simplify meshes.
 std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const MotionLevel> front, unsigned sampleCounts,
                                       bool simplifies);
 
-// What a level gives up: "0.5 scale, 1 sample, FLIP about 0.05"; "full quality" if it is nothing.
+// Describes what a level gives up: "0.5 scale, 1 sample, FLIP about 0.05", or "full quality".
 std::string motionText(const Settings& chosen, const MotionLevel& level);
 
 }  // namespace speculum

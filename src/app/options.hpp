@@ -17,7 +17,7 @@ struct PictureSize {
   int height = 720;
 };
 
-// The command line, parsed and checked; what the scene's [settings] say is added when the scene is loaded.
+// The command line, parsed and checked. The scene's [settings] are added when the scene is loaded.
 struct Options {
   std::string command = "demo";
   std::string scene;  // empty: the default scene
@@ -27,8 +27,8 @@ struct Options {
   std::filesystem::path stats;
   std::filesystem::path json;
   double time = 0.0;               // seconds
-  std::optional<Bookmark> camera;  // in the place of the scene's, without a name
-  std::string bookmark;            // the same, by the name that the scene has for it; empty: not given
+  std::optional<Bookmark> camera;  // replaces the scene's; without a name
+  std::string bookmark;            // name of a bookmark whose view replaces the camera's; empty: none
   int frames = 0;                  // 0: the command's default
   double fps = 30.0;
   int warmup = 10;
@@ -47,8 +47,8 @@ struct Options {
   std::optional<int> maxDiff;
   std::string sweep = "quick";          // accuracy: quick, full or a file
   std::filesystem::path sweepResults;   // results.json of an earlier sweep; empty: none
-  bool benchReference = false;          // bench: the ray tracer in the place of the renderer
-  bool benchPrices = false;             // bench: what each effect costs as well
+  bool benchReference = false;          // bench: measures the ray tracer instead of the renderer
+  bool benchPrices = false;             // bench: measures the cost of each effect too
   std::filesystem::path againstBinary;  // bench: another speculum to measure in turn; empty: none
   std::vector<std::pair<std::string, std::string>> againstSettings;  // bench: settings to measure in turn; may be none
   int benchRounds = 7;                                               // bench: runs of each of the two
@@ -61,7 +61,7 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Nothing when help or the version was printed. Throws UsageError.
+// Parses the command line. Returns nothing when help or the version was printed. Throws UsageError.
 std::optional<Options> parseOptions(int argc, const char* const* argv);
 
 }  // namespace speculum

@@ -9,21 +9,22 @@
 
 namespace speculum {
 
-// Quality of the window's frames: while something moves as much of what was chosen as fits into a budget of
-// milliseconds, and otherwise all of it, then the mean of pictures with offsets (view.accumulate), one in each frame.
+// Chooses the quality of the window's frames: while something moves, as much of the chosen settings as fits into a
+// budget of milliseconds; otherwise all of them, then the mean of pictures with offsets (view.accumulate), one in each
+// frame.
 class Pace {
  public:
   // `sampleCounts`: those that the device has, as a sum.
   Pace(bool cpuDevice, unsigned sampleCounts)
       : cpuDevice_(cpuDevice), sampleCounts_(sampleCounts), controller_(cpuDevice) {}
 
-  // A frame begins; its camera, and whether anything else moves in it.
+  // Begins a frame. `otherwise` says that something besides the camera moves in it.
   void begin(const CameraPose& camera, bool otherwise, double seconds);
   bool moving() const { return movement_.moving(); }
-  // Whether another frame is needed although nothing happens.
+  // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const { return movement_.ending() || (!moving() && picture_ < pictures_); }
 
-  // What a still picture shows, besides the settings that were chosen.
+  // Identifies what a still picture shows, besides the chosen settings.
   struct Shown {
     int scenes = 0;              // that were shown before this one
     uint64_t revision = 0;       // of the scene's document
@@ -42,18 +43,17 @@ class Pace {
     std::span<const MotionLevel> front;  // as motionLevels takes it
     bool simplifies = false;             // likewise
   };
-  // Plans the frame. `plan` is called with settings and the number of a picture of their mean, a few times, last for
-  // the plan that is returned.
+  // Plans the frame. Calls `plan` a few times with settings and the number of a picture of their mean, last for the
+  // plan that it returns.
   using Planner = std::function<FittedPlan(const Settings&, int picture)>;
   FittedPlan plan(const Request& request, const Planner& plan);
 
-  // The frame was recorded: milliseconds of the CPU without waiting, and whether its times say what such a frame costs.
+  // Call when the frame was recorded: `cpuMs` without waiting; `usual` says that its times are those of such a frame.
   void drawn(uint64_t number, double cpuMs, bool usual);
-  // The GPU's times of an earlier frame.
+  // Call with the GPU's times of an earlier frame.
   void finished(const FrameTimings& timings);
 
-  // What the picture gives up for its pace, or how far it has converged, for the user; empty if there is nothing to
-  // say.
+  // Text for the user: what the picture gives up for its pace, or how far it has converged; empty if neither applies.
   const std::string& text() const { return text_; }
 
  private:
@@ -77,16 +77,16 @@ class Pace {
   std::deque<Drawn> drawn_;
   FrameWork work_;  // of the frame that was planned last
   std::string text_;
-  // What the pictures show; nothing while the picture moves.
+  // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
-  int picture_ = -1;  // of the mean, that is drawn next; -1: one in full quality comes first
+  int picture_ = -1;  // next picture of the mean; -1: one in full quality comes first
   int pictures_ = 0;  // in the mean
 };
 
-// Pictures in the mean that a still picture becomes.
+// Returns the number of pictures in the mean of a still picture.
 int stillPictures(const Settings& settings);
 
-// quality.motion_ms, or what it is by itself: 50 on a CPU, elsewhere 0.8 of the monitor's refresh.
+// Returns quality.motion_ms or, if that is auto, 50 on a CPU and 0.8 of the monitor's refresh elsewhere.
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz);
 
 }  // namespace speculum

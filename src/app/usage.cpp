@@ -35,7 +35,7 @@ bool isOption(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
-// In the order of the help.
+// Lists option names in the order of the help.
 std::vector<std::string> optionNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -75,7 +75,7 @@ std::string unknownArgument(const CLI::App& app) {
   }
   const bool commanded = !app.get_subcommands().empty();
   const CLI::App& used = commanded ? *app.get_subcommands().front() : app;
-  // With no command the first word was meant to be one, and what follows it belongs to that.
+  // Without a command the first word was meant to be one, and the following ones are its arguments.
   if (!commanded && !isOption(left.front())) {
     return "'" + left.front() + "' is not a command (" + advice(left.front(), commandNames(app)) + ")";
   }

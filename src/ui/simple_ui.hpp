@@ -10,23 +10,23 @@ namespace speculum {
 // The panels over the picture: Dear ImGui with its GLFW and Vulkan backends. One instance a process.
 class SimpleUI {
  public:
-  // Installs its input callbacks behind those that the window has.
+  // Installs its input callbacks, which run after those that the window already has.
   SimpleUI(Renderer& renderer, Window& window);
   ~SimpleUI();
   SimpleUI(const SimpleUI&) = delete;
   SimpleUI& operator=(const SimpleUI&) = delete;
 
-  // Lays out this frame's panels. Call it once a frame, also when nothing is drawn.
+  // Lays out this frame's panels. Call it once a frame, even if nothing is drawn.
   UiOutput build(const UiView& view);
   void record(const PassScope& scope);
   void setThumbnails(std::vector<Image8> pictures);  // of BrowserView::scenes, from the next frame on
   PanelWindows& windows() { return windows_; }
   const PanelWindows& windows() const { return windows_; }
 
-  // Whether what the pointer does there is the panels': one of their windows is there, or they hold a widget. Screen
-  // coordinates of the window.
+  // Says whether the pointer there belongs to the panels: it is over one of their windows, or they hold a widget.
+  // Screen coordinates of the window.
   bool takesPointer(double x, double y) const;
-  bool holdsEscape() const;    // ImGui closes something at Esc by itself, or lets go of it
+  bool holdsEscape() const;    // ImGui handles Esc itself: it closes or releases something
   bool holdsWidget() const;    // one is being dragged, pressed or typed into
   bool wantsKeyboard() const;  // a text field is being edited
   bool navigating() const;     // a widget is chosen by keyboard or gamepad
