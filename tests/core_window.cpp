@@ -167,7 +167,7 @@ TEST(WindowOptions, FifoIsAlwaysOffered) {
 }
 
 // Characters as a German, a French, an American and a Russian keyboard have them.
-TEST(WindowKeys, LettersFollowThePrintFlyKeysThePlace) {
+TEST(WindowKeys, LettersFollowPrintFlyKeysFollowPlace) {
   EXPECT_EQ(keyMeant(Key::y, "z", true, "wasdqe"), Key::z);
   EXPECT_EQ(keyMeant(Key::z, "y", true, "wasdqe"), Key::y);
   EXPECT_EQ(keyMeant(Key::z, "w", true, "wasdqe"), Key::w);
@@ -188,7 +188,7 @@ struct KeyboardLayout {
   const char* name;
   std::string printed;  // on the three rows of letters, "qwertyuiop[]asdfghjkl;'zxcvbnm,./" on an American keyboard
 };
-// ~ stands for what is not in the Latin alphabet's ASCII.
+// ~ stands for a character that is not ASCII.
 const KeyboardLayout layouts[] = {
     {"American", "qwertyuiop[]asdfghjkl;'zxcvbnm,./"}, {"German", "qwertzuiop~+asdfghjkl~~yxcvbnm,.-"},
     {"French", "azertyuiop^$qsdfghjklm~wxcvbn,;:!"},   {"Dvorak", "',.pyfgcrl/=aoeuidhtns-;qjkxbmwvz"},

@@ -178,8 +178,9 @@ TEST(MeshError, PartlySeenBallsAreDrawnInPart) {
   }
 }
 
-// Two points of an instance that are apart by the largest error, seen in a mirror: never farther apart than the texels.
-TEST(MeshError, TheBoundHoldsForAnyTwoPoints) {
+// Two points of an instance, as far apart as the largest error allows, are seen no more than the set texels apart in
+// the mirror.
+TEST(MeshError, BoundHoldsForAnyTwoPoints) {
   std::mt19937 engine(11);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine);

@@ -170,7 +170,7 @@ TEST(Hidden, BodiesHideMoreThanTheirFaces) {
   EXPECT_FALSE(isHidden(planOf(sceneWithBoxes({mirror}, {post})), {0})) << "the eye is in it";
 }
 
-// With the eye in the plane of something flat, which side of its edges it lies on is rounding.
+// With the eye in an occluder's plane, rounding decides on which side of its edges the eye lies.
 TEST(Hidden, EdgeOnSheetsHideNothing) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -307,8 +307,8 @@ TEST(PassMask, HasNoTriangleWithoutArea) {
   EXPECT_GT(masks, 5000);
 }
 
-// The edge of a mirror that is cut for drawing lies beyond all that is read, at any angle and resolution.
-TEST(MirrorPolygons, AreDrawnAsFarAsImagesAreRead) {
+// A mirror that is cut for drawing reaches beyond all that is read of its image, at any angle and resolution.
+TEST(MirrorPolygons, ReachAsFarAsImagesAreRead) {
   for (const double fov : {20.0, 90.0, 160.0}) {
     Scene scene = corridor();
     scene.mirrors[1].size = {40, 40};
