@@ -22,7 +22,7 @@ const std::vector<FailingFunction>& failingFunctions() {
   return rows;
 }
 
-// Whether it is called before there is an instance.
+// Says whether a function is called before there is an instance.
 bool isEarly(const std::string& function) {
   return function.starts_with("vkEnumerateInstance");
 }

@@ -82,7 +82,7 @@ class Device {
   VkQueue presentQueue() const { return presentQueue_; }  // queue() where that can present
   uint32_t presentFamily() const { return presentFamily_; }
   VkSurfaceKHR surface() const { return surface_.get(); }  // null when headless
-  // Makes the surface anew after VK_ERROR_SURFACE_LOST_KHR. No swapchain may be left.
+  // Creates a new surface after VK_ERROR_SURFACE_LOST_KHR. No swapchain may exist.
   void renewSurface(const Window& window);
   const DeviceInfo& info() const { return info_; }
   const DeviceCaps& caps() const { return caps_; }

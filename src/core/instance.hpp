@@ -15,7 +15,7 @@ class Instance {
   explicit Instance(const DeviceOptions& options);
 
   VkInstance get() const { return instance_.get(); }
-  uint32_t version() const { return version_; }  // of Vulkan, that the loader and the program have
+  uint32_t version() const { return version_; }  // version of Vulkan that loader and program both have
   bool hasDebugUtils() const { return debugUtils_; }
   bool validation() const { return static_cast<bool>(messenger_); }
   const DebugMessages& messages() const { return messages_; }

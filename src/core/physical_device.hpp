@@ -16,14 +16,14 @@ struct PhysicalDevice {
   DeviceInfo info;
   DeviceCaps caps;
   bool extendedDynamicState = false;
-  bool core13 = false;         // for the loader as well
+  bool core13 = false;         // both GPU and loader have Vulkan 1.3
   uint32_t queueFamily = 0;    // draws and computes
   uint32_t presentFamily = 0;  // presents to the window; queueFamily where it can
 
   bool hasExtension(std::string_view name) const;
 };
 
-// With a surface, a GPU that cannot present to it is among those that lack something.
+// With a surface, DeviceInfo::missing says so of a GPU that cannot present to it.
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance, VkSurfaceKHR surface);
 
 // Chooses by index or part of the name, or if that is empty the first usable one of the best type. Throws

@@ -44,7 +44,7 @@ struct Frame {
   DescriptorAllocator* descriptors = nullptr;  // sets from it live for this frame only
   RetireQueue* retired = nullptr;
   bool capture = false;   // set it before the display image is drawn to make Renderer::readback possible
-  bool acquired = false;  // the swapchain image, for this frame
+  bool acquired = false;  // a swapchain image is acquired for this frame
 };
 
 // Two frames in flight on one queue, into a window's swapchain or an image in its place. Frames are ordered by
@@ -117,7 +117,7 @@ class Renderer {
   void finish(Slot& slot);
   std::optional<uint32_t> acquireImage(Slot& slot);
   Image& displayImage(const Frame& frame);
-  // Whether the frame is drawn into an image of its own, because the swapchain's cannot be copied.
+  // Says whether the frame is drawn into an image of its own, because the swapchain's cannot be copied.
   bool drawsAside(const Frame& frame) const;
   bool prepareSwapChain();
   void recordCapture(Slot& slot, const Frame& frame);

@@ -18,13 +18,13 @@ class SwapChain {
  public:
   SwapChain(Device& device, Window& window, PresentMode mode);
 
-  // Waits until the device is idle. Makes a lost surface anew, once. False, leaving the chain stale, for a window
-  // without pixels.
+  // Recreates the chain after waiting until the device is idle. Recreates a lost surface, once. Returns false and
+  // leaves the chain stale for a window without pixels.
   bool recreate();
-  bool stale() const { return stale_; }  // must be made anew
+  bool stale() const { return stale_; }  // must be recreated
 
-  // Index of an image that `acquired` will be signalled for; nothing when the chain is stale, or no image came free
-  // within a second, as may happen to a window that nobody sees.
+  // Returns the index of an image for which `acquired` will be signalled; nothing when the chain is stale, or if no
+  // image was free within a second, as may happen to a covered window.
   std::optional<uint32_t> acquire(VkSemaphore acquired);
   void present(uint32_t image);
 
@@ -43,7 +43,8 @@ class SwapChain {
   void chooseFormat();
   void create();
   void createImages();
-  // Whether a call on the chain succeeded; if not the chain is stale. Throws for other errors than these.
+  // Says whether a call on the chain succeeded; if its result means that the chain is stale, marks it so. Throws for
+  // other errors.
   bool check(VkResult result, std::string_view what);
 
   Device& device_;

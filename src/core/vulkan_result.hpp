@@ -25,14 +25,14 @@ class SurfaceLostError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Throws std::runtime_error that says what failed, why and how to mend it; one of the above where it fits.
+// Throws a std::runtime_error, or one of the classes above if it fits, that says what failed, why and how to mend it.
 [[noreturn]] void throwVulkanError(VkResult result, std::string_view what);
 // Throws as above unless `result` is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 std::string resultName(VkResult result);
 
-// Lists what Vulkan enumerates in two calls: query(&count, nullptr) says how many, query(&count, data) which. Asks
-// again when there came to be more in between.
+// Lists what Vulkan enumerates in two calls: query(&count, nullptr) says how many, query(&count, data) which. Repeats
+// both if the number grew in between.
 template <typename T, typename Query>
 std::vector<T> enumerate(std::string_view what, Query query) {
   std::vector<T> items;

@@ -3,7 +3,7 @@
 //                         first call from there on that asks for more than a count
 //   SPECULUM_FAULT_CALLS  a file that gets a line "FUNCTION CALLS" for each function when the instance ends
 //   SPECULUM_HIDE         words for what the devices lack: NAME, NAME=VALUE, NAME@DEVICE; see hidden() and limited()
-// It knows one instance with one device at a time.
+// It supports one instance with one device at a time.
 #include <vulkan/vk_layer.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using PFN_vkCreateXcbSurfaceKHR = VkResult(VKAPI_PTR*)(VkInstance, const void*, 
                                                        VkSurfaceKHR*);
 using PFN_vkCreateXlibSurfaceKHR = PFN_vkCreateXcbSurfaceKHR;
 
-// Functions that do not fail, or not in this program, and that are watched or changed.
+// Functions that are watched or changed but do not fail in this program.
 #define SPECULUM_WATCHED_FUNCTIONS(X)          \
   X(vkGetPhysicalDeviceFeatures)               \
   X(vkGetPhysicalDeviceFeatures2)              \
@@ -71,7 +71,7 @@ Fault readFault() {
   return fault;
 }
 
-// A queue of a family that the layer makes up. The loader reads the first member of every dispatchable object.
+// A queue of a family that the layer adds. The loader reads the first member of every dispatchable object.
 struct PresentQueue {
   void* loaderTable = nullptr;
 };
@@ -90,7 +90,7 @@ struct State {
 };
 State state;
 
-// The value of NAME in SPECULUM_HIDE for this device, which is 1 for a word without a value.
+// Returns the value of NAME in SPECULUM_HIDE for this device; 1 for a word without a value.
 std::optional<uint32_t> limited(const std::string& name, VkPhysicalDevice device) {
   const char* text = std::getenv("SPECULUM_HIDE");
   std::istringstream words(text ? text : "");
@@ -119,7 +119,7 @@ auto next(Arguments... arguments) {
   return reinterpret_cast<typename Tag::Type>(Tag::function.next)(arguments...);
 }
 
-// forward(Tag, arguments...) calls what is below the layer; overloads change what it gives.
+// forward(Tag, arguments...) calls the layer below; overloads change its results.
 template <typename Tag, typename... Arguments>
 auto forward(Tag, Arguments... arguments) {
   return next<Tag>(arguments...);
@@ -278,7 +278,7 @@ void forward(vkDestroyDevice_, VkDevice device, const VkAllocationCallbacks* cal
   state.lost = false;
 }
 
-// Whether a call only asks how many items there are, so that it cannot be incomplete.
+// Says whether a call only reads the number of items, so that it cannot be incomplete.
 template <typename... Arguments>
 bool counts(const Arguments&... arguments) {
   const auto last = std::get<sizeof...(arguments) - 1>(std::tie(arguments...));
@@ -288,14 +288,14 @@ bool counts(const Arguments&... arguments) {
   return false;
 }
 
-// Whether a call has its effect although it returns `result`.
+// Says whether a call has its effect although it returns `result`.
 bool takesEffect(VkResult result, const Function& function) {
   return result == VK_SUBOPTIMAL_KHR || result == VK_INCOMPLETE ||
          (&function == &vkQueuePresentKHR_::function &&
           (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_ERROR_SURFACE_LOST_KHR));
 }
 
-// The device ends what it does and is then lost to all that reports so.
+// Finishes the device's work, then makes all functions that can report it return that the device is lost.
 void lose() {
   if (state.device) {
     next<vkDeviceWaitIdle_>(state.device);
@@ -364,7 +364,7 @@ void forward(vkDestroyInstance_, VkInstance instance, const VkAllocationCallback
   }
 }
 
-// The loader's link to what is below, which it passes in the chain of a create info; moved on for the layer below.
+// Returns the loader's link to the layer below, from the chain of a create info, and advances it for that layer.
 template <typename Link>
 auto* takeLink(const void* chain, VkStructureType type) {
   auto* link = reinterpret_cast<Link*>(const_cast<void*>(chain));
