@@ -23,14 +23,12 @@ Options shipped(const std::string& scene, int pictures) {
 }
 
 Image8 shown(Session& session, int pictures) {
-  Settings settings = session.settings();
-  settings.view.accumulate = pictures;
-  session.setSettings(settings);
+  set(session, {{"view.accumulate", std::to_string(pictures)}});
   session.draw(0.0, true);
   return session.picture();
 }
 
-// One picture of a mean by itself.
+// Draws one picture of a mean by itself.
 LinearImage single(Session& session, const SceneState& state, const Settings& mean, int picture) {
   const FramePlan plan = planFrame(session.scene(), state, mean, size.width, size.height, {}, picture);
   Settings alone = mean;
@@ -45,7 +43,7 @@ TEST(Accumulation, IsTheMeanOfItsPictures) {
   for (const int pictures : {3, 17}) {
     Options options = shipped("gallery", pictures);
     set(options, {{"view.scale", pictures == 3 ? "1" : "0.5"}});
-    Session session(options);
+    QuietSession session(options);
     const SceneState state = evaluate(session.scene(), 0.0);
     const Settings mean = pictureSettings(session.settings());
     EXPECT_EQ(mean.view.samples, pictures == 3 ? 4 : 1);
@@ -67,27 +65,22 @@ TEST(Accumulation, IsTheMeanOfItsPictures) {
       const glm::dvec3 off = glm::abs(sum[k] / double(pictures) - glm::dvec3(accumulated.pixels[k]));
       ASSERT_LE(std::max({off.r, off.g, off.b}), 1e-6 * (1.0 + sum[k].r + sum[k].g + sum[k].b)) << k;
     }
-    expectQuiet(session);
   }
 }
 
 TEST(Accumulation, BeginsWithThePictureItself) {
-  Session session(shipped("rough", 1));
+  QuietSession session(shipped("rough", 1));
   session.draw(0.0, false);
   const LinearImage picture = session.radiance();
-  Settings settings = session.settings();
-  settings.view.accumulate = 5;
-  session.setSettings(settings);
+  set(session, {{"view.accumulate", "5"}});
   session.draw(0.0, false, [] { return false; });
   EXPECT_EQ(session.lastFrame().pictures, 1);
   EXPECT_TRUE(session.radiance().pixels == picture.pixels);
-  expectQuiet(session);
 }
 
 TEST(Accumulation, CountsAllPicturesInItsFigures) {
   Session session(shipped("single_plane", 1));
-  session.draw(0.0, false);
-  session.finish();
+  runFrames(session);
   const DrawnFrame one = session.lastFrame();
   EXPECT_EQ(one.pictures, 1);
   shown(session, 5);
@@ -108,22 +101,21 @@ TEST(Accumulation, CountsAllPicturesInItsFigures) {
   EXPECT_GT(five.timings.gpuMs, 2.0 * one.timings.gpuMs);
 }
 
-// What is wrong in one picture is found, though the mean of several would hide it.
-TEST(Accumulation, EveryPictureIsCheckedBeforeItIsSummed) {
+// A wrong value in one picture is found, although the mean would hide it.
+TEST(Accumulation, EveryPictureIsCheckedBeforeSumming) {
   const std::filesystem::path shaders = sceneDirectory() / "shaders";
   std::filesystem::create_directories(shaders);
   writeShaders(shaders, "scene_shading.glsl", "  color.r = view.picture == 2u ? -0.01 : color.r;\n");
   Options options = shipped("no_mirror", 4);
   options.shaderDir = shaders;
   Session session(options);
-  session.draw(0.0, false);
-  session.finish();
+  runFrames(session);
   EXPECT_EQ(session.device().validationMessages(), 0);
   EXPECT_GT(session.sceneRenderer().finiteWatch().count(), 100u);
 }
 
 TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
-  Session session(shipped("gallery", 4));
+  QuietSession session(shipped("gallery", 4));
   const Image8 picture = shown(session, 4);
   const SceneState state = evaluate(session.scene(), 0.0);
   const Settings settings = pictureSettings(session.settings());
@@ -139,21 +131,18 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
   frame = session.renderer().beginFrame().value();
   EXPECT_THROW(session.sceneRenderer().record(frame, state, settings, late), std::logic_error);
   session.renderer().endFrame(frame);
-  expectQuiet(session);
 }
 
-// Rays of rough mirrors fall elsewhere in each picture: the noise of one ray a pixel falls as if there were more.
+// Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {
     Options options = shipped("rough", 1);
     set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "32"}});
-    Session session(options);
+    QuietSession session(options);
     shown(session, 16);
     const LinearImage truth = session.radiance();
     const auto error = [&](int rays, int pictures) {
-      Settings settings = session.settings();
-      settings.effects.roughSamples = rays;
-      session.setSettings(settings);
+      set(session, {{"effects.rough_samples", std::to_string(rays)}});
       shown(session, pictures);
       const LinearImage image = session.radiance();
       double squares = 0.0;
@@ -166,11 +155,10 @@ TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
     const double one = error(1, 16);
     EXPECT_LT(one, 0.7 * error(1, 4)) << lookup;
     EXPECT_GT(one, 1.5 * error(4, 16)) << lookup << ": what is left is the noise of rays";
-    expectQuiet(session);
   }
 }
 
-// Against the tracer, with nothing left out that it traces.
+// Errors of means against the tracer, with every effect that it traces.
 struct Convergence {
   std::vector<double> flip;  // of means of 1, 4, 16, 64 pictures
   double floor = 0.0;        // of a 9x9 grid
@@ -184,7 +172,7 @@ Convergence convergence(const std::string& scene) {
                 {"reflection.max_depth", "32"},
                 {"view.samples", "1"},
                 {"reflection.samples", "1"}});
-  Session session(options);
+  QuietSession session(options);
   const std::optional<GroundTruth> truth =
       traceGroundTruth(session.scene(), evaluate(session.scene(), 0.0),
                        {.width = size.width, .height = size.height, .settings = session.settings()}, {});
@@ -192,7 +180,6 @@ Convergence convergence(const std::string& scene) {
   for (const int pictures : {1, 4, 16, 64}) {
     result.flip.push_back(errorsAgainst(*truth, shown(session, pictures), session.settings()).whole.flip);
   }
-  expectQuiet(session);
   return result;
 }
 

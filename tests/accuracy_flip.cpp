@@ -36,7 +36,7 @@ double meanFlip(const ComparedImage& a, const ComparedImage& b) {
   return std::accumulate(map.values.begin(), map.values.end(), 0.0) / static_cast<double>(map.values.size());
 }
 
-// Means of the published implementation.
+// Expected means are those of the published implementation.
 TEST(Flip, BlackAgainstWhite) {
   EXPECT_NEAR(meanFlip(constant(glm::dvec3(0.0)), constant(glm::dvec3(1.0))), 0.967380, tolerance);
 }

@@ -135,7 +135,7 @@ TEST(ImageMetrics, RefusesPicturesThatCannotBeCompared) {
   EXPECT_THROW(readComparedImage("/no/such/file.png"), std::runtime_error);
 }
 
-TEST(ImageMetrics, JsonHasFixedKeysAndNullForInfinity) {
+TEST(ImageMetrics, JsonHasFixedKeysAndNullInfinity) {
   const Image8 a = gray(16, 16, 90);
   const PixelMask mask{16, 16, std::vector<uint8_t>(256, 1)};
   const nlohmann::ordered_json json = comparisonJson(compare(a, a, {.mask = &mask}));

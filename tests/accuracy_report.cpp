@@ -1,4 +1,4 @@
-// The JSON of the accuracy report and its place in the page; report_page.py tests what a browser makes of it.
+// The JSON of the accuracy report and its place in the page; report_page.py tests the page in a browser.
 #include "accuracy/report.hpp"
 
 #include <gtest/gtest.h>
@@ -110,7 +110,7 @@ TEST(AccuracyReport, NamesBaseSettingsThatAreNoDefaults) {
   EXPECT_EQ(reportJson(exampleResults(), "nowhere")["changed"].dump(), R"({"view.samples":"8"})");
 }
 
-TEST(AccuracyReport, ShowsTheBaseTheFrontAndTheWorst) {
+TEST(AccuracyReport, ShowsBaseFrontAndWorst) {
   SweepResults results = exampleResults();
   EXPECT_TRUE(shownPoints(results, 12).empty()) << "no pictures were kept";
   for (SweepPoint& point : results.points) {

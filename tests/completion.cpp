@@ -23,7 +23,7 @@ Words words(const std::string& text) {
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// What bash offers for the last of the words.
+// Returns what bash offers for the last of the words.
 Words completions(const std::vector<std::string>& line) {
   std::string quoted;
   for (const std::string& word : line) {
@@ -37,7 +37,7 @@ Words completions(const std::vector<std::string>& line) {
   return words(result.output);
 }
 
-// The words of a help text at the start of a line's text, up to a comma; `from` and `to`: titles around them.
+// Returns the words at the start of a help text's lines, up to a comma, between the titles `from` and `to`.
 Words listed(const std::string& help, const std::string& from, const std::string& to) {
   const size_t start = help.find(from);
   EXPECT_NE(start, std::string::npos) << help;
@@ -95,7 +95,7 @@ TEST(Completion, OffersTheScenesAndTheChoices) {
 }
 
 TEST(Help, EndsWithExamplesThatParse) {
-  std::filesystem::current_path(sourceFile("."));  // where they name folders from
+  std::filesystem::current_path(sourceFile("."));  // folder that relative paths start from
   for (const std::string& command : commands()) {
     const std::string help = runProcess({program, command, "--help"}).output;
     const size_t start = help.find("Examples:\n");
@@ -126,7 +126,7 @@ TEST(Help, EndsWithExamplesThatParse) {
   }
 }
 
-// On a terminal as well: there is nothing that NO_COLOR would have to switch off.
+// Output has no colours even on a terminal, so that NO_COLOR has nothing to switch off.
 TEST(Output, HasNoColours) {
   for (const char* arguments : {"--help", "info", "--bogus", "render --scene no_mirror --size 8x8 --log-level trace"}) {
     const ProcessResult result =

@@ -5,7 +5,7 @@
 namespace speculum::test {
 namespace {
 
-// Frames with every kind of target, copies and uploads, with one kind of barrier left out.
+// Draws frames with every kind of target, copies and uploads, with one kind of barrier omitted.
 std::vector<std::string> messagesWithout(std::optional<BarrierKind> kind, int samples) {
   Device device(validated(RenderPath::renderPass));
   Renderer renderer(device, headless(smallExtent));
@@ -36,8 +36,8 @@ TEST_P(Barrier, IsMissedWhenLeftOut) {
   EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
 }
 
-// Presenting needs a window, checks need debug.check_finite, depth is sampled where it is looked at: core_window.cpp,
-// finite_watch.cpp and target_views.cpp test them.
+// The other kinds are tested where they occur: presenting in core_window.cpp, checks in finite_watch.cpp, sampled depth
+// in target_views.cpp.
 std::vector<BarrierKind> kindsWithoutWindow() {
   std::vector<BarrierKind> kinds(allBarrierKinds().begin(), allBarrierKinds().end());
   for (const BarrierKind other : {BarrierKind::swapchainToPresent, BarrierKind::targetToCheck,

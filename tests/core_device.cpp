@@ -28,7 +28,7 @@ TEST(Device, NeedsNoWindowSystem) {
   EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
 }
 
-TEST(Device, IsChosenByIndexOrPartOfName) {
+TEST(Device, IsChosenByIndexOrName) {
   const std::vector<DeviceInfo> gpus = Device::list();
   ASSERT_FALSE(gpus.empty());
   for (const DeviceInfo& gpu : gpus) {

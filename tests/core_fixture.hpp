@@ -11,7 +11,7 @@ namespace speculum::test {
 
 DeviceOptions validated(RenderPath path = RenderPath::automatic);
 RendererOptions headless(VkExtent2D extent);
-// The messages of the validation layer, one a line; empty is good.
+// Returns the messages of the validation layer, one a line.
 std::string messagesOf(const Device& device);
 
 // push_constant block of triangle.vert.
@@ -29,7 +29,7 @@ class GpuTest : public testing::Test {
   Device device_{validated()};
 };
 
-// The same with a renderer that draws into an image of smallExtent.
+// Adds a renderer that draws into an image of smallExtent.
 inline constexpr VkExtent2D smallExtent{64, 48};
 class RendererTest : public GpuTest {
  protected:

@@ -82,7 +82,7 @@ TEST_F(RendererTest, TimesOnlyTheFrameIfAsked) {
   EXPECT_EQ(renderer_.timings().passes.size(), 4u);
 }
 
-// An image of a part of the screen, drawn with the screen's viewport shifted, holds the screen's very texels.
+// An image of a part of the picture, drawn with a shifted viewport, has exactly the picture's texels.
 TEST_F(RendererTest, ShiftedViewportShowsItsPart) {
   constexpr VkExtent2D partExtent{24, 20};
   constexpr int32_t partX = 20;

@@ -38,7 +38,7 @@ class SceneDocumentTest : public testing::Test, protected TextScene {
   SceneDocumentTest() : TextScene(kText) {}
 };
 
-TEST_F(SceneDocumentTest, UndoAndRedoRestoreContentLabelAndSelection) {
+TEST_F(SceneDocumentTest, UndoRedoRestoreContentLabelAndSelection) {
   EXPECT_FALSE(document.canUndo() || document.canRedo() || document.modified());
   document.select(kLamp);
   document.change("move object 'teapot'", kTeapot, moveTeapot(1));

@@ -27,22 +27,13 @@ PictureView lookingAt(const glm::dvec3& eye, const glm::dvec3& target) {
   return PictureView(lookAt(eye, target, {0.0, 1.0, 0.0}, 60.0, 0.001), 900, 700);
 }
 
-double largest(const glm::dmat3& m) {
-  double most = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    const glm::dvec3 a = glm::abs(m[c]);
-    most = std::max({most, a.x, a.y, a.z});
-  }
-  return most;
-}
-
 TEST(PitchYawRoll, RestoresTheRotationNearGivenAngles) {
   rc::check([] {
     const glm::dvec3 angles(*rc::gen::elementOf(std::vector<double>{uniform(-400, 400), 90.0, -90.0, 0.0, 89.99999}),
                             uniform(-400, 400), uniform(-400, 400));
     const glm::dvec3 near = angles + inBox(200.0);
     const glm::dmat3 rotation = rotationFromDegrees(angles);
-    RC_ASSERT(largest(rotationFromDegrees(pitchYawRoll(rotation, near)) - rotation) < 1e-7);
+    RC_ASSERT(largestEntry(rotationFromDegrees(pitchYawRoll(rotation, near)) - rotation) < 1e-7);
     const glm::dvec3 back = pitchYawRoll(rotation, angles);
     RC_ASSERT(glm::length(back - angles) < (std::abs(std::cos(glm::radians(angles.x))) > 1e-3 ? 1e-6 : 1e-2));
   });
@@ -213,7 +204,7 @@ TEST(Transforming, NodesStandWhereTheyWereMoved) {
     const SceneState state = evaluate(after, time);
     RC_ASSERT(glm::distance(state.lights[0].position, before.lights[0].position + by) < 1e-8);
     RC_ASSERT(glm::distance(state.instances[2].center, before.instances[2].center + by) < 1e-8);
-    RC_ASSERT(largest(state.instances[2].worldFromMesh.linear - turn * before.instances[2].worldFromMesh.linear) <
+    RC_ASSERT(largestEntry(state.instances[2].worldFromMesh.linear - turn * before.instances[2].worldFromMesh.linear) <
               1e-8);
     for (int i : {0, 1}) {
       const glm::dvec3 middle = pivotOf(scene, before, {Selection::Kind::mirror, i});
@@ -314,7 +305,7 @@ TEST(Outline, FollowsTheSilhouetteAlsoInside) {
 
 TEST(Outline, BoxHasSixEdges) {
   Mesh mesh{.halfExtent = glm::dvec3(1.0), .radius = std::sqrt(3.0)};
-  // Each side with corners of its own.
+  // Each side has corners of its own.
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
       const auto first = static_cast<uint32_t>(mesh.vertices.size());

@@ -1,5 +1,5 @@
-// Random edits of a scene that is written in every way at once: what is saved reads back exactly, and undone to the
-// beginning it is the file as it was.
+// Random edits of a scene file that uses every notation: the saved file reads back exactly, and undoing everything
+// restores the file.
 #include <rapidcheck.h>
 
 #include <cmath>
@@ -69,14 +69,14 @@ std::string name() {
 template <Described Node>
 void editField(Node& node);
 
-// Mirrors may not be far from the origin for their size.
+// Keeps mirrors near the origin for their size, as the loader requires.
 template <typename Owner>
 glm::dvec3 pointOf(const Range& range) {
   const glm::dvec3 any = std::is_same_v<Owner, Mirror> ? color() : point();
   return glm::clamp(any, glm::dvec3(range.low), glm::dvec3(range.high));
 }
 
-// Some value that the field takes.
+// Returns a random value that the field may have.
 template <typename Field, typename Value>
 void randomize(const Field& field, Value& value) {
   if constexpr (Described<Value>) {
@@ -157,7 +157,7 @@ void editScene(SceneDocument& document) {
   });
 }
 
-// One of the nodes; none if there are none.
+// Selects one of the nodes; none if there are none.
 Selection anything(const Scene& scene) {
   const std::array counts{scene.objects.size(), scene.lights.size(), scene.mirrors.size()};  // by Kind
   const int kind = whole(0, 3);

@@ -17,7 +17,7 @@ std::string contentOfFile(const std::filesystem::path& file);
 
 std::vector<std::filesystem::path> shippedScenes();
 
-// Compares every field that can be edited exactly, but for the names of models.
+// Expects every field that can be edited to be equal, except the names of models.
 void expectSameContent(const Scene& actual, const Scene& expected, const std::string& about);
 
 // A scene read from a text, in a folder of its own with "triangle.obj".
@@ -28,7 +28,7 @@ struct TextScene {
         scene(loadScene(file)),
         document(scene) {}
 
-  // The text as it would be saved.
+  // Returns the text as it would be saved.
   std::string saved(const std::vector<SettingChange>& settings = {}) const { return document.text(file, settings); }
 
   TemporaryFolder folder;

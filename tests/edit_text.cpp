@@ -17,7 +17,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// The edit changes `from` into `to` and nothing else; empty `from`: appends.
+// Expects the edit to replace `from` by `to` in the text and nothing else; with an empty `from`, to append.
 void expectEdit(const std::string& text, const std::string& from, const std::string& to,
                 const std::function<void(Scene&)>& edit) {
   TextScene scene(text);
@@ -137,7 +137,7 @@ TEST(EditedText, NewTableFollowsKeysAddedAboveIt) {
   });
 }
 
-TEST(EditedText, DosLineBreaksAndNoneAtTheEnd) {
+TEST(EditedText, KeepsDosLineBreaksAndMissingLast) {
   const std::string dos =
       "[camera]\r\nposition = [0, 0, 4] # eye\r\ntarget = [0, 0, 0]\r\n\r\n[[light]]\r\nposition = [0, 1, 0]";
   const auto shadow = [](Scene& s) { s.lights[0].castsShadow = true; };

@@ -23,7 +23,7 @@ std::string saveErrorOf(const std::function<void()>& action) {
   return "no SaveError was thrown";
 }
 
-// The comments of a scene, which no change of values may lose.
+// Returns the comments of a scene file, which must survive changes of values.
 std::vector<std::string> commentsOf(const std::string& text) {
   std::vector<std::string> comments;
   for (size_t at = 0; at < text.size();) {

@@ -79,8 +79,8 @@ using namespace testing_support;
 
 constexpr PictureSize size{64, 36};
 
-// `uncalled` asks for the effect where nothing visible needs it, `called` where something does, which takes more
-// objects of these kinds.
+// `uncalled` has the effect where nothing visible needs it, `called` where something does, which takes more objects of
+// these kinds.
 struct Case {
   const char* effect;
   const char* uncalled;
@@ -116,13 +116,13 @@ Options optionsFor(const std::filesystem::path& file,
   return options;
 }
 
-// The same as if the program did not have the effect at all.
+// Returns the options with the effect switched off.
 Options without(Options options, const std::string& effect) {
   set(options, {{"effects." + effect, "false"}});
   return options;
 }
 
-// Longer than anything idle is kept.
+// Frames after which everything idle is released.
 constexpr int untilIdle = 130;
 
 struct Drawn {
@@ -130,7 +130,7 @@ struct Drawn {
   int draws = 0;                     // of the last frame
   std::vector<uint8_t> picture;
 
-  // Code and layouts stay: they are no cost of a frame, and hot reload knows them.
+  // Shader modules and layouts stay, because they cost a frame nothing.
   std::map<std::string, int> released(const Drawn& before) const {
     std::map<std::string, int> kept = alive;
     for (const char* kind : {"ShaderModule", "DescriptorSetLayout"}) {
@@ -150,9 +150,7 @@ Drawn drawFrames(Session& session, int frames) {
 }
 
 Drawn drawWith(Session& session, const std::string& effect, bool on, int frames) {
-  Settings settings = session.settings();
-  EXPECT_EQ(setSetting(settings, "effects." + effect, on ? "true" : "false"), std::nullopt);
-  session.setSettings(settings);
+  set(session, {{"effects." + effect, on ? "true" : "false"}});
   return drawFrames(session, frames);
 }
 
@@ -167,13 +165,12 @@ nlohmann::ordered_json effectStats(Session& session, const std::string& effect) 
   return {};
 }
 
-// One frame of each: nothing is made or drawn for the effect, and the pictures are the same.
+// Draws one frame with and without the effect: nothing is made or drawn for it, and the pictures are the same.
 void expectFree(const Options& options, const std::string& effect) {
   const auto run = [](const Options& drawn) {
     counts = {};
-    Session session(drawn);
+    QuietSession session(drawn);
     std::vector<uint8_t> picture = drawFrames(session, 1).picture;
-    expectQuiet(session);
     return std::tuple(counts.created, counts.draws, picture);
   };
   EXPECT_EQ(run(options), run(without(options, effect)));
@@ -190,7 +187,7 @@ TEST_P(Ledger, UncalledEffectCostsNothing) {
 
 TEST_P(Ledger, CalledEffectIsListedAndReleased) {
   counts = {};
-  Session session(without(optionsFor(sceneWith(effect_ + "_called", GetParam().called)), effect_));
+  QuietSession session(without(optionsFor(sceneWith(effect_ + "_called", GetParam().called)), effect_));
   const Drawn before = drawWith(session, effect_, false, 3);
   const Drawn during = drawWith(session, effect_, true, 1);
   for (const std::string& kind : GetParam().objects) {
@@ -206,7 +203,6 @@ TEST_P(Ledger, CalledEffectIsListedAndReleased) {
   EXPECT_EQ(after.released(before), before.alive);
   EXPECT_EQ(after.draws, before.draws);
   EXPECT_EQ(after.picture, before.picture);
-  expectQuiet(session);
 }
 
 // The camera looks away, at what calls for the effect, and away again. Afterwards the effect has no draws, bytes or
@@ -216,7 +212,7 @@ TEST_P(Ledger, TurningAwayReleasesTheEffect) {
   const CameraPose away = lookAt({0, 1, 3}, {0, 1, 9}, {0, 1, 0}, 60, 0.001);
   const auto alive = [&](const Options& options) {
     counts = {};
-    Session session(options);
+    QuietSession session(options);
     const auto picture = [&](const std::optional<CameraPose>& camera, int frames) {
       session.setCamera(camera);
       return drawFrames(session, frames).picture;
@@ -229,7 +225,6 @@ TEST_P(Ledger, TurningAwayReleasesTheEffect) {
     for (const char* cost : {"draws", "bytes", "pipelines"}) {
       EXPECT_EQ(line.at(cost), 0) << line;
     }
-    expectQuiet(session);
     return counts.alive;
   };
   const std::map<std::string, int> with = alive(optionsFor(file));
@@ -306,11 +301,12 @@ TEST(Ledger, RoughnessWithoutReflectionCostsNothing) {
 // Targets, draws and a pipeline exist while a curved mirror is drawn, but nothing to trace rays with.
 TEST(Ledger, EnvironmentMapsAreListedAndReleased) {
   counts = {};
-  Session session(without(optionsFor(sceneWith("environment",
-                                               "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\n"
-                                               "mirror = {}\n"),
-                                     {{"effects.curved_lookup", "environment"}}),
-                          "curved"));
+  QuietSession session(
+      without(optionsFor(sceneWith("environment",
+                                   "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\n"
+                                   "mirror = {}\n"),
+                         {{"effects.curved_lookup", "environment"}}),
+              "curved"));
   const Drawn before = drawWith(session, "curved", false, 3);
   const Drawn during = drawWith(session, "curved", true, 1);
   const EffectCost cost = session.sceneRenderer().ledger()[EffectKind::curved];
@@ -326,13 +322,12 @@ TEST(Ledger, EnvironmentMapsAreListedAndReleased) {
   EXPECT_EQ(still.draws, before.draws) << "an unchanged map is not drawn again";
   const Drawn after = drawWith(session, "curved", false, untilIdle);
   std::map<std::string, int> kept = after.released(before);
-  // Pipelines of one sample that drew the faces are no cost of the effect.
+  // A pipeline of one sample that drew the faces stays.
   EXPECT_LE(kept.at("Pipeline"), before.alive.at("Pipeline") + 1);
   kept["Pipeline"] = before.alive.at("Pipeline");
   EXPECT_EQ(kept, before.alive);
   EXPECT_EQ(after.picture, before.picture);
   EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].bytes, 0u);
-  expectQuiet(session);
 }
 
 }  // namespace

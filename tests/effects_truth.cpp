@@ -56,7 +56,7 @@ const std::string pool =
     "[[mirror]]\nname = \"pool\"\nposition = [0, 0.05, 1.2]\nrotation = [-90, 0, 0]\nsize = [3, 2]\n";
 const std::string ripple = "ripple = { amplitude = 0.006, wavelength = 0.35, speed = 0.2 }\n";
 
-// Root of the mean squared difference in radiance, over the pixels whose `counts` is set.
+// Returns the root mean square difference in radiance, over the pixels whose `counts` is set.
 double rootMeanSquare(const LinearImage& drawn, const LinearImage& reference, const std::vector<bool>& counts) {
   double sum = 0.0;
   double count = 0.0;
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 // Far from the origin the same rays are traced.
-TEST(ExactEffects, EqualTheRayTracerFarFromTheOrigin) {
+TEST(ExactEffects, EqualTheTracerFarFromOrigin) {
   std::ostringstream out;
   const auto at = [](double x, double y, double z) {
     std::ostringstream text;
@@ -166,8 +166,8 @@ TEST(ExactEffects, BothRenderPathsDrawTheSameBytes) {
   EXPECT_EQ(draw(dynamic).rgba, draw(passes).rgba);
 }
 
-// With several samples and a ray for each, as with one sample at twice the resolution each way: edges of shadows and
-// of what curved mirrors show are smooth. Compared with the tracer's four samples, by mean error.
+// Rays at every sample smooth the edges of shadows and of what curved mirrors show, which lowers the mean error against
+// the tracer.
 TEST(ExactEffects, RaysAtEverySampleReduceError) {
   const std::filesystem::path file =
       corner("effects_samples", shadowLight +
@@ -180,10 +180,8 @@ TEST(ExactEffects, RaysAtEverySampleReduceError) {
   const auto error = [&](const char* perSample) {
     Options options = headless(file, small);
     set(options, {{"effects.per_sample", perSample}, {"reflection.max_depth", "3"}});
-    Session session(options);
-    session.draw(0.0, false);
-    session.finish();
-    expectQuiet(session);
+    QuietSession session(options);
+    runFrames(session);
     const LinearImage drawn = session.radiance();
     return rootMeanSquare(drawn, reference.image, std::vector<bool>(drawn.pixels.size(), true));
   };
@@ -193,7 +191,7 @@ TEST(ExactEffects, RaysAtEverySampleReduceError) {
   EXPECT_LT(each, 0.8 * once);
 }
 
-// A rough floor that reaches the horizon, where a pixel's centre may lie beyond it: never its back.
+// Pixels at the horizon of a rough floor, whose centres may lie beyond it, never show its back.
 TEST(RoughFloor, ShowsNoBackAtTheHorizon) {
   const auto floor = [](const std::string& name, const std::string& back) {
     return writeScene(name,
@@ -207,7 +205,7 @@ TEST(RoughFloor, ShowsNoBackAtTheHorizon) {
   EXPECT_EQ(black.rgba, white.rgba);
 }
 
-// Throughput is a product for each channel: red light does not get through a green mirror.
+// A green mirror lets no red light through.
 TEST(ExactEffects, ThroughputIsPerChannel) {
   const std::filesystem::path file =
       corner("effects_throughput", plainLight +
@@ -224,7 +222,7 @@ TEST(ExactEffects, ThroughputIsPerChannel) {
   expectAlike(draw(options), truth.picture, 2, "effects_throughput", notBackground(truth.traced));
 }
 
-// Other settings that change how mirrors are drawn give no message, and the picture stays close.
+// Draws with other settings for mirrors: no messages, and a picture close to the usual one.
 TEST(ExactEffects, StayCloseUnderOtherSettings) {
   const std::filesystem::path file =
       corner("effects_settings", shadowLight + plainLight + wall + "casts_light = true\nroughness = 0.1\n" + pool +
@@ -239,14 +237,13 @@ TEST(ExactEffects, StayCloseUnderOtherSettings) {
         std::tuple("effects.rough_lookup", "image", 0.05)}) {
     Options options = headless(file, small);
     set(options, {{key, value}});
-    Session session(options);
+    QuietSession session(options);
     for (int frame = 0; frame < (tolerance > 0.0 ? 1 : 3); ++frame) {
       session.draw(0.0, true);
       session.finish();
       const double flip = compareImages(comparedImage(plain), comparedImage(session.picture())).whole.flip;
       EXPECT_LE(flip, tolerance) << key << " = " << value << ", frame " << frame;
     }
-    expectQuiet(session);
   }
 }
 
@@ -322,10 +319,8 @@ class RoughMirror : public testing::Test {
   double error(const std::vector<std::pair<std::string, std::string>>& settings) const {
     Options options = truthOptions(file_, small, 3);
     set(options, settings);
-    Session session(options);
-    session.draw(0.0, false);
-    session.finish();
-    expectQuiet(session);
+    QuietSession session(options);
+    runFrames(session);
     const LinearImage drawn = session.radiance();
     return rootMeanSquare(drawn, reference().image, {reference().mirrorMask.begin(), reference().mirrorMask.end()});
   }
@@ -342,8 +337,8 @@ TEST_F(RoughMirror, MoreRaysReduceError) {
   EXPECT_LT(most, sixteen / 1.8);
 }
 
-// The image of the smooth mirror is the cheap end: far nearer than a mirror without its roughness, and with as many
-// look-ups as rays behind what is traced, because it lacks what the smooth mirror does not show.
+// A blurred image of the smooth mirror is far nearer to the truth than a smooth mirror. With as many look-ups as rays
+// it is worse than tracing, because it lacks what the smooth mirror does not show.
 TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const double smooth = error({{"effects.roughness", "false"}});
   const double few = error({{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}});
@@ -355,7 +350,7 @@ TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   EXPECT_LT(traced, image);
 }
 
-// Without an effect switched on, the scene is drawn as if it did not ask for it.
+// With an effect switched off, the scene is drawn as if it did not have it.
 TEST(Effects, CanBeSwitchedOff) {
   const std::string all = shadowLight + plainLight + wall + "casts_light = true\nroughness = 0.2\n" + pool + ripple;
   const std::string none = "[[light]]\nposition = [1.2, 2.6, 1.9]\nintensity = 14\n" + plainLight + wall + pool;
@@ -368,7 +363,7 @@ TEST(Effects, CanBeSwitchedOff) {
   EXPECT_EQ(off.rgba, draw(truthOptions(corner("effects_none", none), size, 3)).rgba);
 }
 
-// The same, of those that trace no rays: seen directly, in a mirror and by rays in a curved one.
+// Effects without rays can be switched off where they are seen directly, in a mirror and by rays in a curved mirror.
 TEST(Effects, OthersCanBeSwitchedOff) {
   const auto panel = [](const std::string& name, const std::string& material) {
     const std::filesystem::path file = sceneDirectory() / (name + ".obj");

@@ -15,7 +15,7 @@ inline double otherNumber(const Range& range, double floor, double value) {
   return range.contains(other) ? other : range.contains(0.5 * value) ? 0.5 * value : 0.5 * (range.low + range.high);
 }
 
-// Gives a value of a field another one that a scene file may have.
+// Changes the value of a field to another one that a scene file may have.
 template <typename Field, typename Value>
 void changeValue(const Field& field, Value& value) {
   if constexpr (Described<Value>) {

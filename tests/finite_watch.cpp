@@ -66,7 +66,7 @@ bool allowed(uint16_t half) {
 }
 
 // All 65536 half floats, scattered over the image, in one channel after the other.
-TEST_F(WatchedImages, EveryHalfFloatIsJudgedInEveryChannel) {
+TEST_F(WatchedImages, EveryHalfFloatIsJudgedPerChannel) {
   constexpr VkExtent2D extent{256, 256};
   std::vector<Texels> images(4, Texels(65536, {0, 0x3c00, 0x7bff, 0x8000}));
   std::array<int, 4> first{-1, -1, -1, -1};
@@ -162,8 +162,7 @@ Options watched(const std::string& scene, const std::string& name, const BrokenS
 }
 
 const FiniteWatch& drawWatched(Session& session, double time = 0.0) {
-  session.draw(time, false);
-  session.finish();
+  runFrames(session, 1, time);
   EXPECT_EQ(session.device().validationMessages(), 0);
   return session.sceneRenderer().finiteWatch();
 }
@@ -203,7 +202,7 @@ TEST_P(BrokenPass, IsNamedWithItsMirrorsAndPixel) {
   EXPECT_EQ(session.exitCode(), 1);
 }
 
-TEST_P(BrokenPass, OfTheMainViewIsFoundInItsSamples) {
+TEST_P(BrokenPass, MainViewIsFoundInItsSamples) {
   const BrokenSky sky(2, 60, 34, sample(), value());
   Session session(watched(hall, "main_" + name(), sky, path(), samples()));
   const FiniteWatch& watch = drawWatched(session);
@@ -252,15 +251,12 @@ TEST_F(WatchedFrames, StayFoundWhenLaterOnesAreClean) {
   const BrokenSky sky(0, 5, 3, 0, "-1.0");
   Session session(watched(hall, "later", sky, RenderPath::automatic, 1));
   EXPECT_EQ(drawWatched(session).count(), 1u);
-  Settings settings = session.settings();
-  settings.view.clearColor = glm::dvec3(0.5);  // no sky
-  session.setSettings(settings);
+  set(session, {{"view.clear_color", "0.5,0.5,0.5"}});  // no sky
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(drawWatched(session).count(), 1u);
   }
   EXPECT_EQ(session.sceneRenderer().finiteWatch().findingsFrame(), 1u);
-  settings.debug.checkFinite = false;
-  session.setSettings(settings);
+  set(session, {{"debug.check_finite", "false"}});
   EXPECT_EQ(drawWatched(session).count(), 1u);
   EXPECT_EQ(session.exitCode(), 1);
 }
@@ -277,9 +273,7 @@ TEST_F(WatchedFrames, CostNothingWhenTheCheckIsOff) {
   set(options, {{"debug.check_finite", "false"}});
   Session session(options);
   const auto drawFrames = [&](bool checked) {
-    Settings settings = session.settings();
-    settings.debug.checkFinite = checked;
-    session.setSettings(settings);
+    set(session, {{"debug.check_finite", checked ? "true" : "false"}});
     for (int i = 0; i < 4; ++i) {
       drawWatched(session);
     }

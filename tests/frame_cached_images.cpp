@@ -85,7 +85,7 @@ TEST(CachedImages, ReusedImagesAreListedWithTheirAge) {
     EXPECT_FALSE(draw.cached && draw.cached->moved) << "nothing moved";
   }
   sequence.moveCamera({0.001, 0, 0});
-  sequence.next();  // nothing had a margin
+  sequence.next();  // the first images had no margin
   EXPECT_EQ(sequence.plan.passes.size(), 6u);
   sequence.moveCamera({0.001, 0, 0});
   sequence.next();
@@ -173,7 +173,7 @@ TEST(CachedImages, CutsRenderAnewAndForgetUnseenMirrors) {
   EXPECT_EQ(sequence.plan.cached.size(), 6u);
 }
 
-// A reused image has rendered, for every ray through the mirror, whatever may be on it.
+// A reused image covers every ray through the mirror's visible region, at every distance.
 TEST(CachedImages, ReusedImagesCoverTheVisibleRegion) {
   int reprojected = 0;
   for (int seed = 0; seed < 40; ++seed) {
@@ -209,7 +209,7 @@ TEST(CachedImages, ReusedImagesCoverTheVisibleRegion) {
   EXPECT_GT(reprojected, 200) << "too few to judge by";
 }
 
-// A point is where the lookup says it is, whatever moved: camera, mirror, both.
+// The lookup finds a point's texel when the camera, the mirror or both have moved.
 TEST(CachedImages, LookupFindsThePointInTheImage) {
   const Projection projection(1.0, 1.5, 0.001);
   const auto mirrorView = [&](const glm::dvec3& eye, const glm::dvec3& target, double yaw, View& parent) {

@@ -1,4 +1,4 @@
-// Objects seen in part are drawn in part, and never less than is seen.
+// Clusters: objects that are seen in part are drawn in part, but never less than is seen.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,7 +71,7 @@ TEST(Clusters, CoverEveryPartInItsOrder) {
 
 using Corners = std::array<std::array<double, 8>, 3>;
 
-// All that is known of the corners of the triangles of one part, the triangles in any order.
+// Returns the corners of the triangles of one part with all their attributes, triangles in any order.
 std::vector<Corners> trianglesOf(const Mesh& mesh, const MeshPart& part) {
   std::vector<Corners> triangles;
   for (uint32_t i = part.firstIndex; i < part.firstIndex + part.indexCount; i += 3) {
@@ -147,7 +147,7 @@ TEST(Clusters, ObjectsInsideThePictureAreDrawnWhole) {
   EXPECT_TRUE(plan.main.partial.empty());
 }
 
-TEST(Clusters, ObjectsCutByThePictureAreDrawnPartly) {
+TEST(Clusters, ObjectsCutByThePictureArePartial) {
   Object object;
   object.position = {0, 1.2, -1.5};  // the picture ends 0.87 m above the middle there
   const Scene scene = sceneOf(object);
@@ -175,7 +175,7 @@ TEST(Clusters, ObjectsSeenByBoxOnlyAreDropped) {
   EXPECT_TRUE(plan.main.instances.empty());
 }
 
-// Against every triangle itself, from random places, in mirrors too.
+// Checks every triangle by itself, from random places, in mirrors too.
 TEST(Clusters, NeverLeaveOutVisibleTriangles) {
   std::mt19937 engine(7);
   const auto uniform = [&](double low, double high) {

@@ -74,7 +74,7 @@ TEST(EnvironmentMap, ExistsWhereACurvedMirrorIsDrawn) {
   EXPECT_EQ(frames.next().maps.size(), 1u) << "seen in a mirror";
 }
 
-TEST(EnvironmentMap, NoRayIsTracedForIt) {
+TEST(EnvironmentMap, NeedsNoRays) {
   Frames frames(room());
   frames.next();
   const SceneState state = evaluate(frames.scene, 0.0);

@@ -29,7 +29,7 @@ inline Scene sceneWith(std::vector<Mirror> mirrors) {
   return scene;
 }
 
-// Two walls that face each other, the camera between them.
+// Two mirrors that face each other, with the camera between them.
 inline Scene corridor() {
   Scene scene = sceneWith({wall({0, 0, -5}, 0, {4, 4}), wall({0, 0, 5}, 180, {4, 4})});
   scene.camera.position = {0.3, 0.2, 0};
@@ -37,7 +37,7 @@ inline Scene corridor() {
   return scene;
 }
 
-// With all occluders found.
+// Makes a mesh with its occluders.
 inline Mesh meshOf(const std::vector<glm::dvec3>& positions, const std::vector<uint32_t>& indices) {
   Mesh mesh{.indices = indices, .parts = {{.indexCount = static_cast<uint32_t>(indices.size())}}};
   for (const glm::dvec3& p : positions) {

@@ -191,7 +191,7 @@ TEST(Unchanged, ReusedImagesCallForTheirEffects) {
   EXPECT_EQ(fresh, "object 3");
 }
 
-// Passes saved are not spent on deeper reflections, which would come and go.
+// The budget of passes is not spent on deeper reflections while images are reused, because those would flicker.
 TEST(Unchanged, BudgetIgnoresReuse) {
   PlanSequence frames(room());
   frames.scene.mirrors[left].rotation.y = 30.0;  // the third mirror is seen in both
@@ -321,7 +321,7 @@ TEST(MainView, ReprojectedImagesDrawIt) {
   }
 }
 
-// A budget of passes that is spent on others takes it away.
+// A mirror that loses its image to the budget of passes changes the main view.
 TEST(MainView, MirrorsThatLoseTheirImageDrawIt) {
   PlanSequence frames(room());
   frames.next();

@@ -129,7 +129,7 @@ TEST(ReferenceBvh, IsWatertightAtEdgesAndVertices) {
   }
 }
 
-TEST(ReferenceBvh, SkipsTheTriangleThatARayStartsOn) {
+TEST(ReferenceBvh, SkipsTheStartingTriangle) {
   const Mesh mesh = testing::polygonMesh({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});
   const TriangleMesh tree(mesh);
   const Ray ray{{0, 0, 1}, {0, 0, -1}};
@@ -139,7 +139,7 @@ TEST(ReferenceBvh, SkipsTheTriangleThatARayStartsOn) {
   EXPECT_FALSE(tree.occluded(ray, 0));
 }
 
-TEST(ReferenceBvh, RaysInTheFaceOfABoxAreNotLost) {
+TEST(ReferenceBvh, RaysWithinBoxFacesAreKept) {
   const Mesh mesh = testing::polygonMesh({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
   const TriangleMesh tree(mesh);
   EXPECT_TRUE(tree.closest({{0, 1, 1}, {0, 0, -1}}));

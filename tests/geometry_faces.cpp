@@ -83,7 +83,7 @@ TEST(ConvexFaces, BentAndOpposedFacesStayApart) {
   EXPECT_EQ(facesOf(folded).size(), 2u);
 }
 
-TEST(ConvexFaces, ACrackOfOneBitKeepsFacesApart) {
+TEST(ConvexFaces, CracksOfOneBitSeparateFaces) {
   Triangles t;
   t.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
   const double next = std::nextafter(1.0, 2.0);

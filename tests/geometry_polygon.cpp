@@ -12,12 +12,12 @@ using Polygon = std::vector<glm::dvec3>;
 
 const Polygon unitSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
-TEST(Polygon, NewellVectorIsTwiceTheAreaTowardsCounterClockwise) {
+TEST(Polygon, NewellVectorIsTwiceTheArea) {
   EXPECT_EQ(newellVector(unitSquare), glm::dvec3(0, 0, 2));
   EXPECT_DOUBLE_EQ(polygonArea(unitSquare), 1.0);
 }
 
-TEST(Polygon, NewellVectorIsExactFarFromTheOrigin) {
+TEST(Polygon, NewellVectorIsExactFarOut) {
   Polygon moved = unitSquare;
   for (glm::dvec3& p : moved) {
     p += glm::dvec3(1e7, -1e7, 1e7);

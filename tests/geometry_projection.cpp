@@ -20,7 +20,7 @@ TEST(Projection, MatrixAndFunctionAgree) {
   EXPECT_EQ(projection.matrix() * glm::dvec4(p, 1.0), projection.clip(p));
 }
 
-TEST(Projection, TopOfTheViewIsTheFirstRow) {
+TEST(Projection, TopOfViewIsFirstRow) {
   const double y = 2.0 * std::tan(glm::radians(30.0));
   EXPECT_NEAR(toNdc(projection.clip({0.0, y, -2.0})).y, -1.0, 1e-15);
 }
@@ -35,7 +35,7 @@ TEST(Projection, DepthFallsStrictlyWithDistance) {
   }));
 }
 
-TEST(Projection, ObliqueDepthIsZeroDistanceAtThePlane) {
+TEST(Projection, ObliqueDepthIsOneAtThePlane) {
   // A floor 1 m below a reflected eye that looks down at it: kept is what lies below the floor's image.
   const glm::dvec4 plane(0.0, glm::normalize(glm::dvec2(1.0, -1.0)).x, glm::normalize(glm::dvec2(1.0, -1.0)).y, -1.0);
   const auto oblique = obliqueProjection(projection, plane);
@@ -50,7 +50,7 @@ TEST(Projection, ObliqueDepthIsZeroDistanceAtThePlane) {
   EXPECT_LT(front.z, front.w);
 }
 
-TEST(Projection, ObliqueDoesNotExistForAnEyeOnTheKeptSide) {
+TEST(Projection, NoObliqueForEyesOnKeptSide) {
   EXPECT_FALSE(obliqueProjection(projection, {0, 0, -1, 0.5}));
   EXPECT_FALSE(obliqueProjection(projection, {0, 0, 1, -0.5}));
 }
@@ -62,7 +62,7 @@ TEST(ScreenRect, RoundsOutwardsAndPads) {
   EXPECT_DOUBLE_EQ(screenArea(clip, 100, 100), 2500.0);
 }
 
-TEST(ScreenRect, IsEverythingForVerticesInTheEyesPlane) {
+TEST(ScreenRect, IsEverythingAtTheEyesPlane) {
   const std::vector<glm::dvec4> clip = {{0, 0, 0, 1}, {1e-14, 0, 0, 1e-13}, {0, 0.5, 0, 1}};
   EXPECT_EQ(screenRect(clip, 64, 32, {0, 0, 64, 32}), (PixelRect{0, 0, 64, 32}));
 }
@@ -78,7 +78,7 @@ double distanceFromEdge(const glm::dvec2& p, const glm::dvec2& a, const glm::dve
   return glm::dot(across, p - a) * (glm::dot(across, inside - a) < 0.0 ? -1.0 : 1.0);
 }
 
-TEST(Grown, MovesEdgesOutwardsByPixelsAndKeepsDepth) {
+TEST(Grown, MovesEdgesByPixelsAndKeepsDepth) {
   constexpr glm::dvec2 half(320.0, 180.0);
   EXPECT_TRUE(rc::check("edges of a quadrangle", [&] {
     const auto number = [](double low, double high) {

@@ -29,7 +29,6 @@ struct GoldenCase {
   std::filesystem::path file() const { return sourceFile("tests/golden/" + name() + ".png"); }
 };
 
-// One scene after the other.
 std::vector<GoldenCase> goldenCases() {
   std::vector<GoldenCase> cases;
   for (const std::string scene :

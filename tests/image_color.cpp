@@ -77,7 +77,7 @@ TEST(ToDisplay, TakesEveryFloat) {
   }
 }
 
-TEST(ToDisplay, IsOpaqueAndKeepsThePlaceOfPixels) {
+TEST(ToDisplay, IsOpaqueAndKeepsPixelPositions) {
   LinearImage image(3, 2);
   image.at(2, 1) = glm::vec3(1.0f, 0.0f, 0.5f);
   const Image8 display = toDisplay(image, 1.0, ToneMap::clamp);

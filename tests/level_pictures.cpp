@@ -69,7 +69,7 @@ struct Drawn {
 };
 
 Drawn drawn(const Options& options) {
-  Session session(options);
+  QuietSession session(options);
   session.draw(0.0, true);
   session.finish();
   Drawn result{.picture = session.picture()};
@@ -79,7 +79,6 @@ Drawn drawn(const Options& options) {
       (pass["depth"].is_null() ? result.mainTriangles : result.mirrorTriangles) += pass["triangles"].get<int64_t>();
     }
   }
-  expectQuiet(session);
   return result;
 }
 
@@ -130,20 +129,18 @@ TEST(LevelPictures, BothRenderPathsDrawTheSameBytes) {
 // Objects and camera move, stop and come back: images of other levels are not taken for the same.
 TEST(LevelPictures, SkippingWhatIsUnchangedChangesNoByte) {
   const std::filesystem::path file = objectsScene();
-  Session skipping(optionsFor(file, "2", {{"reflection.skip_unchanged", "true"}}));
-  Session rendering(optionsFor(file, "2", {{"reflection.skip_unchanged", "false"}}));
-  const auto drawnAt = [](Session& session, double time, double meshError) {
-    Settings settings = session.settings();
-    settings.reflection.meshError = meshError;
-    session.setSettings(settings);
+  QuietSession skipping(optionsFor(file, "2", {{"reflection.skip_unchanged", "true"}}));
+  QuietSession rendering(optionsFor(file, "2", {{"reflection.skip_unchanged", "false"}}));
+  const auto drawnAt = [](Session& session, double time, const char* meshError) {
+    set(session, {{"reflection.mesh_error", meshError}});
     session.draw(time, true);
     session.finish();
     return session.picture().rgba;
   };
   double before = -1.0;
-  std::map<std::pair<double, double>, std::vector<uint8_t>> rendered;
+  std::map<std::pair<double, std::string>, std::vector<uint8_t>> rendered;
   for (const double time : {1.0, 1.0, 1.1, 1.3, 1.3, 6.0, 6.0, 1.1}) {
-    const double meshError = time == 1.3 && before == 1.3 ? 0.5 : 2.0;
+    const char* meshError = time == 1.3 && before == 1.3 ? "0.5" : "2";
     std::vector<uint8_t>& expected = rendered[{time, meshError}];
     if (expected.empty()) {
       expected = drawnAt(rendering, time, meshError);
@@ -151,38 +148,28 @@ TEST(LevelPictures, SkippingWhatIsUnchangedChangesNoByte) {
     ASSERT_EQ(drawnAt(skipping, time, meshError), expected) << "at " << time;
     before = time;
   }
-  expectQuiet(skipping);
-  expectQuiet(rendering);
 }
 
 TEST(LevelPictures, CachedImagesOfSimplifiedObjectsAreQuiet) {
-  Session session(optionsFor(objectsScene(), "2", {{"reflection.update_interval", "3"}}));
+  QuietSession session(optionsFor(objectsScene(), "2", {{"reflection.update_interval", "3"}}));
   for (int frame = 0; frame < 8; ++frame) {
-    session.draw(1.0 + 0.02 * frame, false);
-    session.finish();
+    runFrames(session, 1, 1.0 + 0.02 * frame);
   }
-  expectQuiet(session);
 }
 
 TEST(LevelPictures, MemoryFollowsTheSetting) {
   Options options = optionsFor(objectsScene(), "0", {{"debug.check_finite", "false"}, {"reflection.max_depth", "1"}});
   options.size = {32, 18};
-  Session session(options);
-  const auto bytesAfter = [&](double meshError, int frames) {
-    Settings settings = session.settings();
-    settings.reflection.meshError = meshError;
-    session.setSettings(settings);
-    for (int frame = 0; frame < frames; ++frame) {
-      session.draw(0.0, false);
-      session.finish();
-    }
+  QuietSession session(options);
+  const auto bytesAfter = [&](const char* meshError, int frames) {
+    set(session, {{"reflection.mesh_error", meshError}});
+    runFrames(session, frames);
     return session.device().allocatedBytes();
   };
-  bytesAfter(1.0, 3);  // buffers that grow stay, one for each frame in flight
-  const uint64_t none = bytesAfter(0.0, 150);
-  EXPECT_GT(bytesAfter(1.0, 3), none);
-  EXPECT_EQ(bytesAfter(0.0, 150), none);
-  expectQuiet(session);
+  bytesAfter("1", 3);  // buffers that grow stay, one for each frame in flight
+  const uint64_t none = bytesAfter("0", 150);
+  EXPECT_GT(bytesAfter("1", 3), none);
+  EXPECT_EQ(bytesAfter("0", 150), none);
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST(MirrorImages, HideWhatIsBehindThePlane) {
                                    "[0, 0, 0]\ntarget = [0, 0, -1]\n");
     ASSERT_GT(std::count(mask.begin(), mask.end(), true), 0);
     const PictureAgreement d = difference(seen, empty, 0, mask);
-    // Glyphs of lights stand in front in no case here either: they were mirrored with the rest.
+    // Nothing of the mirrored scene shows where the mirror is.
     EXPECT_EQ(d.largest, 0) << "something behind the mirror shows, seed " << seed;
   }
 }

@@ -1,4 +1,4 @@
-// The comparison that tests of pictures rest on.
+// difference(), on which tests of pictures rely.
 #include <gtest/gtest.h>
 
 #include "picture_support.hpp"

@@ -58,7 +58,7 @@ TEST(Files, ReplaceNeedsAFolderAndAFile) {
   expectFileError([&] { replaceFile(directory.path(), "a"); }, directory.path(), "cannot be written: it is a folder");
 }
 
-TEST(Files, ReplaceWritesToADeviceWithoutReplacingIt) {
+TEST(Files, DevicesAreWrittenNotReplaced) {
   replaceFile("/dev/null", "a");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
@@ -120,7 +120,7 @@ TEST(Files, StoreMakesTheFolder) {
   EXPECT_EQ(readText(file), "a");
 }
 
-TEST(Files, FoldersDevicesAndHugeFilesAreNotRead) {
+TEST(Files, FoldersDevicesAndHugeFilesAreRefused) {
   const TemporaryDirectory directory;
   const fs::path file = directory.path() / "file";
   expectFileError([&] { readFile(file); }, file, "cannot be read: No such file");

@@ -177,8 +177,8 @@ TEST(ReferenceMirrors, SlightRoughnessConvergesToSmooth) {
   EXPECT_NEAR(look(scene, {0, 1, 0}, down, {.roughSamples = 4096}).r, smooth, 1e-3);
 }
 
-// Seen along the normal, a sky of radiance sqrt(y) has the mean of sqrt(2 c^2 - 1) over GGX normals with cosine c,
-// of those that reflect upwards. The density of c^2 is integrated numerically.
+// Along the normal, the reflection of a sky of radiance sqrt(y) is the mean of sqrt(2 c^2 - 1) over GGX normals with
+// cosine c that reflect upwards. The density of c^2 is integrated numerically.
 TEST(ReferenceMirrors, RoughReflectionsFollowGgx) {
   Scene scene = emptyScene({0, 0, 0});
   scene.environment.sky = Sky{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}};

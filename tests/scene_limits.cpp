@@ -10,7 +10,7 @@
 namespace speculum {
 namespace {
 
-// The error of files that nobody would write by hand, without the file's name.
+// Returns the error message about `text` as a scene file, without the file's name.
 std::string faultOf(const std::string& text) {
   const TemporaryFolder folder;
   folder.write("triangle.obj", kTriangleObj);
@@ -47,7 +47,7 @@ TEST(TomlDepth, CountsThePartsOfOneKey) {
   EXPECT_EQ(lineOfTooDeepKey("[" + repeated("[0.5, 0.25, 1.5], ", 100) + "]"), 0);
 }
 
-TEST(TomlDepth, DotsInStringsAndCommentsDoNotCount) {
+TEST(TomlDepth, DotsInStringsAndCommentsAreIgnored) {
   const std::string dots(100, '.');
   EXPECT_EQ(lineOfTooDeepKey("title = \"" + dots + "\"\n"), 0);
   EXPECT_EQ(lineOfTooDeepKey("title = \"\\\"" + dots + "\"\n"), 0);
@@ -131,8 +131,8 @@ TEST(SceneLimits, SettingsAreNotNestedDeeply) {
             "5: settings.a.b.c.d.e.f.g.h: has too many parts (no setting has more than 2)");
 }
 
-// Rounding takes the eye to its target at some angle when it is taken from there anew.
-TEST(SceneLimits, CameraTurnsAboutATargetThatItNearlyTouches) {
+// Computing eye and target anew at each time would at some angle round them to one point.
+TEST(SceneLimits, CameraOrbitsANearlyTouchedTarget) {
   const TemporaryFolder folder;
   const Scene scene =
       loadScene(folder.write("scene.toml",
@@ -160,7 +160,7 @@ TEST(SceneLimits, ManySettingsAreReadInShortTime) {
   EXPECT_EQ(scene.settings.back().line, 200'004);
 }
 
-TEST(SceneLimits, PipesDevicesAndHugeFilesAreNotRead) {
+TEST(SceneLimits, PipesDevicesAndHugeFilesAreRefused) {
   const TemporaryFolder folder;
   const std::filesystem::path pipe = folder / "pipe.toml";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -174,7 +174,7 @@ TEST(SceneLimits, PipesDevicesAndHugeFilesAreNotRead) {
             huge.string() + ":1: file: is larger than 16 MiB (a scene file is needed)");
 }
 
-TEST(SceneLimits, LineEndsAndByteOrderMarkKeepTheLines) {
+TEST(SceneLimits, LineEndsAndMarksKeepLineNumbers) {
   EXPECT_EQ(faultOf("\r\nnear = 0\r\n"), "5: camera.near: is 0 (a finite number above 0 is needed)");
   const TemporaryFolder folder;
   const auto file = folder.write("scene.toml", "\xef\xbb\xbf" + kCamera + "near = 0\n");

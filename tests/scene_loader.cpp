@@ -14,7 +14,7 @@ Scene load(const std::string& text) {
   return loadScene(folder.write("scene.toml", text));
 }
 
-// The values themselves stand in docs/scene_format.md, which tests/docs_tables.cpp holds against the types.
+// The values are in docs/scene_format.md, which tests/docs_tables.cpp compares with the types.
 TEST(SceneDefaults, AreThoseOfTheTypes) {
   const Scene scene =
       load(kCamera +

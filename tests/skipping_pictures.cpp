@@ -1,5 +1,7 @@
-// Pictures do not show what was left out of them: hidden mirrors, and parts of mirror images that nobody looks up.
+// Skipping hidden mirrors, clusters and unread parts of mirror images does not change pictures.
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 #include <random>
@@ -86,8 +88,7 @@ Image8 pictureWith(Session& session, const Settings& settings) {
 
 nlohmann::ordered_json statsWith(Session& session, const Settings& settings) {
   session.setSettings(settings);
-  session.draw(0.0, false);
-  session.finish();
+  runFrames(session);
   return frameStats(session);
 }
 
@@ -113,7 +114,7 @@ struct Differences {
 };
 
 TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
-  Session session(headless(roomsScene(), size));
+  QuietSession session(headless(roomsScene(), size));
   std::mt19937 engine(11);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine);
@@ -150,7 +151,6 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   // than that where it is steep.
   EXPECT_LT(parts.pixels, cuts) << "of 14 400 each, in a quarter of them";
   EXPECT_LE(parts.most, 16);
-  expectQuiet(session);
   EXPECT_GT(hidden, cuts);
   EXPECT_LT(passes, passesOfAll);
   std::printf("%d cuts, %d hidden mirrors, %zu passes for %zu; parts of objects: %d pixels differ, by up to %d\n", cuts,
@@ -188,7 +188,7 @@ TEST(Skipping, ShapesHideNothingThatIsSeen) {
   int hidden = 0;
   int hiddenInMirrors = 0;
   for (int scene = 0; scene < 3; ++scene) {
-    Session session(headless(shapesScene(engine), size));
+    QuietSession session(headless(shapesScene(engine), size));
     const auto uniform = [&](double low, double high) {
       return std::uniform_real_distribution<double>(low, high)(engine);
     };
@@ -208,7 +208,6 @@ TEST(Skipping, ShapesHideNothingThatIsSeen) {
       settings.debug.skipHidden = false;
       EXPECT_EQ(skipping.rgba, pictureWith(session, settings).rgba) << "scene " << scene << ", cut " << cut;
     }
-    expectQuiet(session);
   }
   EXPECT_GT(hidden, 100);
   EXPECT_GT(hiddenInMirrors, 2);
@@ -232,7 +231,7 @@ std::filesystem::path smallMirrorsScene() {
 }
 
 TEST(Skipping, SmallMirrorsDrawSmallPartsOfObjects) {
-  Session session(headless(smallMirrorsScene(), {320, 180}));
+  QuietSession session(headless(smallMirrorsScene(), {320, 180}));
   const auto mirrorTriangles = [&](const nlohmann::ordered_json& stats) {
     double triangles = 0.0;
     for (const auto& pass : stats["passes"]) {
@@ -251,7 +250,6 @@ TEST(Skipping, SmallMirrorsDrawSmallPartsOfObjects) {
     EXPECT_EQ(parts.rgba, pictureWith(session, settings).rgba) << samples << " samples";
     EXPECT_LT(drawn, 0.9 * mirrorTriangles(statsWith(session, settings)));
   }
-  expectQuiet(session);
 }
 
 TEST(Skipping, MaskDoesNotChangeCachedImages) {
@@ -259,7 +257,7 @@ TEST(Skipping, MaskDoesNotChangeCachedImages) {
   set(options, {{"reflection.update_interval", "3"}});
   std::vector<Image8> pictures;
   for (const bool masked : {true, false}) {
-    Session session(options);
+    QuietSession session(options);
     Settings settings = session.settings();
     settings.debug.maskPasses = masked;
     for (int frame = 0; frame < 6; ++frame) {
@@ -267,7 +265,6 @@ TEST(Skipping, MaskDoesNotChangeCachedImages) {
       session.setCamera(lookAt(eye, {1.2, 1.3, 0.0}, {0, 1, 0}, 60, 0.001));
       pictures.push_back(pictureWith(session, settings));
     }
-    expectQuiet(session);
   }
   for (size_t frame = 0; frame < 6; ++frame) {
     EXPECT_EQ(pictures[frame].rgba, pictures[frame + 6].rgba) << "frame " << frame;
@@ -306,7 +303,7 @@ scale = 1.0
 
 TEST(Skipping, MirrorPassesDrawOnlyWhatIsSeen) {
   for (const bool closed : {false, true}) {
-    Session session(headless(tiltedScene(closed), {640, 360}));
+    QuietSession session(headless(tiltedScene(closed), {640, 360}));
     for (const int samples : {1, 4}) {
       Settings settings;
       settings.reflection.samples = samples;
@@ -320,18 +317,17 @@ TEST(Skipping, MirrorPassesDrawOnlyWhatIsSeen) {
       EXPECT_GE(masked["samples_drawn"].get<double>(), seen) << closed << samples;
       EXPECT_GT(whole["samples_drawn"].get<double>(), 1.4 * seen) << closed << samples;
     }
-    expectQuiet(session);
   }
 }
 
-// The tree of passes, from their figures alone.
+// Rebuilds the tree of passes from their figures alone.
 TEST(Skipping, FiguresOfPassesNameTheParent) {
   Options options = headless(roomsScene(), size);
   set(options, {{"reflection.update_interval", "2"},
                 {"reflection.skip_unchanged", "false"},
                 {"reflection.max_depth", "3"},
                 {"debug.skip_hidden", "false"}});
-  Session session(options);
+  QuietSession session(options);
   session.setCamera(lookAt({1.4, 1.5, 1.6}, {1.2, 1.3, 0.0}, {0, 1, 0}, 100, 0.001));
   std::vector<nlohmann::ordered_json> frames;
   std::vector<std::vector<PassId>> passes;
@@ -355,7 +351,6 @@ TEST(Skipping, FiguresOfPassesNameTheParent) {
   }
   EXPECT_GT(mirrors, 8);
   EXPECT_LT(frames[1]["passes"].size(), frames.back()["passes"].size()) << "some images were reused";
-  expectQuiet(session);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The rasteriser against the ray tracer, which shares no drawing code with it: one sample each, every pixel that is not
-// background. Where they differ, one of them is wrong.
+// background.
 #include <gtest/gtest.h>
 
 #include <sstream>

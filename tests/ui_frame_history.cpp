@@ -21,7 +21,7 @@ TEST(FrameHistory, KeepsTheLastFrames) {
   EXPECT_EQ(frames.back(), 307.0f);
 }
 
-TEST(FrameHistory, FiguresOfTheGpuComeToTheirFrames) {
+TEST(FrameHistory, GpuFiguresJoinTheirFrames) {
   FrameHistory history;
   history.add(1, unknown, 1.0);
   history.add(2, 10.0, 2.0);
@@ -37,7 +37,7 @@ TEST(FrameHistory, FiguresOfTheGpuComeToTheirFrames) {
   EXPECT_TRUE(std::isnan(history.passSeries("none")[0]));
 }
 
-TEST(FrameHistory, PassesThatNoFrameHasAnyMoreAreForgotten) {
+TEST(FrameHistory, PassesWithoutFramesAreDropped) {
   FrameHistory history;
   history.add(1, 1.0, 1.0);
   history.addGpu(1, 1.0, Passes{{"old", 1.0}});
@@ -59,7 +59,7 @@ TEST(FrameHistory, PausedItStaysAsItIs) {
   EXPECT_TRUE(history.passNames().empty());
 }
 
-TEST(FrameHistory, CsvHasALineOfNamesWithUnitsAndOneForEachFrame) {
+TEST(FrameHistory, CsvHasHeaderAndFrameLines) {
   FrameHistory history;
   history.add(4, unknown, 0.5);
   history.add(5, 16.25, 0.75);

@@ -1,4 +1,4 @@
-// Where the windows of the panel go.
+// Positions of the panel's windows.
 #include <gtest/gtest.h>
 
 #include "ui/panel_layout.hpp"
@@ -31,7 +31,7 @@ TEST(PanelLayout, WindowsShareTheirEdgeWithoutOverlap) {
   EXPECT_EQ(arrangeWindows(std::span(threeWindows).first(1), room)[0].size, glm::vec2(375, 690)) << "as wished";
 }
 
-TEST(PanelLayout, ManyWindowsGoBesideAndThenGetLower) {
+TEST(PanelLayout, ManyWindowsGoBesideThenGetLower) {
   const std::vector<WindowWish> wishes(6, {{405, 330}, 180});
   for (const float width : {1280.0f, 900.0f, 2560.0f}) {
     const WindowRoom room{.display = {width, 720}, .margin = 12, .taken = 432, .right = true};
@@ -55,7 +55,7 @@ TEST(PanelLayout, RoomBelowIsKeptFree) {
   EXPECT_EQ(place.size, glm::vec2(420, 636));
 }
 
-TEST(PanelLayout, AWindowIsBroughtIntoTheDisplay) {
+TEST(PanelLayout, WindowIsMovedIntoTheDisplay) {
   EXPECT_EQ(fitWindow({{100, 50}, {300, 200}}, {900, 700}), (WindowRect{{100, 50}, {300, 200}}));
   EXPECT_EQ(fitWindow({{850, 650}, {300, 200}}, {900, 700}), (WindowRect{{600, 500}, {300, 200}}));
   EXPECT_EQ(fitWindow({{-40, -9}, {300, 900}}, {200, 100}), (WindowRect{{0, 0}, {200, 100}}));

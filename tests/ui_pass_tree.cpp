@@ -5,7 +5,7 @@
 namespace speculum {
 namespace {
 
-TEST(PassTree, MirrorsHangBelowWhatTheyAreSeenIn) {
+TEST(PassTree, MirrorsHangBelowTheirParents) {
   // In the order of recording: children before their parent.
   const std::vector<PassView> passes = {
       {{.path = {0, 1}}, "mirror a > b"},      {{.path = {0}}, "mirror a"},
@@ -32,7 +32,7 @@ TEST(PassTree, MirrorsHangBelowWhatTheyAreSeenIn) {
   EXPECT_EQ(main.children[1].children[0].pass, 2);
 }
 
-TEST(PassTree, OfNothingIsEmpty) {
+TEST(PassTree, IsEmptyWithoutPasses) {
   EXPECT_TRUE(passTree({}, {}).empty());
 }
 

@@ -1,4 +1,4 @@
-// Pictures with reflection.skip_unchanged are those without it, byte for byte, whatever moves, stops or is edited.
+// Pictures with reflection.skip_unchanged are the same bytes as without it while things move, stop or are edited.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -40,10 +40,10 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 class Sequence : public testing::TestWithParam<Case> {};
 
-// Motion, rest, a cut, rest, a cut back, steps backwards.
+// Times with motion, rest, a cut, rest, a cut back and steps backwards.
 TEST_P(Sequence, SkippingChangesNoByte) {
   const std::filesystem::path file = sourceFile(std::string("scenes/") + GetParam().scene + ".toml");
-  Session session(optionsFor(file, false, GetParam().settings));
+  QuietSession session(optionsFor(file, false, GetParam().settings));
   struct Rendered {
     Image8 picture;
     int passes = 0;
@@ -53,9 +53,7 @@ TEST_P(Sequence, SkippingChangesNoByte) {
     rendered[time].picture = picture(session, time);
     rendered[time].passes = mirrorPasses(session.sceneRenderer());
   }
-  Settings settings = session.settings();
-  settings.reflection.skipUnchanged = true;
-  session.setSettings(settings);
+  set(session, {{"reflection.skip_unchanged", "true"}});
   session.restart();
   int skipped = 0;
   double before = -1.0;
@@ -70,7 +68,6 @@ TEST_P(Sequence, SkippingChangesNoByte) {
     before = time;
   }
   EXPECT_GT(skipped, 0);
-  expectQuiet(session);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -163,17 +160,14 @@ TEST(UnchangedPictures, EditsShowInTheFrameAfterThem) {
 }
 
 TEST(UnchangedPictures, StillSecondFrameRecordsNoMirrorPass) {
-  Session session(optionsFor(roomScene(false), true, {}));
-  session.draw(0.0, false);
-  session.finish();
+  QuietSession session(optionsFor(roomScene(false), true, {}));
+  runFrames(session);
   EXPECT_GT(mirrorPasses(session.sceneRenderer()), 2);
-  session.draw(0.0, false);
-  session.finish();
+  runFrames(session);
   const nlohmann::ordered_json stats = frameStats(session);
   ASSERT_EQ(stats["passes"].size(), 2u) << "the main view and the display pass";
   EXPECT_EQ(stats["skipped"].size(), 2u) << "mirrors seen in a reused image are not listed";
   EXPECT_EQ(unchangedMirrors(stats), 2);
-  expectQuiet(session);
 }
 
 TEST(UnchangedPictures, BothRenderPathsDrawTheSameBytes) {
@@ -181,15 +175,11 @@ TEST(UnchangedPictures, BothRenderPathsDrawTheSameBytes) {
 }
 
 TEST(UnchangedPictures, MemoryComesBackWhenReflectionsGo) {
-  Session session(optionsFor(roomScene(false), true, {{"reflection.max_depth", "0"}, {"debug.check_finite", "false"}}));
+  QuietSession session(
+      optionsFor(roomScene(false), true, {{"reflection.max_depth", "0"}, {"debug.check_finite", "false"}}));
   const auto bytesAfter = [&](int maxDepth, int frames) {
-    Settings settings = session.settings();
-    settings.reflection.maxDepth = maxDepth;
-    session.setSettings(settings);
-    for (int frame = 0; frame < frames; ++frame) {
-      session.draw(0.0, false);
-      session.finish();
-    }
+    set(session, {{"reflection.max_depth", std::to_string(maxDepth)}});
+    runFrames(session, frames);
     return session.device().allocatedBytes();
   };
   bytesAfter(4, 2);  // buffers that grow stay, one for each frame in flight
@@ -199,10 +189,9 @@ TEST(UnchangedPictures, MemoryComesBackWhenReflectionsGo) {
   EXPECT_LE(bytesAfter(4, 3), rendered) << "cached images would have been needed anyway";
   EXPECT_LT(bytesAfter(4, 60), rendered) << "images of mirrors in mirrors go";
   EXPECT_EQ(bytesAfter(0, 60), none);
-  expectQuiet(session);
 }
 
-// What is watched is compared by its time, which has whole seconds on some systems.
+// Sets a newer time, because files are compared by their times, which have whole seconds on some systems.
 void replaceShader(const std::filesystem::path& file, const std::string& code) {
   std::string text = readText(file);
   text.insert(text.rfind('}'), code);
@@ -217,7 +206,7 @@ TEST(UnchangedPictures, ReloadedShadersShowInMirrors) {
   writeShaders(shaders, "scene_shading.glsl", "");
   Options options = optionsFor(roomScene(false), true, {});
   options.shaderDir = shaders;
-  Session session(options);
+  QuietSession session(options);
   const std::vector<uint8_t> before = picture(session, 0.0).rgba;
   EXPECT_EQ(picture(session, 0.0).rgba, before);
   EXPECT_EQ(mirrorPasses(session.sceneRenderer()), 0);
@@ -227,12 +216,11 @@ TEST(UnchangedPictures, ReloadedShadersShowInMirrors) {
   EXPECT_NE(after, before);
   Session fresh(options);
   EXPECT_EQ(after, picture(fresh, 0.0).rgba);
-  expectQuiet(session);
 }
 
 // A scene in which only a mirror shows what calls for rays: its pipelines stay while its image is reused.
 TEST(UnchangedPictures, PipelinesOfReusedImagesStay) {
-  Session session(optionsFor(writeScene("only_in_the_mirror", R"(
+  QuietSession session(optionsFor(writeScene("only_in_the_mirror", R"(
 [environment]
 background = [0.3, 0.4, 0.5]
 [camera]
@@ -252,25 +240,16 @@ intensity = 20
 position = [0, 1, -2]
 size = [3, 2]
 )"),
-                             true, {{"debug.check_finite", "false"}}));
+                                  true, {{"debug.check_finite", "false"}}));
   const std::vector<uint8_t> first = picture(session, 0.0).rgba;
   ASSERT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].pipelines, 1u);
-  for (int frame = 0; frame < 129; ++frame) {
-    session.draw(0.0, false);
-    session.finish();
-  }
+  runFrames(session, 129);
   EXPECT_EQ(picture(session, 0.0).rgba, first);
   EXPECT_EQ(mirrorPasses(session.sceneRenderer()), 0);
   EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].pipelines, 1u);
-  Settings settings = session.settings();
-  settings.effects.curved = false;
-  session.setSettings(settings);
-  for (int frame = 0; frame < 130; ++frame) {
-    session.draw(0.0, false);
-    session.finish();
-  }
+  set(session, {{"effects.curved", "false"}});
+  runFrames(session, 130);
   EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].pipelines, 0u);
-  expectQuiet(session);
 }
 
 }  // namespace

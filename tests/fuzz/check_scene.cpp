@@ -64,7 +64,7 @@ void checkPlan(const FramePlan& plan, const Settings& settings, size_t mirrorCou
   }
 }
 
-// Copies and passes cost time that says nothing more.
+// Limits copies and passes, which take time and test nothing new.
 void shorten(Scene& scene, Settings& settings) {
   for (Object& object : scene.objects) {
     object.copies.count = std::min(object.copies.count, 16);

@@ -6,15 +6,15 @@
 
 namespace speculum::fuzz {
 
-// What the fuzzers and the regression test do with an input: read it as a file that a user names, and use what was
-// accepted. InputError with one line is the only way to refuse one; a longer message and anything accepted that breaks
-// an invariant throw BrokenPromise, and other exceptions pass through.
+// Checks of the fuzzers and of the regression test: they read an input as a file that a user names, and use it if it is
+// accepted. An input may only be refused by an InputError of one line. A longer message and a broken invariant throw
+// BrokenPromise; other exceptions pass through.
 class BrokenPromise : public std::logic_error {
  public:
   using std::logic_error::logic_error;
 };
 
-inline constexpr size_t kLargestInput = 64u << 10;  // bytes; more is not looked at
+inline constexpr size_t kLargestInput = 64u << 10;  // bytes; larger inputs are ignored
 
 // A scene file. Beside it are t.obj, a triangle, and large.obj, whose vertices are at 1e200. Accepted scenes are
 // evaluated and planned at several times.

@@ -6,7 +6,7 @@ namespace speculum::fuzz {
 
 namespace {
 
-// Warnings are thousands a second and say nothing here.
+// Switches warnings off, of which there would be thousands a second.
 [[maybe_unused]] const bool quiet = [] {
   spdlog::set_level(spdlog::level::off);
   return true;

@@ -24,7 +24,7 @@ void* operator new(size_t size) {
   return memory;
 }
 
-// The library's own would take the memory from elsewhere, and the delete below gives it back here.
+// Replaces the library's own, whose memory the delete below could not free.
 void* operator new(size_t size, const std::nothrow_t&) noexcept {
   try {
     return operator new(size);

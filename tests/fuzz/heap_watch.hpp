@@ -4,7 +4,7 @@
 
 namespace speculum::fuzz {
 
-// Bytes that operator new has given and not got back: at most, since the last call of restart. The whole program's.
+// Largest number of bytes that operator new had handed out at one time since the last restart, in the whole program.
 void restartHeapPeak();
 size_t heapPeak();
 

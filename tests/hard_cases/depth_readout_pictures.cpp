@@ -80,7 +80,7 @@ Options optionsOf(const Case& c, const std::string& squares, const std::string& 
   return options;
 }
 
-// Of the pass that the squares are to be seen in.
+// Returns the depth readout of the pass that shows the squares.
 DepthReadout readoutOf(const Case& c) {
   Session session(optionsOf(c, square(c, c.distance, 1.0, c.near, {1, 0, 0}), "clip_distance"));
   const DrawnFrame& frame = session.draw(0.0, false);
@@ -100,7 +100,7 @@ struct Count {
   int farther = 0;  // of those, with the farther one before it
 };
 
-// What the nearer square covers is drawn by itself: the mirror's plane cuts the two along lines a gap apart.
+// Draws the nearer square by itself, because the mirror's plane cuts the two along lines a gap apart.
 const Image8& pictureAlone(const Case& c, const std::string& nearer, const std::string& clip) {
   static std::map<std::string, Image8> drawn;
   Image8& picture = drawn[prefixOf(c) + nearer + clip];
@@ -145,7 +145,7 @@ class DepthReadoutOf : public testing::Test {
     writeGrid();
   }
 
-  // Draws each method at the gap that the readout states; the number of methods for which it states one.
+  // Draws each method at the gap that the readout states, and returns the number of methods with one.
   int expectInOrder(const Case& c) {
     const DepthReadout readout = readoutOf(c);
     int stated = 0;
@@ -164,7 +164,7 @@ class DepthReadoutOf : public testing::Test {
     return stated;
   }
 
-  // At a part of it; the number of methods that lose the order.
+  // Draws at a part of the gap and returns the number of methods that lose the order.
   int losing(const Case& c, double part) {
     const DepthReadout readout = readoutOf(c);
     int lost = 0;
@@ -206,12 +206,12 @@ TEST_F(DepthReadoutOf, GapHoldsInANearMirror) {
   EXPECT_FALSE(readoutOf({.h = 1e-6}).oblique);
 }
 
-TEST_F(DepthReadoutOf, GapHoldsInAMirrorInAMirror) {
+TEST_F(DepthReadoutOf, GapHoldsInNestedMirrors) {
   EXPECT_EQ(expectInOrder({.h = 1.0, .distance = 45.0, .nested = true}), 3);
   EXPECT_EQ(expectInOrder({.h = 0.01, .distance = 45.0, .nested = true, .near = "grid.obj", .far = "quad.obj"}), 3);
 }
 
-// What the bound leaves: snapping that this rasteriser does not pass on to depth, and errors that seldom meet.
+// The bound is not tight: this rasteriser does not pass snapping on to depth, and the largest errors seldom meet.
 TEST_F(DepthReadoutOf, HundredthOfTheGapFails) {
   int lost = 0;
   for (const auto& [near, far] : meshes) {

@@ -1,4 +1,4 @@
-// Hard cases of shading and of sizes: nothing that is drawn is infinite or not a number, whatever the size.
+// Hard cases of shading and of sizes: no value that is drawn is infinite or NaN.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,14 +96,13 @@ TEST(LightOnASurface, EveryPixelIsFinite) {
   for (const char* samples : {"1", "4"}) {
     Options options = headless(writeLitScene(), size);
     set(options, {{"view.samples", samples}, {"reflection.samples", samples}});
-    Session session(options);
+    QuietSession session(options);
     session.draw(0.0, true);
     const LinearImage radiance = session.radiance();
     EXPECT_EQ(notStorable(radiance), 0) << samples << " samples";
     const auto brightest = std::max_element(radiance.pixels.begin(), radiance.pixels.end(),
                                             [](const glm::vec3& a, const glm::vec3& b) { return a.b < b.b; });
     EXPECT_EQ(brightest->b, 65504.0f) << "the glyph should be as bright as can be stored";
-    expectQuiet(session);
   }
 }
 

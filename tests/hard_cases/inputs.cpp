@@ -1,4 +1,4 @@
-// Hard cases of input: what no arithmetic can save is rejected by name, or dropped with a warning.
+// Hard cases of input: unusable shapes are rejected by name, or dropped with a warning.
 #include <gtest/gtest.h>
 
 #include <cmath>

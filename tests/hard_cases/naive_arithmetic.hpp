@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
-// What naive methods compute: divisions by zero give infinity or NaN, where a sanitizer would stop the program.
+// Arithmetic of naive methods, exempt from sanitizers: divisions by zero give infinity or NaN.
 namespace speculum::hard_cases {
 
 template <typename T>

@@ -1,5 +1,5 @@
 // Invariants of the optics, with coordinates log-uniform over 1e-6 .. 1e7 of either sign. RapidCheck prints its seed;
-// RC_PARAMS="seed=N" repeats a run. What ever failed is kept below as a case of its own.
+// RC_PARAMS="seed=N" repeats a run. Cases that once failed are kept below.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -17,7 +17,7 @@ using namespace hard_cases;
 constexpr int width = 64;
 constexpr int height = 36;
 
-// Read by RapidCheck before the first property; what the environment holds comes later and wins.
+// Sets RapidCheck's parameters before the first property; those in the environment take precedence.
 const bool tenThousandCases = [] {
   const char* given = std::getenv("RC_PARAMS");
   const std::string wanted = "max_success=10000 " + std::string(given ? given : "");
@@ -53,7 +53,7 @@ glm::dvec3 point() {
   return {x, y, coordinate()};
 }
 
-// To 27 binary places: sums and differences of such numbers are exact.
+// Rounds to 27 binary places, so that sums and differences are exact.
 glm::dvec3 dyadic(const glm::dvec3& p) {
   constexpr double unit = 134217728.0;
   return glm::round(p * unit) / unit;
@@ -115,7 +115,7 @@ double reachOf(const Scene& scene) {
   return reach;
 }
 
-// Whether the eye is so near the mirror's plane that its coordinates do not tell on which side.
+// Says whether the eye is so near the mirror's plane that rounding decides on which side it is.
 bool tooNearToTell(const Scene& scene) {
   const std::vector<glm::dvec3>& p = scene.mirrors[0].polygon;
   const LongVec3 n = glm::normalize(glm::cross(LongVec3(p[1]) - LongVec3(p[0]), LongVec3(p[2]) - LongVec3(p[0])));
@@ -217,7 +217,7 @@ TEST(Invariants, TranslatingEverythingChangesNothing) {
   });
 }
 
-// Of points of the polygon, in extended precision. Returns how many are in view.
+// Checks points of the polygon in extended precision. Returns how many are in view.
 int checkRectangle(const Scene& scene) {
   if (tooNearToTell(scene)) {
     return 0;

@@ -1,5 +1,5 @@
-// Random scenes of what is hard, all at once, against the tracer: the eye 1 um to 1 cm from a mirror that reaches
-// behind it, mostly at grazing angles, up to 1e7 m from the origin, mirrors in mirrors to depth 32.
+// Random scenes that combine hard cases, against the tracer: the eye 1 um to 1 cm from a mirror that reaches behind it,
+// mostly at grazing angles, up to 1e7 m from the origin, mirrors in mirrors to depth 32.
 #include <gtest/gtest.h>
 
 #include <cmath>

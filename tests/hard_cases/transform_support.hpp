@@ -7,7 +7,7 @@
 #include "random.hpp"
 #include "systems/frame_data.hpp"
 
-// What the vertex shader makes of a frame's data, and the same from the scene's own numbers in extended precision.
+// Results of the vertex shader for a frame's data, and the same from the scene's own numbers in extended precision.
 namespace speculum::hard_cases {
 
 using LongVec3 = glm::vec<3, long double, glm::highp>;
@@ -24,7 +24,7 @@ FramePlan planOf(const Scene& scene, int width, int height, int maxDepth = 1);
 // scene.vert's gl_Position, in float.
 glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex);
 
-// From clip space to pixels, y down.
+// Takes clip space to pixels, y down.
 glm::dvec2 toPixel(const glm::dvec4& clip, int width, int height);
 
 // Everything that has a place, moved.
@@ -39,7 +39,7 @@ LongMat3 longRotation(const glm::dvec3& pitchYawRoll);
 // Rows: right, up, back.
 LongMat3 longWorldToView(const CameraSpec& camera);
 
-// Of a point given relative to the eye.
+// Returns the pixel of a point that is relative to the eye.
 glm::dvec2 longPixel(const LongMat3& worldToView, const LongVec3& relative, double verticalFovDegrees, int width,
                      int height);
 

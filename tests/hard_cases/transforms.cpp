@@ -73,7 +73,8 @@ LongVec3 worldPoint(const Object& object, const Vertex& vertex) {
          longRotation(object.rotation) * (LongVec3(object.scale) * LongVec3(vertex.position));
 }
 
-// Of every vertex in every pass of that many mirrors, in pixels. `truth` is the scene at the origin.
+// Returns the errors, in pixels, of every vertex in every pass of that many mirrors. `truth` is the scene at the
+// origin.
 Errors doublePathErrors(const Scene& scene, const Scene& truth, int maxDepth, size_t pathLength) {
   const SceneState state = evaluate(scene, 0.0);
   const FramePlan plan = planOf(scene, width, height, maxDepth);
@@ -203,7 +204,7 @@ TEST(FacingMirrorsAtDepth32, FloatMatricesDrift) {
   std::printf("float: median %.1e, largest %.1e px\n", worst.median, worst.largest);
 }
 
-// Whether a triangle that runs counter-clockwise in the mesh seen from its outside does so on the screen (y down).
+// Says whether a triangle that is counter-clockwise in the mesh is so on the screen (y down).
 bool counterClockwise(const std::array<glm::dvec2, 3>& p) {
   const glm::dvec2 a = p[1] - p[0];
   const glm::dvec2 b = p[2] - p[0];

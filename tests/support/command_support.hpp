@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -12,13 +14,20 @@
 // The program called as scripts call it.
 namespace speculum::testing_support {
 
-// What draws, draws with debug.check_finite.
+// Runs the program; commands that draw do so with debug.check_finite.
 inline ProcessResult speculum(std::vector<std::string> arguments) {
   if (arguments.front() == "render" || arguments.front() == "bench") {
     arguments.insert(arguments.begin() + 1, {"--set", "debug.check_finite=true"});
   }
   arguments.insert(arguments.begin(), binaryDir().string() + "/speculum");
   return runProcess(arguments);
+}
+
+// Runs the program, expects success and returns its output.
+inline std::string succeed(std::vector<std::string> arguments) {
+  const ProcessResult result = speculum(std::move(arguments));
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  return result.output;
 }
 
 inline nlohmann::json readJson(const std::filesystem::path& file) {

@@ -96,6 +96,21 @@ void set(Options& options, const std::vector<std::pair<std::string, std::string>
   options.settings.insert(options.settings.end(), settings.begin(), settings.end());
 }
 
+void set(Session& session, const std::vector<std::pair<std::string, std::string>>& settings) {
+  Settings changed = session.settings();
+  for (const auto& [key, value] : settings) {
+    EXPECT_EQ(setSetting(changed, key, value), std::nullopt);
+  }
+  session.setSettings(changed);
+}
+
+void runFrames(Session& session, int frames, double time) {
+  for (int i = 0; i < frames; ++i) {
+    session.draw(time, false);
+    session.finish();
+  }
+}
+
 void expectQuiet(Session& session) {
   session.finish();
   EXPECT_EQ(session.device().validationMessages(), 0) << session.scene().file;
@@ -104,11 +119,9 @@ void expectQuiet(Session& session) {
 }
 
 Image8 draw(const Options& options, double time) {
-  Session session(options);
+  QuietSession session(options);
   session.draw(time, true);
-  Image8 picture = session.picture();
-  expectQuiet(session);
-  return picture;
+  return session.picture();
 }
 
 std::vector<bool> blackPixels(const Image8& image) {
@@ -119,8 +132,8 @@ std::vector<bool> blackPixels(const Image8& image) {
   return mask;
 }
 
-// Empty at a test's first call: what an earlier run left is not found. Not called scenes: the programs beside it would
-// take it for the folder that they come with.
+// Emptied at a test's first call, so that nothing is left of an earlier run. Not called scenes, because the programs
+// beside it would take it for their own folder of scenes.
 std::filesystem::path sceneDirectory() {
   static std::filesystem::path made;
   std::filesystem::path directory = binaryDir() / "tests" / "written";

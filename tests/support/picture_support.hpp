@@ -11,7 +11,7 @@
 
 namespace speculum::testing_support {
 
-// Tells two pictures that agree but for stray pixels along edges from those that differ in a patch.
+// Distinguishes pictures that agree except for stray pixels along edges from those that differ in a patch.
 struct PictureAgreement {
   int counted = 0;
   int over = 0;                     // pixels that differ by more than the tolerance in red, green or blue
@@ -25,7 +25,7 @@ struct PictureAgreement {
 // Compares the pixels whose `counts` is set, all of them if it is empty. Throws std::runtime_error when sizes differ.
 PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
 
-// 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes NAME-actual.png,
+// Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes NAME-actual.png,
 // NAME-expected.png and NAME-difference.png below the build tree and says where.
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts = {});
@@ -36,13 +36,25 @@ Options headless(const std::filesystem::path& scene, PictureSize size = {640, 36
 // Adds to the settings.
 void set(Options& options, const std::vector<std::pair<std::string, std::string>>& settings);
 
+// Changes settings of the session.
+void set(Session& session, const std::vector<std::pair<std::string, std::string>>& settings);
+
+// Draws frames at a time and waits for each, without reading them back.
+void runFrames(Session& session, int frames = 1, double time = 0.0);
+
 // Fails for a validation message and for a value in a target that is not finite or out of range.
 void expectQuiet(Session& session);
+
+// A session that calls expectQuiet() at its end.
+struct QuietSession : Session {
+  using Session::Session;
+  ~QuietSession() { expectQuiet(*this); }
+};
 
 // Draws one picture that is quiet.
 Image8 draw(const Options& options, double time = 0.0);
 
-// Whether each pixel is black.
+// Says of each pixel whether it is black.
 std::vector<bool> blackPixels(const Image8& image);
 
 // A temporary directory of the running test's own: tests run side by side and may use the same names.

@@ -5,7 +5,7 @@
 
 namespace speculum::testing_support {
 
-// Whether random sets run whole and scenes in full size, as in scripts/test-long: SPECULUM_FULL_TESTS=1 in the
+// Says whether random sets run whole and scenes in full size, as in scripts/test-long: SPECULUM_FULL_TESTS=1 in the
 // environment.
 inline bool fullTests() {
   const char* value = std::getenv("SPECULUM_FULL_TESTS");

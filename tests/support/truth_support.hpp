@@ -19,14 +19,14 @@ Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, d
 // Options under which the renderer draws what trace() traces: one sample, no bound on passes.
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth);
 
-// Every pixel that is not background within 2/255, but for one in a thousand and no 3x3 block wholly over.
+// Expects every pixel that is not background within 2/255, except one in a thousand, and no 3x3 block wholly over.
 void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDepth, const Truth& truth,
                  double time = 0.0);
 
-// Whether each pixel is something else than background.
+// Says of each pixel whether it shows anything but the background.
 std::vector<bool> notBackground(const TraceResult& traced);
 
-// Share of the values that are at least that.
+// Returns the share of the values that are at least `atLeast`.
 double share(const std::vector<uint8_t>& values, int atLeast);
 
 }  // namespace speculum::testing_support

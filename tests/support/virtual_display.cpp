@@ -24,7 +24,7 @@ namespace speculum::test {
 
 namespace {
 
-// The child ends with this process, however that ends.
+// Starts a child that ends with this process, however that ends.
 pid_t start(std::vector<std::string> program) {
   std::vector<std::string> arguments = {"setpriv", "--pdeathsig", "TERM"};
   arguments.insert(arguments.end(), program.begin(), program.end());
@@ -47,7 +47,7 @@ pid_t start(std::vector<std::string> program) {
   return child;
 }
 
-// openbox now and then forgets a signal that comes while it has nothing to do.
+// Repeats the signal, because openbox sometimes loses one that comes while it is idle.
 void stop(pid_t child) {
   if (child <= 0) {
     return;
@@ -63,7 +63,7 @@ void stop(pid_t child) {
   waitpid(child, nullptr, 0);
 }
 
-// One line from a pipe, or nothing within ten seconds.
+// Reads one line from a pipe; empty after ten seconds without one.
 std::string readLine(int descriptor) {
   std::string line;
   pollfd ready{descriptor, POLLIN, 0};
