@@ -60,7 +60,7 @@ TEST(ParetoFront, CheaperMeansBeyondTheSpread) {
   EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.4), candidate(0.2, 3, 0.4)}), (std::vector{1, 0}));
 }
 
-TEST(ParetoFront, FirstOfEqualPicturesStaysUnlessClearlyDearer) {
+TEST(ParetoFront, FirstOfEqualsStaysUnlessClearlyDearer) {
   EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.1), candidate(0.1, 3, 0.1), candidate(0.1, 2.9, 0.1)}),
             (std::vector{1}));
   EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.6), candidate(0.1, 3, 0.6)}), (std::vector{0}));
@@ -99,7 +99,7 @@ TEST(QualityBudget, ChoosesPointsWithAReason) {
   EXPECT_FALSE(chosen({.ms = 2.0, .error = 0.15}).met);
 }
 
-// A front keeps a point only if it is cheaper than the next by more than the spread of their times.
+// The spread of their times keeps the faster points off the front.
 TEST(QualityBudget, PointsOffTheFrontAreChosenToo) {
   SweepResults results;
   results.points = {point("slow", 0.02, 757.0), point("fast", 0.04, 465.0), point("draft", 0.2, 400.0)};
@@ -141,7 +141,7 @@ class SweepFiles : public testing::Test {
     }
     return "nothing";
   }
-  // Message about `text` as a results.json, without the file's name.
+  // Returns the message about `text` as a results.json, without the file's name.
   std::string readProblem(const std::string& text) {
     const fs::path file = folder_.write("r.json", text);
     try {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double budget = 50.0;  // ms
 
-// Prices in milliseconds, of which the controller knows nothing.
+// Prices in milliseconds, which the controller has to learn.
 struct Device {
   double picture = 0.0;
   double pass = 0.0;
@@ -44,7 +44,7 @@ struct Window {
   MotionController controller{device.isCpu};
   std::vector<MotionLevel> levels = motionLevels({}, {}, 1 + 4, true);
   uint64_t number = 0;
-  std::deque<std::pair<uint64_t, double>> inFlight;  // frames whose time is not known yet
+  std::deque<std::pair<uint64_t, double>> inFlight;  // frames whose times have not arrived yet
   std::vector<double> times{};                       // ms
   std::vector<size_t> chosen{};
 
@@ -95,7 +95,7 @@ struct Window {
     return std::inner_product(chosen.begin(), chosen.end() - 1, chosen.begin() + 1, 0, std::plus(),
                               std::not_equal_to());
   }
-  // Whether a level above those that were chosen last would have kept to seven tenths of the budget.
+  // Says whether a level above the last ones would have kept to seven tenths of the budget.
   bool wastes() const {
     std::mt19937 other(1);
     const Device quiet = [&] {

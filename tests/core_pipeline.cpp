@@ -17,7 +17,7 @@ constexpr VkExtent2D extent{32, 32};
 
 const fs::path glslDir = sourceDir() / "tests" / "shaders";
 
-// One frame with a pipeline cache in `directory`.
+// Draws one frame with a pipeline cache in `directory`.
 bool runWithCache(Device& device, const fs::path& directory) {
   RendererOptions options = headless(extent);
   options.pipelineCacheDir = directory;
@@ -77,7 +77,7 @@ class HotReload : public GpuTest {
     scene_.emplace(*renderer_, extent, 1);
   }
 
-  // Replaces `from` in a shader and makes sure that its time is newer.
+  // Replaces `from` in a shader and gives the file a newer time.
   void edit(const std::string& name, const std::string& from, const std::string& to) {
     const fs::path file = directory_.path() / name;
     const std::vector<uint8_t> content = readFile(file);
@@ -121,7 +121,7 @@ TEST_F(HotReload, EditChangesThePictureAndLeaksNothing) {
   EXPECT_EQ(liveObjects(), objects);
 }
 
-// Values that fill.comp writes.
+// Returns the values that fill.comp writes.
 std::vector<uint32_t> filled(Renderer& renderer, const Pipeline& pipeline, VkDescriptorSetLayout layout) {
   constexpr uint32_t offset = 7;
   const Buffer buffer(renderer.device(), 8 * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,

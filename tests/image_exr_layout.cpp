@@ -112,7 +112,7 @@ struct ExrFile {
 class ExrLayout : public ::testing::Test {
  protected:
   LinearImage read(const std::string& bytes) { return readExr(folder_.write("a.exr", bytes)); }
-  // Empty if the file was read.
+  // Returns the message of the refusal; empty if the file was read.
   std::string refusal(const std::string& bytes) {
     try {
       read(bytes);
@@ -177,7 +177,7 @@ TEST_F(ExrLayout, ChunkCountMustFitTheRows) {
   }
 }
 
-TEST_F(ExrLayout, EveryChunkMustStandInItsOwnPlace) {
+TEST_F(ExrLayout, EveryChunkNeedsItsOwnPlace) {
   for (const bool tiled : {false, true}) {
     const ExrFile good = tiled ? tiles(0) : rows();
     for (size_t chunk = 0; chunk < good.chunks.size(); ++chunk) {
@@ -213,7 +213,7 @@ TEST_F(ExrLayout, WindowsMustFitTheChunks) {
   }
 }
 
-TEST_F(ExrLayout, TilesOfEverySizeAreReadOrRefused) {
+TEST_F(ExrLayout, TilesAreReadOrRefused) {
   for (const int size : {-1, 0, 1, 2, 4, 1 << 13, 1 << 20, INT_MAX}) {
     for (const int mode : {0, 1, 2, 16, 17, 33, 255}) {
       ExrFile file = tiles(0);
@@ -244,7 +244,7 @@ TEST_F(ExrLayout, PackedRowsMustBeComplete) {
   EXPECT_NE(refusal(taller), "");
 }
 
-// For sanitizers: nothing but an exception comes of any damage.
+// Damage leads to an exception and to nothing that a sanitizer reports.
 TEST_F(ExrLayout, DamagedBytesAreReadOrRefused) {
   writeExr(folder_ / "zip.exr", LinearImage(20, 40));
   const std::vector<uint8_t> zip = readFile(folder_ / "zip.exr");

@@ -107,7 +107,7 @@ TEST(ImageFiles, DamagedFilesAreRefused) {
   }
 }
 
-// The header alone: 13 bytes of width, height and kind, whose checksum nobody looks at.
+// Returns a header alone: 13 bytes of width, height and kind, with a wrong checksum.
 std::string pngHeader(uint8_t highByteOfSides) {
   const char high = static_cast<char>(highByteOfSides);
   return std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16) + std::string("\0\0", 2) + high + '\0' +

@@ -34,7 +34,7 @@ TEST_F(ObjLoader, TriangleWithoutNormalsIsFlat) {
   EXPECT_EQ(warnings(), "");
 }
 
-TEST_F(ObjLoader, IsRebasedToTheCentreOfItsBox) {
+TEST_F(ObjLoader, IsRebasedToItsBoxCentre) {
   const Mesh mesh = load("v 10000000.25 0 0\nv 10000001.25 0 0\nv 10000000.25 3 0\nf 1 2 3\n");
   EXPECT_EQ(mesh.center, glm::dvec3(10000000.75, 1.5, 0));
   EXPECT_EQ(mesh.halfExtent, glm::dvec3(0.5, 1.5, 0));
@@ -91,7 +91,7 @@ TEST_F(ObjLoader, LongPolygonsAreRead) {
   EXPECT_EQ(load(text + face + "\n").indices.size(), 3u * 398u);
 }
 
-TEST_F(ObjLoader, BadNormalsAreReplacedByTheFacesOwn) {
+TEST_F(ObjLoader, BadNormalsBecomeTheFacesOwn) {
   const Mesh mesh = load(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nvn nan 1 0\nvn 0 -1e-200 0\n"
       "f 1//1 2//2 3//3\n");
@@ -161,7 +161,7 @@ TEST_F(ObjLoader, CommentIsNotContinued) {
   EXPECT_EQ(load(kSquare + "# C:\\models\\\nf 1 2 3\nf 1 3 4 # half \\\nf 1 2 4\n").indices.size(), 9u);
 }
 
-TEST_F(ObjLoader, FaultIsAtTheFirstOfContinuedLines) {
+TEST_F(ObjLoader, FaultIsAtFirstContinuedLine) {
   EXPECT_TRUE(faultOf(kSquare + "f 1 2 \\\n\\\n9\n").starts_with("m.obj:5: "));
 }
 
@@ -211,7 +211,7 @@ TEST_F(ObjLoader, RadiusOfAnySize) {
   EXPECT_NEAR(load("v 0 0 0\nv 6e-200 0 0\nv 0 8e-200 0\nf 1 2 3\n").radius / 5e-200, 1.0, 1e-14);
 }
 
-TEST_F(ObjLoader, CommentsAndByteOrderMarkAreNoTokens) {
+TEST_F(ObjLoader, CommentsAndByteOrderMarkAreSkipped) {
   const Mesh mesh = load("\xef\xbb\xbfv 0 0 0 # first\nv 1 0 0\nv 0 1 0\nf 1 2 3 # 1 2 3\nf 3 2 1#x");
   EXPECT_EQ(mesh.indices.size(), 6u);
   EXPECT_EQ(warnings(), "");

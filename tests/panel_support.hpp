@@ -12,7 +12,8 @@
 
 namespace speculum::testing_support {
 
-// The panels laid out without a window, a GPU or a display: a pointer and keys act on them, commands come out.
+// Lays the panels out without a window, a GPU or a display; a pointer and keys act on them, and their commands are
+// collected.
 class PanelTest : public testing::Test {
  protected:
   PanelTest() : configHome_(environment("XDG_CONFIG_HOME")) {
@@ -147,7 +148,7 @@ class PanelTest : public testing::Test {
     }
   }
 
-  // The only command of that kind among the last ones.
+  // Returns the only command of that kind among the last ones.
   template <typename Kind>
   const Kind& only() const {
     static const Kind none{};
@@ -160,6 +161,12 @@ class PanelTest : public testing::Test {
     }
     EXPECT_TRUE(found) << "no such command";
     return found ? *found : none;
+  }
+  // Clicks on the widget and returns the only command of that kind.
+  template <typename Kind>
+  const Kind& clickFor(const std::string& name, double part = 0.5) {
+    click(name, part);
+    return only<Kind>();
   }
   template <typename Kind>
   bool sent() const {

@@ -1,4 +1,4 @@
-// Input that comes between two frames: what each of the next ones sees of it.
+// Input between two frames, and how the next frames receive it.
 #include <gtest/gtest.h>
 
 #include "ui/input_queue.hpp"
@@ -24,7 +24,7 @@ InputEvent text(int character) {
   return {.kind = Kind::text, .code = character};
 }
 
-TEST(InputQueue, ATapIsSeenDownInOneFrameAndUpInTheNext) {
+TEST(InputQueue, TapsLastOneFrame) {
   InputQueue queue;
   for (int tap = 0; tap < 3; ++tap) {
     queue.push(command(1, true));
@@ -57,7 +57,7 @@ TEST(InputQueue, TypedTextTakesOneFrame) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(InputQueue, WhatIsTypedAfterACommandWaitsForIt) {
+TEST(InputQueue, TextAfterACommandWaits) {
   InputQueue queue;
   queue.push(text('a'));
   queue.push(command(1, true));
@@ -70,7 +70,7 @@ TEST(InputQueue, WhatIsTypedAfterACommandWaitsForIt) {
   EXPECT_EQ(queue.take().size(), 2u);
 }
 
-TEST(InputQueue, AClickHappensWhereThePointerWas) {
+TEST(InputQueue, ClicksKeepTheirPointerPosition) {
   InputQueue queue;
   queue.push(pointer(1.0));
   queue.push(pointer(2.0));

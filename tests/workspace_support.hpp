@@ -28,7 +28,7 @@ inline const Selection lamp{Selection::Kind::light, 0};
 inline const Selection ahead{Selection::Kind::mirror, 0};
 inline const Selection behind{Selection::Kind::mirror, 1};
 
-// A window without a screen.
+// A window's part of the workspace, without a display.
 class FakeHost : public WorkspaceHost {
  public:
   void useScene(const Scene&) override {
@@ -166,7 +166,7 @@ class WorkspaceTest : public testing::Test {
     }
     return paths;
   }
-  // As if a frame of that picture had been drawn and, if it is wanted, read back.
+  // Acts as if a frame of that picture had been drawn and, if it is wanted, read back.
   void drawFrame(const Image8& picture = Image8(4, 4)) {
     const SceneState state = workspace_->state(workspace_->time());
     workspace_->frameDrawn(

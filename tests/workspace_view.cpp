@@ -221,7 +221,7 @@ TEST_F(Opening, ModelTakesThePlaceOfTheScene) {
   EXPECT_EQ(workspace_->time(), 0.0);
 }
 
-TEST_F(Opening, FolderOfAnOpenedSceneIsListedFirst) {
+TEST_F(Opening, OpenedScenesFolderIsListedFirst) {
   const BrowserView& browser = view().browser;
   EXPECT_EQ(browser.scenes.front().file.parent_path(), fs::path(options_.scene).parent_path());
   for (const char* name : {"b_scene", "a_scene"}) {
@@ -243,7 +243,7 @@ TEST_F(Opening, FolderOfAnOpenedSceneIsListedFirst) {
   EXPECT_EQ(count("workspace"), 1) << "what was open";
 }
 
-TEST_F(Opening, ProblemsAreOneLineAndTheSceneStays) {
+TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   const fs::path broken = home_.path() / "broken.toml";
   std::ofstream(broken) << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 4]\n";
   drop({broken});
