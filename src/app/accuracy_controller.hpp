@@ -8,11 +8,12 @@
 
 namespace speculum {
 
-// Accuracy of the view: measurements, the points that settings are taken from, the budget, the difference view.
+// Accuracy of the view: measurements, the measured points whose settings can be applied, the budget, the difference
+// view.
 class AccuracyController {
  public:
-  // Begins with the points of --sweep-results, if there are any. `loaded` are the scene's settings, to which their
-  // bounds have been applied for the reason `choice`. Throws InputError for a file that holds no sweep.
+  // Begins with the points of --sweep-results, if there are any. `loaded` are the scene's settings, with quality.*
+  // applied; `choice` is the reason. Throws InputError for a file that holds no sweep.
   AccuracyController(const Options& options, const Settings& loaded, const std::string& choice);
 
   void measure(SweepRequest request);
@@ -21,13 +22,14 @@ class AccuracyController {
   void applyPoint(int point, Settings& settings) const;
   void showDifference(bool shown) { view_.showsDifference = shown; }
 
-  // Before a frame: takes results that have come, and applies quality.* where it has changed.
+  // Call before a frame: takes finished results, and applies quality.* where it has changed.
   void beforeFrame(Settings& settings);
-  // After a frame is drawn. `image` returns its pixels.
+  // Call after a frame is drawn. `image` returns its pixels.
   void afterFrame(const ShownPicture& shown, const std::function<Image8()>& image);
-  // The picture that from now on covers the scene, if that changed; without pixels for none.
+  // Returns the picture to show instead of the scene, if it changed since the last call; one without pixels shows the
+  // scene.
   std::optional<Image8> takeCover();
-  bool working() const;  // afterFrame() has more to show although nothing changes
+  bool working() const;  // afterFrame() has work left although nothing changes
   void forgetScene();    // before the scene changes or goes away
 
   const AccuracyView& view() const { return view_; }
@@ -45,7 +47,7 @@ class AccuracyController {
   bool coverChanged_ = false;
   SweepResults results_;
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
-  std::optional<Settings> settings_;                       // that the current point was looked for with
+  std::optional<Settings> settings_;                       // settings for which the current point was found
   std::vector<MotionLevel> frontLevels_;
   int chosen_ = -1;       // point of the budget's choice that is shown
   QualityBudget budget_;  // that was applied last

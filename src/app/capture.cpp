@@ -13,8 +13,8 @@ namespace speculum {
 
 namespace {
 
-// A path that nothing has, in Speculum's folder of the user's pictures, which is created. It is named after the scene
-// and the local time.
+// Returns an unused path in Speculum's folder of the user's pictures, which it creates, named after the scene and the
+// local time.
 std::filesystem::path newPath(const std::string& scene, const std::string& ending) {
   const std::filesystem::path folder = picturesDir() / "Speculum";
   std::filesystem::create_directories(folder);

@@ -47,7 +47,7 @@ Demo::Demo(const Options& options)
 }
 
 bool Demo::step() {
-  // The one place where a failure of a frame ends.
+  // All exceptions of a frame are caught here.
   try {
     return stepOnce();
   } catch (...) {
@@ -58,7 +58,7 @@ bool Demo::step() {
 
 bool Demo::stepOnce() {
   if (pacer_.due()) {
-    renderer_.waitForFrame();  // before the events are read that the frame is to show
+    renderer_.waitForFrame();  // first, so that the events of this frame are as new as possible
   }
   window_.pollEvents();
   takeGamepad();
@@ -96,7 +96,7 @@ void Demo::updateUi(double seconds) {
 }
 
 void Demo::drawFrame(double seconds, double sinceLastMs) {
-  // Between frames, because it waits for the device.
+  // Happens between frames, because it waits for the device.
   if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
     sceneRenderer_->setCover(*cover);
   }
@@ -158,7 +158,7 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
                                         .shaders = renderer_.pipelines().revision(),
                                         .time = moves(workspace_.scene()) ? std::optional(state.time) : std::nullopt,
                                         .size = pictureSize()},
-                              // Recorded frames take as long as they take.
+                              // Recorded frames have no budget.
                               .budgetMs = workspace_.capture().recording()
                                               ? 0.0
                                               : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
@@ -172,7 +172,7 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
   return fitted;
 }
 
-// Timing the passes one by one slows a frame, so few are: at the start and the end of a change and now and then.
+// Times passes one by one only at the start and the end of a change and every few frames, because that slows a frame.
 bool Demo::timesPasses(bool movementEnded) {
   const bool times = ui_->windows().visible() && (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval);
   untimedFrames_ = times ? 0 : untimedFrames_ + 1;
@@ -181,13 +181,13 @@ bool Demo::timesPasses(bool movementEnded) {
 
 Settings Demo::settingsOfFrame() const {
   Settings settings = workspace_.settings();
-  // A value that is not finite is reported with its mirror in every frame; a target that is shown exists in every
-  // frame.
+  // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror, or a mirror's
+  // target is shown.
   const bool watched = output_.target && !output_.target->path.empty();
   settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite && !watched;
   settings.reflection.updateInterval = watched ? 1 : settings.reflection.updateInterval;
   if (output_.target) {
-    settings.view.accumulate = settings.quality.stillPictures = 1;  // the target is of the one picture
+    settings.view.accumulate = settings.quality.stillPictures = 1;  // a target belongs to one picture
   }
   return settings;
 }
@@ -206,7 +206,7 @@ std::string Demo::currentMessage() {
   return planner_.message();
 }
 
-// Whether the next frame could differ from the last one.
+// Says whether the next frame could differ from the last one.
 bool Demo::changing() {
   const bool rebuilt = renderer_.reloadShaders();
   const std::string& errors = renderer_.pipelines().errors();
@@ -218,7 +218,7 @@ bool Demo::changing() {
          workspace_.settings().view.continuous || options_.frames > 0 || workspace_.animates();
 }
 
-// Nothing changes: sleeps. True if a frame is to be drawn all the same, for what changes slowly.
+// Sleeps while nothing changes. Returns true if a frame has to be drawn for something that changes slowly.
 bool Demo::idle() {
   pacer_.idle();
   refreshHz_ = window_.refreshRate();
@@ -252,7 +252,7 @@ void Demo::useScene(const Scene& scene) {
   nonFinite_ = nonFinite();
   sceneRenderer_.reset();
   planner_.forgetScene();
-  output_ = {};  // the panels asked for a target of the scene before
+  output_ = {};  // it may request a target of the old scene
   sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, scene);
   ++scenes_;
 }
@@ -267,7 +267,7 @@ void Demo::setPresentMode(size_t index) {
   renderer_.setPresentMode(renderer_.presentModes().at(index));
 }
 
-// Before the panels are made, whose callbacks then run first and pass everything on.
+// Call before the panels are made, whose callbacks then run first and pass all events on.
 void Demo::installInput() {
   WindowCallbacks callbacks;
   callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
@@ -290,7 +290,7 @@ bool Demo::overPanels() const {
   return !ui_ || ui_->takesPointer(position.x, position.y);
 }
 
-// While a prompt is open all keys are its own.
+// Applies the command of a key, unless a prompt or a text field has the keyboard.
 void Demo::handleKey(const KeyEvent& event) {
   const std::optional<Command> command = event.pressed && ui_ ? commandOf(event) : std::nullopt;
   if (!command) {
@@ -306,7 +306,8 @@ void Demo::handleKey(const KeyEvent& event) {
   }
 }
 
-// The direction pad goes to the panels (Dear ImGui's navigation); while it is there, sticks and buttons are theirs too.
+// Applies the commands of gamepad buttons. The direction pad navigates the panels (by Dear ImGui), which then have
+// sticks and buttons too.
 void Demo::takeGamepad() {
   const GamepadState before = std::exchange(gamepad_, gamepadSource_().value_or(GamepadState{}));
   gamepadChanged_ = gamepad_ != before;
@@ -323,7 +324,7 @@ bool Demo::controlHeld() const {
   return window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl);
 }
 
-// Along right, up and backwards of the view.
+// Returns the direction of the held fly keys, along right, up and backwards of the view.
 glm::dvec3 Demo::heldDirection() const {
   if (ui_->wantsKeyboard() || controlHeld()) {
     return glm::dvec3(0.0);

@@ -11,22 +11,20 @@
 
 namespace speculum {
 
-// The window: shows a workspace and brings it what the user does.
+// The window: shows a workspace and passes the user's input on to it.
 class Demo : private WorkspaceHost {
  public:
   explicit Demo(const Options& options);
 
-  // Handles events and draws one frame; none while the window is paused, or nothing has changed or moves, but then it
-  // sleeps for a while. False once the window is to be closed.
+  // Handles events and draws one frame. While the window is paused or nothing changes it sleeps for a while instead.
+  // Returns false once the window is to be closed.
   bool step();
   void apply(const Command& command) { workspace_.apply(command); }
 
   UiView view() const { return workspace_.view(deviceView_, message_); }
   const PanelState& panels() const { return ui_->windows().state(); }
-  CameraPose camera() { return workspace_.state(workspace_.time()).camera; }  // as the next frame would show it
-  const Settings& frameSettings() const {
-    return frameSettings_;
-  }  // of the last frame, which the pace may have lowered
+  CameraPose camera() { return workspace_.state(workspace_.time()).camera; }  // of the next frame
+  const Settings& frameSettings() const { return frameSettings_; }  // of the last frame; the pace may have lowered them
   Window& window() { return window_; }
   Device& device() { return device_; }
   Renderer& renderer() { return renderer_; }
@@ -35,7 +33,7 @@ class Demo : private WorkspaceHost {
   int framesDrawn() const { return framesDrawn_; }
   // Saves a copy of unsaved changes and logs where.
   void keepUnsavedWork() noexcept { workspace_.keepUnsavedWork(); }
-  // Takes the place of the first gamepad that is connected.
+  // Replaces the first connected gamepad.
   void setGamepadSource(std::function<std::optional<GamepadState>()> source) { gamepadSource_ = std::move(source); }
   // Makes frames from now on readable by Renderer::readback, panels included.
   void setCapture(bool capture) { capture_ = capture; }
@@ -91,11 +89,11 @@ class Demo : private WorkspaceHost {
   std::unique_ptr<SimpleUI> ui_;
   UiOutput output_;  // of the panels in the frame that is drawn
   FramePacer pacer_;
-  int untimedFrames_ = 0;      // since one whose passes were timed one by one
-  bool changes_ = false;       // in this step
-  bool changeBegins_ = false;  // and not in the one before
+  int untimedFrames_ = 0;      // since the last frame whose passes were timed one by one
+  bool changes_ = false;       // something changes in this step
+  bool changeBegins_ = false;  // something changes, and did not in the step before
   size_t pipelines_ = 0;       // after the last frame
-  int scenes_ = 0;             // that were shown before this one
+  int scenes_ = 0;             // number of scenes shown before this one
   LevelJob levels_;
   Settings frameSettings_;
   std::string message_;
@@ -103,8 +101,8 @@ class Demo : private WorkspaceHost {
   std::function<std::optional<GamepadState>()> gamepadSource_ = [this] { return window_.gamepad(); };
   GamepadState gamepad_;
   bool gamepadChanged_ = false;    // since the last step
-  bool closeAfterPrompt_ = false;  // nothing is left to ask
-  bool working_ = false;           // in the background, for the panels
+  bool closeAfterPrompt_ = false;  // the prompt is answered: close the window
+  bool working_ = false;           // background work has results to show
   std::string shaderErrors_;
   Clock::time_point last_;
   bool capture_ = false;

@@ -8,20 +8,20 @@ namespace speculum {
 // The scene that is shown as a document: its editor, unsaved changes and the prompts about them, saving.
 class DocumentController {
  public:
-  // Keeps a reference to the scene. Without `prompts` unsaved changes are given up unasked.
+  // Keeps a reference to the scene. Without `prompts` unsaved changes are discarded without a prompt.
   DocumentController(LoadedScene& loaded, std::span<const std::filesystem::path> shippedModels, bool prompts,
                      std::function<void()> beforeChange);
 
   SceneEditor& editor() { return editor_; }
   const SceneEditor& editor() const { return editor_; }
 
-  // Whether the scene may go: true if nothing would be lost or the user has discarded the changes. Otherwise shows the
-  // prompt, and remembers a command to carry out once it is answered.
+  // Says whether the scene may be replaced: true if nothing is unsaved or the user has discarded the changes. Otherwise
+  // shows the prompt, and keeps a command to carry out once it is answered.
   bool confirmDiscard(const Settings& settings, std::optional<Command> then);
   bool prompting() const { return prompt_ != Prompt::none; }
-  void forgetDiscard() { discarded_.reset(); }  // asks again
+  void forgetDiscard() { discarded_.reset(); }  // the next confirmDiscard() prompts again
 
-  // Each returns the command that waited for it, if any.
+  // Answers to a prompt. Each returns the command that waited for it, if any.
   std::optional<Command> save(const Settings& settings);
   std::optional<Command> saveAs(const std::filesystem::path& file, const Settings& settings);
   std::optional<Command> discard(const Settings& settings);
@@ -30,8 +30,8 @@ class DocumentController {
 
   bool savedSinceLastCall() { return std::exchange(saved_, false); }
 
-  // A copy of the scene with its unsaved changes and these settings in the user's cache folder; the scene's own file if
-  // that is the same. Throws std::runtime_error if the copy cannot be written.
+  // Returns a file with the scene, its unsaved changes and these settings: a copy in the user's cache folder, or the
+  // scene's own file if that is the same. Throws std::runtime_error if the copy cannot be written.
   std::filesystem::path savedOrCopy(const Settings& settings) const;
 
   const std::string& note() const { return note_; }  // result of the last save, or why a model was not added
@@ -55,8 +55,8 @@ class DocumentController {
   Prompt prompt_ = Prompt::none;
   std::filesystem::path proposed_;  // for Prompt::saveAs
   std::optional<Command> afterPrompt_;
-  std::optional<Discarded> discarded_;            // changes that were given up
-  std::optional<std::filesystem::path> refused_;  // file that was not overwritten; asked for again, it is
+  std::optional<Discarded> discarded_;            // changes that the user discarded
+  std::optional<std::filesystem::path> refused_;  // existing file that was not overwritten; a second save overwrites it
   std::string note_;
   bool saved_ = false;
 };

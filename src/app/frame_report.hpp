@@ -9,23 +9,23 @@ namespace speculum {
 struct RecordedFrame {
   const Scene& scene;
   const SceneState& state;
-  const Settings& settings;  // that it was planned with
+  const Settings& settings;  // with which it was planned
   const FramePlan& plan;
   uint64_t number = 0;
   double cpuMs = 0.0;
   double sinceLastMs = 0.0;  // NaN after the window was idle
 };
 
-// The figures of frames for the panels.
+// Collects the figures of frames for the panels.
 class FrameReport {
  public:
-  void clear();  // the scene is another
+  void clear();  // call when another scene is shown
   // `hoveredSkipped`: path of a skipped mirror that is to be outlined. The GPU's figures are those of the last frame
   // that has finished.
   void update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
               const std::vector<int>& hoveredSkipped);
-  // Describes the target that is asked for, and says how to draw it over the picture; nothing if the plan lacks its
-  // pass or it has no place there.
+  // Describes the requested target, and returns how to draw it over the picture; nothing if the plan lacks its pass or
+  // the target has no area.
   std::optional<DebugView> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
                                   bool standardSampleLocations);
 

@@ -30,7 +30,7 @@ PictureSize parseSize(const std::string& text) {
   return size;
 }
 
-// Lists of numbers separated by commas, the lists by colons; nothing for any other text.
+// Parses lists of numbers separated by commas, the lists by colons; nothing for any other text.
 std::optional<std::vector<std::vector<double>>> parseLists(std::string_view text) {
   std::vector<std::vector<double>> lists(1);
   const char* end = text.data() + text.size();
@@ -51,7 +51,7 @@ std::optional<std::vector<std::vector<double>>> parseLists(std::string_view text
   }
 }
 
-// Anything else is the name of a bookmark.
+// Says whether the text is two points; anything else is the name of a bookmark.
 bool meansPoints(const std::string& text) {
   return std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos &&
          text.find(',') != std::string::npos;
@@ -76,7 +76,7 @@ Bookmark parseCamera(const std::string& text) {
           .verticalFov = count > 3 ? std::optional(lists[3][0]) : std::nullopt};
 }
 
-// Collected as text by the parser and checked afterwards, where messages can say what would be right.
+// Arguments as text; they are checked after parsing, where messages can say what would be right.
 struct Raw {
   std::string size;
   std::string camera;
@@ -228,7 +228,7 @@ void applyRaw(const Raw& raw, Options& options) {
   if (!std::isfinite(options.time)) {
     throw UsageError("--time: not a finite number (seconds of animation, such as 2.5)");
   }
-  // A range check lets NaN pass, and no error is above a NaN.
+  // A range check accepts NaN, and no error is above a NaN.
   if (!std::isfinite(options.fps)) {
     throw UsageError("--fps: not a finite number (pictures per second, such as 30)");
   }

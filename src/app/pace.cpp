@@ -11,7 +11,7 @@ namespace {
 
 constexpr double cpuBudgetMs = 50.0;
 constexpr double refreshShare = 0.8;
-constexpr size_t mostDrawn = 4;  // frames whose times are awaited
+constexpr size_t mostDrawn = 4;  // frames whose times have not arrived
 
 }  // namespace
 
@@ -67,7 +67,7 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
   if (picture_ < 0) {
     FittedPlan full = plan(settings, 0);
     picture_ = 0;
-    // A slow one would only delay the mean, whose pictures have one sample.
+    // A slow frame would only delay the mean, whose pictures have one sample.
     if (request.budgetMs <= 0.0 || controller_.predict(work_) <= request.budgetMs) {
       return full;
     }
@@ -89,8 +89,9 @@ void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
   }
 }
 
-// On a CPU device drawing competes with the program for the cores: its frames take what both need, or less where they
-// overlap. Elsewhere the slower one decides. Waiting for the monitor counts nowhere.
+// Learns the time of a frame. On a CPU device drawing competes with the program for the cores, so a frame takes the sum
+// of both, or less where they overlap; elsewhere it takes as long as the slower one. Waiting for the monitor does not
+// count.
 void Pace::finished(const FrameTimings& timings) {
   const auto found = std::ranges::find(drawn_, timings.frame, &Drawn::number);
   if (found == drawn_.end() || !timings.passes.empty()) {

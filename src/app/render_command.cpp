@@ -63,7 +63,7 @@ int runRender(const Options& options) {
 
 namespace {
 
-// Rays per second and core of the double-precision tracer, next to what `bench` says of the renderer.
+// Measures rays per second and core of the double-precision tracer.
 int benchReference(const Options& options) {
   constexpr int64_t triangles = 100000;
   constexpr int64_t rays = 1000000;
@@ -111,7 +111,7 @@ void printEffects(const nlohmann::ordered_json& effects) {
   }
 }
 
-// One frame at a time: the times of a frame are then all its own. Nothing if it was interrupted.
+// Draws one frame at a time, so that times of frames do not mix. Returns nothing if interrupted.
 std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Options& options, int measured,
                                                     Progress& progress) {
   std::vector<nlohmann::ordered_json> frames;
@@ -131,9 +131,8 @@ std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Opti
   return mergeStats(frames, passes);
 }
 
-// Milliseconds from one frame to the next when the CPU records one while the device draws the one before and no pass is
-// measured by itself, as it is for a window that nothing holds up and whose panel is hidden. Nothing if it was
-// interrupted.
+// Measures milliseconds from one frame to the next as in a window without panels and vertical sync: the CPU records a
+// frame while the device draws the last one, and passes are not timed. Returns nothing if interrupted.
 std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double time, int measured,
                                                        Progress& progress) {
   constexpr int untilTheyOverlap = static_cast<int>(framesInFlight) + 1;
@@ -188,7 +187,7 @@ int runBench(const Options& options) {
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
   if (!isSet(options, "reflection.skip_unchanged")) {
-    // Every frame is of the same time: none after the first would render a mirror.
+    // All frames have the same time, so that none after the first would render a mirror.
     Settings settings = session.settings();
     settings.reflection.skipUnchanged = false;
     session.setSettings(settings);

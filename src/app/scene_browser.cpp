@@ -84,7 +84,7 @@ std::vector<Image8> SceneBrowser::thumbnails() const {
     } catch (const std::runtime_error& error) {
       spdlog::warn("{}", error.what());
     }
-    // A large one would take the texture that the fonts need.
+    // A large picture would not leave enough of the texture to the fonts.
     const bool fits = picture.width <= largestThumbnail && picture.height <= largestThumbnail;
     pictures.push_back(fits ? std::move(picture) : Image8());
   }

@@ -8,20 +8,20 @@
 
 namespace speculum {
 
-// The scenes to choose from, and the one that is read in the background.
+// Lists the scenes to choose from, and loads one in the background.
 class SceneBrowser {
  public:
   // Lists the scenes in the folder of `file`, then those that come with the program, then others that were opened
   // before; `file` is shown.
   void list(const std::filesystem::path& file);
-  // The file is shown: one from elsewhere becomes the last of the list, or brings its folder if `withFolder`. True if
-  // the list changed.
+  // Marks the file as shown. Adds a file from elsewhere at the end of the list or, with `withFolder`, the scenes of its
+  // folder. Returns true if the list changed.
   bool show(const std::filesystem::path& file, bool withFolder);
   std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
 
-  // Reads a scene or a model on a thread of its own; one that is being read is cancelled.
+  // Loads a scene or a model on a thread of its own, and cancels one that is loading.
   void open(const std::filesystem::path& file, const Options& options);
-  // The first of the files that can be opened. Throws InputError if there is none.
+  // Returns the first of the files that can be opened. Throws InputError if there is none.
   static std::filesystem::path choose(const std::vector<std::filesystem::path>& files);
   void cancelLoading() { load_.cancel(); }
   bool loading() const { return load_.running(); }

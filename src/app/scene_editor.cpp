@@ -111,11 +111,11 @@ void SceneEditor::clickAlso(const SceneView& view, const glm::dvec2& pixel) {
   }
 }
 
-// The image that was clicked, as long as any of it can be seen; otherwise the picture itself.
+// Returns the mirror image that was clicked while any of it is seen, else the picture itself.
 PictureView SceneEditor::clickedImage(const SceneView& view) const {
   const auto image = view.picture.through(document_.scene(), view.state, path_);
   const Selection& selected = document_.selection();
-  // A node that is dragged out of the mirror stays gripped.
+  // A node that is dragged out of the mirror image stays gripped.
   const bool seen = image && (drag_ || image->sees(pivotOf(document_.scene(), view.state, selected),
                                                    reachOf(document_.scene(), view.state, selected)));
   return seen ? *image : view.picture;
@@ -204,7 +204,7 @@ void SceneEditor::beginChange() {
   beforeChange_();
 }
 
-// On the way to what the middle of the picture shows.
+// Returns a point on the way to what the middle of the picture shows.
 glm::dvec3 SceneEditor::pointAhead(const SceneView& view, double part, double least) {
   const glm::dvec2 middle = 0.5 * view.picture.view().pictureSize;
   const std::vector<Picked> found = picker().at(view.state, view.picture, middle, {.maxDepth = 0});
@@ -279,7 +279,7 @@ void SceneEditor::redo() {
   }
 }
 
-// Nodes stay selected together as long as all of them keep their indices.
+// Undoes or redoes a step. Nodes stay selected together as long as all of them keep their indices.
 void SceneEditor::step(void (SceneDocument::*way)()) {
   beforeChange_();
   const uint64_t structure = document_.structureRevision();

@@ -14,12 +14,12 @@
 
 namespace speculum {
 
-// The scene as the window shows it, for pointing into.
+// The scene as the window shows it, for picking.
 struct SceneView {
   SceneState state;
   PictureView picture;
   PickLimits limits;
-  double scale = 1.0;  // pixels of the picture for one of an ordinary screen
+  double scale = 1.0;  // pixels of the picture for one at 96 dots an inch
 };
 
 // Edits the scene that the window shows: selection, handles over the picture, fields of the inspector, undo.
@@ -37,7 +37,7 @@ class SceneEditor {
   // Selects what the pixel shows. A further click at the same place selects the mirror that it is seen in, and so on
   // outwards, then begins again. Selects nothing where the background is seen directly.
   void click(const SceneView& view, const glm::dvec2& pixel);
-  // Adds what is seen directly at the pixel to the selection, or takes it out.
+  // Adds the node that is seen directly at the pixel to the selection, or removes it.
   void clickAlso(const SceneView& view, const glm::dvec2& pixel);
   void toggle(const Selection& node);
   void select(const Selection& node);  // alone
@@ -58,17 +58,17 @@ class SceneEditor {
   void undo();
   void redo();
 
-  // The file that AddObject means. Throws InputError for one that is not there.
+  // Returns the file of an AddObject command's model. Throws InputError if it does not exist.
   std::filesystem::path modelFile(const std::filesystem::path& model) const;
-  void modelsChanged();  // the scene has others
+  void modelsChanged();  // call when the scene's models changed
 
   SceneDocument& document() { return document_; }
   const SceneDocument& document() const { return document_; }
   bool changedSinceLastCall() { return std::exchange(shownRevision_, document_.revision()) != document_.revision(); }
 
-  // Fills what the editor knows of the view.
+  // Fills the editor's part of the view.
   void fill(EditView& view) const;
-  // Outline and handles of the selected nodes. `pointer`: pixel of the picture, if it is over it.
+  // Returns outline and handles of the selected nodes. `pointer` is its pixel if it is over the picture.
   OverlayView overlay(const SceneView& view, const std::optional<glm::dvec2>& pointer);
 
  private:

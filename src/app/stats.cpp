@@ -50,7 +50,7 @@ ordered_json depthJson(const Session& session, const std::vector<int>& path) {
           {"none_m", metres(readout->none)}};
 }
 
-// Index of the pass that looks this one's image up; null where none does.
+// Returns the index of the pass that looks this one's image up; null if none does.
 ordered_json parentJson(const std::vector<RecordedPass>& passes, const RecordedPass& pass) {
   if (pass.path.empty()) {
     return nullptr;
@@ -97,7 +97,7 @@ ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
   return skipped;
 }
 
-// The price of an effect in milliseconds is known only to `bench --prices`, which leaves it out in turn.
+// Leaves gpu_ms empty; only `bench --prices` measures it, by leaving each effect out in turn.
 ordered_json effectsJson(Session& session) {
   ordered_json json = ordered_json::array();
   const DrawnFrame& frame = session.lastFrame();
@@ -149,7 +149,7 @@ ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
   return merged;
 }
 
-// A pass in the frames in which it ran.
+// Figures of a pass in the frames in which it ran.
 struct GatheredPass {
   PassId id;
   std::vector<const ordered_json*> passes;
@@ -175,7 +175,7 @@ std::vector<GatheredPass> gatherPasses(const std::vector<ordered_json>& frames,
   return gathered;
 }
 
-// The place among the gathered passes of the one that looks this one's image up.
+// Returns the index among the gathered passes of the one that looks this one's image up.
 ordered_json gatheredParent(const std::vector<GatheredPass>& gathered, const GatheredPass& pass) {
   const ordered_json& parent = pass.passes.back()->at("parent");
   if (parent.is_null()) {

@@ -20,7 +20,7 @@ int mirrorOfInterest(int last, size_t count, const Selection& selected, std::spa
       area = pass.areaPx;
     }
   }
-  // The mirror may have been deleted since.
+  // The last mirror may have been deleted since.
   return mirror >= 0 && mirror < static_cast<int>(count) ? mirror : count > 0 ? 0 : -1;
 }
 

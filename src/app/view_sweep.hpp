@@ -13,8 +13,9 @@ struct SweepRequest {
   double time = 0.0;  // seconds of animation
 };
 
-// Measures a view with a scene and a device of its own; may run on any thread. The times are those of a device that the
-// window uses as well. Without points if `progress` returned false. Throws what loading and measuring throw.
+// Measures a view with a scene and a device of its own; may run on any thread. The window uses the same GPU meanwhile,
+// which its times include. The result has no points if `progress` returned false. Throws what loading and measuring
+// throw.
 SweepResults measureView(const SweepRequest& request, const SweepProgress& progress);
 
 }  // namespace speculum

@@ -92,7 +92,7 @@ struct ToggleGizmoMode {};
 struct EditNode {
   Selection target;
   SceneNode node;          // of the target's kind
-  bool continued = false;  // a widget is held: what follows until EndEdit is the same step of undo
+  bool continued = false;  // a widget is held: edits until EndEdit belong to one step of undo
 };
 struct EndEdit {};
 struct AddMirror {};

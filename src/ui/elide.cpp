@@ -4,7 +4,7 @@ namespace speculum {
 
 namespace {
 
-// Whether a character begins there.
+// Says whether a UTF-8 character begins with this byte.
 bool begins(char c) {
   return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
 }

@@ -44,7 +44,7 @@ void help(PanelContext& ui) {
     return;
   }
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
-  ImGui::SetNextWindowBgAlpha(1.0f);  // text over text cannot be read
+  ImGui::SetNextWindowBgAlpha(1.0f);  // opaque, because it lies over other text
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, ImGui::GetIO().DisplaySize);
   if (ImGui::Begin(helpTitle, &ui.state.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     ImGui::BeginGroup();

@@ -18,7 +18,7 @@ std::vector<InputEvent> InputQueue::take() {
   bool buttonReleased = false;
   while (!events_.empty()) {
     const InputEvent event = events_.front();
-    // Typed letters come as text: of their keys no frame needs to see anything.
+    // Typed letters come as text, so that frames may skip their keys.
     const bool pressed = event.down && (event.kind == Kind::button || (event.kind == Kind::key && event.command));
     if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased)) {
       break;

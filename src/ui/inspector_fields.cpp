@@ -13,7 +13,7 @@ namespace {
 
 constexpr double farthest = 1e15;  // metres; docs/scene_format.md, Limits
 
-// The button between a vertex's numbers and its label.
+// Draws a button between a vertex's numbers and its label.
 bool vertexButton(PanelContext& ui, const char* label, const std::string& key, bool enabled, const char* about) {
   ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
   ImGui::BeginDisabled(!enabled);
@@ -24,7 +24,7 @@ bool vertexButton(PanelContext& ui, const char* label, const std::string& key, b
   return pressed;
 }
 
-// One row; true if anything was changed.
+// Draws one row. Returns true if anything was changed.
 bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i) {
   const std::string key = "polygon." + std::to_string(i);
   ImGui::PushID(static_cast<int>(i));
@@ -46,7 +46,7 @@ bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i
   return changed;
 }
 
-// Edits the vertices of a polygon mirror. They become the mirror's as soon as they are a valid polygon; true if they
+// Edits the vertices of a polygon mirror, which become the mirror's once they are a valid polygon. Returns true if they
 // did.
 bool polygonRows(PanelContext& ui, Mirror& mirror) {
   PanelState::Polygon& polygon = ui.state.polygon;
@@ -75,7 +75,7 @@ bool polygonRows(PanelContext& ui, Mirror& mirror) {
   return applied;
 }
 
-// The mirrors that the node was picked through; a click selects one.
+// Draws a button for each mirror that the node was picked through; a click selects it.
 void throughButtons(PanelContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("seen in:");

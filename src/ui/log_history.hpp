@@ -23,7 +23,7 @@ class LogHistory {
 
   void add(LogLevel level, std::string text);
   void clear();
-  // Oldest first: those of at least that level that contain `part` in any case.
+  // Returns the lines of at least that level that contain `part` in any case, oldest first.
   std::vector<LogLine> lines(LogLevel least = LogLevel::info, std::string_view part = {}) const;
 
  private:

@@ -40,7 +40,7 @@ void log(PanelContext& ui) {
       coloredText(line.level == LogLevel::error ? errorColor : warningColor, line.text);
     }
   }
-  // Follows the newest line unless somebody reads above it.
+  // Follows the newest line unless the user has scrolled up.
   if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) {
     ImGui::SetScrollHereY(1.0f);
   }

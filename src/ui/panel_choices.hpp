@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// Which windows of the panel are open, and how they look; kept beside the layout in userConfigDir().
+// Open windows, theme and size of the panels; saved beside the layout in userConfigDir().
 struct PanelChoices {
   bool scenes = false;
   bool performance = false;
@@ -16,7 +16,7 @@ struct PanelChoices {
   bool log = false;
   bool accuracy = false;
   Theme theme = Theme::dark;
-  int percent = 100;  // of the size that the monitor's scale asks for, 50 .. 300
+  int percent = 100;  // of the size for the monitor's scale, 50 .. 300
 
   bool operator==(const PanelChoices&) const = default;
 };
@@ -34,7 +34,7 @@ inline constexpr std::array<PanelName, 6> panelNames{
      {"Log", &PanelChoices::log, "what the program and the validation layer said"},
      {"Accuracy", &PanelChoices::accuracy, "measures error against milliseconds, walks between them"}}};
 
-// Choices that cannot be read have their defaults.
+// Reads the saved choices; those that cannot be read have their defaults.
 PanelChoices savedPanelChoices();
 void savePanelChoices(const PanelChoices& choices);
 

@@ -12,7 +12,7 @@ namespace speculum {
 
 namespace {
 
-constexpr float lowest = 12.0f;  // sizes of the font that a window is high at least, where there is room
+constexpr float lowest = 12.0f;  // least height of a window, in sizes of the font, where there is room
 
 float margin() {
   return std::floor(0.8f * ImGui::GetFontSize());
@@ -30,7 +30,7 @@ bool apart(const glm::vec2& a, const glm::vec2& b) {
   return glm::distance(a, b) > 0.5f;
 }
 
-// Whether the present window is being sized by that widget.
+// Says whether the widget is an edge by which the user sizes the present window.
 bool holdsEdge(ImGuiID active) {
   ImGuiWindow* window = ImGui::GetCurrentWindow();
   bool held = false;
@@ -140,7 +140,7 @@ void PanelDock::arrange(Edge edge) {
   }
 }
 
-// Notices that the user moved or sized the window that was just begun. All else that does is the display's size.
+// Records that the user moved or sized the window that was just begun, if the display's size did not.
 void PanelDock::follow(Panel& panel) {
   const ImGuiContext& context = *ImGui::GetCurrentContext();
   const ImGuiWindow* window = ImGui::GetCurrentWindow();

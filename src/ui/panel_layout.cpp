@@ -36,8 +36,7 @@ std::vector<Column> columnsOf(std::span<const WindowWish> wishes, const WindowRo
   return columns;
 }
 
-// Each window gets the height it wishes for, if all fit; else its least height and a share of the rest; else a share of
-// the room.
+// Returns heights: those of `wishes` if all fit, else least heights and a share of the rest, else a share of the room.
 std::vector<float> heightsOf(std::span<const WindowWish> wishes, const Column& column, float height) {
   float wished = 0.0f;
   float least = 0.0f;

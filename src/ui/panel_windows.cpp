@@ -132,7 +132,7 @@ void PanelWindows::presentModes(PanelContext& ui) {
 void PanelWindows::sideWindows(PanelContext& ui) {
   const auto window = [&](const char* name, bool& open, const glm::vec2& ems, const auto& content) {
     if (open) {
-      ImGui::SetNextWindowBgAlpha(1.0f);  // figures over the picture cannot be read
+      ImGui::SetNextWindowBgAlpha(1.0f);  // opaque, because figures over the picture are hard to read
       if (dock_.begin(name, &open, PanelDock::Edge::right, ems)) {
         content();
       }
@@ -152,8 +152,8 @@ void PanelWindows::sideWindows(PanelContext& ui) {
   }
 }
 
-// The window has no background: the renderer draws the image below it, because this version of ImGui's Vulkan backend
-// draws no textures but its font.
+// The window has no background, because the renderer draws the target below it: this version of ImGui's Vulkan backend
+// draws no texture but its font.
 void PanelWindows::targetsWindow(PanelContext& ui) {
   bool& open = state_.choices.targets;
   if (open) {

@@ -21,7 +21,7 @@ bool enterPressed() {
 }
 
 void answerButton(PanelContext& ui, const char* label, std::string_view key, Command command) {
-  // Dear ImGui presses what has the keyboard with the space bar only.
+  // Dear ImGui presses the focused button with the space bar only; this adds Enter.
   const bool pressed = ImGui::Button(label);
   recordWidget(ui, key);
   if (pressed || (ImGui::IsItemFocused() && enterPressed())) {

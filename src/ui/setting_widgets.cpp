@@ -33,7 +33,7 @@ struct Widget {
     return changed;
   }
 
-  // Off, it is the device's.
+  // Unchecked means "auto": the device's value.
   bool operator()(const AutomaticSetting& number) const {
     std::optional<double>& value = number.value.of(settings);
     bool zero = value == 0.0;

@@ -46,7 +46,7 @@ SimpleUI::Context::Context() {
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   io.ConfigDragClickToInputText = true;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
-  // The layout is the user's, not the working directory's.
+  // Keeps the layout in the user's folder, not in the working directory.
   std::error_code error;
   std::filesystem::create_directories(userConfigDir(), error);
   iniFile = (userConfigDir() / "layout.ini").string();
@@ -89,7 +89,7 @@ void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
   scale_ = 0.0f;
 }
 
-// Between frames: what is laid out already keeps its sizes and colors.
+// Call between frames, because a frame that is laid out keeps its sizes and colours.
 void SimpleUI::prepareTheme() {
   const float scale = window_.contentScale() * static_cast<float>(windows_.state().choices.percent) / 100.0f;
   const Theme theme = windows_.state().choices.theme;
@@ -152,7 +152,7 @@ void SimpleUI::record(const PassScope& scope) {
   ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), scope.commands());
 }
 
-// Uses the windows of the frame before the event: the pointer may have come from elsewhere since.
+// Uses the windows of the last frame, because the pointer may have moved since.
 bool SimpleUI::takesPointer(double x, double y) const {
   const ImGuiContext& context = *ImGui::GetCurrentContext();
   if (!context.OpenPopupStack.empty() || (context.ActiveId != 0 && ImGui::IsAnyMouseDown())) {

@@ -20,7 +20,7 @@ struct Rect {
   ImVec2 high;
 };
 
-// `outer` without `inner`, which lies in it.
+// Fills `outer` without `inner`, which lies in it.
 void fillAround(const Rect& outer, const Rect& inner, ImU32 color) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(outer.low, {outer.high.x, inner.low.y}, color);
@@ -29,7 +29,7 @@ void fillAround(const Rect& outer, const Rect& inner, ImU32 color) {
   list.AddRectFilled({inner.high.x, inner.low.y}, {outer.high.x, inner.high.y}, color);
 }
 
-// Fills the window below its title bar but for the canvas.
+// Fills the window below its title bar, except the canvas.
 void background(const Rect& canvas) {
   const ImVec2 corner = ImGui::GetWindowPos();
   const ImVec2 size = ImGui::GetWindowSize();
@@ -115,7 +115,7 @@ void moveView(Targets& targets, const glm::dvec2& image, const glm::dvec2& room,
   targets.shownZoom = targets.zoom > 0.0 ? targets.zoom : targets.shownZoom;
 }
 
-// Value of the texel under the pointer; "..." until it has come from the GPU.
+// Returns the value of the texel under the pointer; "..." until it arrives from the GPU.
 std::string valueText(const Targets& targets, const std::optional<TexelView>& value) {
   if (targets.kind == Targets::Kind::mask) {
     return "";
@@ -151,7 +151,7 @@ void maskImage(const TargetView& target, double zoom, const Rect& canvas, const 
   ImGui::PopClipRect();
 }
 
-// Covers the canvas but for the image, whose upper left corner is on `corner` of the screen.
+// Fills the canvas around the image, whose upper left corner is at `corner` of the screen.
 void coverAround(const Rect& canvas, const glm::dvec2& corner, const glm::dvec2& size) {
   const glm::dvec2 first(canvas.low.x, canvas.low.y);
   const glm::dvec2 last(canvas.high.x, canvas.high.y);
@@ -170,7 +170,7 @@ PixelRect inPixels(const Rect& rect) {
           pixels(rect.high.y - rect.low.y, scale.y)};
 }
 
-// The pass whose target is shown: the chosen one, the main view if that is gone.
+// Returns the pass whose target is shown: the chosen one, or the main view if that is gone.
 const PassView* shownPass(PanelContext& ui) {
   const std::vector<PassView>& passes = ui.view.frame.passes;
   const auto pass = std::find_if(passes.begin(), passes.end(),

@@ -15,7 +15,7 @@ constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
 void time(PanelContext& ui) {
   const PlaybackView& playback = ui.view.playback;
-  // The slider reaches twice as far whenever the time has come to its end.
+  // The slider's range doubles whenever the time reaches its end.
   const double span = leastSpan * std::exp2(std::ceil(std::log2(std::max(1.0, playback.time / leastSpan))));
   float seconds = static_cast<float>(playback.time);
   if (ImGui::SliderFloat("time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {

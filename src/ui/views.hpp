@@ -47,7 +47,7 @@ struct TexelView {
   glm::dvec4 value{0.0};  // linear radiance; disparity, 1/m
 };
 
-// The target that UiOutput::target asked for.
+// The target that UiOutput::target requested.
 struct TargetView {
   glm::ivec2 size{0};                           // texels
   std::vector<glm::vec2> mask;                  // texels that the pass shades
@@ -106,15 +106,15 @@ struct BrowserView {
 
 struct SettingsView {
   Settings current;
-  Settings ofScene;            // as the scene and the command line have them: what a reset goes back to
-  bool sky = false;            // the scene has one; shown in the place of the clear color while none is set
+  Settings ofScene;            // values of the scene and the command line, to which a reset returns
+  bool sky = false;            // the scene has a sky; shown instead of the clear color while none is set
   glm::vec3 background{0.0f};  // linear; shown as the clear color while none is set
 };
 
 struct CameraView {
   CameraMode mode = CameraMode::orbit;
   std::vector<std::string> bookmarks;
-  int bookmark = -1;  // the one that was gone to last
+  int bookmark = -1;  // index of the last one used; -1: none
 };
 
 inline constexpr double timeStep = 1.0 / 60.0;  // seconds, of a single step
@@ -130,7 +130,7 @@ struct PlaybackView {
 // Drawn over the picture, in its pixels.
 struct OverlayView {
   std::vector<PixelLine> outline;  // of the selected node, or of the image of it that was clicked
-  std::vector<PixelLine> itself;   // of the node, where an image was clicked
+  std::vector<PixelLine> itself;   // of the node itself, if its image was clicked
   std::vector<GizmoShape> gizmo;
   Grip active = Grip::none;  // hovered or dragged
   std::string label;         // distance or angle of the drag
@@ -175,8 +175,8 @@ struct AccuracyView {
   bool measuring = false;
   std::string stage;       // of the measurement that runs
   double progress = 0.0;   // of the stage, 0 .. 1
-  std::string choice;      // point that the budget chose, and what it gave up
-  std::string difference;  // error of the picture, or what the difference view waits for
+  std::string choice;      // point chosen by the budget, and what it gives up
+  std::string difference;  // error of the picture, or progress of the difference view
   bool showsDifference = false;
   std::vector<glm::vec3> heatBar;  // colors from no error to an error of 1, display sRGB
 };
@@ -185,12 +185,12 @@ struct StatusView {
   std::string text;
   double age = 0.0;            // seconds
   std::string picture;         // how the picture is drawn, if it is not exact; shown with the panel only
-  bool withPanelOnly = false;  // the window is saved as a picture: hidden with the panel
+  bool withPanelOnly = false;  // hide `text` with the panel, while the window is saved as a picture
 };
-inline constexpr double statusSeconds = 8.0;  // that it is shown, fading in the last one
+inline constexpr double statusSeconds = 8.0;  // time for which it is shown, fading in the last second
 float statusAlpha(double age);
 
-// Everything that the panels show of the program. It refers to its owners' values and is made anew for every frame.
+// Everything that the panels show of the program. It refers to values of others and is made for each frame.
 struct UiView {
   const FrameView& frame;
   const DeviceView& device;
@@ -205,7 +205,7 @@ struct UiView {
   std::string message;  // an error to show until the next one, e.g. of a shader or a scene
 };
 
-// The image of a pass that is to be drawn over the picture.
+// Request to draw a pass's target over the picture.
 struct TargetRequest {
   std::vector<int> path;          // mirrors from the eye; empty: the main view
   std::optional<PixelRect> area;  // pixels of the display image; none if only TargetView is wanted
@@ -216,7 +216,7 @@ struct TargetRequest {
   std::optional<glm::ivec2> probe;  // texel whose value is wanted
 };
 
-// Commands that the user gave in the panels in one frame, and what the panels need from the next one.
+// Commands from the panels of one frame, and their requests for the next frame.
 struct UiOutput {
   std::vector<Command> commands;
   std::optional<TargetRequest> target;
