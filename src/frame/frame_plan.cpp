@@ -179,6 +179,7 @@ void Planner::fill(int node) {
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
+  occlusion_->setView(view, nodes_[node].pass.instances);
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
     const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);
     if (!last) {
@@ -207,7 +208,7 @@ void Planner::consider(int node, int mirror, const View& drawn) {
   }
   Sight sight = sightOf(scene_, state_, view, drawn, mirror);
   const std::optional<std::string> occluder =
-      sight.visible.empty() ? std::nullopt : occlusion_->hiddenBy(view, pass.instances, mirror, sight.draw.polygon);
+      sight.visible.empty() ? std::nullopt : occlusion_->hiddenBy(mirror, sight.draw.polygon);
   if (sight.draw.back) {
     if (!sight.visible.empty() && sight.height < 0.0 && !occluder) {
       pass.mirrors.push_back(std::move(sight.draw));

@@ -23,7 +23,9 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, con
               .visible = visiblePart(view, geometry.polygon)};
   MirrorDraw& draw = sight.draw;
   draw.back = sight.height <= 0.0 && !(scene.mirrors[mirror].twoSided && sight.height < 0.0);
-  draw.polygon = visiblePart(drawn, geometry.polygon);
+  if (!sight.visible.empty()) {
+    draw.polygon = visiblePart(drawn, geometry.polygon);
+  }
   if (sight.height < 0.0) {
     draw.plane.normal = -draw.plane.normal;
     std::reverse(draw.polygon.begin(), draw.polygon.end());

@@ -66,11 +66,12 @@ std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const V
   if (!(eye > occluder.slack)) {
     return std::nullopt;
   }
-  std::vector<glm::dvec3> drawn = occluder.polygon;
-  if (view.clip) {
-    drawn = clipPolygon(drawn, Plane{view.clip->point + occluder.slack * view.clip->normal, view.clip->normal});
-  }
-  drawn = distinctVertices(drawn, 0.01 * occluder.slack);
+  const double least = 0.01 * occluder.slack;
+  std::vector<glm::dvec3> drawn =
+      view.clip ? distinctVertices(clipPolygon(occluder.polygon, {view.clip->point + occluder.slack * view.clip->normal,
+                                                                  view.clip->normal}),
+                                   least)
+                : distinctVertices(occluder.polygon, least);
   if (drawn.size() < 3) {
     return std::nullopt;
   }
@@ -96,13 +97,10 @@ std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const V
   return region;
 }
 
-std::optional<OccludedRegion> hiddenByBody(const BodyOccluder& body, const FlatOccluder& target, const View& view,
-                                           const Projection& projection) {
+std::optional<BodyRegion> hiddenByBody(const BodyOccluder& body, const View& view, const Projection& projection) {
   const Axis axis(view, projection);
-  const double eye = target.plane.distance(view.eye);
   double nearest = std::numeric_limits<double>::infinity();
   double farthest = 0.0;
-  double aboveTarget = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& p : body.points) {
     if (view.clip && view.clip->distance(p) < body.slack) {
       return std::nullopt;
@@ -110,25 +108,28 @@ std::optional<OccludedRegion> hiddenByBody(const BodyOccluder& body, const FlatO
     const double depth = axis.depth(p - view.eye);
     nearest = std::min(nearest, depth);
     farthest = std::max(farthest, depth);
-    aboveTarget = std::min(aboveTarget, (eye > 0.0 ? 1.0 : -1.0) * target.plane.distance(p));
   }
   if (!(nearest > (1.0 + depthPart) * projection.near + body.slack)) {
     return std::nullopt;
   }
-  OccludedRegion region;
-  if (!(aboveTarget > depthPart * std::abs(eye) + body.slack + target.slack)) {
-    region.push_back({axis.forward, -(1.0 + depthPart) * farthest - body.slack});
-  }
+  BodyRegion region{.beyond = {axis.forward, -(1.0 + depthPart) * farthest - body.slack}};
   const glm::dvec3 inside = vertexMean(body.points) - view.eye;
-  const auto edges = outline(body, view.eye);
   // A displacement by `slack`, at depth `nearest` or beyond, is seen as slack / nearest at most.
   const double margin = marginPixels * axis.pixel + body.slack / nearest;
-  for (const auto& [from, to] : edges) {
-    if (!addEdge(region, body.points[from] - view.eye, body.points[to] - view.eye, inside, margin, axis)) {
+  for (const auto& [from, to] : outline(body, view.eye)) {
+    if (!addEdge(region.outline, body.points[from] - view.eye, body.points[to] - view.eye, inside, margin, axis)) {
       return std::nullopt;
     }
   }
-  return edges.empty() ? std::nullopt : std::optional(region);
+  return region.outline.empty() ? std::nullopt : std::optional(std::move(region));
+}
+
+bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::dvec3& eye) {
+  const double height = target.plane.distance(eye);
+  const double least = depthPart * std::abs(height) + body.slack + target.slack;
+  return std::all_of(body.points.begin(), body.points.end(), [&](const glm::dvec3& p) {
+    return (height > 0.0 ? 1.0 : -1.0) * target.plane.distance(p) > least;
+  });
 }
 
 std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,

@@ -47,10 +47,17 @@ struct BodyOccluder {
   double slack = 0.0;                // metres by which the points may stand elsewhere on the GPU
 };
 
-// Returns the region behind a body: points on `target` if the whole body is nearer than the target's plane, else
-// whatever is deeper in the view than all of the body. Nothing if a part of the body is clipped away.
-std::optional<OccludedRegion> hiddenByBody(const BodyOccluder& body, const FlatOccluder& target, const View& view,
-                                           const Projection& projection);
+// Region behind a body. Of the points in `outline` the body hides those on a plane that isBefore() is true of, and
+// those `beyond` all of it.
+struct BodyRegion {
+  OccludedRegion outline;
+  HalfSpace beyond;
+};
+// Returns nothing if a part of the body is clipped away.
+std::optional<BodyRegion> hiddenByBody(const BodyOccluder& body, const View& view, const Projection& projection);
+
+// Says whether the whole body is nearer to the eye than the plane of `target`.
+bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::dvec3& eye);
 
 // Cuts a region out of convex polygons (world space) and returns the convex pieces that are left.
 std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,

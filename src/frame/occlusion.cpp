@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
@@ -18,13 +19,23 @@ constexpr double roundingPart = 1e-5;
 constexpr size_t mostPieces = 24;
 constexpr size_t mostOccluders = 64;
 
-bool sphereMeetsSegment(const glm::dvec3& center, double radius, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 along = b - a;
-  const double length2 = glm::dot(along, along);
-  const double t = length2 > 0.0 ? std::clamp(glm::dot(center - a, along) / length2, 0.0, 1.0) : 0.0;
-  const glm::dvec3 off = center - (a + t * along);
-  return glm::dot(off, off) <= radius * radius;
-}
+// A line of sight, from the eye to a point.
+class Sightline {
+ public:
+  explicit Sightline(const glm::dvec3& along) : along_(along) {
+    const double length2 = glm::dot(along, along);
+    perLength2_ = length2 > 0.0 ? 1.0 / length2 : 0.0;
+  }
+  // `center` starts at the eye.
+  bool meetsSphere(const glm::dvec3& center, double radius) const {
+    const glm::dvec3 off = center - std::clamp(glm::dot(center, along_) * perLength2_, 0.0, 1.0) * along_;
+    return glm::dot(off, off) <= radius * radius;
+  }
+
+ private:
+  glm::dvec3 along_;
+  double perLength2_ = 0.0;
+};
 
 double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points) {
   double radius = 0.0;
@@ -38,21 +49,31 @@ double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points)
 // occluder of the whole polygon does.
 class Prefilter {
  public:
-  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon)
-      : eye_(eye), center_(vertexMean(polygon)), polygon_(polygon) {
+  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) : eye_(eye), polygon_(polygon) {
     constexpr double least = 0.4;  // of the polygon's own angle
-    width_ = least * radiusAbout(center_, polygon) / glm::length(center_ - eye);
+    const glm::dvec3 center = vertexMean(polygon);
+    radius_ = radiusAbout(center, polygon);
+    width_ = least * radius_ / glm::length(center - eye);
+    lines_.reserve(polygon.size() + 1);
+    lines_.emplace_back(center - eye);
+    for (const glm::dvec3& p : polygon) {
+      lines_.emplace_back(p - eye);
+    }
   }
 
   bool include(const glm::dvec3& center, double radius) const {
-    if (!looksLarge(radius, glm::length(center - eye_) - radius)) {
-      return false;
-    }
-    return sphereMeetsSegment(center, radius, eye_, center_) ||
-           std::any_of(polygon_.begin(), polygon_.end(),
-                       [&](const glm::dvec3& p) { return sphereMeetsSegment(center, radius, eye_, p); });
+    const glm::dvec3 fromEye = center - eye_;
+    // No point of another line is farther from the first one than the polygon's radius.
+    return looksLarge(center, radius, radius) && lines_[0].meetsSphere(fromEye, radius + radius_) &&
+           std::any_of(lines_.begin(), lines_.end(),
+                       [&](const Sightline& line) { return line.meetsSphere(fromEye, radius); });
   }
-  bool looksLarge(double radius, double nearest) const { return nearest <= 0.0 || radius >= width_ * nearest; }
+  // Says whether something of a radius, at the point of a sphere that is nearest to the eye, looks large enough.
+  bool looksLarge(const glm::dvec3& center, double sphereRadius, double radius) const {
+    const glm::dvec3 fromEye = center - eye_;
+    const double large = radius + width_ * sphereRadius;
+    return large * large >= width_ * width_ * glm::dot(fromEye, fromEye);
+  }
   // Says whether a corner lies beyond a plane.
   bool reachesBeyond(const Plane& plane) const {
     const double side = plane.distance(eye_);
@@ -62,8 +83,9 @@ class Prefilter {
 
  private:
   glm::dvec3 eye_;
-  glm::dvec3 center_;
   std::span<const glm::dvec3> polygon_;
+  std::vector<Sightline> lines_;  // to the polygon's middle and its corners
+  double radius_ = 0.0;           // of the polygon
   double width_ = 0.0;
 };
 
@@ -77,7 +99,7 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
     for (const glm::dvec3& p : mirror.polygon) {
       size = std::max(size, glm::length(p - mirror.polygon[0]));
     }
-    mirrors_.push_back(flatOccluder(mirror.polygon, size));
+    mirrors_.push_back({.occluder = flatOccluder(mirror.polygon, size)});
   }
   for (const Mesh& mesh : scene.meshes) {
     double largest = 0.0;
@@ -110,7 +132,7 @@ BodyOccluder Occlusion::bodyOccluder(const ConvexMesh& mesh, const InstanceState
   return whole;
 }
 
-const Occlusion::Body& Occlusion::bodyOf(int instance) {
+Occlusion::Body& Occlusion::bodyOf(int instance) {
   std::optional<Body>& body = bodies_[static_cast<size_t>(instance)];
   if (!body) {
     body.emplace();
@@ -125,73 +147,95 @@ const Occlusion::Body& Occlusion::bodyOf(int instance) {
         polygon.push_back(state.worldFromMesh.point(p));
       }
       if (std::isnormal(polygonArea(polygon))) {
-        body->faces.push_back(flatOccluder(std::move(polygon), state.radius));
+        body->faces.push_back({.occluder = flatOccluder(std::move(polygon), state.radius)});
       }
     }
   }
   return *body;
 }
 
-// Adds a region that holds a part of the polygon. Returns whether it holds all of it.
-bool Occlusion::Occluders::add(std::optional<OccludedRegion> region, const Occluder& of, const glm::dvec3& eye,
-                               std::span<const glm::dvec3> polygon) {
-  if (!region) {
-    return false;
+void Occlusion::setView(const View& view, std::span<const int> instances) {
+  view_ = &view;
+  instances_ = instances;
+  ++viewNumber_;
+}
+
+const std::optional<OccludedRegion>& Occlusion::regionOf(Face& face, bool isMirror) const {
+  if (std::exchange(face.hidden.view, viewNumber_) != viewNumber_) {
+    // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
+    const bool drawn = !isMirror || !visiblePart(*view_, face.occluder.polygon).empty();
+    face.hidden.region = drawn ? hiddenByFace(face.occluder, *view_, projection_) : std::nullopt;
   }
+  return face.hidden.region;
+}
+
+const std::optional<BodyRegion>& Occlusion::regionOf(Body& body) const {
+  if (std::exchange(body.hidden.view, viewNumber_) != viewNumber_) {
+    body.hidden.region = hiddenByBody(body.whole, *view_, projection_);
+  }
+  return body.hidden.region;
+}
+
+bool Occlusion::Occluders::add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of,
+                               const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
   bool all = true;
-  for (const HalfSpace& half : *region) {
+  const auto meets = [&](const HalfSpace& half) {
     const auto within =
         std::count_if(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; });
-    if (within == 0) {
-      return false;
-    }
     all = all && within == std::ssize(polygon);
+    return within > 0;
+  };
+  if ((also && !meets(*also)) || !std::all_of(region.begin(), region.end(), meets)) {
+    return false;
   }
   if (all) {
     whole = of;
-  } else {
-    parts.push_back(of);
-    parts.back().region = std::move(*region);
+    return true;
   }
-  return all;
+  Occluder& part = parts.emplace_back(of);
+  if (also) {
+    part.region.push_back(*also);
+  }
+  part.region.insert(part.region.end(), region.begin(), region.end());
+  return false;
 }
 
 // Finds the first occluder that hides all of `polygon`, a part of `mirror`, or else those that hide a part of it.
-Occlusion::Occluders Occlusion::occludersOf(const View& view, std::span<const int> instances, int mirror,
-                                            std::span<const glm::dvec3> polygon) {
+Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dvec3> polygon) {
+  const glm::dvec3& eye = view_->eye;
   Occluders found;
-  const Prefilter prefilter(view.eye, polygon);
-  const auto addFace = [&](const FlatOccluder& face, const Occluder& of) {
-    return prefilter.reachesBeyond(face.plane) &&
-           found.add(hiddenByFace(face, view, projection_), of, view.eye, polygon);
+  const Prefilter prefilter(eye, polygon);
+  const auto addFace = [&](Face& face, const Occluder& of) {
+    if (!prefilter.include(face.occluder.center, face.occluder.radius) ||
+        !prefilter.reachesBeyond(face.occluder.plane)) {
+      return false;
+    }
+    const std::optional<OccludedRegion>& region = regionOf(face, of.isMirror);
+    return region && found.add(*region, nullptr, of, eye, polygon);
   };
   for (size_t i = 0; i < mirrors_.size(); ++i) {
-    // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
-    if (static_cast<int>(i) != mirror && prefilter.include(mirrors_[i].center, mirrors_[i].radius) &&
-        !visiblePart(view, mirrors_[i].polygon).empty() &&
-        addFace(mirrors_[i], {.isMirror = true, .index = static_cast<int>(i)})) {
+    if (static_cast<int>(i) != mirror && addFace(mirrors_[i], {.isMirror = true, .index = static_cast<int>(i)})) {
       return found;
     }
   }
-  const bool simplifies = meshErrorIn(view, settings_) > 0.0;
-  for (const int i : instances) {
+  const bool simplifies = meshErrorIn(*view_, settings_) > 0.0;
+  for (const int i : instances_) {
     const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
     const Mesh& mesh = scene_.meshes[instance.mesh];
-    const double nearest = glm::length(instance.center - view.eye) - instance.radius;
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
     // Levels of a mesh have other outlines.
-    if ((simplifies && mayHaveLevels(mesh)) || !prefilter.looksLarge(widest, nearest) ||
+    if ((simplifies && mayHaveLevels(mesh)) || !prefilter.looksLarge(instance.center, instance.radius, widest) ||
         !prefilter.include(instance.center, instance.radius)) {
       continue;
     }
-    const Body& body = bodyOf(i);
-    if (body.whole.mesh && found.add(hiddenByBody(body.whole, mirrors_[static_cast<size_t>(mirror)], view, projection_),
-                                     {.index = i}, view.eye, polygon)) {
-      return found;
+    Body& body = bodyOf(i);
+    if (const BodyRegion* region = body.whole.mesh && regionOf(body) ? &*regionOf(body) : nullptr) {
+      const bool before = isBefore(body.whole, mirrors_[static_cast<size_t>(mirror)].occluder, eye);
+      if (found.add(region->outline, before ? nullptr : &region->beyond, {.index = i}, eye, polygon)) {
+        return found;
+      }
     }
-    if (std::any_of(body.faces.begin(), body.faces.end(), [&](const FlatOccluder& face) {
-          return prefilter.include(face.center, face.radius) && addFace(face, {.index = i});
-        })) {
+    if (std::any_of(body.faces.begin(), body.faces.end(), [&](Face& face) { return addFace(face, {.index = i}); })) {
       return found;
     }
   }
@@ -206,24 +250,23 @@ std::string Occlusion::nameOfOccluder(const Occluder& occluder) const {
   return nameOf("object", scene_.objects[static_cast<size_t>(object)].name, object);
 }
 
-std::optional<std::string> Occlusion::hiddenBy(const View& view, std::span<const int> instances, int mirror,
-                                               std::span<const glm::dvec3> polygon) {
+std::optional<std::string> Occlusion::hiddenBy(int mirror, std::span<const glm::dvec3> polygon) {
   // An oblique depth buffer may keep another order, so nothing is hidden.
-  const bool oblique = settings_.reflection.clip == ClipMethod::oblique && view.clip;
+  const bool oblique = settings_.reflection.clip == ClipMethod::oblique && view_->clip;
   if (!settings_.debug.skipHidden || settings_.view.wireframe || oblique || polygon.empty()) {
     return std::nullopt;
   }
-  const Occluders found = occludersOf(view, instances, mirror, polygon);
-  return found.whole ? nameOfOccluder(*found.whole) : hiddenTogether(found.parts, view, polygon);
+  const Occluders found = occludersOf(mirror, polygon);
+  return found.whole ? nameOfOccluder(*found.whole) : hiddenTogether(found.parts, polygon);
 }
 
 // Takes the regions away from the polygon one after the other, until no piece is left.
-std::optional<std::string> Occlusion::hiddenTogether(std::span<const Occluder> occluders, const View& view,
+std::optional<std::string> Occlusion::hiddenTogether(std::span<const Occluder> occluders,
                                                      std::span<const glm::dvec3> polygon) const {
   std::vector<std::vector<glm::dvec3>> pieces = {{polygon.begin(), polygon.end()}};
   std::vector<std::string> names;
   for (const Occluder& occluder : occluders.first(std::min(occluders.size(), mostOccluders))) {
-    std::vector<std::vector<glm::dvec3>> left = outside(occluder.region, view.eye, pieces);
+    std::vector<std::vector<glm::dvec3>> left = outside(occluder.region, view_->eye, pieces);
     if (left == pieces || left.size() > mostPieces) {
       continue;
     }

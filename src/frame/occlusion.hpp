@@ -19,15 +19,28 @@ class Occlusion {
  public:
   Occlusion(const Scene& scene, const SceneState& state, const Settings& settings, const Projection& projection);
 
+  // Sets the view that hiddenBy() is about. `instances` are those that it shows. Keeps references to both.
+  void setView(const View& view, std::span<const int> instances);
+
   // Names the occluders that hide all of `polygon` (world), a part of `mirror`, in the view: "object NAME", "mirror
-  // NAME", or several of them; nothing if they do not. `instances` are those that the view shows.
-  std::optional<std::string> hiddenBy(const View& view, std::span<const int> instances, int mirror,
-                                      std::span<const glm::dvec3> polygon);
+  // NAME", or several of them; nothing if they do not.
+  std::optional<std::string> hiddenBy(int mirror, std::span<const glm::dvec3> polygon);
 
  private:
+  // What an occluder hides in a view, worked out when it is first needed.
+  template <typename Region>
+  struct OfView {
+    int view = -1;  // number of the view
+    std::optional<Region> region;
+  };
+  struct Face {
+    FlatOccluder occluder;
+    OfView<OccludedRegion> hidden;
+  };
   struct Body {
-    std::vector<FlatOccluder> faces;
+    std::vector<Face> faces;
     BodyOccluder whole;
+    OfView<BodyRegion> hidden;
   };
   struct Occluder {
     OccludedRegion region;
@@ -35,25 +48,31 @@ class Occlusion {
     int index = 0;  // of the mirror or instance
   };
   struct Occluders {
-    bool add(std::optional<OccludedRegion> region, const Occluder& of, const glm::dvec3& eye,
+    // Adds the part of a region on the inner side of `also`, if any, unless no corner of the polygon is in it. Returns
+    // whether it holds all of the polygon.
+    bool add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of, const glm::dvec3& eye,
              std::span<const glm::dvec3> polygon);
     std::optional<Occluder> whole;  // hides all of it; without its region
     std::vector<Occluder> parts;
   };
   static FlatOccluder flatOccluder(std::vector<glm::dvec3> polygon, double size);
   static BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state);
-  const Body& bodyOf(int instance);
-  Occluders occludersOf(const View& view, std::span<const int> instances, int mirror,
-                        std::span<const glm::dvec3> polygon);
+  Body& bodyOf(int instance);
+  const std::optional<OccludedRegion>& regionOf(Face& face, bool isMirror) const;
+  const std::optional<BodyRegion>& regionOf(Body& body) const;
+  Occluders occludersOf(int mirror, std::span<const glm::dvec3> polygon);
   std::string nameOfOccluder(const Occluder& occluder) const;
-  std::optional<std::string> hiddenTogether(std::span<const Occluder> occluders, const View& view,
+  std::optional<std::string> hiddenTogether(std::span<const Occluder> occluders,
                                             std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
   const SceneState& state_;
   const Settings& settings_;
   const Projection& projection_;
-  std::vector<FlatOccluder> mirrors_;        // parallel to SceneState::mirrors
+  const View* view_ = nullptr;
+  std::span<const int> instances_;
+  int viewNumber_ = -1;
+  std::vector<Face> mirrors_;                // parallel to SceneState::mirrors
   std::vector<double> largestFaces_;         // by mesh, radius as a part of the mesh's
   std::vector<std::optional<Body>> bodies_;  // parallel to SceneState::instances; made on first use
 };

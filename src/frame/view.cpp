@@ -121,7 +121,10 @@ std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3
     if (part.size() < 3) {
       return {};
     }
-    part = clipPolygon(part, Plane{view.eye, normal});
+    const Plane plane{view.eye, normal};
+    if (!std::all_of(part.begin(), part.end(), [&](const glm::dvec3& p) { return plane.distance(p) >= 0.0; })) {
+      part = clipPolygon(part, plane);
+    }
   }
   return part.size() < 3 ? std::vector<glm::dvec3>() : part;
 }
