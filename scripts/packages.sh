@@ -7,7 +7,7 @@ build_packages=(
   libtinyobjloader-dev libtinyexr-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
   libtbb-dev libmeshoptimizer-dev
 )
-run_packages=(mesa-vulkan-drivers)
+run_packages=(mesa-vulkan-drivers fonts-dejavu-core)
 test_packages=(
   vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
   xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux clang-format-14 python3-minimal

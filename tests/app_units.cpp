@@ -6,6 +6,7 @@
 #include "app/background_job.hpp"
 #include "app/camera_controller.hpp"
 #include "app/frame_pacer.hpp"
+#include "app/frame_report.hpp"
 #include "platform/gamepad.hpp"
 
 namespace speculum {
@@ -93,6 +94,41 @@ TEST(FramePacer, IdleTimeIsNoFrameTime) {
   EXPECT_EQ(pacer.beginFrame(0.5), 500.0);
   pacer.idle();
   EXPECT_TRUE(std::isnan(pacer.beginFrame(0.5)));
+}
+
+TEST(FrameReport, PanelOnlyFramesChangeNoFigure) {
+  const Scene scene;
+  const SceneState state;
+  const Settings settings;
+  FramePlan plan;
+  FrameReport report;
+  uint64_t number = 0;
+  const auto frame = [&](bool panelOnly, double sinceMs, double cpuMs, const FrameTimings& timings) {
+    plan.mainReused = panelOnly;
+    report.updateTimes({scene, state, settings, plan, ++number, cpuMs, sinceMs}, timings);
+  };
+  const auto timed = [](uint64_t frame, double ms) {
+    return FrameTimings{.frame = frame, .gpuMs = ms, .passes = {{.name = "main view", .gpuMs = ms}}};
+  };
+  frame(false, NAN, 5.0, {});
+  EXPECT_FALSE(report.view().still);
+  frame(true, 14000.0, 1.0, timed(1, 13990.0));
+  for (int i = 0; i < 100; ++i) {
+    frame(true, 20.0, 1.0, timed(number - 1, 3.0));
+  }
+  EXPECT_TRUE(report.view().still);
+  EXPECT_EQ(report.view().frameMs, 13995.0);
+  EXPECT_EQ(report.view().gpuMs, 13990.0);
+  EXPECT_EQ(report.view().cpuMs, 5.0);
+  EXPECT_EQ(report.view().history.frames(), 1u);
+  frame(false, 20.0, 5.0, {});
+  frame(false, 10.0, 5.0, timed(number, 8.0));
+  EXPECT_FALSE(report.view().still);
+  EXPECT_LT(report.view().gpuMs, 10.0);
+  for (int i = 0; i < 100; ++i) {
+    frame(false, 10.0, 5.0, timed(number, 8.0));
+  }
+  EXPECT_NEAR(report.view().frameMs, 10.0, 1.0) << "not held up by the slow frame before";
 }
 
 TEST(CameraControl, FramesSpheresInAnyPictureShape) {

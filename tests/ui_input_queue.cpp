@@ -87,5 +87,18 @@ TEST(InputQueue, ClicksKeepTheirPointerPosition) {
   EXPECT_EQ(queue.take().size(), 1u);
 }
 
+TEST(InputQueue, DragWithinAFrameMovesBeforeItEnds) {
+  InputQueue queue;
+  queue.push(pointer(1.0));
+  queue.push(button(true));
+  queue.push(pointer(5.0));
+  queue.push(button(false));
+  EXPECT_TRUE(queue.take().back().down);
+  const std::vector<InputEvent> moved = queue.take();
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(moved[0].x, 5.0);
+  EXPECT_FALSE(queue.take().back().down);
+}
+
 }  // namespace
 }  // namespace speculum

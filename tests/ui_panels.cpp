@@ -80,6 +80,33 @@ TEST_F(PanelTest, ButtonsSendTheirCommands) {
   EXPECT_TRUE(sent<CancelLoading>());
 }
 
+TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
+  const PixelRect before = widget("time");
+  message_ = "scene.toml: no such file";
+  run(2);
+  EXPECT_EQ(widget("time"), before);
+  click("message.dismiss");
+  run(1);
+  EXPECT_FALSE(has("message.dismiss"));
+  message_ = "another.toml: no such file";
+  run(2);
+  EXPECT_TRUE(has("message.dismiss"));
+}
+
+TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
+  device_.samples = {1, 4};
+  run(2);
+  click("view.samples");
+  tap(ImGuiKey_UpArrow);
+  tap(ImGuiKey_Enter);
+  EXPECT_EQ(settings_.current.view.samples, 1);
+  click("view.samples");
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_Enter);
+  EXPECT_EQ(settings_.current.view.samples, 4) << "the highest";
+}
+
 TEST_F(PanelTest, GalleryOpensScenes) {
   click("panel.Scenes", 0.1);
   run(2);
@@ -328,6 +355,12 @@ TEST_F(Inspector, ClickedNumbersAreTyped) {
   const glm::dvec3 before = scene_.mirrors[0].position;
   typeNumber("edit.position", 0.33, "1.75");
   EXPECT_EQ(scene_.mirrors[0].position, glm::dvec3(before.x, 1.75, before.z)) << "what was there is replaced";
+}
+
+TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
+  selectMirror(0);
+  typeNumber("edit.reflectance", 0.05, "0.404");
+  EXPECT_DOUBLE_EQ(scene_.mirrors[0].reflectance.r, 0.404);
 }
 
 TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {

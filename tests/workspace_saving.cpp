@@ -26,7 +26,7 @@ TEST_F(Saving, SavedSceneLoadsAsEdited) {
   EXPECT_TRUE(edit().unsaved);
   send(Save{});
   EXPECT_FALSE(edit().unsaved) << edit().note;
-  EXPECT_EQ(status(), "saved " + options_.scene);
+  EXPECT_EQ(status(), "Saved " + options_.scene);
   const Scene saved = onDisk();
   ASSERT_EQ(saved.objects.size(), 2u);
   EXPECT_NEAR(saved.objects[0].position.x, 0.3 + 33.0 / focalPixels, 2e-4);
@@ -212,6 +212,15 @@ TEST_F(ShippedScene, IsSavedToTheUsersFolder) {
   EXPECT_EQ(edit().prompt, Prompt::none) << "the second time unasked";
   EXPECT_EQ(allNodes(loadScene(own)).size(), nodes - 1);
   EXPECT_EQ(contents(shipped_), text_);
+}
+
+TEST_F(ShippedScene, BareNameMeansTheUsersFolder) {
+  removeFirst();
+  send(Save{});
+  send(SaveAs{"mine"});
+  ASSERT_EQ(edit().prompt, Prompt::none) << edit().note;
+  EXPECT_EQ(status(), "Saved " + (documentsDir() / "Speculum" / "mine.toml").string());
+  EXPECT_TRUE(fs::exists(documentsDir() / "Speculum" / "mine.toml"));
 }
 
 // Saved once more it would be overwritten, which is not for a test to do.

@@ -162,7 +162,7 @@ TEST_F(WindowView, ScreenshotsAreSavedAndReported) {
   drawFrame(Image8(5, 3));
   ASSERT_EQ(pictures().size(), 1u);
   EXPECT_EQ(readImage8(pictures()[0]).width, 5);
-  EXPECT_EQ(status(), "saved " + pictures()[0].string());
+  EXPECT_EQ(status(), "Saved " + pictures()[0].string());
   EXPECT_EQ(view().log.lines().back().text, status());
   EXPECT_FALSE(workspace_->capture().wanted());
   send(Escape{});
@@ -191,6 +191,12 @@ TEST_F(WindowView, CapturesThatFailSaySo) {
   send(ToggleRecording{true});
   EXPECT_EQ(status().rfind("not recorded: ", 0), 0u) << status();
   EXPECT_FALSE(workspace_->capture().wanted());
+}
+
+TEST_F(WindowView, WarningsReachTheStatusLine) {
+  spdlog::warn("this device has no 8 samples\nmore");
+  frame();
+  EXPECT_EQ(status(), "this device has no 8 samples");
 }
 
 TEST_F(WindowView, ResetGoesBackToTheScenesSettings) {

@@ -71,7 +71,7 @@ Capture::Saved Capture::save(const std::string& scene, const Image8& picture) {
   try {
     const std::filesystem::path file = newPath(scene, ".png");
     writePng(file, picture);
-    return {"saved " + file.string(), true};
+    return {"Saved " + file.string(), true};
   } catch (const std::exception& error) {
     return {"not saved: " + std::string(error.what()), true};
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/session_subject.hpp"
+
 namespace speculum {
 
 namespace {
@@ -41,9 +43,7 @@ DeviceView deviceView(const Renderer& renderer, const Device& device) {
   view.driver = info.driver;
   view.vulkan = vulkanVersion(info.apiVersion);
   view.renderPath = renderPathName(device.renderPath());
-  for (int count = 1; count <= 64; count *= 2) {
-    view.samples += caps.sampleCounts & static_cast<VkSampleCountFlags>(count) ? std::to_string(count) + " " : "";
-  }
+  view.samples = sampleCountsOf(device);
   view.features = {feature("dynamic rendering", caps.dynamicRendering, "render passes are used"),
                    feature("timestamps", caps.timestampValidBits > 0, "no times of passes"),
                    feature("pipeline statistics", caps.pipelineStatistics, "no triangles and fragments"),

@@ -1,6 +1,7 @@
 #include "app/document_controller.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <stdexcept>
 
@@ -15,11 +16,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether the file is one of those that come with the program.
+// Whether the file stands among those that come with the program.
 bool isShipped(const fs::path& file) {
-  std::error_code none;
-  const fs::path below = fs::relative(file, dataDirectory("scenes"), none);
-  return !below.empty() && *below.begin() != "..";
+  const fs::path scenes = dataDirectory("scenes");
+  const std::array folders{scenes, scenes.parent_path() / "models"};
+  return std::ranges::any_of(folders, [&](const fs::path& folder) {
+    std::error_code none;
+    const fs::path below = fs::relative(file, folder, none);
+    return !below.empty() && *below.begin() != "..";
+  });
 }
 
 // Where scenes are saved unless the user names another place; made when it is needed.
@@ -97,8 +102,8 @@ void DocumentController::askWhere() {
 }
 
 std::optional<Command> DocumentController::saveAs(const fs::path& file, const Settings& settings) {
-  proposed_ = file;
-  return saveTo(file, settings) ? discard(settings) : std::nullopt;
+  proposed_ = proposed_.parent_path() / file;  // a bare name means the folder that is suggested
+  return saveTo(proposed_, settings) ? discard(settings) : std::nullopt;
 }
 
 std::optional<Command> DocumentController::discard(const Settings& settings) {
@@ -126,7 +131,7 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings)
       throw SaveError(file.string() + ": not saved: it comes with the program");
     }
     editor_.document().save(file, settingChanges(settingsAtLoad_, settings), file == refused_);
-    note_ = "saved " + file.string();
+    note_ = "Saved " + fs::absolute(file).lexically_normal().string();
     loaded_.settings = settings;
     refused_.reset();
     saved_ = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "edit/outline.hpp"
 #include "frame/effects.hpp"
@@ -12,7 +13,9 @@ namespace speculum {
 
 namespace {
 
-constexpr double smoothing = 0.05;  // of the times shown
+constexpr double smoothing = 0.05;    // of the times shown, at least
+constexpr double settlingMs = 500.0;  // a frame that takes longer is shown as it is
+constexpr size_t awaitedFrames = 4;   // at most, until the GPU's times have come
 
 TargetView targetOf(const FramePlan& plan, const PlannedPass& pass, const Settings& settings,
                     bool standardSampleLocations) {
@@ -108,20 +111,38 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   updateSkipped(frame, hoveredSkipped);
 }
 
+// Frames that draw the panels only change no figure: those of the last frame that drew the scene stay.
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings) {
-  view_.cpuMs += smoothing * (frame.cpuMs - view_.cpuMs);
-  view_.gpuMs = timings.gpuMs;
-  if (!std::isnan(frame.sinceLastMs)) {
-    view_.frameMs += (view_.frameMs == 0.0 ? 1.0 : smoothing) * (frame.sinceLastMs - view_.frameMs);
+  const bool drawsScene = !frame.plan.mainReused;
+  const bool drewScene = !std::exchange(view_.still, !drawsScene) && !drawn_.empty();
+  if (drawsScene) {
+    const double ms = drewScene ? frame.sinceLastMs : std::nan("");
+    const auto average = [](double& shown, double now, bool begins) {
+      shown += (begins ? 1.0 : std::clamp(now / settlingMs, smoothing, 1.0)) * (now - shown);
+    };
+    averages_ = averages_ && drewScene;
+    average(view_.cpuMs, frame.cpuMs, !drewScene);
+    if (!std::isnan(ms)) {
+      average(view_.frameMs, ms, !std::exchange(averages_, true));
+    }
+    view_.history.add(frame.number, ms, frame.cpuMs);
+    drawn_.push_front({frame.number, frame.cpuMs});
+    drawn_.resize(std::min(drawn_.size(), awaitedFrames));
   }
-  view_.history.add(frame.number, frame.sinceLastMs, frame.cpuMs);
+  const auto timed = std::ranges::find_if(drawn_, [&](const DrawnFrame& f) { return f.number == timings.frame; });
+  if (timed == drawn_.end()) {
+    return;
+  }
+  view_.gpuMs = timings.gpuMs;
+  if (view_.still || view_.frameMs == 0.0) {
+    view_.cpuMs = timed->cpuMs;
+    view_.frameMs = timed->cpuMs + timings.gpuMs;
+  }
   std::vector<std::pair<std::string, double>> passes;
   for (const PassTiming& pass : timings.passes) {
     passes.emplace_back(pass.name, pass.gpuMs);
   }
-  if (timings.frame > 0) {
-    view_.history.addGpu(timings.frame, timings.gpuMs, passes);
-  }
+  view_.history.addGpu(timings.frame, timings.gpuMs, passes);
 }
 
 // While images are reused, lists the passes of as many frames as it takes to render each, and those whose images are

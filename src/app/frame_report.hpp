@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+
 #include "systems/scene_renderer.hpp"
 #include "ui/views.hpp"
 
@@ -29,17 +31,26 @@ class FrameReport {
   std::optional<DebugView> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
                                   bool standardSampleLocations);
 
+  // update()'s part that needs no device.
+  void updateTimes(const RecordedFrame& frame, const FrameTimings& timings);
+
   FrameHistory& history() { return view_.history; }
   std::span<const SkippedMirror> skipped() const { return skipped_; }  // in the last frame
   const FrameView& view() const { return view_; }
 
  private:
-  void updateTimes(const RecordedFrame& frame, const FrameTimings& timings);
   void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, const SceneRenderer& sceneRenderer);
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
   void updateSkipped(const RecordedFrame& frame, const std::vector<int>& hovered);
 
+  struct DrawnFrame {
+    uint64_t number = 0;
+    double cpuMs = 0.0;
+  };
+
   FrameView view_;
+  std::deque<DrawnFrame> drawn_;  // that drew the scene and not the panels only, the latest
+  bool averages_ = false;         // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
 };
 

@@ -231,6 +231,9 @@ void Workspace::update() {
     problem_ = *error;
     document_->forgetDiscard();
   }
+  if (const std::string warning = log_.takeProblem(); !warning.empty()) {
+    status_.show(warning);
+  }
   browser_.updateView();
   accuracy_.beforeFrame(settings_.current);
 }

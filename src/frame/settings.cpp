@@ -107,7 +107,7 @@ struct Parser {
   Problem operator()(const ColorSetting& color) const {
     const std::optional<glm::dvec3> value = parseColor(text);
     if (!value) {
-      return "'" + std::string(text) + "' is not a colour (three linear values >= 0, such as 0.1,0.2,0.3)";
+      return "'" + std::string(text) + "' is not a color (three linear values >= 0, such as 0.1,0.2,0.3)";
     }
     color.value.of(settings) = value;
     return std::nullopt;

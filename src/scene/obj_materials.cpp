@@ -97,7 +97,7 @@ std::string checkedNumbers(LineReader& line, bool color) {
       line.fail(line.keyword(), "is not finite", "finite numbers are needed");
     }
     if (color && value < 0.0) {
-      line.fail(line.keyword(), "is negative", "colours are 0 or more");
+      line.fail(line.keyword(), "is negative", "colors are 0 or more");
     }
     text += ' ' + fmt::to_string(value);
   }

@@ -63,10 +63,10 @@ inline const auto& fieldsOf(const Sky*) {
 
 inline const auto& fieldsOf(const Environment*) {
   static const std::tuple fields{
-      field(&Environment::background, "background", "radiance of rays that hit nothing: the clear colour",
+      field(&Environment::background, "background", "radiance of rays that hit nothing: the clear color",
             {.range = kNotNegative, .color = true}),
       field(&Environment::sky, "sky", "replaces the background"),
-      field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse colour",
+      field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse color",
             {.range = kNotNegative, .color = true})};
   return fields;
 }
@@ -196,7 +196,7 @@ inline const auto& fieldsOf(const Mirror*) {
       field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
             {.range = kNotNegative, .color = true}),
       field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
-      field(&Mirror::backColor, "back_color", "diffuse colour of the back of a one-sided mirror",
+      field(&Mirror::backColor, "back_color", "diffuse color of the back of a one-sided mirror",
             {.range = kNotNegative, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
       field(&Mirror::roughness, "roughness", "spread of the reflection: GGX with alpha = roughness squared",
             {.range = kUnit, .step = 0.002}),

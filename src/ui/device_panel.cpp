@@ -1,4 +1,6 @@
 #include <imgui.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 
 #include "ui/panels.hpp"
 #include "ui/setting_widgets.hpp"
@@ -35,7 +37,7 @@ void device(PanelContext& ui) {
     fact("driver", device.driver);
     fact("Vulkan", device.vulkan);
     fact("render path", device.renderPath);
-    fact("samples a pixel", device.samples);
+    fact("samples a pixel", fmt::format("{}", fmt::join(device.samples, ", ")));
     fact("memory in use here", mebibytes(frame.deviceBytes) + " MiB");
     fact("memory of the process", mebibytes(frame.usedBytes) + " MiB");
     fact("memory offered", mebibytes(frame.budgetBytes) + " MiB");

@@ -37,17 +37,6 @@ bool dragNumbers(const Field& field, const char* label, double* values, int coun
                             formatOf(field.step), ImGuiSliderFlags_AlwaysClamp);
 }
 
-// Linear in the file, sRGB in the widget; what is brighter than 1 is shown as numbers.
-template <typename Field>
-bool colorWidget(const Field& field, const char* label, glm::dvec3& color) {
-  if (std::max({color.r, color.g, color.b}) > 1.0) {
-    return dragNumbers(field, label, &color.x, 3);
-  }
-  const bool changed = colorEdit(label, color, ImGuiColorEditFlags_Float);
-  color = changed ? glm::round(color * 1e6) / 1e6 : color;
-  return changed;
-}
-
 // Zero along an axis would be an error of the file.
 template <typename Field>
 bool scaleWidget(const Field& field, const char* label, glm::dvec3& scale) {
@@ -82,7 +71,7 @@ bool valueWidget(const Field& field, const char* label, Value& value) {
   } else if constexpr (std::is_same_v<Value, glm::dvec2>) {
     return dragNumbers(field, label, &value.x, 2);
   } else if constexpr (std::is_same_v<Value, glm::dvec3>) {
-    return field.color     ? colorWidget(field, label, value)
+    return field.color     ? colorEdit(label, value, std::min(field.range.high, farthest))
            : field.uniform ? scaleWidget(field, label, value)
                            : dragNumbers(field, label, &value.x, 3);
   } else {

@@ -16,13 +16,16 @@ std::vector<InputEvent> InputQueue::take() {
   std::vector<InputEvent> taken;
   bool keyReleased = false;
   bool buttonReleased = false;
+  bool moved = false;
   while (!events_.empty()) {
     const InputEvent event = events_.front();
     // Typed letters come as text, so that frames may skip their keys.
     const bool pressed = event.down && (event.kind == Kind::button || (event.kind == Kind::key && event.command));
-    if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased)) {
+    const bool drops = moved && event.kind == Kind::button && !event.down;
+    if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased) || drops) {
       break;
     }
+    moved = moved || event.kind == Kind::pointer;
     taken.push_back(event);
     events_.pop_front();
     if (pressed) {

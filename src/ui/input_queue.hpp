@@ -16,7 +16,8 @@ struct InputEvent {
 };
 
 // Input in the order in which it came, for panels that look at the state of keys and buttons once a frame: a key or
-// button that goes down and up between two frames is down in one and up in the next, where the pointer was then.
+// button that goes down and up between two frames is down in one and up in the next, where the pointer was then, and a
+// drag between two frames moves in one while the button is down.
 class InputQueue {
  public:
   void push(const InputEvent& event);

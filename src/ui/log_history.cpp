@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 namespace speculum {
 
@@ -19,10 +20,18 @@ bool contains(const std::string& text, std::string_view part) {
 
 void LogHistory::add(LogLevel level, std::string text) {
   const std::lock_guard lock(mutex_);
+  if (level != LogLevel::info) {
+    problem_ = text.substr(0, text.find('\n'));
+  }
   lines_.push_back({level, std::move(text)});
   if (lines_.size() > longest) {
     lines_.pop_front();
   }
+}
+
+std::string LogHistory::takeProblem() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(problem_, {});
 }
 
 void LogHistory::clear() {

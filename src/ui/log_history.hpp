@@ -25,10 +25,13 @@ class LogHistory {
   void clear();
   // Returns the lines of at least that level that contain `part` in any case, oldest first.
   std::vector<LogLine> lines(LogLevel least = LogLevel::info, std::string_view part = {}) const;
+  // The first line of the newest warning or error since the last call; empty: none came.
+  std::string takeProblem();
 
  private:
   mutable std::mutex mutex_;
   std::deque<LogLine> lines_;
+  std::string problem_;  // that takeProblem() returns next
 };
 
 std::string_view logLevelName(LogLevel level);  // info, warning, error

@@ -29,7 +29,7 @@ struct PanelName {
 inline constexpr std::array<PanelName, 6> panelNames{
     {{"Scenes", &PanelChoices::scenes, "pictures of the scenes; a click loads one"},
      {"Performance", &PanelChoices::performance, "times of the last frames as graphs"},
-     {"Targets", &PanelChoices::targets, "what each pass drew: colour, depth, mask"},
+     {"Targets", &PanelChoices::targets, "what each pass drew: color, depth, mask"},
      {"Device", &PanelChoices::device, "the GPU, what it can do, its memory"},
      {"Log", &PanelChoices::log, "what the program and the validation layer said"},
      {"Accuracy", &PanelChoices::accuracy, "measures error against milliseconds, walks between them"}}};

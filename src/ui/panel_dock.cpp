@@ -93,6 +93,20 @@ std::string PanelDock::saved() const {
   return text;
 }
 
+WindowRect PanelDock::freeRect() const {
+  const glm::vec2 display = displaySize();
+  float left = 0.0f;
+  float right = display.x;
+  for (const Panel* panel : order_) {
+    if (panel->docked && panel->shown) {
+      const WindowRect& place = panel->given;
+      panel->edge == Edge::left ? void(left = std::max(left, place.corner.x + place.size.x))
+                                : void(right = std::min(right, place.corner.x));
+    }
+  }
+  return {{std::min(left, right), 0.0f}, {std::max(right - left, 0.0f), display.y}};
+}
+
 void PanelDock::reset() {
   for (auto& [name, panel] : panels_) {
     panel.docked = true;

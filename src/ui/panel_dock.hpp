@@ -24,6 +24,8 @@ class PanelDock {
   // ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. ImGui::End must
   // follow whatever it returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
+  // Display without the docked windows.
+  WindowRect freeRect() const;
   // All windows go back to their original places.
   void reset();
 

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <tuple>
@@ -32,6 +33,7 @@ UiOutput PanelWindows::build(const UiView& view) {
   if (visible_) {
     panels::inspector(ui, dock_);
   }
+  panels::message(ui, dock_.freeRect());
   panels::prompts(ui);
   if (state_.editing && !ImGui::IsAnyItemActive()) {
     state_.editing = false;
@@ -54,12 +56,13 @@ void PanelWindows::mainPanel(PanelContext& ui) {
   if (dock_.begin("Speculum", nullptr, PanelDock::Edge::left, {28.0f, 0.0f})) {
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());  // the rest is for the labels
     const double ms = ui.view.frame.frameMs;
-    ImGui::Text("%.2f ms/frame (%.1f FPS)", ms, ms > 0.0 ? 1000.0 / ms : 0.0);
+    const std::string rate =
+        ui.view.frame.still ? "paused" : fmt::format("{:.{}f} FPS", 1000.0 / ms, ms > 100.0 ? 1 : 0);
+    ImGui::Text("%s   %s", panels::duration(ms).c_str(), ms > 0.0 ? rate.c_str() : "");
     const float width = ImGui::GetWindowWidth();
     const char* hint = "F1: keys   Tab: hide";
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(hint).x);
     ImGui::TextDisabled("%s", hint);
-    panels::message(ui);
     panels::scene(ui);
     windowChoices(ui);
     panels::settings(ui);

@@ -127,15 +127,44 @@ std::string mebibytes(uint64_t bytes) {
 }
 
 void coloredText(const glm::vec3& color, const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(color.r, color.g, color.b, 1.0f));
+  const bool light = ImGui::GetStyleColorVec4(ImGuiCol_Text).x < 0.5f;
+  const glm::vec3 shown = color * (light ? 0.7f : 1.0f);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(shown.r, shown.g, shown.b, 1.0f));
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
 }
 
-void message(const PanelContext& ui) {
-  if (!ui.view.message.empty()) {
-    coloredText(errorColor, ui.view.message);
+// Over the picture, so that no panel moves.
+void message(PanelContext& ui, const WindowRect& picture) {
+  std::string& dismissed = ui.state.dismissedMessage;
+  if (ui.view.message.empty()) {
+    dismissed.clear();
   }
+  if (ui.view.message == dismissed) {
+    return;
+  }
+  const float em = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({picture.corner.x + 0.5f * picture.size.x, picture.corner.y + em}, ImGuiCond_Always,
+                          {0.5f, 0.0f});
+  ImGui::SetNextWindowSize({std::clamp(picture.size.x - 2.0f * em, 20.0f * em, 40.0f * em), 0.0f});
+  ImGui::SetNextWindowBgAlpha(1.0f);
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
+  if (ImGui::Begin("Message", nullptr, flags)) {
+    coloredText(errorColor, ui.view.message);
+    if (button(ui, "Dismiss", "message.dismiss", "Esc")) {
+      dismissed = ui.view.message;
+    }
+  }
+  ImGui::End();
+}
+
+std::string duration(double ms) {
+  return ms >= 1000.0 ? fmt::format("{:.2f} s", ms / 1000.0)
+                      : fmt::format("{:.{}f} ms", ms,
+                                    ms < 10.0    ? 2
+                                    : ms < 100.0 ? 1
+                                                 : 0);
 }
 
 void scene(PanelContext& ui) {

@@ -45,6 +45,8 @@ struct PanelState {
   std::string modelFile;                       // typed
   std::string saveAs;                          // typed
 
+  std::string dismissedMessage;
+
   std::vector<std::pair<std::string, PixelRect>> widgets;  // of this frame, by name
 };
 
@@ -64,7 +66,6 @@ inline constexpr const char* helpTitle = "Keys";
 inline constexpr const char* inspectorTitle = "Inspector";
 
 // Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
-void message(const PanelContext& ui);
 void scene(PanelContext& ui);
 void time(PanelContext& ui);
 void settings(PanelContext& ui);
@@ -83,7 +84,8 @@ bool hasTarget(const PassView& pass);
 void loading(PanelContext& ui);  // while something is loaded
 void help(PanelContext& ui);
 void inspector(PanelContext& ui, PanelDock& dock);
-void prompts(PanelContext& ui);  // over all others, while something is asked
+void message(PanelContext& ui, const WindowRect& picture);  // an error, until it is dismissed
+void prompts(PanelContext& ui);                             // over all others, while something is asked
 
 // Drawn over the picture, behind all windows.
 void passOutline(const PanelContext& ui);  // around the mirror that is pointed at, of a pass or skipped
@@ -102,6 +104,7 @@ void tip(const char* text);
 // After a widget: records where it stands, by name.
 void recordWidget(PanelContext& ui, std::string_view key);
 std::string mebibytes(uint64_t bytes);  // without the unit
+std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
 // Wraps at the window's edge.
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 void coloredText(const glm::vec3& color, const std::string& text);

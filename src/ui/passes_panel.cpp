@@ -104,7 +104,7 @@ void passRow(PanelContext& ui, const PassNode& node) {
     ui.state.choices.targets = !shown;
   }
   ImGui::TableNextColumn();
-  if (pass.framesAgo > 0) {
+  if (pass.framesAgo > 0 && !ui.view.frame.still) {
     ImGui::TextDisabled("%.3f", pass.gpuMs);
     tip("The cached image of an earlier frame is reused: nothing changed, or it was not its turn");
   } else {
@@ -172,7 +172,7 @@ void passes(PanelContext& ui) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
   }
-  ImGui::TextWrapped("CPU %.2f ms   GPU %.2f ms   %s MiB of device memory", frame.cpuMs, frame.gpuMs,
+  ImGui::TextWrapped("CPU %s   GPU %s   Memory %s MiB", duration(frame.cpuMs).c_str(), duration(frame.gpuMs).c_str(),
                      mebibytes(frame.deviceBytes).c_str());
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("passes", 5, flags)) {

@@ -1,9 +1,10 @@
 #include "ui/setting_widgets.hpp"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 
 #include "image/color.hpp"
 #include "ui/panels.hpp"
@@ -12,10 +13,13 @@ namespace speculum::panels {
 
 namespace {
 
+constexpr double brightest = 65504.0;  // of a color that 16-bit targets hold
+
 struct Widget {
   const SettingField& field;
   Settings& settings;
   const glm::dvec3& background;
+  std::span<const int> samples;  // of the device
 
   ImGuiSliderFlags flags() const {
     return ImGuiSliderFlags_AlwaysClamp | (field.slider->logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
@@ -51,13 +55,19 @@ struct Widget {
       return ImGui::SliderInt(field.label, &value, static_cast<int>(slider.low), static_cast<int>(slider.high),
                               slider.format, flags());
     }
+    const bool ofDevice = field.key.ends_with(".samples");
+    std::vector<int> powers;
     std::vector<std::string> names;
     for (int power = integer.low; power <= integer.high; power *= 2) {
-      names.push_back(std::to_string(power));
+      const bool offered = !ofDevice || std::ranges::count(samples, power) > 0;
+      if (offered || power == value) {
+        powers.push_back(power);
+        names.push_back(std::to_string(power) + (offered ? "" : " (not on this device)"));
+      }
     }
-    int index = std::countr_zero(static_cast<unsigned>(value)) - std::countr_zero(static_cast<unsigned>(integer.low));
+    int index = static_cast<int>(std::ranges::find(powers, value) - powers.begin());
     const bool changed = choice(field.label, index, names);
-    value = integer.low << index;
+    value = powers[static_cast<size_t>(index)];
     return changed;
   }
 
@@ -79,7 +89,7 @@ struct Widget {
   bool operator()(const ColorSetting& color) const {
     std::optional<glm::dvec3>& value = color.value.of(settings);
     glm::dvec3 linear = value.value_or(background);
-    const bool changed = colorEdit(field.label, linear);
+    const bool changed = colorEdit(field.label, linear, brightest);
     value = changed ? linear : value;
     return changed;
   }
@@ -102,21 +112,42 @@ bool choice(const char* label, int& index, std::span<const std::string> names) {
   return index != before;
 }
 
-bool colorEdit(const char* label, glm::dvec3& linear, int flags) {
-  glm::vec3 encoded;
+bool colorEdit(const char* label, glm::dvec3& linear, double most) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const double least = 0.0;
+  glm::vec3 picked;
   for (int i = 0; i < 3; ++i) {
-    encoded[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
+    picked[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
   }
-  const bool changed = ImGui::ColorEdit3(label, &encoded.x, flags);
-  for (int i = 0; changed && i < 3; ++i) {
-    linear[i] = srgbDecode(encoded[i]);
+  ImGui::BeginGroup();
+  ImGui::PushID(label);
+  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - style.ItemInnerSpacing.x);
+  bool changed = ImGui::DragScalarN("##numbers", ImGuiDataType_Double, &linear.x, 3, 0.002f, &least, &most, "%.3f",
+                                    ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
+  if (ImGui::ColorButton("##swatch", {picked.x, picked.y, picked.z, 1.0f}, ImGuiColorEditFlags_NoTooltip)) {
+    ImGui::OpenPopup("picker");
   }
+  if (ImGui::BeginPopup("picker")) {
+    if (ImGui::ColorPicker3("##picker", &picked.x, ImGuiColorEditFlags_NoSidePreview)) {
+      for (int i = 0; i < 3; ++i) {
+        linear[i] = std::round(srgbDecode(picked[i]) * 1e4) / 1e4;
+      }
+      changed = true;
+    }
+    ImGui::EndPopup();
+  }
+  ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
+  ImGui::TextUnformatted(label, ImGui::FindRenderedTextEnd(label));
+  ImGui::PopID();
+  ImGui::EndGroup();
   return changed;
 }
 
-bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background) {
+bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background,
+                   std::span<const int> samples) {
   ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
-  const bool changed = std::visit(Widget{field, settings, background}, field.kind);
+  const bool changed = std::visit(Widget{field, settings, background, samples}, field.kind);
   ImGui::PopID();
   return changed;
 }
@@ -125,7 +156,7 @@ void settingRows(PanelContext& ui, std::string_view prefix) {
   for (const SettingField& field : settingFields()) {
     const bool needed = !field.needs || settingValue(ui.settings, field.needs->key) == field.needs->value;
     if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {
-      settingWidget(field, ui.settings, glm::dvec3(ui.view.settings.background));
+      settingWidget(field, ui.settings, glm::dvec3(ui.view.settings.background), ui.view.device.samples);
       describe(ui, field.key);
     }
   }

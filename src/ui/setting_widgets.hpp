@@ -7,13 +7,13 @@ namespace speculum::panels {
 
 // A list to choose from. True if the user chose another of `names`.
 bool choice(const char* label, int& index, std::span<const std::string> names);
-// Colours are linear in the program and sRGB in the widget, as users know them from other programs. `flags` are Dear
-// ImGui's.
-bool colorEdit(const char* label, glm::dvec3& linear, int flags = 0);
+// Linear numbers, as files have them, up to `most`, and a swatch that opens a picker.
+bool colorEdit(const char* label, glm::dvec3& linear, double most);
 
 // The widget that a setting's description asks for. True if it changed the value. `background` (linear) is shown for a
-// colour that is not set. Texts have no widget.
-bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background);
+// color that is not set; of counts of samples only those of the device are offered. Texts have no widget.
+bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background,
+                   std::span<const int> samples);
 
 // A row for each setting whose key begins with `prefix`, but for those whose need is not met.
 void settingRows(PanelContext& ui, std::string_view prefix);

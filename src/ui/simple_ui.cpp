@@ -4,14 +4,17 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
 #include <imgui_internal.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "platform/folders.hpp"
+#include "ui/font.hpp"
 #include "ui/glfw_input.hpp"
 
 namespace speculum {
@@ -32,6 +35,20 @@ DescriptorPoolHandle createPool(Device& device) {
   check(vkCreateDescriptorPool(device.get(), &info, nullptr, &pool), "vkCreateDescriptorPool for the panel");
   device.setName(pool, "panel");
   return DescriptorPoolHandle(device.get(), pool);
+}
+
+void addFont(ImFontAtlas& atlas, float pixels) {
+  static const std::filesystem::path file = findFont();
+  // Names of scenes: Latin, Greek and Cyrillic.
+  static constexpr ImWchar characters[] = {0x20, 0x17f, 0x391, 0x3c9, 0x400, 0x45f, 0x2010, 0x2026, 0};
+  if (!file.empty() && atlas.AddFontFromFileTTF(file.c_str(), pixels, nullptr, characters)) {
+    return;
+  }
+  static std::once_flag warned;
+  std::call_once(warned, [] { spdlog::warn("no font was found: install fonts-dejavu-core for a readable one"); });
+  ImFontConfig builtIn;
+  builtIn.SizePixels = pixels;
+  atlas.AddFontDefault(&builtIn);
 }
 
 }  // namespace
@@ -105,9 +122,7 @@ void SimpleUI::prepareTheme() {
   backend_->shutdownVulkan();
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  ImFontConfig font;
-  font.SizePixels = std::floor(fontPixels * scale_);
-  atlas.AddFontDefault(&font);
+  addFont(atlas, std::floor(fontPixels * scale_));
   windows_.thumbnails().addTo(atlas);
   initVulkan();
 }

@@ -55,9 +55,10 @@ struct TargetView {
   std::optional<TexelView> value;               // under the pointer, a few frames later
 };
 
-// Figures of the frame that was drawn last.
+// Figures of the frame that drew the scene last.
 struct FrameView {
-  double frameMs = 0.0;  // smoothed
+  double frameMs = 0.0;  // smoothed, unless it is still
+  bool still = false;    // later frames drew the panels only
   double cpuMs = 0.0;
   double gpuMs = 0.0;
   FrameHistory history;
@@ -85,7 +86,7 @@ struct DeviceView {
   std::string driver;
   std::string vulkan;  // version
   std::string renderPath;
-  std::string samples;  // counts that it has
+  std::vector<int> samples;  // counts a pixel that it has, ascending
   std::vector<FeatureView> features;
   std::vector<std::string> presentModes;  // that the window offers
   size_t presentMode = 0;                 // index into them
