@@ -114,7 +114,7 @@ TEST(FrameReport, PanelOnlyFramesChangeNoFigure) {
   EXPECT_FALSE(report.view().still);
   frame(true, 14000.0, 1.0, timed(1, 13990.0));
   for (int i = 0; i < 100; ++i) {
-    frame(true, 20.0, 1.0, timed(number - 1, 3.0));
+    frame(true, 20.0, 1.0, timed(number, 3.0));
   }
   EXPECT_TRUE(report.view().still);
   EXPECT_EQ(report.view().frameMs, 13995.0);
@@ -141,7 +141,7 @@ TEST(CameraControl, FramesSpheresInAnyPictureShape) {
     CameraController camera;
     camera.reset(spec);
     camera.pose(start);
-    camera.frame(sphere, aspect);
+    camera.frame(sphere, aspect, {});
     const CameraPose pose = camera.pose(start);
     const glm::dvec3 seen = pose.worldToView * (sphere.center - pose.eye);
     EXPECT_NEAR(seen.x, 0.0, 1e-9);
@@ -152,6 +152,43 @@ TEST(CameraControl, FramesSpheresInAnyPictureShape) {
     EXPECT_NEAR(-seen.z * std::sin(narrower), sphere.radius, 1e-9);
     EXPECT_NEAR(glm::distance(pose.worldToView[0], start.worldToView[0]), 0.0, 1e-9) << "the direction stays";
   }
+}
+
+TEST(CameraControl, FramesBetweenPanelsAndOrbitsThere) {
+  CameraSpec spec;
+  spec.position = {1.0, 2.0, 3.0};
+  spec.target = {0.0, 0.5, 0.0};
+  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
+  CameraController camera;
+  camera.reset(spec);
+  camera.pose(start);
+  const glm::dvec3 center(5.0, -2.0, 1.0);
+  camera.frame({center, 3.0}, 2.0, {.center = {0.4, -0.1}, .half = {0.6, 0.9}});
+  for (int turn = 0; turn < 3; ++turn) {
+    const CameraPose pose = camera.pose(start);
+    const glm::dvec3 seen = pose.worldToView * (center - pose.eye);
+    const double slope = std::tan(0.5 * pose.verticalFov);
+    EXPECT_NEAR(seen.x / -seen.z / (2.0 * slope), 0.4, 1e-9) << "it stays while the camera orbits";
+    EXPECT_NEAR(seen.y / -seen.z / slope, -0.1, 1e-9);
+    camera.drag(40.0, 10.0);
+  }
+}
+
+TEST(CameraControl, OrbitStaysAboveTheFloor) {
+  CameraSpec spec;
+  spec.position = {0.0, 2.0, 4.0};
+  spec.target = {0.0, 1.0, 0.0};
+  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
+  CameraController camera;
+  camera.setMode(CameraMode::orbit);
+  camera.reset(spec);
+  camera.pose(start);
+  camera.setFloor(0.0);
+  for (int i = 0; i < 50; ++i) {
+    camera.drag(0.0, -20.0);
+    EXPECT_GT(camera.pose(start).eye.y, 0.0);
+  }
+  EXPECT_LT(camera.pose(start).eye.y, 0.5);
 }
 
 TEST(CameraControl, DragsTurnModeratelyAndStopAtThePole) {

@@ -42,9 +42,9 @@ std::string settingsList(std::string_view group) {
     if (field.key.starts_with(group)) {
       const std::string need =
           field.needs ? ", with `" + std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`" : "";
-      const std::string cost(field.cost);
       list += "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need +
-              (std::regex_search(cost, figure) ? "" : ". " + cost) + "\n";
+              ". " + std::string(field.cost) + "
+";
     }
   }
   return list;

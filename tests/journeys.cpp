@@ -210,7 +210,7 @@ TEST_F(Journey, MessagesAreSmallAndFade) {
   press("Tab");
   const Image8 before = picture();
   press("ctrl+z");
-  ASSERT_EQ(view().status.text, "nothing to undo");
+  ASSERT_EQ(view().status.text, "Nothing to undo");
   const Image8 with = picture();
   int right = 0;
   int top = height;

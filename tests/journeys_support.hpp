@@ -58,7 +58,7 @@ class Journey : public testing::Test {
     demo_ = std::make_unique<Demo>(options_);
     demo_->setCapture(true);
     ASSERT_TRUE(waitFor([&] { return demo_->framesDrawn() >= 4; }));
-    window_ = runProcess({"xdotool", "search", "--name", "^Speculum$"}).output;
+    window_ = runProcess({"xdotool", "search", "--name", "Speculum$"}).output;
     window_ = window_.substr(0, window_.find('\n'));
   }
   void run(int frames) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <fstream>
+
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"

@@ -98,13 +98,48 @@ TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
   run(2);
   click("view.samples");
   tap(ImGuiKey_UpArrow);
-  tap(ImGuiKey_Enter);
+  tap(ImGuiKey_Space);
   EXPECT_EQ(settings_.current.view.samples, 1);
   click("view.samples");
   tap(ImGuiKey_DownArrow);
   tap(ImGuiKey_DownArrow);
-  tap(ImGuiKey_Enter);
+  tap(ImGuiKey_Space);
   EXPECT_EQ(settings_.current.view.samples, 4) << "the highest";
+}
+
+TEST_F(PanelTest, MenusSendTheirCommands) {
+  browser_.recent = {"/scenes/two.obj"};
+  edit_.undo = "change Exposure";
+  click("menu.File");
+  click("menu.Open...");
+  EXPECT_TRUE(sent<AskWhatToOpen>());
+  click("menu.File");
+  click("menu.Open recent");
+  run(3);
+  click("menu./scenes/two.obj");
+  EXPECT_EQ(only<OpenScene>().file, "/scenes/two.obj");
+  click("menu.Edit");
+  click("menu.Undo change Exposure###Undo");
+  EXPECT_TRUE(sent<Undo>());
+  click("menu.View");
+  click("menu.Look out of mirror");
+  EXPECT_EQ(only<LookFromMirror>().side, MirrorSide::front);
+}
+
+TEST_F(PanelTest, FilesAreChosenFromTheWindowsOwnList) {
+  std::filesystem::create_directory(config_.path() / "models");
+  std::ofstream(config_.path() / "models" / "a.obj") << "v 0 0 0";
+  std::ofstream(config_.path() / "notes.txt") << "no scene";
+  edit_.proposedFile = config_.path();
+  edit_.prompt = Prompt::open;
+  run(4);
+  EXPECT_FALSE(has("open.notes.txt"));
+  click("open.models");
+  click("open.open");
+  click("open.a.obj");
+  EXPECT_FALSE(sent<OpenScene>()) << "one click only selects";
+  click("open.open");
+  EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, config_.path() / "models" / "a.obj"));
 }
 
 TEST_F(PanelTest, GalleryOpensScenes) {
@@ -131,10 +166,10 @@ TEST_F(PanelTest, OpenWindowsAreRemembered) {
 
 TEST_F(PanelTest, LayoutIsKeptInTheUsersFolder) {
   const PixelRect before = widget("time");
-  moveTo(200, 22);
+  moveTo(200, 42);
   hold(true);
-  moveTo(260, 62);
-  moveTo(330, 102);
+  moveTo(260, 82);
+  moveTo(330, 122);
   hold(false);
   const PixelRect moved = widget("time");
   EXPECT_EQ(moved.x - before.x, 130);
@@ -187,7 +222,7 @@ TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
   resize(1050, 700);
   EXPECT_EQ(widget("performance.copy").x, csv.x + 150) << "docked windows follow the edge";
   resize(900, 700);
-  click("section.window", 0.1);
+  click("menu.Window");
   run(2);
   click("window.reset");
   run(3);
@@ -195,9 +230,10 @@ TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
 }
 
 TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
-  click("section.window", 0.1);
+  click("menu.Window");
   click("theme.light", 0.1);
   EXPECT_EQ(windows_->state().choices.theme, Theme::light);
+  click("menu.Window");
   drag("window.size", 0.2, 40);
   EXPECT_GT(windows_->state().choices.percent, 110);
   const int percent = windows_->state().choices.percent;
@@ -210,7 +246,7 @@ TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
 
 TEST_F(PanelTest, PresentModesAreThoseOffered) {
   device_.presentModes = {"fifo", "immediate"};
-  click("section.window", 0.1);
+  click("menu.Window");
   click("present.immediate", 0.1);
   EXPECT_EQ(only<SetPresentMode>().index, 1u);
 }

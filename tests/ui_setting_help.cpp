@@ -12,11 +12,8 @@ namespace speculum {
 namespace {
 
 TEST(SettingHelp, NamesEffectRangeAndCost) {
-  EXPECT_EQ(
-      settingHelp("reflection.mesh_error"),
-      "reflection.mesh_error\n"
-      "texels by which simplified objects in mirror images may be off; 0 draws all triangles (texels, 0 .. 16)\n\n"
-      "Saves vertices; shading shifts a little. No effect while rays are traced.");
+  EXPECT_EQ(settingHelp("view.samples"),
+            "Samples a pixel of the main view. Shading grows with it.\nview.samples: 1 2 4 8");
   EXPECT_EQ(settingHelp("no.such_key"), "");
 }
 
@@ -27,7 +24,8 @@ TEST(SettingHelp, FiguresStandInTheMeasurements) {
   const std::regex figure("[0-9]+\\.[0-9]+");
   int figures = 0;
   for (const SettingField& field : settingFields()) {
-    const std::string text(field.cost);
+    const std::string text(field.measured);
+    EXPECT_EQ(settingHelp(field.key).find("H200"), std::string::npos) << "another device than the user's";
     for (std::sregex_iterator it(text.begin(), text.end(), figure), end; it != end; ++it, ++figures) {
       EXPECT_NE(measurements.str().find(it->str()), std::string::npos) << field.key << ": " << it->str();
     }

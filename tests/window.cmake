@@ -1,6 +1,6 @@
 # Controllers and panels of the window, without a display.
 speculum_test(workspace_tests SOURCES workspace_editing.cpp workspace_saving.cpp workspace_view.cpp app_units.cpp app_motion.cpp
-              LIBRARIES picture_support)
+              LIBRARIES picture_support ext::spdlog)
 speculum_test(panel_tests SOURCES ui_panels.cpp ui_input_map.cpp LIBRARIES picture_support ext::imgui)
 speculum_test(thumbnail_tests SOURCES thumbnails.cpp picture_agreement.cpp LIBRARIES picture_support LABELS pictures)
 

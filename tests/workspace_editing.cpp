@@ -68,7 +68,7 @@ TEST_F(Editing, DraggedAxisFollowsThePixels) {
   EXPECT_NEAR(object().position.y, 1.0 + 50.0 / focalPixels, 2e-4);
   const std::string moved = text();
   send(Undo{});
-  EXPECT_EQ(status(), "undone: move object 'ball'");
+  EXPECT_EQ(status(), "Undone: move object 'ball'");
   send(Undo{});
   EXPECT_EQ(text(), before);
   send(Redo{});
@@ -76,7 +76,7 @@ TEST_F(Editing, DraggedAxisFollowsThePixels) {
   EXPECT_EQ(text(), moved);
   EXPECT_EQ(edit().redo, "");
   send(Redo{});
-  EXPECT_EQ(status(), "nothing to redo");
+  EXPECT_EQ(status(), "Nothing to redo");
 }
 
 TEST_F(Editing, RingsRotateAndSnap) {
@@ -225,7 +225,7 @@ TEST_F(Editing, ReusedImagesAreDroppedAfterEdits) {
   Settings settings = workspace_->settings();
   settings.reflection.updateInterval = 8;
   send(SetSettings{settings});
-  send(Undo{});
+  drag(ballAt_ + glm::dvec2(93.0, 0.0), {-33.0, 0.0});
   EXPECT_GT(host_.drops, drops);
 }
 

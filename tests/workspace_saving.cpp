@@ -239,7 +239,7 @@ class CopiedCommand : public Saving {
  protected:
   std::string command() {
     send(CopyCommandLine{});
-    EXPECT_EQ(status().find("copied: " + host_.clipboard), 0u) << status();
+    EXPECT_EQ(status().find("Copied: " + host_.clipboard), 0u) << status();
     return host_.clipboard;
   }
   // The scene that the command draws.
@@ -273,7 +273,7 @@ TEST_F(CopiedCommand, NamesACopyWithUnsavedChanges) {
   EXPECT_EQ(onDisk().objects.size(), 1u) << "the scene's own file is as it was";
   send(Undo{});
   EXPECT_EQ(drawnScene().file, options_.scene);
-  EXPECT_EQ(status(), "copied: " + host_.clipboard);
+  EXPECT_EQ(status(), "Copied: " + host_.clipboard);
 }
 
 TEST_F(CopiedCommand, LeavesSavedSettingsToTheFile) {

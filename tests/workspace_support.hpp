@@ -40,13 +40,15 @@ class FakeHost : public WorkspaceHost {
   void dropCachedImages() override { ++drops; }
   void scenesListed() override { ++lists; }
   glm::ivec2 pictureSize() const override { return size; }
+  PixelRect freePicture() const override { return free.value_or(PixelRect{0, 0, size.x, size.y}); }
   double contentScale() const override { return 1.0; }
   std::string gpu() const override { return "0"; }
   void setClipboard(const std::string& text) override { clipboard = text; }
+  void setTitle(const std::string& text) override { title = text; }
   void close() override { closed = true; }
   void toggleFullScreen() override {}
   void setPresentMode(size_t) override {}
-  void togglePanels() override {}
+  bool togglePanels() override { return panels = !panels; }
   void toggleHelp() override {}
   void toggleInspector() override { inspector = !inspector; }
   void openInspector() override { inspector = true; }
@@ -57,7 +59,10 @@ class FakeHost : public WorkspaceHost {
   int drops = 0;
   int lists = 0;
   glm::ivec2 size{width, height};
+  std::optional<PixelRect> free;
   std::string clipboard;
+  std::string title;
+  bool panels = true;
   bool closed = false;
   bool inspector = false;
 };

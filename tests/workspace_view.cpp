@@ -193,6 +193,45 @@ TEST_F(WindowView, CapturesThatFailSaySo) {
   EXPECT_FALSE(workspace_->capture().wanted());
 }
 
+TEST_F(WindowView, UndoCoversSettingsInOrder) {
+  setExposure(2.0);
+  send(AddLight{});
+  setExposure(4.0);
+  Settings held = workspace_->settings();
+  held.view.exposure = 5.0;
+  send(SetSettings{held, true});
+  EXPECT_EQ(edit().undo, "change Exposure");
+  send(Undo{});
+  EXPECT_EQ(workspace_->settings().view.exposure, 2.0) << "a widget that is held makes one step";
+  const size_t lights = scene().lights.size();
+  send(Undo{});
+  EXPECT_EQ(scene().lights.size(), lights - 1);
+  send(Undo{});
+  EXPECT_EQ(workspace_->settings().view.exposure, 1.0);
+  for (int i = 0; i < 3; ++i) {
+    send(Redo{});
+  }
+  EXPECT_EQ(workspace_->settings().view.exposure, 5.0);
+  EXPECT_EQ(scene().lights.size(), lights);
+  send(Undo{});
+  send(AddLight{});
+  EXPECT_EQ(edit().redo, "") << "what was undone is gone with a new step";
+  send(Undo{});
+  send(Redo{});
+  EXPECT_EQ(edit().redo, "");
+}
+
+TEST_F(WindowView, TitleNamesTheSceneAndItsState) {
+  EXPECT_EQ(host_.title, "workspace - Speculum");
+  setExposure(2.0);
+  EXPECT_EQ(host_.title, "workspace* - Speculum");
+}
+
+TEST_F(WindowView, HiddenPanelsSayHowTheyReturn) {
+  send(TogglePanel{});
+  EXPECT_EQ(status(), "Panels hidden. Tab shows them again.");
+}
+
 TEST_F(WindowView, WarningsReachTheStatusLine) {
   spdlog::warn("this device has no 8 samples\nmore");
   frame();
@@ -265,6 +304,33 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   EXPECT_EQ(shownScene(), "workspace");
   drop({model("gem.obj")});
   EXPECT_EQ(workspace_->problem(), "") << "gone with the next scene";
+}
+
+TEST_F(Opening, WithoutADialogTheWindowAsks) {
+  const std::string path = environment("PATH");
+  setEnvironment("PATH", "");
+  send(AskWhatToOpen{});
+  setEnvironment("PATH", path);
+  EXPECT_EQ(edit().prompt, Prompt::open);
+  EXPECT_TRUE(fs::equivalent(edit().proposedFile, fs::path(options_.scene).parent_path()));
+  send(OpenScene{sourceFile("models/sphere.obj")});
+  EXPECT_EQ(edit().prompt, Prompt::none);
+  waitFor([&] { return shownScene() == "sphere.obj"; });
+  EXPECT_EQ(view().browser.recent.at(0).filename(), "sphere.obj");
+  start();
+  EXPECT_EQ(view().browser.recent.at(0).filename(), "sphere.obj") << "in the next session";
+}
+
+TEST_F(Opening, DesktopsDialogNamesTheFile) {
+  const fs::path dialog = home_.path() / "zenity";
+  std::ofstream(dialog) << "#!/bin/sh\necho a warning >&2\necho " << sourceFile("models/sphere.obj").string() << "\n";
+  fs::permissions(dialog, fs::perms::owner_all);
+  const std::string path = environment("PATH");
+  setEnvironment("PATH", home_.path().string() + ":" + path);
+  send(AskWhatToOpen{});
+  setEnvironment("PATH", path);
+  EXPECT_EQ(edit().prompt, Prompt::none);
+  waitFor([&] { return shownScene() == "sphere.obj"; });
 }
 
 TEST_F(Opening, LoadingIsCancelled) {

@@ -70,12 +70,14 @@ Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& se
 
 void CameraController::reset(const CameraSpec& spec) {
   spec_ = spec;
+  pivot_.reset();
   touched_ = false;
   last_ = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
 }
 
 void CameraController::stand(const CameraSpec& spec) {
   spec_ = spec;
+  pivot_.reset();
   eye_ = spec.position;
   target_ = spec.target;
   touched_ = true;
@@ -97,6 +99,7 @@ void CameraController::pan(double dx, double dy, double pictureHeight) {
   take(last_);
   const double metresPerPixel = 2.0 * std::tan(0.5 * last_.verticalFov) * glm::distance(eye_, target_) / pictureHeight;
   const glm::dvec3 step = glm::transpose(last_.worldToView) * glm::dvec3(-dx, dy, 0.0) * metresPerPixel;
+  pivot_.reset();
   eye_ += step;
   target_ += step;
 }
@@ -108,14 +111,22 @@ void CameraController::turn(double yawDegrees, double pitchDegrees) {
   const glm::dvec3 arm = orbit ? eye_ - target_ : target_ - eye_;
   const glm::dvec3 right = glm::dvec3(glm::transpose(last_.worldToView)[0]);
   const glm::dmat3 yaw = rotationAboutAxis(up, -yawDegrees);
-  glm::dvec3 turned = yaw * arm;
+  const glm::dvec3 turned = yaw * arm;
   // Towards the pole as far as is allowed. A scene may start steeper than that; back from there must be possible.
   const double height = glm::degrees(std::asin(std::clamp(glm::dot(glm::normalize(turned), up), -1.0, 1.0)));
   const double limit = std::max(glm::degrees(std::asin(steepest)), std::abs(height));
   const double rise = orbit ? pitchDegrees : -pitchDegrees;
-  const double pitch = std::clamp(height + rise, -limit, limit) - height;
-  turned = rotationAboutAxis(yaw * right, orbit ? -pitch : pitch) * turned;
-  (orbit ? eye_ : target_) = orbit ? target_ + turned : eye_ + turned;
+  const double above = floor_ + 10.0 * spec_.near - glm::dot(target_, up);  // of the lowest eye over the target
+  const double lowest = orbit ? glm::degrees(std::asin(std::clamp(above / glm::length(arm), -1.0, 1.0))) : -90.0;
+  const double pitch = std::clamp(height + rise, std::max(-limit, std::min(lowest, height)), limit) - height;
+  const glm::dmat3 turn = rotationAboutAxis(yaw * right, orbit ? -pitch : pitch) * yaw;
+  if (!orbit) {
+    target_ = eye_ + turn * arm;
+    return;
+  }
+  const glm::dvec3 pivot = pivot_.value_or(target_);
+  eye_ = pivot + turn * (eye_ - pivot);
+  target_ = pivot + turn * (target_ - pivot);
 }
 
 void CameraController::zoom(double notches) {
@@ -141,6 +152,7 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
     return;
   }
   take(last_);
+  pivot_.reset();
   // Near the target not ever slower, but slow enough for what the scene shows.
   const double least = std::min(0.5, 0.6 * glm::distance(spec_.position, spec_.target));
   const double speed = std::max(least, 0.6 * glm::length(eye_ - target_));  // metres per second
@@ -155,15 +167,20 @@ double CameraController::narrowerHalfAngle(double aspect) const {
   return std::min(vertical, std::atan(std::tan(vertical) * aspect));
 }
 
-void CameraController::frame(const Sphere& sphere, double aspect) {
+void CameraController::frame(const Sphere& sphere, double aspect, const Part& part) {
   take(last_);
-  const glm::dvec3 back = glm::transpose(last_.worldToView)[2];
-  target_ = sphere.center;
-  eye_ = sphere.center + back * (std::max(sphere.radius, 10.0 * spec_.near) / std::sin(narrowerHalfAngle(aspect)));
+  const glm::dvec2 slope = std::tan(0.5 * glm::radians(spec_.verticalFov)) * glm::dvec2(aspect, 1.0);
+  const double narrowest = std::atan(std::min(slope.x * part.half.x, slope.y * part.half.y));
+  const double distance = std::max(sphere.radius, 10.0 * spec_.near) / std::sin(narrowest);
+  const glm::dmat3 axes = glm::transpose(last_.worldToView);
+  target_ = sphere.center - axes * glm::dvec3(part.center * slope * distance, 0.0);
+  eye_ = target_ + axes[2] * distance;
+  pivot_ = sphere.center;
 }
 
 void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, double aspect) {
   take(last_);
+  pivot_.reset();
   const glm::dvec3 middle = vertexMean(mirror.polygon);
   double radius = 0.0;
   for (const glm::dvec3& vertex : mirror.polygon) {

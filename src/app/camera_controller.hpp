@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "edit/selection.hpp"
 #include "scene/scene_state.hpp"
 #include "ui/commands.hpp"
@@ -32,8 +35,16 @@ class CameraController {
   // Along right, up and backwards of the view, each in -1 .. 1, for `seconds`.
   void move(const glm::dvec3& direction, double seconds);
 
-  // Looks at all of the sphere, in the direction of now. `aspect`: width / height of the picture.
-  void frame(const Sphere& sphere, double aspect);
+  // Part of the picture, from (-1, -1) at its lower left to (1, 1).
+  struct Part {
+    glm::dvec2 center{0.0};
+    glm::dvec2 half{1.0};
+  };
+  // Shows all of the sphere in a part of the picture, in the direction of now, and orbits about its center. `aspect`:
+  // width / height of the picture.
+  void frame(const Sphere& sphere, double aspect, const Part& part);
+  // Height along up that orbits do not go below, unless the eye is there already.
+  void setFloor(double height) { floor_ = height; }
 
   // Stands behind the mirror or at its surface, before its middle, and looks where its front looks. From behind it is
   // as far off as shows all of its back. `aspect` as above.
@@ -52,8 +63,10 @@ class CameraController {
   CameraMode mode_ = CameraMode::orbit;
   CameraPose last_;
   bool touched_ = false;
-  glm::dvec3 eye_{0.0};     // world
-  glm::dvec3 target_{0.0};  // world; in fly mode a point ahead
+  glm::dvec3 eye_{0.0};              // world
+  glm::dvec3 target_{0.0};           // world; in fly mode a point ahead
+  std::optional<glm::dvec3> pivot_;  // of orbits, where it is not the target
+  double floor_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace speculum

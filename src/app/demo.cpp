@@ -84,7 +84,7 @@ bool Demo::stepOnce() {
 }
 
 void Demo::updateUi(double seconds) {
-  const bool navigating = ui_->navigating();
+  const bool navigating = ui_->navigating() || workspace_.prompting();
   workspace_.moveCamera(heldDirection(), navigating ? GamepadState{} : gamepad_, seconds);
   workspace_.prepareView(seconds, !overPanels());
   output_ = ui_->build(view());
@@ -262,6 +262,17 @@ glm::ivec2 Demo::pictureSize() const {
   return {static_cast<int>(extent.width), static_cast<int>(extent.height)};
 }
 
+// All of it where the panels leave too little.
+PixelRect Demo::freePicture() const {
+  const glm::ivec2 size = pictureSize();
+  const VkExtent2D window = window_.size();
+  const WindowRect free = ui_->windows().freeRect();
+  const glm::vec2 scale = glm::vec2(size) / glm::max(glm::vec2(window.width, window.height), 1.0f);
+  const glm::ivec2 corner(free.corner * scale);
+  const glm::ivec2 extent(free.size * scale);
+  return 4 * extent.x < size.x ? PixelRect{0, 0, size.x, size.y} : PixelRect{corner.x, corner.y, extent.x, extent.y};
+}
+
 void Demo::setPresentMode(size_t index) {
   deviceView_.presentMode = index;
   renderer_.setPresentMode(renderer_.presentModes().at(index));
@@ -314,7 +325,8 @@ void Demo::takeGamepad() {
   for (int i = 0; i < static_cast<int>(GamepadButton::count); ++i) {
     const auto button = static_cast<GamepadButton>(i);
     const GamepadCommand bound = commandOf(button);
-    if (gamepad_.down(button) && !before.down(button) && (bound.inPanels || !ui_->navigating())) {
+    if (gamepad_.down(button) && !before.down(button) && !workspace_.prompting() &&
+        (bound.inPanels || !ui_->navigating())) {
       apply(bound.command);
     }
   }
@@ -326,7 +338,7 @@ bool Demo::controlHeld() const {
 
 // Returns the direction of the held fly keys, along right, up and backwards of the view.
 glm::dvec3 Demo::heldDirection() const {
-  if (ui_->wantsKeyboard() || controlHeld()) {
+  if (ui_->wantsKeyboard() || controlHeld() || workspace_.prompting()) {
     return glm::dvec3(0.0);
   }
   const auto axis = [&](Key positive, Key negative) {

@@ -48,13 +48,18 @@ class Demo : private WorkspaceHost {
   void dropCachedImages() override { sceneRenderer_->restart(); }
   void scenesListed() override { ui_->setThumbnails(workspace_.browser().thumbnails()); }
   glm::ivec2 pictureSize() const override;
+  PixelRect freePicture() const override;
   double contentScale() const override { return window_.contentScale(); }
   std::string gpu() const override { return std::to_string(device_.info().index); }
   void setClipboard(const std::string& text) override { window_.setClipboard(text); }
+  void setTitle(const std::string& title) override { window_.setTitle(title); }
   void close() override;
   void toggleFullScreen() override { window_.setFullScreen(!window_.fullScreen()); }
   void setPresentMode(size_t index) override;
-  void togglePanels() override { ui_->windows().setVisible(!ui_->windows().visible()); }
+  bool togglePanels() override {
+    ui_->windows().setVisible(!ui_->windows().visible());
+    return ui_->windows().visible();
+  }
   void toggleHelp() override { ui_->windows().toggleHelp(); }
   void toggleInspector() override { ui_->windows().toggleInspector(); }
   void openInspector() override { ui_->windows().openInspector(); }

@@ -101,6 +101,12 @@ void DocumentController::askWhere() {
   prompt_ = Prompt::saveAs;
 }
 
+void DocumentController::askWhatToOpen(const fs::path& folder) {
+  proposed_ = folder;
+  note_.clear();
+  prompt_ = Prompt::open;
+}
+
 std::optional<Command> DocumentController::saveAs(const fs::path& file, const Settings& settings) {
   proposed_ = proposed_.parent_path() / file;  // a bare name means the folder that is suggested
   return saveTo(proposed_, settings) ? discard(settings) : std::nullopt;

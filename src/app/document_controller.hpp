@@ -26,6 +26,8 @@ class DocumentController {
   std::optional<Command> saveAs(const std::filesystem::path& file, const Settings& settings);
   std::optional<Command> discard(const Settings& settings);
   void askWhere();
+  void askWhatToOpen(const std::filesystem::path& folder);
+  void closeOpenPrompt() { prompt_ = prompt_ == Prompt::open ? Prompt::none : prompt_; }
   void cancelPrompt();
 
   bool savedSinceLastCall() { return std::exchange(saved_, false); }

@@ -1,6 +1,7 @@
 #include "app/frame_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "frame/effects.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame/scene_names.hpp"
+#include "frame/setting_fields.hpp"
 
 namespace speculum {
 
@@ -53,6 +55,19 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
                    .depth = probed->depth,
                    .metres = plan.projection.near / static_cast<double>(probed->storedDepth),
                    .value = probed->value};
+}
+
+// The switch's name where the effect has one.
+std::string effectLabel(EffectKind effect, const std::string& name) {
+  const auto without = settingsWithout(effect);
+  return without.empty() ? name : findSettingField(without.front().first)->label;
+}
+
+std::string_view reasonText(SkipReason reason) {
+  static constexpr std::array<std::string_view, 9> texts = {
+      "behind the eye",        "seen from behind", "outside the view",  "hidden",   "below Min. pixels",
+      "below Min. throughput", "above Max. depth", "above Max. passes", "unchanged"};
+  return texts[static_cast<size_t>(reason)];
 }
 
 // The view in which the last mirror of the path is drawn; null if it has no pass.
@@ -195,8 +210,10 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
 void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& ledger) {
   view_.effects.clear();
   for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
-    const EffectCost& cost = ledger[static_cast<EffectKind>(view_.effects.size())];
-    view_.effects.push_back({effect.name, effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
+    const auto kind = static_cast<EffectKind>(view_.effects.size());
+    const EffectCost& cost = ledger[kind];
+    view_.effects.push_back(
+        {effectLabel(kind, effect.name), effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
   }
 }
 
@@ -218,7 +235,7 @@ void FrameReport::updateSkipped(const RecordedFrame& frame, const std::vector<in
   view_.skipped.clear();
   for (const SkippedMirror& skip : skipped_) {
     view_.skipped.push_back(
-        {mirrorPathName(frame.scene, skip.path), skip.path, std::string(skipReasonName(skip.reason)), skip.detail});
+        {mirrorPathName(frame.scene, skip.path), skip.path, std::string(reasonText(skip.reason)), skip.detail});
   }
 }
 

@@ -3,9 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "image/picture_files.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "scene/input_error.hpp"
 
@@ -15,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t mostListed = 64;      // scenes of one folder
+constexpr size_t mostListed = 64;  // scenes of one folder
+constexpr size_t mostRecent = 10;
 constexpr int largestThumbnail = 192;  // pixels; scripts/thumbnails makes no larger ones
 
 std::vector<fs::path> filesIn(const fs::path& folder) {
@@ -31,7 +34,35 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   return files;
 }
 
+fs::path recentFile() {
+  return userConfigDir() / "recent";
+}
+
 }  // namespace
+
+SceneBrowser::SceneBrowser() {
+  const auto content = readFileIfAny(recentFile());
+  std::istringstream lines(content ? std::string(content->begin(), content->end()) : std::string());
+  std::error_code none;
+  for (std::string line; std::getline(lines, line) && view_.recent.size() < mostRecent;) {
+    if (fs::is_regular_file(line, none)) {
+      view_.recent.emplace_back(line);
+    }
+  }
+}
+
+void SceneBrowser::remember(const fs::path& file) {
+  std::error_code none;
+  const fs::path whole = fs::absolute(file, none).lexically_normal();
+  std::erase(view_.recent, whole);
+  view_.recent.insert(view_.recent.begin(), whole);
+  view_.recent.resize(std::min(view_.recent.size(), mostRecent));
+  std::string text;
+  for (const fs::path& recent : view_.recent) {
+    text += recent.string() + "\n";
+  }
+  storeFile(recentFile(), text);
+}
 
 void SceneBrowser::list(const fs::path& file) {
   const std::vector<SceneEntry> before = std::exchange(view_.scenes, {});
@@ -64,6 +95,7 @@ size_t SceneBrowser::add(const fs::path& file) {
 }
 
 bool SceneBrowser::show(const fs::path& file, bool withFolder) {
+  remember(file);
   const size_t known = view_.scenes.size();
   view_.shown = add(file);
   const bool fresh = view_.scenes.size() > known;

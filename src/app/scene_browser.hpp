@@ -11,6 +11,7 @@ namespace speculum {
 // Lists the scenes to choose from, and loads one in the background.
 class SceneBrowser {
  public:
+  SceneBrowser();  // with the files that earlier sessions opened
   // Lists the scenes in the folder of `file`, then those that come with the program, then others that were opened
   // before; `file` is shown.
   void list(const std::filesystem::path& file);
@@ -38,7 +39,8 @@ class SceneBrowser {
     double done = 0.0;           // share, 0 .. 1
   };
 
-  size_t add(const std::filesystem::path& file);  // its index
+  void remember(const std::filesystem::path& file);  // among the recent ones, for later sessions too
+  size_t add(const std::filesystem::path& file);     // its index
 
   BrowserView view_;
   std::map<std::filesystem::path, size_t> indices_;  // into BrowserView::scenes, by canonical path

@@ -230,14 +230,31 @@ void SceneEditor::addObject(const SceneView& view, int mesh) {
   select(document_.addObject(mesh, pointAhead(view, 0.9, objectAhead * size)));
 }
 
-void SceneEditor::duplicate() {
+// On the side where the copy is in sight; the usual one if neither is.
+double SceneEditor::sideInSight(const SceneView& view, const Selection& node, const PixelRect& free) const {
+  for (const double side : {1.0, -1.0}) {
+    Scene copy;
+    copy.meshes = document_.scene().meshes;
+    const SceneNode beside = copyBeside(document_.scene(), node, side);
+    withNodes(copy, node.kind, [&](auto& nodes, const auto&) {
+      nodes.push_back(std::get<typename std::decay_t<decltype(nodes)>::value_type>(beside));
+    });
+    const auto at = view.picture.pixel(pivotOf(copy, evaluate(copy, view.state.time), {.kind = node.kind, .index = 0}));
+    if (at && at->x > free.x && at->x < free.x + free.width && at->y > free.y && at->y < free.y + free.height) {
+      return side;
+    }
+  }
+  return 1.0;
+}
+
+void SceneEditor::duplicate(const SceneView& view, const PixelRect& free) {
   const std::vector<Selection> nodes = selected();
   if (nodes.empty()) {
     return;
   }
   beginChange();
   if (nodes.size() == 1) {
-    return select(document_.duplicate(nodes.front()));
+    return select(document_.duplicate(nodes.front(), sideInSight(view, nodes.front(), free)));
   }
   const std::vector<Selection> copies = document_.duplicate(std::span(nodes));
   select(copies.front());

@@ -50,8 +50,8 @@ class SceneEditor {
   void endEdit();
   void addMirror(const SceneView& view);  // in the middle of the view, as the next two
   void addLight(const SceneView& view);
-  void addObject(const SceneView& view, int mesh);  // of the scene
-  void duplicate();
+  void addObject(const SceneView& view, int mesh);               // of the scene
+  void duplicate(const SceneView& view, const PixelRect& free);  // `free`: where no panel covers the picture, pixels
   void remove();
   void addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
@@ -86,6 +86,7 @@ class SceneEditor {
   PictureView clickedImage(const SceneView& view) const;
   Gizmo gizmo(const SceneView& view) const;
   const MeshOutline& meshOutline(const Selection& node);
+  double sideInSight(const SceneView& view, const Selection& node, const PixelRect& free) const;
   glm::dvec3 pointAhead(const SceneView& view, double part, double least = 0.0);
   Picker& picker();
 

@@ -1,6 +1,8 @@
 #include "app/view_controller.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace speculum {
 
@@ -24,6 +26,25 @@ int mirrorOfInterest(int last, size_t count, const Selection& selected, std::spa
   return mirror >= 0 && mirror < static_cast<int>(count) ? mirror : count > 0 ? 0 : -1;
 }
 
+// Along the camera's up, of all objects and mirrors.
+double lowestHeight(const Scene& scene) {
+  const SceneState state = evaluate(scene, 0.0);
+  const glm::dvec3 up = glm::normalize(scene.camera.up);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const InstanceState& instance : state.instances) {
+    const glm::dvec3 half = scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent;
+    const glm::dmat3& linear = instance.worldFromMesh.linear;
+    const double reach = glm::dot(glm::abs(up * linear), half);
+    lowest = std::min(lowest, glm::dot(instance.worldFromMesh.translation, up) - reach);
+  }
+  for (const MirrorState& mirror : state.mirrors) {
+    for (const glm::dvec3& vertex : mirror.polygon) {
+      lowest = std::min(lowest, glm::dot(vertex, up));
+    }
+  }
+  return std::isinf(lowest) ? -lowest : lowest;
+}
+
 }  // namespace
 
 void ViewController::reset(const Scene& scene) {
@@ -32,6 +53,7 @@ void ViewController::reset(const Scene& scene) {
 
 void ViewController::sceneChanged(const Scene& scene) {
   camera_.reset(scene.camera);
+  camera_.setFloor(lowestHeight(scene));
   lastMirror_ = -1;
   view_.bookmark = -1;
   listBookmarks(scene);

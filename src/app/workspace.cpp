@@ -30,6 +30,11 @@ std::vector<fs::path> findShippedModels() {
   return models;
 }
 
+std::string windowTitle(const EditView& edit) {
+  const bool unsaved = edit.unsaved || edit.unsavedSettings;
+  return edit.scene->file.stem().string() + (unsaved ? "* - Speculum" : " - Speculum");
+}
+
 }  // namespace
 
 Workspace::Workspace(const Options& options, WorkspaceHost& host)
@@ -55,9 +60,10 @@ void Workspace::startDocument() {
                .ofScene = loaded_->settings,
                .sky = environment.sky.has_value(),
                .background = glm::vec3(environment.background)};
+  settingsHistory_ = {};
   shownStructure_ = document_->editor().document().structureRevision();
   edit_ = {};
-  document_->fill(edit_, settings_.current);
+  fillEdit();
 }
 
 void Workspace::apply(const Command& command) {
@@ -84,8 +90,9 @@ void Workspace::apply(const Command& command) {
                  [&](const TogglePaused&) { playback_.setPaused(!playback_.view().paused); },
                  [&](const SetTimeSpeed& c) { playback_.setSpeed(c.factor); },
                  [&](const MultiplyTimeSpeed& c) { playback_.setSpeed(c.factor * playback_.view().speed); },
-                 [&](const SetSettings& c) { settings_.current = c.settings; },
-                 [&](const ResetSettings&) { settings_.current = loaded_->settings; },
+                 [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
+                 [&](const ResetSettings&) { setSettings(loaded_->settings); },
+                 [&](const AskWhatToOpen&) { askWhatToOpen(); },
                  [&](const OpenScene& c) { open(c.file); },
                  [&](const OpenDropped& c) { openDropped(c.files); },
                  [&](const CancelLoading&) {
@@ -124,13 +131,21 @@ void Workspace::apply(const Command& command) {
                    }
                  },
                  [&](const AddObject& c) { addObject(c.model); },
-                 [&](const DuplicateSelected&) { editor().duplicate(); },
+                 [&](const DuplicateSelected&) {
+                   if (const auto view = sceneView(time())) {
+                     editor().duplicate(*view, host_.freePicture());
+                   }
+                 },
                  [&](const RemoveSelected&) { editor().remove(); },
                  [&](const Undo&) { undo(); },
                  [&](const Redo&) { redo(); },
                  [&](const MeasureAccuracy&) { measureAccuracy(); },
                  [&](const CancelMeasurement&) { accuracy_.cancel(); },
-                 [&](const ApplyPoint& c) { accuracy_.applyPoint(c.point, settings_.current); },
+                 [&](const ApplyPoint& c) {
+                   Settings settings = settings_.current;
+                   accuracy_.applyPoint(c.point, settings);
+                   setSettings(settings);
+                 },
                  [&](const ShowDifference& c) { accuracy_.showDifference(c.shown); },
                  [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
                  [&](const ToggleRecording& c) { toggleRecording(c.withPanel); },
@@ -138,7 +153,7 @@ void Workspace::apply(const Command& command) {
                  [&](const CopyText& c) { host_.setClipboard(c.text); },
                  [&](const SetPresentMode& c) { host_.setPresentMode(c.index); },
                  [&](const ToggleFullScreen&) { host_.toggleFullScreen(); },
-                 [&](const TogglePanel&) { host_.togglePanels(); },
+                 [&](const TogglePanel&) { togglePanels(); },
                  [&](const ToggleHelp&) { host_.toggleHelp(); },
                  [&](const ToggleInspector&) { host_.toggleInspector(); },
                  [&](const Escape&) { escape(); },
@@ -196,7 +211,10 @@ double Workspace::aspect() const {
 }
 
 void Workspace::prepareView(double seconds, bool pointerOverPicture) {
-  document_->fill(edit_, settings_.current);
+  fillEdit();
+  if (title_ != windowTitle(edit_)) {
+    host_.setTitle(title_ = windowTitle(edit_));
+  }
   edit_.overlay = {};
   if (edit_.selected) {
     if (const auto view = sceneView(playback_.after(seconds))) {
@@ -206,6 +224,12 @@ void Workspace::prepareView(double seconds, bool pointerOverPicture) {
   }
   camera_.listBookmarks(scene());
   status_.update(capture_.wanted());
+}
+
+void Workspace::fillEdit() {
+  document_->fill(edit_, settings_.current);
+  edit_.undo = settingsHistory_.undoLabel(editor().document());
+  edit_.redo = settingsHistory_.redoLabel(editor().document());
 }
 
 UiView Workspace::view(const DeviceView& device, const std::string& message) const {
@@ -234,8 +258,11 @@ void Workspace::update() {
   if (const std::string warning = log_.takeProblem(); !warning.empty()) {
     status_.show(warning);
   }
+  takeChosenFile();
   browser_.updateView();
+  const Settings before = settings_.current;
   accuracy_.beforeFrame(settings_.current);
+  settingsHistory_.changed(before, settings_.current, true, editor().document());
 }
 
 // Images that are reused whatever they show would show the scene before the change, and those of mirrors whose indices
@@ -262,8 +289,40 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   accuracy_.afterFrame(shown, radiance);
 }
 
+// The desktop's dialog, if it has one that can be started; else a prompt of the window.
+void Workspace::askWhatToOpen() {
+  const fs::path folder = fs::absolute(scene().file).parent_path() / "";
+  if (fileDialog_) {
+    return;
+  }
+  if (const fs::path zenity = findProgram("zenity"); !zenity.empty()) {
+    fileDialog_ = std::make_unique<ChildProcess>(
+        std::vector<std::string>{zenity, "--file-selection", "--title=Open", "--filename=" + folder.string(),
+                                 "--file-filter=Scenes and models | *.toml *.obj", "--file-filter=All files | *"});
+  } else if (const fs::path kdialog = findProgram("kdialog"); !kdialog.empty()) {
+    fileDialog_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        kdialog, "--title", "Open", "--getopenfilename", folder, "Scenes and models (*.toml *.obj)"});
+  } else {
+    document_->askWhatToOpen(folder);
+  }
+}
+
+// The dialog may write warnings too; the file is the last line.
+void Workspace::takeChosenFile() {
+  const std::optional<ProcessResult> result = fileDialog_ ? fileDialog_->poll() : std::nullopt;
+  if (!result) {
+    return;
+  }
+  fileDialog_.reset();
+  const std::string text = result->output.substr(0, result->output.find_last_not_of("\n") + 1);
+  if (result->exitCode == 0 && !text.empty()) {
+    open(text.substr(text.rfind('\n') + 1));
+  }
+}
+
 // The prompt about unsaved changes comes first; its answer goes on here.
 void Workspace::open(const fs::path& file) {
+  document_->closeOpenPrompt();
   if (document_->confirmDiscard(settings_.current, OpenScene{file})) {
     Options options = options_;
     options.sweepResults.clear();  // of the scene that the window began with
@@ -367,22 +426,44 @@ void Workspace::escape() {
   status_.clear();
 }
 
+void Workspace::setSettings(const Settings& settings, bool continued) {
+  settingsHistory_.changed(settings_.current, settings, continued, editor().document());
+  settings_.current = settings;
+}
+
+void Workspace::togglePanels() {
+  if (!host_.togglePanels()) {
+    status_.show("Panels hidden. Tab shows them again.");
+  }
+}
+
 void Workspace::undo() {
-  const std::string step = editor().document().undoLabel();
-  editor().undo();
-  status_.set(step.empty() ? "nothing to undo" : "undone: " + step);
+  editor().release();
+  const std::string step = settingsHistory_.undoLabel(editor().document());
+  if (!settingsHistory_.undo(editor().document(), settings_.current)) {
+    editor().undo();
+  }
+  status_.set(step.empty() ? "Nothing to undo" : "Undone: " + step);
 }
 
 void Workspace::redo() {
-  const std::string step = editor().document().redoLabel();
-  editor().redo();
-  status_.set(step.empty() ? "nothing to redo" : "redone: " + step);
+  editor().release();
+  const std::string step = settingsHistory_.redoLabel(editor().document());
+  if (!settingsHistory_.redo(editor().document(), settings_.current)) {
+    editor().redo();
+  }
+  status_.set(step.empty() ? "Nothing to redo" : "Redone: " + step);
 }
 
 void Workspace::frameSelection() {
   const Sphere bounds = boundsOf(scene(), evaluate(scene(), time()), editor().document().selection());
   if (bounds.radius > 0.0) {
-    camera_.camera().frame(bounds, aspect());
+    const glm::dvec2 size = glm::max(glm::dvec2(host_.pictureSize()), 1.0);
+    const PixelRect free = host_.freePicture();
+    const glm::dvec2 half = glm::dvec2(free.width, free.height) / size;
+    const glm::dvec2 corner = 2.0 * glm::dvec2(free.x, free.y) / size;
+    camera_.camera().frame(bounds, aspect(),
+                           {.center = {corner.x + half.x - 1.0, 1.0 - corner.y - half.y}, .half = half});
   }
 }
 
@@ -413,9 +494,9 @@ void Workspace::copyCommandLine() {
     const std::string command = viewCommand(options, file, scene(), settings);
     host_.setClipboard(command);
     const bool copy = file != scene().file;
-    status_.set("copied: " + command + (copy ? "   (of a copy of the scene: it has unsaved changes)" : ""));
+    status_.set("Copied: " + command + (copy ? "   (of a copy of the scene: it has unsaved changes)" : ""));
   } catch (const std::runtime_error& error) {
-    status_.set("not copied: " + std::string(error.what()));
+    status_.set("Not copied: " + std::string(error.what()));
   }
 }
 

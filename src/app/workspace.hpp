@@ -8,8 +8,10 @@
 #include "app/playback.hpp"
 #include "app/pointer_controller.hpp"
 #include "app/scene_browser.hpp"
+#include "app/settings_history.hpp"
 #include "app/status_line.hpp"
 #include "app/view_controller.hpp"
+#include "platform/process.hpp"
 
 namespace speculum {
 
@@ -23,13 +25,15 @@ class WorkspaceHost {
   virtual void dropCachedImages() = 0;
   virtual void scenesListed() = 0;             // the list of scenes has changed
   virtual glm::ivec2 pictureSize() const = 0;  // pixels; 0 while there is nothing to see
+  virtual PixelRect freePicture() const = 0;   // part of it that no panel covers
   virtual double contentScale() const = 0;
   virtual std::string gpu() const = 0;  // as --gpu names it
   virtual void setClipboard(const std::string& text) = 0;
+  virtual void setTitle(const std::string& title) = 0;
   virtual void close() = 0;
   virtual void toggleFullScreen() = 0;
   virtual void setPresentMode(size_t index) = 0;
-  virtual void togglePanels() = 0;
+  virtual bool togglePanels() = 0;  // whether they are shown then
   virtual void toggleHelp() = 0;
   virtual void toggleInspector() = 0;
   virtual void openInspector() = 0;
@@ -63,7 +67,7 @@ class Workspace {
 
   // Whether frames are wanted although nothing happens.
   bool animates() const { return !playback_.view().paused && moves(scene()); }
-  bool working() const { return accuracy_.working() || browser_.loading(); }
+  bool working() const { return accuracy_.working() || browser_.loading() || fileDialog_; }
   uint64_t revision() const { return document_->editor().document().revision(); }
   bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
@@ -87,6 +91,8 @@ class Workspace {
   const DocumentController& document() const { return *document_; }
 
  private:
+  void askWhatToOpen();
+  void takeChosenFile();
   void open(const std::filesystem::path& file);
   void openDropped(const std::vector<std::filesystem::path>& files);
   void showScene(std::unique_ptr<LoadedScene> scene);
@@ -96,6 +102,8 @@ class Workspace {
   void resume(const std::optional<Command>& afterPrompt);
   void quit();
   void escape();
+  void setSettings(const Settings& settings, bool continued = false);
+  void togglePanels();
   void undo();
   void redo();
   void copyCommandLine();
@@ -104,6 +112,7 @@ class Workspace {
   void frameSelection();
   void lookFromMirror(MirrorSide side);
   void takeSceneChange();
+  void fillEdit();
   std::optional<SceneView> sceneView(double time);
   Options shownOptions(const std::filesystem::path& file);
   double aspect() const;
@@ -125,7 +134,10 @@ class Workspace {
   StatusLine status_;
   FrameReport report_;
   SettingsView settings_;
+  SettingsHistory settingsHistory_;
   EditView edit_;
+  std::unique_ptr<ChildProcess> fileDialog_;  // while it is open
+  std::string title_;                         // of the window
   std::string problem_;
   uint64_t shownStructure_ = 0;  // of the scene, in the last frame
 };

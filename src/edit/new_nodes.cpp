@@ -11,10 +11,13 @@ namespace speculum {
 
 namespace {
 
+// Two digits, so that sizes are what a person would type.
 double distanceOf(const glm::dvec3& position, const glm::dvec3& viewer) {
-  const double distance = glm::length(viewer - position);
+  const double length = glm::length(viewer - position);
   // The loader refuses a mirror that is too small for its distance from the origin.
-  return std::max(distance > 0.0 ? distance : 1.0, 1e-8 * glm::length(position));
+  const double distance = std::max(length > 0.0 ? length : 1.0, 1e-8 * glm::length(position));
+  const double perUnit = std::pow(10.0, 1.0 - std::floor(std::log10(distance)));
+  return std::round(distance * perUnit) / perUnit;
 }
 
 glm::dmat3 linearOf(const Object& object) {
@@ -63,8 +66,8 @@ SceneNode copyMoved(const SceneNode& node, const glm::dvec3& step) {
 Mirror newMirror(const glm::dvec3& position, const glm::dvec3& viewer) {
   const glm::dvec3 toViewer = viewer - position;
   const double distance = distanceOf(position, viewer);
-  Mirror mirror{.name = "mirror", .position = position, .size = {0.3 * distance, 0.4 * distance}};
-  mirror.rotation.y = glm::degrees(std::atan2(toViewer.x, toViewer.z));
+  Mirror mirror{.name = "mirror", .position = position, .size = {3.0 * distance / 10.0, 4.0 * distance / 10.0}};
+  mirror.rotation.y = std::round(10.0 * glm::degrees(std::atan2(toViewer.x, toViewer.z))) / 10.0;
   return mirror;
 }
 
@@ -81,18 +84,18 @@ Object newObject(const Scene& scene, int mesh, const glm::dvec3& position) {
   return object;
 }
 
-SceneNode copyBeside(const Scene& scene, const Selection& selection) {
+SceneNode copyBeside(const Scene& scene, const Selection& selection, double side) {
   const size_t index = selection.index;
   switch (selection.kind) {
     case Selection::Kind::object: {
       const Object& object = scene.objects.at(index);
       const double width = 2.2 * halfExtent(object, scene.meshes.at(object.mesh)).x + std::abs(rowOf(object).x);
-      return copyMoved(object, {width, 0.0, 0.0});
+      return copyMoved(object, {side * width, 0.0, 0.0});
     }
     case Selection::Kind::mirror:
-      return copyMoved(scene.mirrors.at(index), stepInPlane(evaluate(scene, 0.0).mirrors[index]));
+      return copyMoved(scene.mirrors.at(index), side * stepInPlane(evaluate(scene, 0.0).mirrors[index]));
     case Selection::Kind::light:
-      return copyMoved(scene.lights.at(index), {6.0 * scene.lights[index].radius, 0.0, 0.0});
+      return copyMoved(scene.lights.at(index), {side * 6.0 * scene.lights[index].radius, 0.0, 0.0});
     default:
       return {};
   }

@@ -77,6 +77,7 @@ void SceneDocument::record(Step step) {
     return;
   }
   redo_.clear();
+  ++changes_;
   push(std::move(step));
 }
 
@@ -87,6 +88,7 @@ void SceneDocument::push(Step step) {
   while (undo_.size() > mostSteps || (undo_.size() > 1 && undoBytes_ > mostBytes)) {
     undoBytes_ -= undo_.front().bytes;
     undo_.pop_front();
+    ++dropped_;
   }
 }
 
@@ -156,9 +158,9 @@ Selection SceneDocument::addObject(int mesh, const glm::dvec3& position) {
   return add(newObject(scene_, mesh, position));
 }
 
-Selection SceneDocument::duplicate(const Selection& selection) {
+Selection SceneDocument::duplicate(const Selection& selection, double side) {
   return selection ? structural("duplicate " + describe(scene_, selection),
-                                [&] { return append(copyBeside(scene_, selection)); })
+                                [&] { return append(copyBeside(scene_, selection, side)); })
                    : selection;
 }
 
@@ -224,6 +226,7 @@ void SceneDocument::endGesture() {
     return;
   }
   redo_.clear();
+  ++changes_;
   push(std::move(step));
 }
 

@@ -42,8 +42,8 @@ class SceneDocument {
   Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer);
   Selection addLight(const glm::dvec3& position, const glm::dvec3& viewer);
   Selection addObject(int mesh, const glm::dvec3& position);
-  // Throws std::out_of_range for what does not exist.
-  Selection duplicate(const Selection& selection);
+  // Beside the node, on the other side for -1. Throws std::out_of_range for what does not exist.
+  Selection duplicate(const Selection& selection, double side = 1.0);
   void remove(const Selection& selection);  // nothing is selected afterwards
   // Several different nodes in one step. Their copies stay together; the first is selected, all are returned in the
   // order of `nodes`.
@@ -58,6 +58,10 @@ class SceneDocument {
   bool canRedo() const { return !redo_.empty(); }
   std::string undoLabel() const { return undo_.empty() ? "" : undo_.back().label; }  // "move object 'teapot'"
   std::string redoLabel() const { return redo_.empty() ? "" : redo_.back().label; }
+  // Steps that were taken and not undone, and steps that were ever taken.
+  size_t position() const { return dropped_ + undo_.size(); }
+  uint64_t changes() const { return changes_; }
+  void clearRedo() { redo_.clear(); }
   void undo();  // nothing happens if there is no step
   void redo();
 
@@ -107,6 +111,8 @@ class SceneDocument {
   std::deque<Step> undo_;
   std::vector<Step> redo_;
   size_t undoBytes_ = 0;
+  size_t dropped_ = 0;    // of the oldest steps
+  uint64_t changes_ = 0;  // steps ever taken
   std::optional<Step> gesture_;
   Selection selection_;
   SceneContent saved_;

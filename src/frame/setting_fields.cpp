@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <sstream>
 
 #include "scene/member_count.hpp"
@@ -72,18 +73,21 @@ constexpr SettingField fields[] = {
      .kind = IntegerSetting{at<&R::samples>, 1, 8, false, true},
      .label = "Samples",
      .text = "samples a pixel of mirror images",
-     .cost = "In gallery, with view.samples: 3.46, 5.68, 9.46 ms with 1, 4, 8 (H200)."},
+     .cost = "Shading grows with it.",
+     .measured = "In gallery, with view.samples: 3.46, 5.68, 9.46 ms with 1, 4, 8 (H200)."},
     {.key = "reflection.max_depth",
      .kind = IntegerSetting{at<&R::maxDepth>, 0, 32},
      .label = "Max. depth",
      .text = "levels of mirror images: 1 for mirrors seen directly, one more for each mirror in a mirror",
-     .cost = "In facing_mirrors at depth 16 over 1, 4 samples: 1.40 times on an H200, 4.21 on a CPU.",
+     .cost = "Each level adds passes.",
+     .measured = "In facing_mirrors at depth 16 over 1, 4 samples: 1.40 times on an H200, 4.21 on a CPU.",
      .slider = SettingSlider{0, 32, "%d", false}},
     {.key = "reflection.min_pixels",
      .kind = NumberSetting{at<&R::minPixels>, 0.0, 1e12, true},
      .label = "Min. pixels",
      .text = "smallest visible mirror area worth a pass",
-     .cost = "Saves passes of small mirrors: 0.02 ms of the CPU each beside an H200.",
+     .cost = "Saves passes of small mirrors.",
+     .measured = "0.02 ms of the CPU each beside an H200.",
      .unit = "pixels",
      .slider = SettingSlider{0.0, 1e4, "%.1f"}},
     {.key = "reflection.min_throughput",
@@ -96,7 +100,8 @@ constexpr SettingField fields[] = {
      .kind = IntegerSetting{at<&R::maxPasses>, 1, anyCount, true},
      .label = "Max. passes",
      .text = "most mirror passes a frame, best first",
-     .cost = "Bounds the time. mirror_maze needs 55.",
+     .cost = "Bounds the time.",
+     .measured = "mirror_maze needs 55.",
      .slider = SettingSlider{1, 256, "%d", false}},
     {.key = "reflection.update_interval",
      .kind = IntegerSetting{at<&R::updateInterval>, 1, anyCount, true},
@@ -135,7 +140,8 @@ constexpr SettingField fields[] = {
      .kind = IntegerSetting{at<&V::samples>, 1, 8, false, true},
      .label = "Samples",
      .text = "samples a pixel of the main view",
-     .cost = "In single_plane, with reflection.samples: 1.11, 3.18, 5.75 ms with 1, 4, 8 (H200).",
+     .cost = "Shading grows with it.",
+     .measured = "In single_plane, with reflection.samples: 1.11, 3.18, 5.75 ms with 1, 4, 8 (H200).",
      .changes = mainView},
     {.key = "view.accumulate",
      .kind = IntegerSetting{at<&V::accumulate>, 1, 1024},
@@ -193,12 +199,14 @@ constexpr SettingField fields[] = {
      .kind = BooleanSetting{at<&E::shadows>},
      .label = "Shadows",
      .text = "shadows of lights that cast them",
-     .cost = "Rays: 76.9 of 80.0 ms in shadows (H200, at every sample)."},
+     .cost = "Traces rays wherever lights reach.",
+     .measured = "Rays: 76.9 of 80.0 ms in shadows (H200, at every sample)."},
     {.key = "effects.roughness",
      .kind = BooleanSetting{at<&E::roughness>},
      .label = "Roughness",
      .text = "blur of rough mirrors",
-     .cost = "Rays: 344.2 of 350.4 ms in rough with 64 a pixel (H200)."},
+     .cost = "Traces rays in rough mirrors.",
+     .measured = "Rays: 344.2 of 350.4 ms in rough with 64 a pixel (H200)."},
     {.key = "effects.rough_samples",
      .kind = IntegerSetting{at<&E::roughSamples>, 1, 4096},
      .label = "Rough samples",
@@ -214,27 +222,32 @@ constexpr SettingField fields[] = {
      .kind = BooleanSetting{at<&E::perSample>},
      .label = "Rays at every sample",
      .text = "shadows and curved mirrors at every sample, not once a pixel",
-     .cost = "In mirror_ball: 130.0 instead of 54.7 ms (H200)."},
+     .cost = "Traces as many rays as a pixel has samples.",
+     .measured = "In mirror_ball: 130.0 instead of 54.7 ms (H200)."},
     {.key = "effects.ripple",
      .kind = BooleanSetting{at<&E::ripple>},
      .label = "Ripples",
      .text = "ripples of mirrors",
-     .cost = "Rays: 0.7 of 102.5 ms in pool (H200)."},
+     .cost = "Traces rays where water is seen.",
+     .measured = "Rays: 0.7 of 102.5 ms in pool (H200)."},
     {.key = "effects.casts_light",
      .kind = BooleanSetting{at<&E::castsLight>},
      .label = "Bounced light",
      .text = "light bounced off mirrors",
-     .cost = "Rays: 66.2 of 102.5 ms in pool (H200, at every sample)."},
+     .cost = "Traces rays near such mirrors.",
+     .measured = "Rays: 66.2 of 102.5 ms in pool (H200, at every sample)."},
     {.key = "effects.curved",
      .kind = BooleanSetting{at<&E::curved>},
      .label = "Curved mirrors",
      .text = "objects that are mirrors",
-     .cost = "Rays: 70.5 of 130.0 ms in mirror_ball (H200, at every sample)."},
+     .cost = "Traces rays in such objects.",
+     .measured = "Rays: 70.5 of 130.0 ms in mirror_ball (H200, at every sample)."},
     {.key = "effects.fresnel",
      .kind = BooleanSetting{at<&E::fresnel>},
      .label = "Fresnel",
      .text = "mirrors that reflect more at grazing angles",
-     .cost = "Up to 0.24 ms (H200)."},
+     .cost = "Costs next to nothing.",
+     .measured = "Up to 0.24 ms (H200)."},
     {.key = "effects.textures",
      .kind = BooleanSetting{at<&E::textures>},
      .label = "Textures",
@@ -316,7 +329,8 @@ constexpr SettingField fields[] = {
      .kind = BooleanSetting{at<&D::skipHidden>},
      .label = "Skip hidden mirrors",
      .text = "mirrors that other mirrors or objects hide have no pass",
-     .cost = "mirror_maze needs 55 passes instead of 2613.",
+     .cost = "Saves passes.",
+     .measured = "mirror_maze needs 55 passes instead of 2613.",
      .changes = mainView},
     {.key = "debug.cull_clusters",
      .kind = BooleanSetting{at<&D::cullClusters>},
@@ -328,7 +342,8 @@ constexpr SettingField fields[] = {
      .kind = BooleanSetting{at<&D::maskPasses>},
      .label = "Mask passes",
      .text = "only visible parts of mirror images are shaded",
-     .cost = "Samples drawn for each seen: 1.33 instead of 2.26 in many_mirrors.",
+     .cost = "Saves shading.",
+     .measured = "Samples drawn for each seen: 1.33 instead of 2.26 in many_mirrors.",
      .changes = mainView},
 };
 
@@ -428,8 +443,9 @@ std::string settingHelp(std::string_view key) {
   if (!field) {
     return "";
   }
-  return std::string(key) + "\n" + std::string(field->text) + " (" + settingRangeWithUnit(*field) + ")\n\n" +
-         std::string(field->cost);
+  std::string text = std::string(field->text) + ". " + std::string(field->cost);
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text + "\n" + std::string(key) + ": " + settingRangeWithUnit(*field);
 }
 
 }  // namespace speculum

@@ -78,9 +78,10 @@ struct SettingNeed {
 struct SettingField {
   std::string_view key;
   SettingKind kind;
-  const char* label;      // in the panel
-  std::string_view text;  // what it does, one line
-  std::string_view cost;  // what it costs or saves, in the figures of docs/performance.md where there are any
+  const char* label;               // in the panel
+  std::string_view text;           // what it does, one line
+  std::string_view cost;           // what it costs or saves
+  std::string_view measured = {};  // the same in figures of docs/performance.md: of other devices than the user's
   std::string_view unit = {};
   FramePart changes = FramePart::mirrorImages;
   bool subject = false;  // chooses what is shown, not how well: no sweep varies it
@@ -95,7 +96,7 @@ const SettingField* findSettingField(std::string_view key);  // null: no such ke
 // "0.125 .. 4", "1 2 4 8", "clamp | aces": what the setting takes, without its unit.
 std::string settingRange(const SettingField& field);
 std::string settingRangeWithUnit(const SettingField& field);  // "texels, 0 .. 16"
-// Tooltip of a setting: key, what it does, its range, what it costs; empty for an unknown key.
+// Tooltip of a setting: what it does, what it costs, key and range; empty for an unknown key.
 std::string settingHelp(std::string_view key);
 bool sameSetting(const SettingField& field, const Settings& a, const Settings& b);
 void copySetting(const SettingField& field, const Settings& from, Settings& to);

@@ -1,34 +1,25 @@
 #include "platform/process.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace speculum {
 
 namespace {
 
 std::atomic<bool> interruptFlag{false};
-
-std::string readAll(int descriptor) {
-  std::string text;
-  char block[4096];
-  for (;;) {
-    const ssize_t count = ::read(descriptor, block, sizeof block);
-    if (count > 0) {
-      text.append(block, static_cast<size_t>(count));
-    } else if (count == 0 || errno != EINTR) {
-      return text;
-    }
-  }
-}
 
 int waitFor(pid_t child) {
   int status = 0;
@@ -42,7 +33,7 @@ int waitFor(pid_t child) {
 
 }  // namespace
 
-ProcessResult runProcess(const std::vector<std::string>& arguments) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) {
     argv.push_back(const_cast<char*>(argument.c_str()));
@@ -56,19 +47,65 @@ ProcessResult runProcess(const std::vector<std::string>& arguments) {
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  pid_t child = 0;
-  const int failure = ::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ);
+  if (::posix_spawnp(&child_, argv[0], &actions, nullptr, argv.data(), environ) != 0) {
+    child_ = 0;
+    result_ = {127, arguments.front() + ": cannot be run"};
+  }
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
-  ProcessResult result;
-  if (failure != 0) {
-    result = {127, arguments.front() + ": cannot be run"};
-  } else {
-    result.output = readAll(ends[0]);
-    result.exitCode = waitFor(child);
+  descriptor_ = ends[0];
+}
+
+ChildProcess::~ChildProcess() {
+  if (child_ != 0) {
+    ::kill(child_, SIGTERM);
+    waitFor(child_);
   }
-  ::close(ends[0]);
-  return result;
+  ::close(descriptor_);
+}
+
+bool ChildProcess::read() {
+  char block[4096];
+  ssize_t count = 0;
+  do {
+    count = ::read(descriptor_, block, sizeof block);
+  } while (count < 0 && errno == EINTR);
+  result_.output.append(block, static_cast<size_t>(std::max<ssize_t>(count, 0)));
+  return count > 0;
+}
+
+ProcessResult ChildProcess::wait() {
+  if (child_ != 0) {
+    while (read()) {
+    }
+    result_.exitCode = waitFor(std::exchange(child_, 0));
+  }
+  return result_;
+}
+
+std::optional<ProcessResult> ChildProcess::poll() {
+  pollfd output{.fd = descriptor_, .events = POLLIN};
+  while (child_ != 0 && ::poll(&output, 1, 0) > 0) {
+    if (!read()) {
+      return wait();
+    }
+  }
+  return child_ == 0 ? std::optional(result_) : std::nullopt;
+}
+
+ProcessResult runProcess(const std::vector<std::string>& arguments) {
+  return ChildProcess(arguments).wait();
+}
+
+std::filesystem::path findProgram(const std::string& name) {
+  std::istringstream folders(environment("PATH"));
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    if (!folder.empty() && ::access(file.c_str(), X_OK) == 0) {
+      return file;
+    }
+  }
+  return {};
 }
 
 void setEnvironment(const std::string& name, const std::string& value) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,28 @@ struct ProcessResult {
 };
 // Runs a program found on PATH, without a shell. Blocks until it ends.
 ProcessResult runProcess(const std::vector<std::string>& arguments);
+
+std::filesystem::path findProgram(const std::string& name);  // in PATH; empty if it is not there
+
+// A program that runs beside this one. Destruction ends it.
+class ChildProcess {
+ public:
+  explicit ChildProcess(const std::vector<std::string>& arguments);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  ProcessResult wait();
+  // wait() without waiting: nothing while the program runs. Call neither afterwards.
+  std::optional<ProcessResult> poll();
+
+ private:
+  bool read();  // false at the end of the output
+
+  int child_ = 0;       // 0: there is none
+  int descriptor_ = 0;  // of its output
+  ProcessResult result_;
+};
 
 void setEnvironment(const std::string& name, const std::string& value);
 std::string environment(const std::string& name);  // empty if not set

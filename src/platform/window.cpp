@@ -326,6 +326,10 @@ bool Window::keyDown(Key key) const {
   return glfwGetKey(window_.get(), static_cast<int>(key)) == GLFW_PRESS;
 }
 
+void Window::setTitle(const std::string& title) {
+  glfwSetWindowTitle(window_.get(), title.c_str());
+}
+
 void Window::setClipboard(const std::string& text) {
   glfwSetClipboardString(window_.get(), text.c_str());
 }

@@ -33,6 +33,7 @@ enum class Key {
   g,
   m = 'M',
   n,
+  o,
   q = 'Q',
   r,
   s,
@@ -131,6 +132,7 @@ class Window {
   void followMonitors(std::span<const ScreenRect> workAreas);
   void followContentScale(float scale);  // call when the window is on a monitor of another scale
   bool keyDown(Key key) const;
+  void setTitle(const std::string& title);
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text
   void setCallbacks(WindowCallbacks callbacks);

@@ -55,10 +55,12 @@ struct MultiplyTimeSpeed {
 // Settings.
 struct SetSettings {
   Settings settings;
+  bool continued = false;  // the widget of the SetSettings before is still held: the same step of undo
 };
 struct ResetSettings {};
 
 // Files.
+struct AskWhatToOpen {};
 struct OpenScene {
   std::filesystem::path file;
 };
@@ -146,8 +148,8 @@ struct ClearLog {};
 using Command =
     std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
                  GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused, SetTimeSpeed,
-                 MultiplyTimeSpeed, SetSettings, ResetSettings, OpenScene, OpenDropped, CancelLoading, Save,
-                 AskWhereToSave, SaveAs, DiscardChanges, CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext,
+                 MultiplyTimeSpeed, SetSettings, ResetSettings, AskWhatToOpen, OpenScene, OpenDropped, CancelLoading,
+                 Save, AskWhereToSave, SaveAs, DiscardChanges, CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext,
                  SetGizmoMode, ToggleGizmoMode, EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected,
                  RemoveSelected, Undo, Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, ShowDifference,
                  TakeScreenshot, ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen,

@@ -32,16 +32,16 @@ void device(PanelContext& ui) {
   const DeviceView& device = ui.view.device;
   const FrameView& frame = ui.view.frame;
   if (beginFacts("device")) {
-    fact("device", device.name);
-    fact("kind", device.kind);
-    fact("driver", device.driver);
+    fact("Device", device.name);
+    fact("Kind", device.kind);
+    fact("Driver", device.driver);
     fact("Vulkan", device.vulkan);
-    fact("render path", device.renderPath);
-    fact("samples a pixel", fmt::format("{}", fmt::join(device.samples, ", ")));
-    fact("memory in use here", mebibytes(frame.deviceBytes) + " MiB");
-    fact("memory of the process", mebibytes(frame.usedBytes) + " MiB");
-    fact("memory offered", mebibytes(frame.budgetBytes) + " MiB");
-    fact("validation layer",
+    fact("Render path", device.renderPath);
+    fact("Samples a pixel", fmt::format("{}", fmt::join(device.samples, ", ")));
+    fact("Memory of this window", mebibytes(frame.deviceBytes) + " MiB");
+    fact("Memory of the process", mebibytes(frame.usedBytes) + " MiB");
+    fact("Memory available", mebibytes(frame.budgetBytes) + " MiB");
+    fact("Validation layer",
          frame.validationMessages < 0 ? "off" : std::to_string(frame.validationMessages) + " messages");
     ImGui::EndTable();
   }

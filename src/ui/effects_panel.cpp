@@ -15,21 +15,27 @@ void effects(PanelContext& ui) {
     return;
   }
   settingRows(ui, "effects.");
-  if (!ImGui::BeginTable("effects", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+  if (!ImGui::BeginTable("effects", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
     return;
   }
-  for (const char* column : {"effect", "called for by", "draws", "MiB", "pipelines"}) {
-    ImGui::TableSetupColumn(column);
-  }
+  const float em = ImGui::GetFontSize();
+  ImGui::TableSetupColumn("Effect", ImGuiTableColumnFlags_WidthFixed, 7.0f * em);
+  ImGui::TableSetupColumn("Needed by", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 3.4f * em);
+  ImGui::TableSetupColumn("MiB", ImGuiTableColumnFlags_WidthFixed, 3.4f * em);
   ImGui::TableHeadersRow();
   for (const EffectView& effect : ui.view.frame.effects) {
     const bool on = effect.calledFor;
     ImGui::TableNextRow();
-    for (const std::string& text :
-         {effect.name, effect.why, on ? std::to_string(effect.draws) : std::string(),
-          on ? mebibytes(effect.bytes) : std::string(), on ? std::to_string(effect.pipelines) : std::string()}) {
+    for (const std::string& text : {effect.name, effect.why, on ? std::to_string(effect.draws) : std::string(),
+                                    on ? mebibytes(effect.bytes) : std::string()}) {
       ImGui::TableNextColumn();
-      on ? ImGui::TextWrapped("%s", text.c_str()) : ImGui::TextDisabled("%s", text.c_str());
+      ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(on ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+      ImGui::TextWrapped("%s", text.c_str());
+      ImGui::PopStyleColor();
+      if (on) {
+        tip((std::to_string(effect.pipelines) + " pipelines").c_str());
+      }
     }
   }
   ImGui::EndTable();

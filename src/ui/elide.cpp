@@ -11,14 +11,14 @@ bool begins(char c) {
 
 }  // namespace
 
-std::string endThatFits(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf) {
+std::string startThatFits(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf) {
   if (widthOf(text) <= room) {
     return text;
   }
-  for (size_t start = 1; start < text.size(); ++start) {
-    std::string end = "..." + text.substr(start);
-    if (begins(text[start]) && widthOf(end) <= room) {
-      return end;
+  for (size_t end = text.size(); end > 0; --end) {
+    std::string start = text.substr(0, end) + "...";
+    if ((end == text.size() || begins(text[end])) && widthOf(start) <= room) {
+      return start;
     }
   }
   return "...";

@@ -6,8 +6,8 @@
 
 namespace speculum {
 
-// `text`, or where that is wider than `room` "..." with as much of its end as fits: names of passes differ there.
-// `widthOf` is in the units of `room`. UTF-8.
-std::string endThatFits(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf);
+// `text`, or where that is wider than `room` as much of its start as fits with "...". `widthOf` is in the units of
+// `room`. UTF-8.
+std::string startThatFits(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf);
 
 }  // namespace speculum

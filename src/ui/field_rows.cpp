@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "scene/scene_fields.hpp"
+#include "ui/panels.hpp"
 #include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
@@ -143,8 +144,10 @@ class FieldRows {
 
   void explain(const std::string& path, std::string_view text, bool number) {
     record_("edit." + path);
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
-      ImGui::SetTooltip("%s%s", std::string(text).c_str(), number ? "\ndrag, or click to type" : "");
+    if (!ImGui::IsItemActive()) {
+      std::string about = std::string(text) + (number ? ". Drag, or click to type." : ".");
+      about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
+      tip(about.c_str());
     }
   }
 

@@ -65,14 +65,16 @@ std::span<const ShortcutGroup> shortcutGroups() {
          repeated(withControl(plain("Ctrl+Z", "Undo", Key::z, Undo{}))),
          repeated(withControl(withShift(plain("Ctrl+Shift+Z", "Redo", Key::z, Redo{})))),
          repeated(withControl(plain("Ctrl+Y", "Redo", Key::y, Redo{}))),
+         withControl(plain("Ctrl+O", "Open", Key::o, AskWhatToOpen{})),
          withControl(plain("Ctrl+S", "Save", Key::s, Save{})),
          withControl(withShift(plain("Ctrl+Shift+S", "Save as", Key::s, AskWhereToSave{})))}},
        {"Window",
         {plain("F2", "Show or hide the inspector", Key::f2, ToggleInspector{}),
          plain("F11", "Full screen", Key::f11, ToggleFullScreen{}),
          plain("Tab", "Show or hide the panels", Key::tab, TogglePanel{}),
+         pointer("arrows", "Walk through the panel's widgets; Space presses"),
          plain("F1", "Show or hide this list", Key::f1, ToggleHelp{}),
-         plain("Esc", "Cancel the drag, close the top window, deselect, or dismiss the message", Key::escape, Escape{}),
+         plain("Esc", "Cancel the drag, close the top window, deselect", Key::escape, Escape{}),
          withControl(plain("Ctrl+Q", "Quit", Key::q, Quit{}))}}}};
   return groups;
 }
@@ -99,6 +101,17 @@ std::optional<Command> commandOf(const KeyEvent& event) {
     }
   }
   return found && (found->repeats || !event.repeat) ? found->command : std::nullopt;
+}
+
+const char* keysOf(const Command& command) {
+  for (const ShortcutGroup& group : shortcutGroups()) {
+    for (const Shortcut& shortcut : group.shortcuts) {
+      if (shortcut.command && shortcut.command->index() == command.index()) {
+        return shortcut.keys;
+      }
+    }
+  }
+  return "";
 }
 
 GamepadCommand commandOf(GamepadButton button) {

@@ -26,6 +26,8 @@ struct ShortcutGroup {
 std::span<const ShortcutGroup> shortcutGroups();
 std::span<const Shortcut> gamepadHelp();
 
+const char* keysOf(const Command& command);  // "Ctrl+S": the first shortcut of that kind; empty if there is none
+
 // The command of a key that goes down. Shift is ignored for keys that have no command of their own with it.
 std::optional<Command> commandOf(const KeyEvent& event);
 

@@ -43,9 +43,11 @@ void modelChoice(PanelContext& ui) {
   const std::vector<std::filesystem::path>& models = ui.view.edit.models;
   std::optional<std::filesystem::path>& chosen = ui.state.model;
   if (std::exchange(ui.state.modelsOf, ui.view.edit.scene) != ui.view.edit.scene) {
-    chosen = models.empty() ? std::nullopt : std::optional(models.front());
+    // A plain shape, rather than the frame or room that scenes begin with.
+    const auto plain = std::ranges::find(models, "sphere", [](const std::filesystem::path& m) { return m.stem(); });
+    chosen = models.empty() ? std::nullopt : std::optional(plain != models.end() ? *plain : models.front());
   }
-  constexpr const char* fileName = "a file ...";
+  constexpr const char* fileName = "File...";
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool open =
       ImGui::BeginCombo("##model", chosen ? chosen->stem().c_str() : fileName, ImGuiComboFlags_HeightLargest);
@@ -65,22 +67,21 @@ void modelChoice(PanelContext& ui) {
   }
   if (!chosen) {
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##model file", "OBJ file, absolute or from the scene's folder", &ui.state.modelFile);
+    ImGui::InputTextWithHint("##model file", "OBJ file", &ui.state.modelFile);
     recordWidget(ui, "edit.model_file");
   }
 }
 
 void addButtons(PanelContext& ui) {
-  if (button(ui, "Add mirror", "edit.add_mirror", "In the middle of the view, facing it")) {
+  if (button(ui, "Add mirror", "edit.add_mirror", "Adds a mirror in the middle of the view, facing it.")) {
     ui.send(AddMirror{});
   }
   ImGui::SameLine();
-  if (button(ui, "Add light", "edit.add_light", "In the middle of the view")) {
+  if (button(ui, "Add light", "edit.add_light", "Adds a light in the middle of the view.")) {
     ui.send(AddLight{});
   }
   const bool named = ui.state.model || !ui.state.modelFile.empty();
-  if (button(ui, "Add object", "edit.add_object",
-             "In the middle of the view: a model of the scene, one that comes with the program, or a file", named)) {
+  if (button(ui, "Add object", "edit.add_object", "Adds the model beside in the middle of the view.", named)) {
     ui.send(AddObject{ui.state.model.value_or(ui.state.modelFile)});
   }
   ImGui::SameLine();
@@ -88,7 +89,6 @@ void addButtons(PanelContext& ui) {
 }
 
 void historyButtons(PanelContext& ui) {
-  constexpr const char* scope = "\n(objects, lights, mirrors and bookmarks; settings have a reset arrow each)";
   const EditView& edit = ui.view.edit;
   const auto action = [&](const char* label, const char* key, const std::string& tip, bool enabled, Command command) {
     if (button(ui, label, key, tip.c_str(), enabled)) {
@@ -100,13 +100,14 @@ void historyButtons(PanelContext& ui) {
   ImGui::SameLine();
   action("Delete", "edit.delete", "Del", any, RemoveSelected{});
   ImGui::SameLine();
-  action("Undo", "edit.undo", "Ctrl+Z   " + edit.undo + scope, !edit.undo.empty(), Undo{});
+  action("Undo", "edit.undo", "Ctrl+Z   " + edit.undo, !edit.undo.empty(), Undo{});
   ImGui::SameLine();
-  action("Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo + scope, !edit.redo.empty(), Redo{});
+  action("Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, !edit.redo.empty(), Redo{});
   action("Save", "edit.save", "Ctrl+S   " + edit.scene->file.string(), edit.unsaved || edit.unsavedSettings, Save{});
   ImGui::SameLine();
-  action("Save as ...", "edit.save_as", "Ctrl+Shift+S", true, AskWhereToSave{});
+  action("Save as...", "edit.save_as", "Ctrl+Shift+S", true, AskWhereToSave{});
   ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : edit.unsavedSettings ? "unsaved settings" : "saved");
 }
 
@@ -120,7 +121,8 @@ void inspector(PanelContext& ui, PanelDock& dock) {
     ImGui::SetNextWindowFocus();
   }
   ImGui::SetNextWindowBgAlpha(1.0f);
-  if (dock.begin(inspectorTitle, &ui.state.inspector, PanelDock::Edge::right, {25.0f, 46.0f})) {
+  if (dock.begin(inspectorTitle, &ui.state.inspector, PanelDock::Edge::right, {25.0f, 46.0f},
+                 ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0)) {
     nodeList(ui);
     addButtons(ui);
     historyButtons(ui);

@@ -33,12 +33,12 @@ bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i
   bool changed = ImGui::DragScalarN("##vertex", ImGuiDataType_Double, &vertices[i].x, 3, 0.01f, &low, &high, "%.6g",
                                     ImGuiSliderFlags_AlwaysClamp);
   recordWidget(ui, "edit." + key);
-  tip("metres; the polygon must stay planar and convex");
+  tip("Metres. The polygon must stay planar and convex.");
   const glm::dvec3 middle = 0.5 * (vertices[i] + vertices[(i + 1) % vertices.size()]);
-  if (vertexButton(ui, "+", key + ".add", true, "another vertex, halfway to the next one")) {
+  if (vertexButton(ui, "+", key + ".add", true, "Adds a vertex halfway to the next one.")) {
     vertices.insert(vertices.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
     changed = true;
-  } else if (vertexButton(ui, "-", key + ".remove", vertices.size() > 3, "without this vertex")) {
+  } else if (vertexButton(ui, "-", key + ".remove", vertices.size() > 3, "Removes this vertex.")) {
     vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(i));
     changed = true;
   }
@@ -54,7 +54,7 @@ bool polygonRows(PanelContext& ui, Mirror& mirror) {
   if (polygon.mirror != selected || polygon.taken != mirror.polygon) {
     polygon = {.vertices = mirror.polygon, .taken = mirror.polygon, .mirror = selected};
   }
-  ImGui::TextDisabled("vertices, m, counter-clockwise in front");
+  ImGui::TextDisabled("Vertices (m), counter-clockwise from the front");
   bool changed = false;
   for (size_t i = 0; i < polygon.vertices.size(); ++i) {
     changed = polygonVertex(ui, polygon.vertices, i) || changed;
@@ -68,7 +68,7 @@ bool polygonRows(PanelContext& ui, Mirror& mirror) {
   const bool applied = changed && !polygon.problem;
   if (polygon.problem) {
     coloredText(errorColor, "Not applied: " + *polygon.problem);
-    if (button(ui, "Revert", "edit.polygon.reset", "Back to the mirror's vertices")) {
+    if (button(ui, "Revert", "edit.polygon.reset", "Returns to the mirror's vertices.")) {
       polygon = {};
     }
   }
@@ -78,7 +78,7 @@ bool polygonRows(PanelContext& ui, Mirror& mirror) {
 // Draws a button for each mirror that the node was picked through; a click selects it.
 void throughButtons(PanelContext& ui) {
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("seen in:");
+  ImGui::TextUnformatted("Seen in:");
   for (size_t i = 0; i < ui.view.edit.through.size(); ++i) {
     const Selection mirror{Selection::Kind::mirror, ui.view.edit.through[i]};
     ImGui::SameLine();
@@ -88,7 +88,7 @@ void throughButtons(PanelContext& ui) {
     }
     recordWidget(ui, "edit.through." + std::to_string(i));
     ImGui::PopID();
-    tip("Select it");
+    tip("Selects it.");
   }
 }
 
@@ -101,7 +101,8 @@ void gizmoMode(PanelContext& ui) {
     recordWidget(ui, key);
     ImGui::SameLine();
   }
-  ImGui::TextDisabled("  G: switch   Ctrl: snap");
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("  G switches, Ctrl snaps");
 }
 
 }  // namespace
@@ -113,17 +114,17 @@ void selectedNode(PanelContext& ui) {
     return;
   }
   if (!edit.others.empty()) {
-    ImGui::TextWrapped("%d more are selected; the fields show the first", static_cast<int>(edit.others.size()));
+    ImGui::TextWrapped("%d more are selected. The fields show the first.", static_cast<int>(edit.others.size()));
   }
   if (!edit.through.empty()) {
     throughButtons(ui);
   }
   if (edit.selected.kind == Selection::Kind::mirror) {
-    if (button(ui, "Look out of it", "edit.look_out", "Shift+B: the view that the mirror has")) {
+    if (button(ui, "Look out of mirror", "edit.look_out", "Looks out of the mirror (Shift+B).")) {
       ui.send(LookFromMirror{MirrorSide::front});
     }
     ImGui::SameLine();
-    if (button(ui, "Look from behind", "edit.look_behind", "B: what the mirror shows, seen through it")) {
+    if (button(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).")) {
       ui.send(LookFromMirror{MirrorSide::back});
     }
   }

@@ -27,12 +27,13 @@ struct PanelName {
   const char* about;
 };
 inline constexpr std::array<PanelName, 6> panelNames{
-    {{"Scenes", &PanelChoices::scenes, "pictures of the scenes; a click loads one"},
-     {"Performance", &PanelChoices::performance, "times of the last frames as graphs"},
-     {"Targets", &PanelChoices::targets, "what each pass drew: color, depth, mask"},
-     {"Device", &PanelChoices::device, "the GPU, what it can do, its memory"},
-     {"Log", &PanelChoices::log, "what the program and the validation layer said"},
-     {"Accuracy", &PanelChoices::accuracy, "measures error against milliseconds, walks between them"}}};
+    {{"Scenes", &PanelChoices::scenes, "Pictures of the scenes; a click opens one."},
+     {"Performance", &PanelChoices::performance, "Times of the last frames and their passes, as graphs."},
+     {"Targets", &PanelChoices::targets, "What each pass drew: color, depth and mask."},
+     {"Device", &PanelChoices::device, "The GPU, its features and its memory."},
+     {"Log", &PanelChoices::log, "Messages of the program and of the validation layer."},
+     {"Accuracy", &PanelChoices::accuracy,
+      "Measures what each setting costs and how far it is off, and chooses one."}}};
 
 // Reads the saved choices; those that cannot be read have their defaults.
 PanelChoices savedPanelChoices();

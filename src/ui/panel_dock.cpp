@@ -104,7 +104,7 @@ WindowRect PanelDock::freeRect() const {
                                 : void(right = std::min(right, place.corner.x));
     }
   }
-  return {{std::min(left, right), 0.0f}, {std::max(right - left, 0.0f), display.y}};
+  return {{std::min(left, right), top_}, {std::max(right - left, 0.0f), display.y - top_}};
 }
 
 void PanelDock::reset() {
@@ -116,11 +116,12 @@ void PanelDock::reset() {
   ImGui::MarkIniSettingsDirty();
 }
 
-void PanelDock::beginFrame(float bottom, bool hidden) {
+void PanelDock::beginFrame(float top, float bottom, bool hidden) {
+  top_ = top;
+  bottom_ = bottom;
   if (hidden) {
     return;
   }
-  bottom_ = bottom;
   std::erase_if(order_, [](const Panel* panel) { return !panel->shown; });
   arrange(Edge::left);
   arrange(Edge::right);
@@ -132,6 +133,7 @@ void PanelDock::beginFrame(float bottom, bool hidden) {
 void PanelDock::arrange(Edge edge) {
   const float em = ImGui::GetFontSize();
   WindowRoom room{.display = displaySize(), .margin = margin(), .right = edge == Edge::right};
+  room.top = top_;
   room.bottom = edge == Edge::left ? bottom_ : 0.0f;
   std::vector<const Panel*> panels;
   std::vector<WindowWish> wishes;

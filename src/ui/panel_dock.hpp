@@ -18,9 +18,9 @@ class PanelDock {
   // Makes the layout file of the present ImGui context keep that; once, before its first frame. The dock must outlive
   // the context.
   void remember();
-  // In each ImGui frame before the first begin(). `bottom`: pixels kept free below the windows of the left edge.
-  // While all windows are `hidden` they keep their order.
-  void beginFrame(float bottom, bool hidden);
+  // In each ImGui frame before the first begin(). Pixels kept free: `top` above all windows, `bottom` below those of
+  // the left edge. While all windows are `hidden` they keep their order.
+  void beginFrame(float top, float bottom, bool hidden);
   // ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. ImGui::End must
   // follow whatever it returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
@@ -49,6 +49,7 @@ class PanelDock {
   std::map<std::string, Panel> panels_;
   std::vector<Panel*> order_;  // in which those that are shown were opened
   std::map<const Panel*, WindowRect> docked_;
+  float top_ = 0.0f;
   float bottom_ = 0.0f;
 };
 

@@ -63,12 +63,13 @@ std::vector<float> heightsOf(std::span<const WindowWish> wishes, const Column& c
 
 std::vector<WindowRect> arrangeWindows(std::span<const WindowWish> wishes, const WindowRoom& room) {
   std::vector<WindowRect> places(wishes.size());
-  const glm::vec2 free = glm::max(room.display - 2.0f * room.margin - glm::vec2(0.0f, room.bottom), glm::vec2(1.0f));
+  const glm::vec2 free =
+      glm::max(room.display - 2.0f * room.margin - glm::vec2(0.0f, room.top + room.bottom), glm::vec2(1.0f));
   float inset = room.margin;
   for (const Column& column : columnsOf(wishes, room, free.y)) {
     const float gaps = room.margin * static_cast<float>(column.windows.size() - 1);
     const std::vector<float> heights = heightsOf(wishes, column, std::max(free.y - gaps, 1.0f));
-    float top = room.margin;
+    float top = room.top + room.margin;
     for (size_t i = 0; i < column.windows.size(); ++i) {
       const float width = std::min(wishes[column.windows[i]].size.x, free.x);
       const float left = room.right ? std::max(room.display.x - inset - width, room.margin) : inset;

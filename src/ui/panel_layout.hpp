@@ -22,7 +22,8 @@ struct WindowWish {
 struct WindowRoom {
   glm::vec2 display{0.0f};
   float margin = 0.0f;
-  float bottom = 0.0f;  // kept free below
+  float top = 0.0f;     // kept free above
+  float bottom = 0.0f;  // and below
   float taken = 0.0f;   // width at the opposite edge
   bool right = false;   // the edge; else the left one
 };

@@ -2,13 +2,20 @@
 
 #include <imgui.h>
 #include <imgui_internal.h>
-#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
+#include "ui/input_map.hpp"
+
 namespace speculum {
+
+namespace {
+
+constexpr float clickReach = 6.0f;  // pixels within which clicks repeat each other
+
+}  // namespace
 
 PanelWindows::PanelWindows()
     : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
@@ -18,22 +25,24 @@ UiOutput PanelWindows::build(const UiView& view) {
   state_.widgets.clear();
   state_.hoveredPass = -1;
   state_.targets.pointed.reset();
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  if (state_.openedAt && glm::distance(*state_.openedAt, glm::vec2(pointer.x, pointer.y)) > clickReach) {
+    state_.openedAt.reset();
+  }
   panels::loading(ui);
-  dock_.beginFrame(panels::statusHeight(), !visible_);
+  dock_.beginFrame(visible_ ? ImGui::GetFrameHeight() : 0.0f, panels::statusHeight(), !visible_);
   if (visible_) {
+    menuBar(ui);
     mainPanel(ui);
     sideWindows(ui);
     panels::passOutline(ui);
     panels::help(ui);
-    if (showDemoWindow_) {
-      ImGui::ShowDemoWindow(&showDemoWindow_);
-    }
   }
   panels::editOverlay(view.edit.overlay);
   if (visible_) {
     panels::inspector(ui, dock_);
   }
-  panels::message(ui, dock_.freeRect());
+  panels::message(ui, freeRect());
   panels::prompts(ui);
   if (state_.editing && !ImGui::IsAnyItemActive()) {
     state_.editing = false;
@@ -47,7 +56,10 @@ UiOutput PanelWindows::build(const UiView& view) {
     ui.send(ShowDifference{difference});
   }
   if (ui.settings != view.settings.current) {
-    ui.output.commands.insert(ui.output.commands.begin(), SetSettings{ui.settings});
+    const bool continued = std::exchange(state_.setting, ImGui::IsAnyItemActive());
+    ui.output.commands.insert(ui.output.commands.begin(), SetSettings{ui.settings, continued});
+  } else if (!ImGui::IsAnyItemActive()) {
+    state_.setting = false;
   }
   return std::move(ui.output);
 }
@@ -55,23 +67,63 @@ UiOutput PanelWindows::build(const UiView& view) {
 void PanelWindows::mainPanel(PanelContext& ui) {
   if (dock_.begin("Speculum", nullptr, PanelDock::Edge::left, {28.0f, 0.0f})) {
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());  // the rest is for the labels
-    const double ms = ui.view.frame.frameMs;
-    const std::string rate =
-        ui.view.frame.still ? "paused" : fmt::format("{:.{}f} FPS", 1000.0 / ms, ms > 100.0 ? 1 : 0);
-    ImGui::Text("%s   %s", panels::duration(ms).c_str(), ms > 0.0 ? rate.c_str() : "");
-    const float width = ImGui::GetWindowWidth();
-    const char* hint = "F1: keys   Tab: hide";
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(hint).x);
-    ImGui::TextDisabled("%s", hint);
+    statusWidth_ = ImGui::GetWindowWidth();
     panels::scene(ui);
     windowChoices(ui);
     panels::settings(ui);
     panels::passes(ui);
     panels::effects(ui);
     ImGui::PopItemWidth();
-    statusWidth_ = width;
   }
   ImGui::End();
+}
+
+void PanelWindows::menuBar(PanelContext& ui) {
+  if (!ImGui::BeginMainMenuBar()) {
+    return;
+  }
+  panels::menus(ui);
+  if (panels::menu(ui, "Window")) {
+    windowMenu(ui);
+    ImGui::EndMenu();
+  }
+  if (panels::menu(ui, "Help")) {
+    ImGui::MenuItem("Keys", keysOf(ToggleHelp{}), &state_.help);
+    ImGui::EndMenu();
+  }
+  panels::frameTime(ui);
+  ImGui::EndMainMenuBar();
+}
+
+void PanelWindows::windowMenu(PanelContext& ui) {
+  ImGui::MenuItem("Inspector", keysOf(ToggleInspector{}), &state_.inspector);
+  for (const PanelName& panel : panelNames) {
+    ImGui::MenuItem(panel.name.data(), nullptr, &(state_.choices.*panel.open));
+    panels::tip(panel.about);
+  }
+  ImGui::Separator();
+  for (const auto& [name, place, theme] :
+       {std::tuple("Dark", "theme.dark", Theme::dark), std::tuple("Light", "theme.light", Theme::light)}) {
+    if (ImGui::MenuItem(name, nullptr, state_.choices.theme == theme)) {
+      state_.choices.theme = theme;
+    }
+    panels::recordWidget(ui, place);
+  }
+  ImGui::SliderInt("Text size", &pendingPercent_, 50, 300, "%d %%", ImGuiSliderFlags_AlwaysClamp);
+  panels::recordWidget(ui, "window.size");
+  if (!ImGui::IsItemActive()) {
+    state_.choices.percent = pendingPercent_;
+  }
+  ImGui::Separator();
+  presentModes(ui);
+  ImGui::Separator();
+  if (ImGui::MenuItem("Reset layout")) {
+    dock_.reset();
+  }
+  panels::recordWidget(ui, "window.reset");
+  if (ImGui::MenuItem("Hide panels", keysOf(TogglePanel{}))) {
+    ui.send(TogglePanel{});
+  }
 }
 
 void PanelWindows::windowChoices(PanelContext& ui) {
@@ -84,51 +136,19 @@ void PanelWindows::windowChoices(PanelContext& ui) {
     }
     ImGui::EndTable();
   }
-  const bool open = ImGui::CollapsingHeader("Window");
-  panels::recordWidget(ui, "section.window");
-  if (!open) {
-    return;
-  }
-  themeChoice(ui);
-  ImGui::SliderInt("size", &pendingPercent_, 50, 300, "%d %%", ImGuiSliderFlags_AlwaysClamp);
-  panels::recordWidget(ui, "window.size");
-  panels::tip("Size of text and widgets, relative to the monitor's scale");
-  if (!ImGui::IsItemActive()) {
-    state_.choices.percent = pendingPercent_;
-  }
-  presentModes(ui);
-  if (panels::button(ui, "Reset layout", "window.reset", "All windows back to the edges, in their original size")) {
-    dock_.reset();
-  }
-  ImGui::Checkbox("ImGui demo window", &showDemoWindow_);
-}
-
-void PanelWindows::themeChoice(PanelContext& ui) {
-  ImGui::TextUnformatted("theme");
-  for (const auto& [name, place, theme] :
-       {std::tuple("dark", "theme.dark", Theme::dark), std::tuple("light", "theme.light", Theme::light)}) {
-    ImGui::SameLine();
-    if (ImGui::RadioButton(name, state_.choices.theme == theme)) {
-      state_.choices.theme = theme;
-    }
-    panels::recordWidget(ui, place);
-  }
 }
 
 void PanelWindows::presentModes(PanelContext& ui) {
   const DeviceView& device = ui.view.device;
   for (size_t i = 0; i < device.presentModes.size(); ++i) {
     const std::string& name = device.presentModes[i];
-    if (i > 0) {
-      ImGui::SameLine();
-    }
-    if (ImGui::RadioButton(name.c_str(), device.presentMode == i)) {
+    if (ImGui::MenuItem(("Present: " + name).c_str(), nullptr, device.presentMode == i)) {
       ui.send(SetPresentMode{i});
     }
     panels::recordWidget(ui, "present." + name);
     panels::tip(
-        "fifo waits for the screen and never tears; mailbox shows the newest picture at each refresh;\n"
-        "immediate shows pictures at once and may tear");
+        "fifo waits for the screen and never tears, mailbox shows the newest picture at each refresh, immediate shows "
+        "pictures at once and may tear.");
   }
 }
 
@@ -184,6 +204,19 @@ void PanelWindows::toggleInspector() {
   visible_ = visible_ || state_.inspector;
 }
 
+// Where it opens under the pointer, a further click is meant for the picture.
+void PanelWindows::openInspector() {
+  if (!std::exchange(state_.inspector, true)) {
+    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    state_.openedAt = glm::vec2(pointer.x, pointer.y);
+  }
+}
+
+WindowRect PanelWindows::freeRect() const {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  return visible_ ? dock_.freeRect() : WindowRect{{0.0f, 0.0f}, {display.x, display.y}};
+}
+
 bool PanelWindows::closeTop() {
   const auto close = [&](const ImGuiWindow& window) {
     const std::string_view name = window.Name;
@@ -192,7 +225,6 @@ bool PanelWindows::closeTop() {
     bool* open = name == panels::helpTitle        ? &state_.help
                  : name == panels::inspectorTitle ? &state_.inspector
                  : panel != panelNames.end()      ? &(state_.choices.*panel->open)
-                 : name == "Dear ImGui Demo"      ? &showDemoWindow_
                                                   : nullptr;
     return open && window.Active && !window.Hidden && std::exchange(*open, false);
   };

@@ -22,13 +22,16 @@ class PanelWindows {
   void setVisible(bool visible) { visible_ = visible; }
   void toggleHelp();
   void toggleInspector();
-  void openInspector() { state_.inspector = true; }
+  void openInspector();
+  // Display without panels, in screen coordinates.
+  WindowRect freeRect() const;
   bool closeTop();  // the window on top, but for the main panel; false if there is none
 
  private:
   void mainPanel(PanelContext& ui);
   void windowChoices(PanelContext& ui);
-  void themeChoice(PanelContext& ui);
+  void menuBar(PanelContext& ui);
+  void windowMenu(PanelContext& ui);
   void presentModes(PanelContext& ui);
   void sideWindows(PanelContext& ui);
   void targetsWindow(PanelContext& ui);
@@ -40,7 +43,6 @@ class PanelWindows {
   Thumbnails thumbnails_;
   float statusWidth_ = 0.0f;  // pixels
   bool visible_ = true;
-  bool showDemoWindow_ = false;
 };
 
 }  // namespace speculum

@@ -4,6 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "ui/setting_widgets.hpp"
@@ -16,7 +17,7 @@ void bookmarks(PanelContext& ui) {
   const CameraView& camera = ui.view.camera;
   const int shown = camera.bookmark;
   ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
-  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? camera.bookmarks[shown].c_str() : "bookmarks");
+  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? camera.bookmarks[shown].c_str() : "Bookmarks");
   recordWidget(ui, "bookmarks");
   if (open) {
     for (size_t i = 0; i < camera.bookmarks.size(); ++i) {
@@ -27,14 +28,14 @@ void bookmarks(PanelContext& ui) {
     }
     ImGui::EndCombo();
   }
-  tip("Views saved with the scene; Shift+M: the next one");
+  tip("Views that are saved with the scene. Shift+M goes to the next one.");
   ImGui::SameLine();
-  if (button(ui, "Bookmark view", "bookmark.add", "M: saves position and direction of the camera with the scene")) {
+  if (button(ui, "Bookmark view", "bookmark.add", "Saves the camera's position and direction with the scene (M).")) {
     ui.send(AddBookmark{});
   }
   if (shown >= 0) {
     ImGui::SameLine();
-    if (button(ui, "Remove", "bookmark.remove", "Removes the bookmark")) {
+    if (button(ui, "Remove", "bookmark.remove", "Removes the bookmark from the scene.")) {
       ui.send(RemoveBookmark{static_cast<size_t>(shown)});
     }
   }
@@ -43,10 +44,10 @@ void bookmarks(PanelContext& ui) {
 void sceneChoice(PanelContext& ui) {
   const BrowserView& browser = ui.view.browser;
   const SceneEntry& shown = browser.scenes[browser.shown];
-  const bool open = ImGui::BeginCombo("scene", shown.name.c_str(), ImGuiComboFlags_HeightLargest);
+  const bool open = ImGui::BeginCombo("Scene", shown.name.c_str(), ImGuiComboFlags_HeightLargest);
   recordWidget(ui, "scene");
   if (!open) {
-    return tip((shown.file.string() + "\nThe window \"Scenes\" has pictures of all scenes.").c_str());
+    return tip((shown.file.string() + "\nThe window Scenes shows pictures of all.").c_str());
   }
   for (size_t i = 0; i < browser.scenes.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));  // names may repeat
@@ -60,26 +61,37 @@ void sceneChoice(PanelContext& ui) {
 }
 
 void cameraMode(PanelContext& ui) {
-  for (const auto& [label, mode, about] : {std::tuple("orbit", CameraMode::orbit, "Dragging orbits about the target"),
-                                           std::tuple("fly", CameraMode::fly, "Dragging looks around")}) {
+  for (const auto& [label, mode, about] : {std::tuple("Orbit", CameraMode::orbit, "Dragging orbits about the target."),
+                                           std::tuple("Fly", CameraMode::fly, "Dragging looks around.")}) {
     if (ImGui::RadioButton(label, ui.view.camera.mode == mode)) {
       ui.send(SetCameraMode{mode});
     }
     tip(about);
     ImGui::SameLine();
   }
-  if (button(ui, "Reset camera", "camera.reset", "Back to the scene's camera")) {
+  if (button(ui, "Reset camera", "camera.reset", "Returns to the scene's camera.")) {
     ui.send(ResetCamera{});
   }
+}
+
+// What the passes that a setting acts on took, if they were timed.
+std::string measuredHere(const FrameView& frame, std::string_view key) {
+  const bool mirrors = key.starts_with("reflection.");
+  double ms = 0.0;
+  for (const PassView& pass : frame.passes) {
+    ms += pass.kind == (mirrors ? PassKind::mirror : PassKind::main) ? pass.gpuMs : 0.0;
+  }
+  const bool known = ms > 0.0 && (mirrors || key.starts_with("view."));
+  return known ? std::string("\nHere ") + (mirrors ? "mirror images take " : "the main view takes ") + duration(ms) +
+                     " of the frame's " + duration(frame.gpuMs) + "."
+               : "";
 }
 
 }  // namespace
 
 void describe(PanelContext& ui, std::string_view key) {
   recordWidget(ui, key);
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", settingHelp(key).c_str());
-  }
+  tip((settingHelp(key) + measuredHere(ui.view.frame, key)).c_str());
   const Settings& ofScene = ui.view.settings.ofScene;
   const SettingField& field = *findSettingField(key);
   if (sameSetting(field, ui.settings, ofScene)) {
@@ -94,13 +106,17 @@ void describe(PanelContext& ui, std::string_view key) {
   recordWidget(ui, "reset." + std::string(key));
   if (ImGui::IsItemHovered()) {
     const std::string value = settingValue(ofScene, key);
-    ImGui::SetTooltip("Reset to scene: %s", value.empty() ? "background and sky" : value.c_str());
+    ImGui::SetTooltip("Reset to %s", value.empty() ? "the scene's background" : value.c_str());
   }
 }
 
 void tip(const char* text) {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip("%s", text);
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
   }
 }
 
@@ -159,12 +175,12 @@ void message(PanelContext& ui, const WindowRect& picture) {
   ImGui::End();
 }
 
+std::string milliseconds(double ms) {
+  return std::isnan(ms) ? "-" : fmt::format("{:.{}f}", ms, ms < 10.0 ? 2 : ms < 100.0 ? 1 : 0);
+}
+
 std::string duration(double ms) {
-  return ms >= 1000.0 ? fmt::format("{:.2f} s", ms / 1000.0)
-                      : fmt::format("{:.{}f} ms", ms,
-                                    ms < 10.0    ? 2
-                                    : ms < 100.0 ? 1
-                                                 : 0);
+  return ms >= 1000.0 ? fmt::format("{:.2f} s", ms / 1000.0) : milliseconds(ms) + " ms";
 }
 
 void scene(PanelContext& ui) {
@@ -172,18 +188,16 @@ void scene(PanelContext& ui) {
   cameraMode(ui);
   bookmarks(ui);
   time(ui);
-  if (button(
-          ui, "Copy command line", "copy",
-          "The call of speculum render that draws this view to the same bytes; unsaved changes are taken from a copy "
-          "of the scene")) {
+  if (button(ui, "Copy command line", "copy",
+             "Copies a speculum render call that draws this view. Unsaved changes go into a copy of the scene.")) {
     ui.send(CopyCommandLine{});
   }
   ImGui::SameLine();
-  if (button(ui, "Inspector", "edit.open", "F2: select, move, rotate, add and delete objects, lights and mirrors")) {
+  if (button(ui, "Inspector", "edit.open", "Selects, moves, adds and deletes objects, lights and mirrors (F2).")) {
     ui.state.inspector = !ui.state.inspector;
   }
   ImGui::SameLine();
-  if (button(ui, "Screenshot", "screenshot", "F12: saves the window as a picture; Shift+F12: without the panels")) {
+  if (button(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.")) {
     ui.send(TakeScreenshot{true});
   }
 }
@@ -192,7 +206,7 @@ void settings(PanelContext& ui) {
   if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingRows(ui, "view.");
     if (ui.view.settings.sky && !ui.settings.view.clearColor) {
-      ImGui::TextDisabled("The scene's sky is shown; a clear color replaces it.");
+      ImGui::TextDisabled("The sky of the scene covers it until it is changed.");
     }
     settingRows(ui, "quality.motion_ms");
     settingRows(ui, "quality.still_pictures");
@@ -200,7 +214,7 @@ void settings(PanelContext& ui) {
   if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingRows(ui, "reflection.");
   }
-  if (button(ui, "Reset settings", "settings.reset", "All settings back to the scene's and the command line's")) {
+  if (button(ui, "Reset settings", "settings.reset", "Returns to the settings that the scene was opened with.")) {
     ui.send(ResetSettings{});
   }
 }

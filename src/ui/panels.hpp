@@ -14,9 +14,11 @@ struct PanelState {
   PanelChoices choices;
   bool help = false;
   bool inspector = false;
-  bool focusNodes = false;  // the list of nodes gets the keyboard once
-  bool editing = false;     // an EditNode that continues has not ended
-  int hoveredPass = -1;     // index into FrameView::passes; -1: none
+  std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector, until it moves
+  bool focusNodes = false;            // the list of nodes gets the keyboard once
+  bool editing = false;               // an EditNode that continues has not ended
+  bool setting = false;               // the widget of the last SetSettings is held
+  int hoveredPass = -1;               // index into FrameView::passes; -1: none
   bool showDifference = false;
 
   struct Targets {
@@ -47,6 +49,13 @@ struct PanelState {
 
   std::string dismissedMessage;
 
+  // Prompt::open
+  struct Files {
+    std::filesystem::path folder;
+    std::vector<std::filesystem::directory_entry> entries;  // of the folder: folders, scenes and models
+    std::string typed;
+  } files;
+
   std::vector<std::pair<std::string, PixelRect>> widgets;  // of this frame, by name
 };
 
@@ -64,6 +73,12 @@ namespace panels {
 
 inline constexpr const char* helpTitle = "Keys";
 inline constexpr const char* inspectorTitle = "Inspector";
+
+// The main menu bar.
+void menus(PanelContext& ui);            // File, Edit and View
+void frameTime(const PanelContext& ui);  // of the last frame that drew the scene
+// ImGui::BeginMenu that is recorded as "menu." and the label, as entries are.
+bool menu(PanelContext& ui, const char* label, bool enabled = true);
 
 // Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
 void scene(PanelContext& ui);
@@ -104,6 +119,7 @@ void tip(const char* text);
 // After a widget: records where it stands, by name.
 void recordWidget(PanelContext& ui, std::string_view key);
 std::string mebibytes(uint64_t bytes);  // without the unit
+std::string milliseconds(double ms);    // the same without the unit; "-" for NaN
 std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
 // Wraps at the window's edge.
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB

@@ -40,4 +40,10 @@ std::vector<PassNode> passTree(std::span<const PassView> passes, std::span<const
   return roots;
 }
 
+std::string pathEnd(const std::string& name) {
+  constexpr std::string_view kind = "mirror ";
+  const size_t last = name.rfind(" > ");
+  return last != std::string::npos ? name.substr(last + 3) : name.starts_with(kind) ? name.substr(kind.size()) : name;
+}
+
 }  // namespace speculum

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ui/views.hpp"
@@ -17,5 +18,8 @@ struct PassNode {
 // The main view first, with every mirror pass below the one that it is seen in, then the passes that are no view.
 // Mirrors whose parent is not listed are left out, and skipped ones likewise.
 std::vector<PassNode> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped);
+
+// The last mirror of a pass's name, which says enough where its parents are in sight.
+std::string pathEnd(const std::string& name);
 
 }  // namespace speculum

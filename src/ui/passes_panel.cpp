@@ -17,25 +17,18 @@ std::string metres(const std::optional<double>& value) {
 
 void depthResolution(const PassView& pass, ClipMethod inUse) {
   ImGui::TextUnformatted(pass.resolution ? metres(gapWith(*pass.resolution, inUse)).c_str() : "");
-  if (!pass.resolution || !ImGui::IsItemHovered()) {
+  if (!pass.resolution) {
     return;
   }
-  std::string text = "metres between surfaces seen at " + std::to_string(static_cast<int>(readoutAngle)) +
-                     " degrees that depth keeps in order\nwhere the pass sees farthest, " +
-                     metres(pass.resolution->distance) + " m from its eye";
+  std::string text = "Metres between surfaces seen at " + std::to_string(static_cast<int>(readoutAngle)) +
+                     " degrees that depth keeps in order where the pass sees farthest, " +
+                     metres(pass.resolution->distance) + " m from its eye.";
   for (const auto& [clip, name] : {std::pair(ClipMethod::clipDistance, "clip distance"),
                                    std::pair(ClipMethod::oblique, "oblique"), std::pair(ClipMethod::none, "none")}) {
     text +=
         std::string("\n") + name + ": " + metres(gapWith(*pass.resolution, clip)) + (clip == inUse ? "  (in use)" : "");
   }
-  ImGui::SetTooltip("%s", text.c_str());
-}
-
-// In the tree the last mirror of a path says enough.
-std::string ownName(const std::string& path) {
-  constexpr std::string_view kind = "mirror ";
-  const size_t last = path.rfind(" > ");
-  return last != std::string::npos ? path.substr(last + 3) : path.starts_with(kind) ? path.substr(kind.size()) : path;
+  tip(text.c_str());
 }
 
 // From the cell on over those to its right, which are empty, to the window's edge.
@@ -56,7 +49,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
   }
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string title = std::to_string(node.skipped.size()) + " skipped###skipped";
+  const std::string title = std::to_string(node.skipped.size()) + " without a pass###skipped";
   const bool open = ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
   recordWidget(ui, "skipped in " + ui.view.frame.passes[static_cast<size_t>(node.pass)].name);
   if (!open) {
@@ -64,7 +57,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
   }
   for (const int i : node.skipped) {
     const SkippedView& skip = ui.view.frame.skipped[static_cast<size_t>(i)];
-    const std::string name = ownName(skip.name);
+    const std::string name = pathEnd(skip.name);
     const std::string why = skip.reason + (skip.detail.empty() ? "" : " (" + skip.detail + ")");
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -92,23 +85,26 @@ void passRow(PanelContext& ui, const PassNode& node) {
   flags |= shown ? ImGuiTreeNodeFlags_Selected : 0;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string name = ownName(pass.name);
+  const std::string name = pathEnd(pass.name);
   const std::string id = pass.name + "/" + std::to_string(node.pass);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
     ui.state.hoveredPass = node.pass;
   }
   recordWidget(ui, "pass." + pass.name);
+  if (hasTarget(pass)) {
+    tip((pass.name + "\nA click shows what it drew.").c_str());
+  }
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
   }
   ImGui::TableNextColumn();
   if (pass.framesAgo > 0 && !ui.view.frame.still) {
-    ImGui::TextDisabled("%.3f", pass.gpuMs);
-    tip("The cached image of an earlier frame is reused: nothing changed, or it was not its turn");
+    ImGui::TextDisabled("%s", milliseconds(pass.gpuMs).c_str());
+    tip("The image of an earlier frame is reused.");
   } else {
-    ImGui::Text("%.3f", pass.gpuMs);
+    ImGui::TextUnformatted(milliseconds(pass.gpuMs).c_str());
   }
   ImGui::TableNextColumn();
   ImGui::Text("%u", pass.draws);
@@ -179,11 +175,11 @@ void passes(PanelContext& ui) {
     return;
   }
   const float figure = 4.0f * ImGui::GetFontSize();
-  ImGui::TableSetupColumn("pass (click it)", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, figure);
-  ImGui::TableSetupColumn("draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * figure);
-  ImGui::TableSetupColumn("pixels", ImGuiTableColumnFlags_WidthFixed, figure);
-  ImGui::TableSetupColumn("depth m", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * figure);
+  ImGui::TableSetupColumn("Pixels", ImGuiTableColumnFlags_WidthFixed, figure);
+  ImGui::TableSetupColumn("Depth m", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableHeadersRow();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.6f * ImGui::GetFontSize());
   for (const PassNode& node : passTree(frame.passes, frame.skipped)) {

@@ -7,17 +7,13 @@
 
 #include "ui/elide.hpp"
 #include "ui/panels.hpp"
+#include "ui/pass_tree.hpp"
 
 namespace speculum::panels {
 
 namespace {
 
-constexpr std::string_view mirrorWord = "mirror ";
 constexpr size_t fewest = 60;  // frames across a graph
-
-std::string milliseconds(double ms) {
-  return std::isnan(ms) ? "-" : ms < 10.0 ? fmt::format("{:.2f}", ms) : fmt::format("{:.1f}", ms);
-}
 
 // From 0 up; frames whose figure is not known leave a gap.
 void graph(const char* name, std::vector<float> values, float height) {
@@ -42,14 +38,11 @@ std::vector<float> continued(std::vector<float> values) {
 void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string own = name.starts_with(mirrorWord) ? name.substr(mirrorWord.size()) : name;
-  const std::string shown = endThatFits(own, ImGui::GetContentRegionAvail().x, [](std::string_view text) {
+  const std::string shown = startThatFits(pathEnd(name), ImGui::GetContentRegionAvail().x, [](std::string_view text) {
     return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
   });
   ImGui::TextUnformatted(shown.c_str());
-  if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s, milliseconds", name.c_str());
-  }
+  tip(name.c_str());
   for (const double share : {0.5, 0.95}) {
     ImGui::TableNextColumn();
     const std::string text = milliseconds(percentile(values, share));
@@ -67,9 +60,9 @@ bool beginRows(const char* id) {
   }
   const float em = ImGui::GetFontSize();
   ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 8.0f * em);
-  ImGui::TableSetupColumn("median", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
+  ImGui::TableSetupColumn("Median", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
   ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
-  ImGui::TableSetupColumn("newest right", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("Newest right", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   return true;
 }
@@ -88,16 +81,17 @@ void performance(PanelContext& ui) {
     ui.send(ClearHistory{});
   }
   ImGui::SameLine();
-  if (button(ui, "Copy as CSV", "performance.copy", "All figures of the frames below, to the clipboard")) {
+  if (button(ui, "Copy as CSV", "performance.copy", "Copies all figures of the frames below.")) {
     ui.send(CopyText{history.csv()});
   }
   ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%zu frames", history.frames());
   const float em = ImGui::GetFontSize();
   if (!beginRows("times")) {
     return;
   }
-  row(ui, "frame", history.series(FrameHistory::Figure::frame), 3.2f * em);
+  row(ui, "Frame", history.series(FrameHistory::Figure::frame), 3.2f * em);
   row(ui, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
   row(ui, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
   for (const std::string& pass : history.passNames()) {

@@ -2,6 +2,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -31,13 +33,13 @@ void answerButton(PanelContext& ui, const char* label, std::string_view key, Com
 }
 
 void unsavedChanges(PanelContext& ui) {
-  ImGui::Text("The scene has unsaved changes.");
+  ImGui::Text("Save the changes before closing this scene?");
   ImGui::TextDisabled("%s", ui.view.edit.scene->file.c_str());
   ImGui::Spacing();
   answerButton(ui, "Save", "ask.save", Save{});
   ImGui::SetItemDefaultFocus();
   ImGui::SameLine();
-  answerButton(ui, "Save as ...", "ask.save_as", AskWhereToSave{});
+  answerButton(ui, "Save as...", "ask.save_as", AskWhereToSave{});
   ImGui::SameLine();
   answerButton(ui, "Discard", "ask.discard", DiscardChanges{});
   ImGui::SameLine();
@@ -64,11 +66,74 @@ void saveAs(PanelContext& ui) {
   }
 }
 
+void enter(PanelState::Files& files, const std::filesystem::path& folder) {
+  std::error_code none;
+  files = {.folder = std::filesystem::weakly_canonical(folder, none), .entries = {}, .typed = {}};
+  for (const auto& entry : std::filesystem::directory_iterator(files.folder, none)) {
+    const std::filesystem::path& file = entry.path();
+    const bool hidden = file.filename().string().starts_with('.');
+    if (!hidden && (entry.is_directory(none) || file.extension() == ".toml" || file.extension() == ".obj")) {
+      files.entries.push_back(entry);
+    }
+  }
+  std::ranges::sort(files.entries, {}, [](const std::filesystem::directory_entry& entry) {
+    std::error_code none;
+    return std::pair(!entry.is_directory(none), entry.path().filename());
+  });
+}
+
+void openFile(PanelContext& ui) {
+  PanelState::Files& files = ui.state.files;
+  const float em = ImGui::GetFontSize();
+  if (ImGui::IsWindowAppearing()) {
+    enter(files, ui.view.edit.proposedFile);
+    ImGui::SetKeyboardFocusHere();
+  }
+  std::optional<std::filesystem::path> chosen;
+  ImGui::SetNextItemWidth(34.0f * em);
+  if (ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    chosen = files.folder / files.typed;
+  }
+  recordWidget(ui, "open.typed");
+  ImGui::TextDisabled("%s", files.folder.c_str());
+  ImGui::BeginChild("files", {34.0f * em, 20.0f * em}, true);
+  if (ImGui::Selectable("..")) {
+    chosen = files.folder.parent_path();
+  }
+  for (const std::filesystem::directory_entry& entry : files.entries) {
+    std::error_code none;
+    const bool folder = entry.is_directory(none);
+    const std::string name = entry.path().filename().string();
+    if (ImGui::Selectable((name + (folder ? "/" : "")).c_str(), name == files.typed,
+                          ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
+      files.typed = name;
+      chosen = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) ? std::optional(entry.path()) : chosen;
+    }
+    recordWidget(ui, "open." + name);
+  }
+  ImGui::EndChild();
+  if (button(ui, "Open", "open.open", "", !files.typed.empty())) {
+    chosen = files.folder / files.typed;
+  }
+  ImGui::SameLine();
+  answerButton(ui, "Cancel", "open.cancel", CancelPrompt{});
+  if (!chosen) {
+    return;
+  }
+  std::error_code none;
+  if (std::filesystem::is_directory(*chosen, none)) {
+    return enter(files, *chosen);
+  }
+  ui.send(OpenScene{*chosen});
+  ImGui::CloseCurrentPopup();
+}
+
 }  // namespace
 
 void prompts(PanelContext& ui) {
-  for (const auto& [prompt, title, content] : {std::tuple(Prompt::unsavedChanges, "Unsaved changes", &unsavedChanges),
-                                               std::tuple(Prompt::saveAs, "Save scene as", &saveAs)}) {
+  for (const auto& [prompt, title, content] :
+       {std::tuple(Prompt::unsavedChanges, "Unsaved changes", &unsavedChanges),
+        std::tuple(Prompt::saveAs, "Save as", &saveAs), std::tuple(Prompt::open, "Open", &openFile)}) {
     const bool asked = ui.view.edit.prompt == prompt;
     if (asked && !ImGui::IsPopupOpen(title)) {
       ImGui::OpenPopup(title);

@@ -18,34 +18,34 @@ void time(PanelContext& ui) {
   // The slider's range doubles whenever the time reaches its end.
   const double span = leastSpan * std::exp2(std::ceil(std::log2(std::max(1.0, playback.time / leastSpan))));
   float seconds = static_cast<float>(playback.time);
-  if (ImGui::SliderFloat("time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {
+  if (ImGui::SliderFloat("Time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(Seek{seconds});
   }
   recordWidget(ui, "time");
-  tip("Seconds of animation");
-  if (button(ui, "<", "time.back", "Step back by 1/60 s")) {
+  tip("Seconds of animation.");
+  if (button(ui, "<", "time.back", "Steps back by 1/60 s (,).")) {
     ui.send(StepTime{-1});
   }
   ImGui::SameLine();
-  if (button(ui, ">", "time.on", "Step forward by 1/60 s")) {
+  if (button(ui, ">", "time.on", "Steps forward by 1/60 s (.).")) {
     ui.send(StepTime{1});
   }
   ImGui::SameLine();
   bool paused = playback.paused;
-  if (ImGui::Checkbox("pause", &paused)) {
+  if (ImGui::Checkbox("Pause", &paused)) {
     ui.send(SetPaused{paused});
   }
   recordWidget(ui, "pause");
-  tip("Pauses the animation: the picture becomes exact, then no frames are drawn");
+  tip("Pauses the animation (Space). The picture then becomes exact.");
   ImGui::SameLine();
   float speed = static_cast<float>(playback.speed);
   ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
-  if (ImGui::SliderFloat("speed", &speed, static_cast<float>(slowestTime), static_cast<float>(fastestTime), "%.3g x",
+  if (ImGui::SliderFloat("Speed", &speed, static_cast<float>(slowestTime), static_cast<float>(fastestTime), "%.3g x",
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(SetTimeSpeed{speed});
   }
   recordWidget(ui, "time.speed");
-  tip("Seconds of animation a second");
+  tip("Seconds of animation a second ([ and ]).");
 }
 
 }  // namespace speculum::panels

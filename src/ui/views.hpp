@@ -100,9 +100,10 @@ struct SceneEntry {
 
 struct BrowserView {
   std::vector<SceneEntry> scenes;
-  size_t shown = 0;     // index into them
-  std::string loading;  // file that is read in the background; empty: none
-  double loaded = 0.0;  // share of it, 0 .. 1
+  size_t shown = 0;                           // index into them
+  std::string loading;                        // file that is read in the background; empty: none
+  double loaded = 0.0;                        // share of it, 0 .. 1
+  std::vector<std::filesystem::path> recent;  // opened or saved, the last one first
 };
 
 struct SettingsView {
@@ -138,7 +139,7 @@ struct OverlayView {
   glm::dvec2 labelAt{0.0};
 };
 
-enum class Prompt { none, unsavedChanges, saveAs };
+enum class Prompt { none, unsavedChanges, saveAs, open };
 
 // The scene as it is edited.
 struct EditView {
@@ -153,7 +154,7 @@ struct EditView {
   bool unsaved = false;
   bool unsavedSettings = false;  // differ from those that were saved or loaded
   Prompt prompt = Prompt::none;
-  std::filesystem::path proposedFile;  // for Prompt::saveAs
+  std::filesystem::path proposedFile;  // for Prompt::saveAs; a folder for Prompt::open
   std::string note;                    // what was saved, or why it was not
   OverlayView overlay;
 };

@@ -1,0 +1,108 @@
+// The menus at the window's top, but for the one of its panels.
+#include <imgui.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "ui/input_map.hpp"
+#include "ui/panels.hpp"
+
+namespace speculum::panels {
+
+namespace {
+
+void item(PanelContext& ui, const char* label, Command command, bool enabled = true, const char* keys = nullptr) {
+  const char* shortcut = keys ? keys : keysOf(command);
+  if (ImGui::MenuItem(label, shortcut, false, enabled)) {
+    ui.send(std::move(command));
+  }
+  recordWidget(ui, std::string("menu.") + label);
+}
+
+void fileMenu(PanelContext& ui) {
+  item(ui, "Open...", AskWhatToOpen{});
+  const std::vector<std::filesystem::path>& recent = ui.view.browser.recent;
+  if (menu(ui, "Open recent", !recent.empty())) {
+    for (const std::filesystem::path& file : recent) {
+      item(ui, file.c_str(), OpenScene{file}, true, "");
+    }
+    ImGui::EndMenu();
+  }
+  ImGui::Separator();
+  const EditView& edit = ui.view.edit;
+  item(ui, "Save", Save{}, edit.unsaved || edit.unsavedSettings);
+  item(ui, "Save as...", AskWhereToSave{});
+  ImGui::Separator();
+  item(ui, "Save screenshot", TakeScreenshot{true});
+  item(ui, "Record frames", ToggleRecording{true});
+  item(ui, "Copy command line", CopyCommandLine{});
+  ImGui::Separator();
+  item(ui, "Quit", Quit{});
+}
+
+void editMenu(PanelContext& ui) {
+  const EditView& edit = ui.view.edit;
+  const auto labelled = [](const char* verb, const std::string& step) {
+    return step.empty() ? std::string(verb) : std::string(verb) + " " + step + "###" + verb;
+  };
+  item(ui, labelled("Undo", edit.undo).c_str(), Undo{}, !edit.undo.empty());
+  item(ui, labelled("Redo", edit.redo).c_str(), Redo{}, !edit.redo.empty());
+  ImGui::Separator();
+  const bool any = static_cast<bool>(edit.selected);
+  item(ui, "Duplicate", DuplicateSelected{}, any);
+  item(ui, "Delete", RemoveSelected{}, any);
+  item(ui, "Move or rotate", ToggleGizmoMode{}, any);
+  ImGui::Separator();
+  item(ui, "Add mirror", AddMirror{});
+  item(ui, "Add light", AddLight{});
+  item(ui, "Reset settings", ResetSettings{});
+}
+
+void viewMenu(PanelContext& ui) {
+  item(ui, "Frame selection", FrameSelection{});
+  item(ui, "Look from behind mirror", LookFromMirror{MirrorSide::back});
+  item(ui, "Look out of mirror", LookFromMirror{MirrorSide::front}, true, "Shift+B");
+  item(ui, "Reset camera", ResetCamera{});
+  ImGui::Separator();
+  item(ui, "Bookmark view", AddBookmark{});
+  item(ui, "Next bookmark", GoToNextBookmark{}, !ui.view.camera.bookmarks.empty());
+  ImGui::Separator();
+  item(ui, ui.view.playback.paused ? "Play" : "Pause", TogglePaused{});
+  item(ui, "Full screen", ToggleFullScreen{});
+}
+
+}  // namespace
+
+bool menu(PanelContext& ui, const char* label, bool enabled) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ui.state.widgets.emplace_back(
+      std::string("menu.") + label,
+      PixelRect{static_cast<int>(corner.x), static_cast<int>(corner.y), static_cast<int>(ImGui::CalcTextSize(label).x),
+                static_cast<int>(ImGui::GetTextLineHeight())});
+  return ImGui::BeginMenu(label, enabled);
+}
+
+void menus(PanelContext& ui) {
+  for (const auto& [label, content] :
+       {std::pair("File", &fileMenu), std::pair("Edit", &editMenu), std::pair("View", &viewMenu)}) {
+    if (menu(ui, label)) {
+      content(ui);
+      ImGui::EndMenu();
+    }
+  }
+}
+
+// At the right edge, where there is room.
+void frameTime(const PanelContext& ui) {
+  const FrameView& frame = ui.view.frame;
+  const double ms = frame.frameMs;
+  const std::string rate = frame.still ? "paused" : fmt::format("{:.{}f} FPS", 1000.0 / ms, ms > 100.0 ? 1 : 0);
+  const std::string text = ms > 0.0 ? duration(ms) + "   " + rate : "";
+  const float left = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetFontSize();
+  if (left > ImGui::GetCursorPosX()) {
+    ImGui::SetCursorPosX(left);
+    ImGui::TextUnformatted(text.c_str());
+  }
+}
+
+}  // namespace speculum::panels
