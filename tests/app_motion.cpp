@@ -315,7 +315,7 @@ TEST(Pace, LowersOnlyWhatMoves) {
     frame(true, 50.0);
   }
   EXPECT_LT(planned.view.scale, 0.2);
-  EXPECT_EQ(pace.text().rfind("moving: 0.1", 0), 0u) << pace.text();
+  EXPECT_EQ(pace.text().rfind("Moving: 0.1", 0), 0u) << pace.text();
   frame(false, 50.0);
   frame(false, 50.0);
   EXPECT_TRUE(sameMainView(planned, {}));

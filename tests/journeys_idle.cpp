@@ -187,6 +187,7 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   const int before = demo_->framesDrawn();
   click("accuracy.measure");
   ASSERT_TRUE(waitFor([&] { return !view().accuracy.points.empty(); })) << view().accuracy.about;
+  ASSERT_TRUE(waitFor([&] { return !view().accuracy.measuring; })) << "roughly first";
   EXPECT_GT(demo_->framesDrawn(), before + 5) << "the window goes on meanwhile";
   run(3);
   const AccuracyView& measured = view().accuracy;

@@ -99,11 +99,13 @@ TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
   click("view.samples");
   tap(ImGuiKey_UpArrow);
   tap(ImGuiKey_Space);
+  run(4);
   EXPECT_EQ(settings_.current.view.samples, 1);
   click("view.samples");
   tap(ImGuiKey_DownArrow);
   tap(ImGuiKey_DownArrow);
   tap(ImGuiKey_Space);
+  run(4);
   EXPECT_EQ(settings_.current.view.samples, 4) << "the highest";
 }
 
@@ -270,7 +272,7 @@ TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
   frame_.history.add(4, 1.0, 0.5);
   click("panel.Performance", 0.1);
   run(2);
-  EXPECT_TRUE(has("graph.frame"));
+  EXPECT_TRUE(has("graph.Frame"));
   click("performance.copy");
   EXPECT_EQ(only<CopyText>().text, frame_.history.csv());
   click("performance.pause", 0.1);

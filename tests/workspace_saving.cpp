@@ -295,6 +295,29 @@ TEST_F(Saving, FailuresKeepUnsavedWorkInACopy) {
   EXPECT_TRUE(loadScene(line.substr(start.size())).objects.empty());
 }
 
+TEST_F(Saving, NextStartOffersTheKeptChanges) {
+  removeBall();
+  workspace_->keepUnsavedWork();
+  start();
+  ASSERT_EQ(edit().prompt, Prompt::recovery);
+  const fs::path kept = edit().proposedFile;
+  send(OpenScene{kept});
+  waitFor([&] { return scene().file == kept; });
+  EXPECT_TRUE(scene().objects.empty());
+  send(Save{});
+  EXPECT_EQ(edit().prompt, Prompt::saveAs) << "a copy is no place for a scene";
+  start();
+  EXPECT_EQ(edit().prompt, Prompt::none) << "it is offered once";
+}
+
+TEST_F(Saving, UndrawableStepIsTakenBack) {
+  EXPECT_FALSE(workspace_->takeBack("no memory")) << "nothing to take back";
+  removeBall();
+  EXPECT_TRUE(workspace_->takeBack("no memory"));
+  EXPECT_EQ(scene().objects.size(), 1u);
+  EXPECT_EQ(workspace_->problem(), "Cannot remove object 'ball': no memory");
+}
+
 TEST_F(Saving, FailuresKeepUnsavedSettings) {
   setExposure(0.5);
   workspace_->keepUnsavedWork();

@@ -20,6 +20,13 @@ std::string aboutText(const SweepResults& results) {
          std::to_string(results.truthSamples) + " samples, " + results.device;
 }
 
+std::string stepText(const std::string& stage) {
+  return stage == "ground truth" ? "1/3: tracing the reference"
+         : stage == "pictures"   ? "2/3: drawing and comparing"
+         : stage == "times"      ? "3/3: taking times"
+                                 : stage;
+}
+
 }  // namespace
 
 AccuracyController::AccuracyController(const Options& options, const Settings& loaded, const std::string& choice) {
@@ -66,9 +73,32 @@ void AccuracyController::setResults(SweepResults results) {
 }
 
 void AccuracyController::measure(SweepRequest request) {
-  sweep_.start({"starting", 0.0}, [request = std::move(request)](const SweepProgress& progress) {
-    return measureView(request, progress);
+  requested_ = request.camera;
+  requestedTime_ = request.time;
+  sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
+    std::shared_ptr<const SweepResults> rough;
+    const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
+    rough = std::make_shared<SweepResults>(measureRoughly(request, progress));
+    return rough->points.empty() ? SweepResults() : measureView(request, progress);
   });
+}
+
+// A rough measurement first, then the whole one in its place.
+void AccuracyController::takeResults() {
+  if (const auto status = sweep_.progress(); status && status->rough && rough_ != status->rough) {
+    rough_ = status->rough;
+    setResults(*rough_);
+    measured_ = requested_;
+    measuredTime_ = requestedTime_;
+    view_.about = "Rough figures so far, of a picture of " + std::to_string(results_.width) + "x" +
+                  std::to_string(results_.height) + ".";
+  }
+  if (std::optional<SweepResults> results = sweep_.takeResult()) {
+    setResults(std::move(*results));
+    measured_ = requested_;
+    measuredTime_ = requestedTime_;
+    view_.about = aboutText(results_) + "; times taken while the window was drawing";
+  }
 }
 
 void AccuracyController::applyPoint(int point, Settings& settings) const {
@@ -78,10 +108,7 @@ void AccuracyController::applyPoint(int point, Settings& settings) const {
 }
 
 void AccuracyController::beforeFrame(Settings& settings) {
-  if (std::optional<SweepResults> results = sweep_.takeResult()) {
-    setResults(std::move(*results));
-    view_.about = aboutText(results_) + "; times taken while the window was drawing";
-  }
+  takeResults();
   if (settings.quality.budgetMs != budget_.ms || settings.quality.maxError != budget_.error) {
     applyBudget(settings);
   }
@@ -115,9 +142,18 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
 }
 
 void AccuracyController::afterFrame(const ShownPicture& shown, const std::function<Image8()>& image) {
-  const std::optional<SweepStatus> status = sweep_.progress();
+  const std::optional<Status> status = sweep_.progress();
   view_.measuring = status.has_value();
-  view_.stage = status ? status->stage : "";
+  if (status && !view_.stage.ends_with(stepText(status->stage))) {
+    stageBegan_ = Clock::now();
+  }
+  const double elapsed = std::chrono::duration<double>(Clock::now() - stageBegan_).count();
+  const bool estimable = status && status->fraction > 0.03 && elapsed > 2.0;
+  view_.secondsLeft = estimable ? elapsed * (1.0 / status->fraction - 1.0) : 0.0;
+  view_.otherView = !view_.points.empty() && measured_ &&
+                    (measured_->eye != shown.state.camera.eye ||
+                     measured_->worldToView != shown.state.camera.worldToView || measuredTime_ != shown.state.time);
+  view_.stage = status ? (status->rough ? "" : "rough ") + stepText(status->stage) : "";
   view_.progress = status ? status->fraction : 0.0;
   view_.about = sweep_.takeError().value_or(view_.about);
   const bool changed = view_.showsDifference ? difference_.update(shown, image) : difference_.reset();
@@ -135,9 +171,12 @@ bool AccuracyController::working() const {
 
 void AccuracyController::forgetScene() {
   sweep_.cancel();
+  const std::string about = view_.points.empty() ? view_.about : "The scene has changed since it was measured.";
   coverChanged_ = difference_.reset() || coverChanged_;
   difference_.stop();
   setResults({});
+  measured_.reset();
+  view_.about = about;
   view_.choice.clear();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "accuracy/pareto.hpp"
 #include "app/difference_view.hpp"
 #include "app/motion_levels.hpp"
@@ -38,12 +40,23 @@ class AccuracyController {
 
  private:
   void setResults(SweepResults results);
+  void takeResults();
   void applyBudget(Settings& settings);
   void findCurrentPoint(const Settings& settings);
 
   AccuracyView view_;
-  BackgroundJob<SweepResults, SweepStatus> sweep_;
+  struct Status : SweepStatus {
+    std::shared_ptr<const SweepResults> rough;  // null until it is measured
+  };
+  BackgroundJob<SweepResults, Status> sweep_;
+  std::shared_ptr<const SweepResults> rough_;  // that is shown, or was
   DifferenceView difference_;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point stageBegan_;
+  CameraPose requested_;  // of the measurement that runs
+  double requestedTime_ = 0.0;
+  std::optional<CameraPose> measured_;  // of the points; none if they were read from a file
+  double measuredTime_ = 0.0;
   bool coverChanged_ = false;
   SweepResults results_;
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on

@@ -76,6 +76,9 @@ bool Demo::stepOnce() {
   if (!pacer_.due() && !idle()) {
     return !shouldClose();
   }
+  if (std::exchange(sceneIsNew_, false)) {
+    presentPanels();
+  }
   const double sinceLastMs = pacer_.beginFrame(seconds);
   const double frameSeconds = workspace_.frameSeconds(std::min(seconds, longestStep));
   updateUi(frameSeconds);
@@ -95,6 +98,30 @@ void Demo::updateUi(double seconds) {
   workspace_.advance(seconds);
 }
 
+// Before the first picture of a scene, which may take long.
+void Demo::presentPanels() {
+  workspace_.setPictureText("Drawing " + workspace_.scene().file.filename().string() + "...");
+  updateUi(0.0);
+  if (std::optional<Frame> frame = renderer_.beginFrame()) {
+    endWithPanels(*frame);
+  }
+}
+
+void Demo::endWithPanels(Frame& frame) {
+  { const PassScope black = renderer_.beginPass(frame, fullPass("no picture", renderer_.displayTargets(frame))); }
+  ui_->record(renderer_.beginOverlay(frame));
+  renderer_.endFrame(frame);
+}
+
+// Call it while the exception is handled: it goes on unless taking back the last step can help.
+void Demo::abandonFrame(Frame& frame, const std::string& why) {
+  if (!workspace_.takeBack(why)) {
+    throw;
+  }
+  endWithPanels(frame);
+  useScene(workspace_.scene());
+}
+
 void Demo::drawFrame(double seconds, double sinceLastMs) {
   // Happens between frames, because it waits for the device.
   if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
@@ -112,16 +139,21 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   }
   const Clock::time_point start = Clock::now();
   pace_.finished(renderer_.timings());
-  const FittedPlan fitted = planFrame(*frame, state);
-  const FramePlan& plan = fitted.plan;
-  const std::optional<TargetRequest>& target = output_.target;
-  const std::optional<DebugView> debug =
-      target ? workspace_.report().target(*target, plan, fitted.settings, device_.limits().standardSampleLocations)
-             : std::nullopt;
   const bool captured = workspace_.capture().wanted();
   frame->capture = capture_ || captured;
   const bool bare = workspace_.capture().bare();
-  sceneRenderer_->record(*frame, state, fitted.settings, plan, bare ? std::nullopt : debug);
+  FittedPlan fitted;
+  try {
+    fitted = planFrame(*frame, state);
+    const std::optional<TargetRequest>& target = output_.target;
+    const std::optional<DebugView> debug = target ? workspace_.report().target(*target, fitted.plan, fitted.settings,
+                                                                               device_.limits().standardSampleLocations)
+                                                  : std::nullopt;
+    sceneRenderer_->record(*frame, state, fitted.settings, fitted.plan, bare ? std::nullopt : debug);
+  } catch (const std::exception& error) {
+    return abandonFrame(*frame, error.what());
+  }
+  const FramePlan& plan = fitted.plan;
   if (!bare) {
     ui_->record(renderer_.beginOverlay(*frame));
   }
@@ -255,6 +287,7 @@ void Demo::useScene(const Scene& scene) {
   output_ = {};  // it may request a target of the old scene
   sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, scene);
   ++scenes_;
+  sceneIsNew_ = true;
 }
 
 glm::ivec2 Demo::pictureSize() const {

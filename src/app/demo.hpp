@@ -75,6 +75,9 @@ class Demo : private WorkspaceHost {
   bool changing();
   bool idle();
   void updateUi(double seconds);
+  void presentPanels();
+  void endWithPanels(Frame& frame);
+  void abandonFrame(Frame& frame, const std::string& why);
   void drawFrame(double seconds, double sinceLastMs);
   FittedPlan planFrame(Frame& frame, const SceneState& state);
   bool timesPasses(bool movementEnded);
@@ -100,6 +103,7 @@ class Demo : private WorkspaceHost {
   size_t pipelines_ = 0;       // after the last frame
   int scenes_ = 0;             // number of scenes shown before this one
   LevelJob levels_;
+  bool sceneIsNew_ = true;     // no picture of it was drawn
   Settings frameSettings_;
   std::string message_;
   uint64_t nonFinite_ = 0;  // of scenes shown before

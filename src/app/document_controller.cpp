@@ -16,10 +16,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether the file stands among those that come with the program.
+// Copies with unsaved changes.
+fs::path viewsFolder() {
+  return userCacheDir() / "views";
+}
+
+// Whether the file stands among those that come with the program, or among copies.
 bool isShipped(const fs::path& file) {
   const fs::path scenes = dataDirectory("scenes");
-  const std::array folders{scenes, scenes.parent_path() / "models"};
+  const std::array folders{scenes, scenes.parent_path() / "models", viewsFolder()};
   return std::ranges::any_of(folders, [&](const fs::path& folder) {
     std::error_code none;
     const fs::path below = fs::relative(file, folder, none);
@@ -101,6 +106,15 @@ void DocumentController::askWhere() {
   prompt_ = Prompt::saveAs;
 }
 
+void DocumentController::offerRecovery(const fs::path& file) {
+  proposed_ = file;
+  prompt_ = Prompt::recovery;
+}
+
+void DocumentController::closeOpenPrompt() {
+  prompt_ = prompt_ == Prompt::open || prompt_ == Prompt::recovery ? Prompt::none : prompt_;
+}
+
 void DocumentController::askWhatToOpen(const fs::path& folder) {
   proposed_ = folder;
   note_.clear();
@@ -157,7 +171,7 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
   if (!hasUnsaved(settings)) {
     return loaded_.scene.file;
   }
-  const fs::path folder = userCacheDir() / "views";
+  const fs::path folder = viewsFolder();
   std::error_code none;
   fs::create_directories(folder, none);
   const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, settings));

@@ -27,7 +27,8 @@ class DocumentController {
   std::optional<Command> discard(const Settings& settings);
   void askWhere();
   void askWhatToOpen(const std::filesystem::path& folder);
-  void closeOpenPrompt() { prompt_ = prompt_ == Prompt::open ? Prompt::none : prompt_; }
+  void offerRecovery(const std::filesystem::path& file);
+  void closeOpenPrompt();
   void cancelPrompt();
 
   bool savedSinceLastCall() { return std::exchange(saved_, false); }

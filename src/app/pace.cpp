@@ -47,7 +47,7 @@ FittedPlan Pace::planMoving(const Request& request, const Planner& plan) {
     return work_;
   });
   shown_.reset();
-  text_ = "moving: " + motionText(chosen, levels[level]);
+  text_ = "Moving: " + motionText(chosen, levels[level]);
   return fitted;
 }
 

@@ -17,6 +17,12 @@ constexpr double sameSpot = 4.0;       // pixels within which a click repeats th
 constexpr double objectAhead = 2.5;    // half diagonals of a model, to stand before it and not in it
 constexpr double farthestAhead = 4.0;  // metres from the eye to where nodes are added
 
+glm::dvec3 anchorOf(const SceneNode& node) {
+  const auto* mirror = std::get_if<Mirror>(&node);
+  return mirror && !mirror->polygon.empty() ? mirror->polygon.front()
+                                            : std::visit([](const auto& placed) { return placed.position; }, node);
+}
+
 }  // namespace
 
 SceneEditor::SceneEditor(Scene& scene, std::span<const std::filesystem::path> shipped,
@@ -232,15 +238,11 @@ void SceneEditor::addObject(const SceneView& view, int mesh) {
 
 // On the side where the copy is in sight; the usual one if neither is.
 double SceneEditor::sideInSight(const SceneView& view, const Selection& node, const PixelRect& free) const {
+  const glm::dvec3 pivot = pivotOf(document_.scene(), view.state, node);
+  const glm::dvec3 before = anchorOf(nodeOf(document_.scene(), node));
   for (const double side : {1.0, -1.0}) {
-    Scene copy;
-    copy.meshes = document_.scene().meshes;
-    const SceneNode beside = copyBeside(document_.scene(), node, side);
-    withNodes(copy, node.kind, [&](auto& nodes, const auto&) {
-      nodes.push_back(std::get<typename std::decay_t<decltype(nodes)>::value_type>(beside));
-    });
-    const auto at = view.picture.pixel(pivotOf(copy, evaluate(copy, view.state.time), {.kind = node.kind, .index = 0}));
-    if (at && at->x > free.x && at->x < free.x + free.width && at->y > free.y && at->y < free.y + free.height) {
+    const auto at = view.picture.pixel(pivot + anchorOf(copyBeside(document_.scene(), node, side)) - before);
+    if (at && free.contains(static_cast<int>(at->x), static_cast<int>(at->y))) {
       return side;
     }
   }

@@ -18,4 +18,8 @@ struct SweepRequest {
 // throw.
 SweepResults measureView(const SweepRequest& request, const SweepProgress& progress);
 
+// The same of a picture of few pixels against few samples, within seconds. Its times are enlarged to those of the whole
+// picture by what one configuration takes in both sizes.
+SweepResults measureRoughly(const SweepRequest& request, const SweepProgress& progress);
+
 }  // namespace speculum

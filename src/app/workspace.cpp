@@ -4,6 +4,7 @@
 
 #include "app/pace.hpp"
 #include "app/view_command.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -30,6 +31,11 @@ std::vector<fs::path> findShippedModels() {
   return models;
 }
 
+// Names the copy that the last session left.
+fs::path recoveryRecord() {
+  return userConfigDir() / "recovery";
+}
+
 std::string windowTitle(const EditView& edit) {
   const bool unsaved = edit.unsaved || edit.unsavedSettings;
   return edit.scene->file.stem().string() + (unsaved ? "* - Speculum" : " - Speculum");
@@ -46,6 +52,12 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
       accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
   browser_.list(loaded_->scene.file);
   startDocument();
+  const auto record = options.frames == 0 ? readFileIfAny(recoveryRecord()) : std::nullopt;
+  const fs::path kept = record ? fs::path(std::string(record->begin(), record->end())) : fs::path();
+  std::error_code none;
+  if (fs::is_regular_file(kept, none)) {
+    document_->offerRecovery(kept);
+  }
 }
 
 void Workspace::startDocument() {
@@ -93,7 +105,10 @@ void Workspace::apply(const Command& command) {
                  [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
                  [&](const ResetSettings&) { setSettings(loaded_->settings); },
                  [&](const AskWhatToOpen&) { askWhatToOpen(); },
-                 [&](const OpenScene& c) { open(c.file); },
+                 [&](const OpenScene& c) {
+                   forgetRecovery();
+                   open(c.file);
+                 },
                  [&](const OpenDropped& c) { openDropped(c.files); },
                  [&](const CancelLoading&) {
                    browser_.cancelLoading();
@@ -104,6 +119,7 @@ void Workspace::apply(const Command& command) {
                  [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_.current)); },
                  [&](const DiscardChanges&) { resume(document_->discard(settings_.current)); },
                  [&](const CancelPrompt&) {
+                   forgetRecovery();
                    document_->cancelPrompt();
                    if (browser_.loaded()) {
                      browser_.cancelLoading();
@@ -519,10 +535,28 @@ void Workspace::toggleRecording(bool withPanel) {
   }
 }
 
+bool Workspace::takeBack(const std::string& why) {
+  const std::string step = settingsHistory_.undoLabel(editor().document());
+  if (step.empty()) {
+    return false;
+  }
+  undo();
+  problem_ = "Cannot " + step + ": " + why;
+  return true;
+}
+
+void Workspace::forgetRecovery() {
+  std::error_code none;
+  if (edit_.prompt == Prompt::recovery) {
+    fs::remove(recoveryRecord(), none);
+  }
+}
+
 void Workspace::keepUnsavedWork() noexcept {
   try {
     const fs::path file = document_->savedOrCopy(settings());
     if (file != scene().file) {
+      storeFile(recoveryRecord(), file.string());
       spdlog::error("unsaved changes are kept in {}", file.string());
     }
   } catch (const std::exception& error) {

@@ -72,7 +72,10 @@ class Workspace {
   bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
 
-  // After an exception that ends the program: keeps unsaved changes in a copy, and logs where.
+  // After a frame that could not be drawn: undoes the last step and shows why. False if there is none.
+  bool takeBack(const std::string& why);
+  // Before the program ends without a prompt: keeps unsaved changes in a copy, logs where, and makes the next start
+  // offer it.
   void keepUnsavedWork() noexcept;
 
   const Scene& scene() const { return loaded_->scene; }
@@ -93,6 +96,7 @@ class Workspace {
  private:
   void askWhatToOpen();
   void takeChosenFile();
+  void forgetRecovery();
   void open(const std::filesystem::path& file);
   void openDropped(const std::vector<std::filesystem::path>& files);
   void showScene(std::unique_ptr<LoadedScene> scene);

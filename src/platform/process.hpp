@@ -40,7 +40,7 @@ void setEnvironment(const std::string& name, const std::string& value);
 std::string environment(const std::string& name);  // empty if not set
 bool isTerminal(int fileDescriptor);
 
-// Makes Ctrl-C and a termination request only set a flag; a second Ctrl-C ends the process.
+// Makes Ctrl-C, a closed terminal and a termination request only set a flag; a second Ctrl-C ends the process.
 void installInterruptHandler();
 bool interruptRequested();
 

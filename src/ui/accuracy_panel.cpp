@@ -159,7 +159,10 @@ void plot(PanelContext& ui) {
     }
   }
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("Mean FLIP (up) over GPU ms, both logarithmic. Click a point to apply it.");
+  ImGui::TextWrapped(
+      "Error (mean FLIP, up) over GPU ms. Each point is a choice of settings; a click applies it. Nothing beats the "
+      "orange "
+      "ones in both.");
   ImGui::PopStyleColor();
 }
 
@@ -170,11 +173,11 @@ void frontSlider(PanelContext& ui) {
   const bool onFront = place != accuracy.front.end();
   int index = onFront ? static_cast<int>(place - accuracy.front.begin()) : 0;
   const std::string text = onFront ? accuracy.points[accuracy.current].name : "not on the front";
-  ImGui::TextUnformatted("fast");
+  ImGui::TextUnformatted("Fast");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-8.0f * ImGui::GetFontSize());
   // '%' in a name would be taken for a format.
-  if (ImGui::SliderInt("accurate", &index, 0, std::max(last, 0),
+  if (ImGui::SliderInt("Accurate", &index, 0, std::max(last, 0),
                        text.find('%') == std::string::npos ? text.c_str() : "") &&
       last >= 0) {
     ui.send(ApplyPoint{accuracy.front[index]});
@@ -211,7 +214,7 @@ void budget(PanelContext& ui) {
 
 void differenceView(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
-  ImGui::Checkbox("Show difference from the reference", &ui.state.showDifference);
+  ImGui::Checkbox("Show the error of this picture", &ui.state.showDifference);
   recordWidget(ui, "accuracy.difference");
   if (!ui.state.showDifference) {
     return;
@@ -228,7 +231,7 @@ void differenceView(PanelContext& ui) {
                                               ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}));
   }
   ImGui::Dummy({1.0f, height});
-  ImGui::TextDisabled("FLIP 0 (left) to 1 (right)");
+  ImGui::TextDisabled("Error (FLIP) from 0, left, to 1");
 }
 
 }  // namespace
@@ -236,7 +239,7 @@ void differenceView(PanelContext& ui) {
 void accuracy(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   if (!accuracy.measuring) {
-    if (button(ui, "Measure this view", "accuracy.measure", "With unsaved changes, from a copy of the scene")) {
+    if (button(ui, "Measure this view", "accuracy.measure", "Runs in the background while you go on.")) {
       ui.send(MeasureAccuracy{});
     }
   } else {
@@ -246,8 +249,18 @@ void accuracy(PanelContext& ui) {
     ImGui::SameLine();
     ImGui::ProgressBar(static_cast<float>(accuracy.progress), ImVec2(-1.0f, 0.0f), accuracy.stage.c_str());
   }
+  if (accuracy.measuring && accuracy.secondsLeft > 0.0) {
+    ImGui::TextDisabled("About %.0f s left of this step", accuracy.secondsLeft);
+  } else if (accuracy.points.empty() && accuracy.about.empty()) {
+    ImGui::TextWrapped(
+        "Finds the settings that are the most accurate within a time: 1. traces how this view should look, 2. draws it "
+        "with each choice of settings and compares, 3. takes the times.");
+  }
   if (!accuracy.about.empty()) {
     ImGui::TextWrapped("%s", accuracy.about.c_str());
+  }
+  if (accuracy.otherView) {
+    coloredText(warningColor, "The view has changed since. Measure again for figures of this one.");
   }
   if (!accuracy.points.empty()) {
     plot(ui);

@@ -50,13 +50,13 @@ void help(PanelContext& ui) {
     ImGui::BeginGroup();
     for (const ShortcutGroup& group : shortcutGroups()) {
       if (&group == &shortcutGroups()[3]) {  // the second of two columns
+        helpTable("Gamepad", gamepadHelp());
         ImGui::EndGroup();
         ImGui::SameLine(0.0f, 2.0f * ImGui::GetFontSize());
         ImGui::BeginGroup();
       }
       helpTable(group.name, group.shortcuts);
     }
-    helpTable("Gamepad", gamepadHelp());
     ImGui::EndGroup();
     ImGui::TextDisabled("%s", layoutHelp);
   }

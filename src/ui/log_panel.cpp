@@ -4,27 +4,21 @@
 
 namespace speculum::panels {
 
-namespace {
-
-constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
-
-}  // namespace
-
 void log(PanelContext& ui) {
   PanelState& state = ui.state;
   ImGui::SetNextItemWidth(11.0f * ImGui::GetFontSize());
   ImGui::InputTextWithHint("##filter", "Filter", state.logFilter.data(), state.logFilter.size());
   recordWidget(ui, "log.filter");
-  tip("Only lines that contain this");
+  tip("Shows only lines that contain this.");
   ImGui::SameLine();
   int least = static_cast<int>(state.logLevel);
   ImGui::SetNextItemWidth(7.0f * ImGui::GetFontSize());
   ImGui::Combo("##least", &least, "info\0warning\0error\0");
-  tip("Only lines of this level and above");
+  tip("Shows only lines of this level and above.");
   state.logLevel = static_cast<LogLevel>(least);
   const std::vector<LogLine> lines = ui.view.log.lines(state.logLevel, state.logFilter.data());
   ImGui::SameLine();
-  if (button(ui, "Copy", "log.copy", "The lines below, to the clipboard")) {
+  if (button(ui, "Copy", "log.copy", "Copies the lines below.")) {
     ui.send(CopyText{logText(lines)});
   }
   ImGui::SameLine();

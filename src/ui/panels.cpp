@@ -206,7 +206,7 @@ void settings(PanelContext& ui) {
   if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingRows(ui, "view.");
     if (ui.view.settings.sky && !ui.settings.view.clearColor) {
-      ImGui::TextDisabled("The sky of the scene covers it until it is changed.");
+      ImGui::TextDisabled("The scene's sky is shown in its place.");
     }
     settingRows(ui, "quality.motion_ms");
     settingRows(ui, "quality.still_pictures");

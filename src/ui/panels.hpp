@@ -123,6 +123,7 @@ std::string milliseconds(double ms);    // the same without the unit; "-" for Na
 std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
 // Wraps at the window's edge.
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
+inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
 // A button that is recorded and explained.
 bool button(PanelContext& ui, const char* label, std::string_view key, const char* tip, bool enabled = true);

@@ -181,7 +181,7 @@ void passes(PanelContext& ui) {
   ImGui::TableSetupColumn("Pixels", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableSetupColumn("Depth m", ImGuiTableColumnFlags_WidthFixed, figure);
   ImGui::TableHeadersRow();
-  ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.6f * ImGui::GetFontSize());
+  ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
   for (const PassNode& node : passTree(frame.passes, frame.skipped)) {
     passRow(ui, node);
   }

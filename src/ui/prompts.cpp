@@ -66,6 +66,16 @@ void saveAs(PanelContext& ui) {
   }
 }
 
+void recovery(PanelContext& ui) {
+  ImGui::TextUnformatted("Speculum ended with unsaved changes. Open the copy that it kept?");
+  ImGui::TextDisabled("%s", ui.view.edit.proposedFile.c_str());
+  ImGui::Spacing();
+  answerButton(ui, "Open", "recovery.open", OpenScene{ui.view.edit.proposedFile});
+  ImGui::SetItemDefaultFocus();
+  ImGui::SameLine();
+  answerButton(ui, "Ignore", "recovery.ignore", CancelPrompt{});
+}
+
 void enter(PanelState::Files& files, const std::filesystem::path& folder) {
   std::error_code none;
   files = {.folder = std::filesystem::weakly_canonical(folder, none), .entries = {}, .typed = {}};
@@ -133,7 +143,8 @@ void openFile(PanelContext& ui) {
 void prompts(PanelContext& ui) {
   for (const auto& [prompt, title, content] :
        {std::tuple(Prompt::unsavedChanges, "Unsaved changes", &unsavedChanges),
-        std::tuple(Prompt::saveAs, "Save as", &saveAs), std::tuple(Prompt::open, "Open", &openFile)}) {
+        std::tuple(Prompt::saveAs, "Save as", &saveAs), std::tuple(Prompt::open, "Open", &openFile),
+        std::tuple(Prompt::recovery, "Unsaved changes of the last session", &recovery)}) {
     const bool asked = ui.view.edit.prompt == prompt;
     if (asked && !ImGui::IsPopupOpen(title)) {
       ImGui::OpenPopup(title);

@@ -139,7 +139,7 @@ struct OverlayView {
   glm::dvec2 labelAt{0.0};
 };
 
-enum class Prompt { none, unsavedChanges, saveAs, open };
+enum class Prompt { none, unsavedChanges, saveAs, open, recovery };
 
 // The scene as it is edited.
 struct EditView {
@@ -154,7 +154,7 @@ struct EditView {
   bool unsaved = false;
   bool unsavedSettings = false;  // differ from those that were saved or loaded
   Prompt prompt = Prompt::none;
-  std::filesystem::path proposedFile;  // for Prompt::saveAs; a folder for Prompt::open
+  std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
   std::string note;                    // what was saved, or why it was not
   OverlayView overlay;
 };
@@ -170,10 +170,12 @@ struct PointView {
 
 struct AccuracyView {
   std::vector<PointView> points;
-  std::vector<int> front;   // indices into points, cheapest first
-  int current = -1;         // the point that the settings are at; -1: none
-  double noiseFloor = 0.0;  // mean FLIP
-  std::string about;        // what was measured, where
+  std::vector<int> front;    // indices into points, cheapest first
+  int current = -1;          // the point that the settings are at; -1: none
+  double noiseFloor = 0.0;   // mean FLIP
+  std::string about;         // what was measured, where
+  bool otherView = false;    // the camera or the time is another now
+  double secondsLeft = 0.0;  // of the stage that runs; 0: not known
   bool measuring = false;
   std::string stage;       // of the measurement that runs
   double progress = 0.0;   // of the stage, 0 .. 1
