@@ -18,9 +18,18 @@ constexpr double objectAhead = 2.5;    // half diagonals of a model, to stand be
 constexpr double farthestAhead = 4.0;  // metres from the eye to where nodes are added
 
 glm::dvec3 anchorOf(const SceneNode& node) {
-  const auto* mirror = std::get_if<Mirror>(&node);
-  return mirror && !mirror->polygon.empty() ? mirror->polygon.front()
-                                            : std::visit([](const auto& placed) { return placed.position; }, node);
+  return std::visit(
+      [](const auto& placed) {
+        using Node = std::decay_t<decltype(placed)>;
+        if constexpr (std::is_same_v<Node, std::monostate>) {
+          return glm::dvec3(0.0);
+        } else if constexpr (std::is_same_v<Node, Mirror>) {
+          return placed.polygon.empty() ? placed.position : placed.polygon.front();
+        } else {
+          return placed.position;
+        }
+      },
+      node);
 }
 
 }  // namespace
