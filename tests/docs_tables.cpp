@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -36,15 +35,15 @@ std::string settingValues(const SettingField& field) {
 
 // Measured costs stand in docs/performance.md alone.
 std::string settingsList(std::string_view group) {
-  const std::regex figure("[0-9]\\.[0-9]");
   std::string list;
   for (const SettingField& field : settingFields()) {
     if (field.key.starts_with(group)) {
       const std::string need =
           field.needs ? ", with `" + std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`" : "";
       list += "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need +
-              ". " + std::string(field.cost) + "
-";
+              ". " + std::string(field.cost) +
+              "
+              ";
     }
   }
   return list;

@@ -146,6 +146,11 @@ TEST_F(Journey, CloseButtonAsksAndSaves) {
     run(4);
   };
   close();
+  const glm::dvec3 eye = demo_->camera().eye;
+  xdotool({"keydown", "--window", window_, "w"});
+  run(3);
+  xdotool({"keyup", "--window", window_, "w"});
+  EXPECT_EQ(demo_->camera().eye, eye) << "nobody flies under a prompt";
   press("Escape");
   EXPECT_EQ(view().edit.prompt, Prompt::none);
   EXPECT_FALSE(demo_->window().shouldClose());
@@ -156,7 +161,7 @@ TEST_F(Journey, CloseButtonAsksAndSaves) {
   expectQuiet();
 }
 
-TEST_F(Journey, TapsBetweenTwoFramesReachTheTextField) {
+TEST_F(Journey, InputBetweenFramesGoesWhereItWasMeant) {
   press("ctrl+shift+s");
   run(4);
   // All of it before the next frame.
@@ -165,10 +170,6 @@ TEST_F(Journey, TapsBetweenTwoFramesReachTheTextField) {
   EXPECT_TRUE(waitFor([&] { return demo_->panels().saveAs == "axb"; })) << demo_->panels().saveAs;
   press("Escape");
   EXPECT_EQ(view().edit.prompt, Prompt::none);
-  expectQuiet();
-}
-
-TEST_F(Journey, ClickBelongsToItsOwnPosition) {
   press("n");
   ASSERT_TRUE(view().edit.selected);
   const PixelRect box = widget("pause");
@@ -208,6 +209,8 @@ TEST_F(Journey, ScreenshotsShowTheWindowWithAndWithoutPanels) {
 TEST_F(Journey, MessagesAreSmallAndFade) {
   press("space");
   press("Tab");
+  EXPECT_FALSE(view().status.text.empty()) << "how the panels return";
+  press("Escape");
   const Image8 before = picture();
   press("ctrl+z");
   ASSERT_EQ(view().status.text, "Nothing to undo");
@@ -306,7 +309,7 @@ TEST_F(Journey, TimesOfFramesAreComplete) {
   const DeviceView& device = view().device;
   EXPECT_EQ(device.name, demo_->device().info().name);
   EXPECT_EQ(device.renderPath, renderPathName(demo_->device().renderPath()));
-  EXPECT_EQ(device.samples.find("1 "), 0u);
+  EXPECT_EQ(device.samples.front(), 1);
   EXPECT_GT(view().frame.deviceBytes, 1u << 20);
   EXPECT_GE(view().frame.budgetBytes, view().frame.usedBytes);
   for (const FeatureView& feature : device.features) {
@@ -414,25 +417,19 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   // Between the command and the next frame's list the row is one of a mirror that is gone.
   demo_->apply(SelectNode{{Selection::Kind::mirror, 1}});
   demo_->apply(RemoveSelected{});
-  for (int i = 0; i < 4; ++i) {
-    run(1);
-    EXPECT_TRUE(view().frame.skippedOutline.empty());
-  }
-  expectQuiet();
-}
-
-TEST_F(TwoMirrors, NoOutlineOutlivesItsScene) {
-  scrollTo("skipped in main view");
-  click("skipped in main view");
-  scrollTo("skipped.door");
-  const PixelRect door = widget("skipped.door");
-  moveTo(door.x + door.width / 2, door.y + door.height / 2);
+  const auto gone = [&] {
+    for (int i = 0; i < 4; ++i) {
+      run(1);
+      EXPECT_TRUE(view().frame.skippedOutline.empty());
+    }
+  };
+  gone();
+  demo_->apply(Undo{});
   ASSERT_TRUE(waitFor([&] { return !view().frame.skippedOutline.empty(); }));
   demo_->apply(OpenScene{writeScene("other", wallScene)});
+  demo_->apply(DiscardChanges{});
   ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; }));
-  EXPECT_TRUE(view().frame.skippedOutline.empty());
-  run(2);
-  EXPECT_TRUE(view().frame.skippedOutline.empty());
+  gone();
   expectQuiet();
 }
 

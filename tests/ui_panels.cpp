@@ -95,17 +95,16 @@ TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
 
 TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
   device_.samples = {1, 4};
-  run(2);
-  click("view.samples");
-  tap(ImGuiKey_UpArrow);
-  tap(ImGuiKey_Space);
-  run(4);
+  const auto choose = [&](ImGuiKey_ arrow) {
+    click("view.samples");
+    for (const ImGuiKey_ key : {arrow, arrow, arrow, ImGuiKey_Space}) {
+      tap(key);
+    }
+    run(4);
+  };
+  choose(ImGuiKey_UpArrow);
   EXPECT_EQ(settings_.current.view.samples, 1);
-  click("view.samples");
-  tap(ImGuiKey_DownArrow);
-  tap(ImGuiKey_DownArrow);
-  tap(ImGuiKey_Space);
-  run(4);
+  choose(ImGuiKey_DownArrow);
   EXPECT_EQ(settings_.current.view.samples, 4) << "the highest";
 }
 
@@ -333,6 +332,22 @@ TEST_F(Inspector, ListSelectsAndToggles) {
   ImGui::GetIO().KeyCtrl = true;
   click("edit.node.0");
   EXPECT_TRUE(sent<ToggleNode>());
+}
+
+TEST_F(Inspector, ClickAfterItOpenedIsThePictures) {
+  const PixelRect node = widget("edit.node.1");
+  windows_->toggleInspector();
+  moveTo(node.x + 20, node.y + 5);
+  windows_->openInspector();
+  run(3);
+  commands_.clear();
+  hold(true);
+  hold(false);
+  EXPECT_FALSE(sent<SelectNode>());
+  moveTo(node.x + 40, node.y + 5);
+  hold(true);
+  hold(false);
+  EXPECT_TRUE(sent<SelectNode>()) << "the pointer has moved";
 }
 
 TEST_F(Inspector, NodesAreAddedOfTheChosenModel) {

@@ -1,12 +1,7 @@
 // Tooltips of settings, and the way back to the scene's values.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <regex>
-#include <sstream>
-
 #include "frame/setting_fields.hpp"
-#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -17,20 +12,11 @@ TEST(SettingHelp, NamesEffectRangeAndCost) {
   EXPECT_EQ(settingHelp("no.such_key"), "");
 }
 
-TEST(SettingHelp, FiguresStandInTheMeasurements) {
-  std::ifstream file(sourceDir() / "docs/performance.md");
-  std::stringstream measurements;
-  measurements << file.rdbuf();
-  const std::regex figure("[0-9]+\\.[0-9]+");
-  int figures = 0;
+TEST(SettingHelp, NoFigureIsOfAnotherDevice) {
   for (const SettingField& field : settingFields()) {
-    const std::string text(field.measured);
-    EXPECT_EQ(settingHelp(field.key).find("H200"), std::string::npos) << "another device than the user's";
-    for (std::sregex_iterator it(text.begin(), text.end(), figure), end; it != end; ++it, ++figures) {
-      EXPECT_NE(measurements.str().find(it->str()), std::string::npos) << field.key << ": " << it->str();
-    }
+    EXPECT_EQ(settingHelp(field.key).find("H200"), std::string::npos) << field.key;
+    EXPECT_EQ(field.cost.find(" ms"), std::string_view::npos) << field.key;
   }
-  EXPECT_GT(figures, 20);
 }
 
 TEST(SettingHelp, ResetChangesOneSettingOnly) {

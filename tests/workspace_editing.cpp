@@ -160,6 +160,19 @@ TEST_F(Editing, NodesAreDuplicatedAndDeleted) {
   EXPECT_EQ(text(), before);
 }
 
+TEST_F(Editing, DuplicatesAndFramesStayBetweenPanels) {
+  clickBall();
+  const double x = object().position.x;
+  host_.free = PixelRect{0, 0, static_cast<int>(pixel({x, 1.0, 0.5}).x) + 5, height};
+  send(DuplicateSelected{});
+  EXPECT_LT(object().position.x, x) << "the other side would be behind a panel";
+  host_.free = PixelRect{0, 0, width / 2, height};
+  send(FrameSelection{});
+  const CameraPose pose = camera();
+  const glm::dvec3 seen = pose.worldToView * (object().position - pose.eye);
+  EXPECT_NEAR(focalPixels * seen.x / -seen.z, -width / 4.0, 30.0);
+}
+
 TEST_F(Editing, ContinuedEditsAreOneStep) {
   clickBall();
   Object edited = object();

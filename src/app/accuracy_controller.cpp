@@ -123,7 +123,7 @@ void AccuracyController::applyBudget(Settings& settings) {
     chosen_ = choice->point;
   } else {
     const bool bounded = budget_.ms > 0.0 || budget_.error > 0.0;
-    view_.choice = bounded ? "measure this view, or start with --sweep-results, to choose from" : "";
+    view_.choice = bounded ? "Measure this view first." : "";
   }
 }
 

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
+#include "accuracy/fingerprint.hpp"
 #include "app/background_job.hpp"
 #include "app/session_subject.hpp"
 #include "app/sweep_description.hpp"
+#include "platform/folders.hpp"
 
 namespace speculum {
 
@@ -46,6 +50,29 @@ void multiply(Spread& spread, double factor) {
   }
 }
 
+// A view that was measured before is there at once. The oldest views go.
+std::filesystem::path storeFolder(Session& session, const SweepRequest& request) {
+  namespace fs = std::filesystem;
+  constexpr size_t mostViews = 20;
+  Fingerprint view;
+  view.add(sweepIdentity(session, request.options));
+  view.add(std::as_bytes(std::span(&request.camera.eye, 1)));
+  view.add(std::as_bytes(std::span(&request.camera.worldToView, 1)));
+  view.add(request.camera.verticalFov);
+  view.add(request.time);
+  const fs::path sweeps = userCacheDir() / "sweeps";
+  std::error_code none;
+  std::vector<std::pair<fs::file_time_type, fs::path>> known;
+  for (const auto& entry : fs::directory_iterator(sweeps, none)) {
+    known.emplace_back(entry.last_write_time(none), entry.path());
+  }
+  std::sort(known.rbegin(), known.rend());
+  for (size_t i = mostViews; i < known.size(); ++i) {
+    fs::remove_all(known[i].second, none);
+  }
+  return sweeps / view.hex();
+}
+
 SweepResults measure(const SweepRequest& request, int samples, const SweepProgress& progress) {
   const Options options = optionsOf(request);
   const Settings base = baseOf(request);
@@ -59,7 +86,7 @@ SweepResults measure(const SweepRequest& request, int samples, const SweepProgre
   state.camera = request.camera;
   const SweepPlan plan = viewSweep(sweepContext(session));
   SessionSubject subject(session, request.time);
-  SweepStore store;
+  SweepStore store(storeFolder(session, request));
   const SweepScene scene{.scene = session.scene(),
                          .state = state,
                          .width = options.size.width,

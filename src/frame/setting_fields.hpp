@@ -78,10 +78,9 @@ struct SettingNeed {
 struct SettingField {
   std::string_view key;
   SettingKind kind;
-  const char* label;               // in the panel
-  std::string_view text;           // what it does, one line
-  std::string_view cost;           // what it costs or saves
-  std::string_view measured = {};  // the same in figures of docs/performance.md: of other devices than the user's
+  const char* label;      // in the panel
+  std::string_view text;  // what it does, one line
+  std::string_view cost;  // what it costs or saves: no figures of a device that is not the user's
   std::string_view unit = {};
   FramePart changes = FramePart::mirrorImages;
   bool subject = false;  // chooses what is shown, not how well: no sweep varies it

@@ -1,6 +1,7 @@
 #include "ui/panels.hpp"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -111,7 +112,9 @@ void describe(PanelContext& ui, std::string_view key) {
 }
 
 void tip(const char* text) {
-  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+  // A widget that the keyboard is at counts as hovered, but its tooltip would cover the next ones.
+  const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
+  if (!byKeyboard && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
     ImGui::TextUnformatted(text);

@@ -57,36 +57,37 @@ void passChoice(PanelContext& ui, const PassView* shown) {
     ImGui::EndCombo();
   }
   recordWidget(ui, "targets.pass");
-  tip("Pass whose target is shown");
+  tip("Pass whose target is shown.");
 }
 
 void controls(PanelContext& ui, const PassView* shown) {
   struct Choice {
     Targets::Kind kind;
+    const char* label;
     const char* name;
     const char* about;
   };
   static constexpr std::array<Choice, 3> choices{
-      {{Targets::Kind::color, "color", "Radiance, through exposure and tone curve"},
-       {Targets::Kind::depth, "depth",
-        "Metres from the eye: white 0, grey the distance beside, black infinitely far; white outside the mask.\n"
+      {{Targets::Kind::color, "Color", "color", "Radiance, through exposure and tone curve."},
+       {Targets::Kind::depth, "Depth", "depth",
+        "Metres from the eye: white 0, grey the distance beside, black infinitely far; white outside the mask. "
         "Oblique clipping changes depth, and the greys mean nothing."},
-       {Targets::Kind::mask, "mask", "Grey: pixels that the pass shades; lines: the mirrors seen in it"}}};
+       {Targets::Kind::mask, "Mask", "mask", "Grey: pixels that the pass shades. Lines: the mirrors seen in it."}}};
   Targets& targets = ui.state.targets;
   passChoice(ui, shown);
   for (const Choice& choice : choices) {
     ImGui::SameLine();
-    if (ImGui::RadioButton(choice.name, targets.kind == choice.kind)) {
+    if (ImGui::RadioButton(choice.label, targets.kind == choice.kind)) {
       targets.kind = choice.kind;
     }
     recordWidget(ui, std::string("targets.") + choice.name);
     tip(choice.about);
   }
-  if (button(ui, "Fit", "targets.fit", "The whole image")) {
+  if (button(ui, "Fit", "targets.fit", "Shows the whole image.")) {
     targets.zoom = 0.0;
   }
   ImGui::SameLine();
-  if (button(ui, "1:1", "targets.one", "One texel on one pixel")) {
+  if (button(ui, "1:1", "targets.one", "Shows a texel on each pixel.")) {
     targets.zoom = 1.0;
   }
   if (targets.kind == Targets::Kind::depth) {
@@ -96,7 +97,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     ImGui::SliderFloat("##half", &half, 0.1f, 1000.0f, "grey %.3g m", ImGuiSliderFlags_Logarithmic);
     targets.halfDistance = half;
     recordWidget(ui, "targets.half");
-    tip("Distance that is shown half bright");
+    tip("Distance that is shown half bright.");
   }
 }
 
