@@ -41,9 +41,7 @@ std::string settingsList(std::string_view group) {
       const std::string need =
           field.needs ? ", with `" + std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`" : "";
       list += "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need +
-              ". " + std::string(field.cost) +
-              "
-              ";
+              ". " + std::string(field.cost) + "\n";
     }
   }
   return list;

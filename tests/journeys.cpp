@@ -354,7 +354,7 @@ size = [1, 1.6]
   void expectOutline(const Image8& without, const std::vector<PixelLine>& lines, const std::string& name) {
     const Image8 with = picture();
     int changed = 0;
-    for (int y = 0; y < height; ++y) {
+    for (int y = 30; y < height; ++y) {  // below the menus
       for (int x = 440; x < width; ++x) {
         if (std::equal(with.at(x, y), with.at(x, y) + 3, without.at(x, y))) {
           continue;
@@ -425,6 +425,10 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   };
   gone();
   demo_->apply(Undo{});
+  run(4);
+  scrollTo("skipped.door");
+  const PixelRect again = widget("skipped.door");
+  moveTo(again.x + again.width / 2, again.y + again.height / 2);
   ASSERT_TRUE(waitFor([&] { return !view().frame.skippedOutline.empty(); }));
   demo_->apply(OpenScene{writeScene("other", wallScene)});
   demo_->apply(DiscardChanges{});

@@ -106,6 +106,7 @@ TEST_F(IdleWindow, ShownDepthNeedsTheMainView) {
 
 TEST_F(IdleWindow, OtherSizesAndScenesAreRendered) {
   press("Tab");
+  press("Escape");
   settle();
   const auto expectAsRendered = [&](const std::filesystem::path& file, PictureSize size) {
     EXPECT_TRUE(picture().rgba == draw(headless(file, size)).rgba) << file << " at " << size.width;
@@ -153,6 +154,7 @@ TEST_F(IdleWindow, MovingPictureIsLoweredAndThenExact) {
 
 TEST_F(IdleWindow, StillPictureConvergesToTheCopiedCommand) {
   press("Tab");
+  press("Escape");
   Settings settings = view().settings.current;
   settings.quality.stillPictures = 5;
   demo_->apply(SetSettings{settings});

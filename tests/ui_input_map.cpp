@@ -25,6 +25,18 @@ TEST(InputMap, KeysMeanTheirCommands) {
   EXPECT_TRUE(commandOf({.key = Key::f, .pressed = true, .shift = true})) << "shift means nothing here";
 }
 
+TEST(InputMap, PrintedLettersAreKnown) {
+  for (const ShortcutGroup& group : shortcutGroups()) {
+    for (const Shortcut& shortcut : group.shortcuts) {
+      const int code = static_cast<int>(shortcut.key);
+      if (shortcut.command && code > ' ' && code < 128) {
+        const std::string printed(1, static_cast<char>(std::tolower(code)));
+        EXPECT_EQ(keyMeant(shortcut.key, printed, shortcut.control, ""), shortcut.key) << shortcut.keys;
+      }
+    }
+  }
+}
+
 TEST(InputMap, OnlySomeKeysRepeat) {
   EXPECT_TRUE(commandOf({.key = Key::period, .pressed = true, .repeat = true}));
   EXPECT_TRUE(commandOf({.key = Key::n, .pressed = true, .repeat = true}));

@@ -95,17 +95,21 @@ TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
 
 TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
   device_.samples = {1, 4};
-  const auto choose = [&](ImGuiKey_ arrow) {
+  const auto choose = [&](int row) {
     click("view.samples");
-    for (const ImGuiKey_ key : {arrow, arrow, arrow, ImGuiKey_Space}) {
-      tap(key);
-    }
-    run(4);
+    const PixelRect list = widget("view.samples");
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    moveTo(list.x + 20, list.y + list.height + (static_cast<float>(row) + 0.9f) * line);
+    hold(true);
+    hold(false);
+    run(2);
   };
-  choose(ImGuiKey_UpArrow);
+  choose(0);
   EXPECT_EQ(settings_.current.view.samples, 1);
-  choose(ImGuiKey_DownArrow);
-  EXPECT_EQ(settings_.current.view.samples, 4) << "the highest";
+  choose(1);
+  EXPECT_EQ(settings_.current.view.samples, 4);
+  choose(2);
+  EXPECT_EQ(settings_.current.view.samples, 4) << "there are no more";
 }
 
 TEST_F(PanelTest, MenusSendTheirCommands) {

@@ -15,9 +15,8 @@ namespace {
 constexpr int heatBarSteps = 32;
 
 std::string aboutText(const SweepResults& results) {
-  return results.scene + " at " + std::to_string(results.width) + "x" + std::to_string(results.height) + ", " +
-         std::to_string(results.points.size()) + " configurations, reference of " +
-         std::to_string(results.truthSamples) + " samples, " + results.device;
+  return std::to_string(results.points.size()) + " choices of settings at " + std::to_string(results.width) + "x" +
+         std::to_string(results.height) + ", reference of " + std::to_string(results.truthSamples) + " samples a pixel";
 }
 
 std::string stepText(const std::string& stage) {
@@ -97,7 +96,7 @@ void AccuracyController::takeResults() {
     setResults(std::move(*results));
     measured_ = requested_;
     measuredTime_ = requestedTime_;
-    view_.about = aboutText(results_) + "; times taken while the window was drawing";
+    view_.about = aboutText(results_);
   }
 }
 

@@ -83,7 +83,7 @@ void Workspace::apply(const Command& command) {
                  [&](const ResetCamera&) { camera_.reset(scene()); },
                  [&](const ToggleCameraMode&) { camera_.toggleMode(); },
                  [&](const SetCameraMode& c) { camera_.setMode(c.mode); },
-                 [&](const FrameSelection&) { frameSelection(); },
+                 [&](const FrameSelection&) { frame(editor().document().selection()); },
                  [&](const LookFromMirror& c) { lookFromMirror(c.side); },
                  [&](const AddBookmark&) {
                    editor().addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
@@ -368,6 +368,9 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   }
   startDocument();
   playback_.seek(0.0);
+  if (isModelFile(loaded_->scene.file)) {
+    frame({.kind = Selection::Kind::object, .index = 0});
+  }
   if (browser_.show(loaded_->scene.file, true)) {
     host_.scenesListed();
   }
@@ -471,8 +474,8 @@ void Workspace::redo() {
   status_.set(step.empty() ? "Nothing to redo" : "Redone: " + step);
 }
 
-void Workspace::frameSelection() {
-  const Sphere bounds = boundsOf(scene(), evaluate(scene(), time()), editor().document().selection());
+void Workspace::frame(const Selection& node) {
+  const Sphere bounds = boundsOf(scene(), evaluate(scene(), time()), node);
   if (bounds.radius > 0.0) {
     const glm::dvec2 size = glm::max(glm::dvec2(host_.pictureSize()), 1.0);
     const PixelRect free = host_.freePicture();

@@ -113,7 +113,7 @@ class Workspace {
   void copyCommandLine();
   void measureAccuracy();
   void toggleRecording(bool withPanel);
-  void frameSelection();
+  void frame(const Selection& node);  // none: the whole scene
   void lookFromMirror(MirrorSide side);
   void takeSceneChange();
   void fillEdit();

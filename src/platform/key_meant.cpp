@@ -8,7 +8,7 @@ namespace speculum {
 namespace {
 
 constexpr std::string_view flyingKeys = "WASDQE";
-constexpr std::string_view otherKeys = "BMRFGNYZ,.[]";
+constexpr std::string_view otherKeys = "BMRFGNOYZ,.[]";
 
 bool isAmong(std::string_view characters, Key key) {
   const int code = static_cast<int>(key);

@@ -160,9 +160,7 @@ void plot(PanelContext& ui) {
   }
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped(
-      "Error (mean FLIP, up) over GPU ms. Each point is a choice of settings; a click applies it. Nothing beats the "
-      "orange "
-      "ones in both.");
+      "Error (mean FLIP, up) over GPU ms. A click applies a point; nothing beats the orange ones in both.");
   ImGui::PopStyleColor();
 }
 

@@ -17,7 +17,8 @@ void nodeList(PanelContext& ui) {
   if (std::exchange(ui.state.focusNodes, false)) {
     ImGui::SetNextWindowFocus();
   }
-  ImGui::BeginChild("nodes", ImVec2(0.0f, 7.5f * ImGui::GetTextLineHeightWithSpacing()), true);
+  ImGui::BeginChild("nodes", ImVec2(0.0f, 7.5f * ImGui::GetTextLineHeightWithSpacing()), true,
+                    ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0);
   int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the row that was scrolled to
   int row = 0;
   for (const Selection& node : allNodes(*edit.scene)) {

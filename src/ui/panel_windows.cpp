@@ -165,7 +165,7 @@ void PanelWindows::sideWindows(PanelContext& ui) {
   PanelChoices& choices = state_.choices;
   window("Scenes", choices.scenes, {24.2f, 46.5f}, [&] { panels::gallery(ui, thumbnails_); });
   window("Performance", choices.performance, {27.0f, 22.0f}, [&] { panels::performance(ui); });
-  window("Accuracy", choices.accuracy, {27.0f, 36.0f}, [&] { panels::accuracy(ui); });
+  window("Accuracy", choices.accuracy, {27.0f, 40.0f}, [&] { panels::accuracy(ui); });
   window("Device", choices.device, {27.0f, 30.0f}, [&] { panels::device(ui); });
   window("Log", choices.log, {27.0f, 14.0f}, [&] { panels::log(ui); });
   targetsWindow(ui);

@@ -13,6 +13,7 @@ void applyTheme(Theme theme, float scale) {
   style.FrameBorderSize = theme == Theme::light ? 1.0f : 0.0f;  // white on white
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
   style.Colors[ImGuiCol_PopupBg].w = 1.0f;
+  style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
   const float disabled = theme == Theme::light ? 0.33f : 0.68f;
   style.Colors[ImGuiCol_TextDisabled] = {disabled, disabled, disabled, 1.0f};
   style.ScaleAllSizes(scale);
