@@ -150,6 +150,10 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
                                                                                device_.limits().standardSampleLocations)
                                                   : std::nullopt;
     sceneRenderer_->record(*frame, state, fitted.settings, fitted.plan, bare ? std::nullopt : debug);
+  } catch (const DeviceLostError&) {
+    throw;
+  } catch (const SurfaceLostError&) {
+    throw;
   } catch (const std::exception& error) {
     return abandonFrame(*frame, error.what());
   }
