@@ -103,7 +103,7 @@ class Demo : private WorkspaceHost {
   size_t pipelines_ = 0;       // after the last frame
   int scenes_ = 0;             // number of scenes shown before this one
   LevelJob levels_;
-  bool sceneIsNew_ = true;     // no picture of it was drawn
+  bool sceneIsNew_ = true;  // no picture of it was drawn
   Settings frameSettings_;
   std::string message_;
   uint64_t nonFinite_ = 0;  // of scenes shown before
