@@ -70,15 +70,21 @@ TEST_F(Devices, SeparatePresentQueueShows) {
 }
 
 TEST_F(Devices, TooLittleIsOneLine) {
-  const std::pair<const char*, const char*> cases[] = {{"clip_distance", "lacks shaderClipDistance"},
-                                                       {"graphics", "lacks a queue that draws"},
-                                                       {"present", "lacks a queue that presents to this window"},
-                                                       {"allocations=40", "the device takes 40 allocations"}};
-  for (const auto& [lacks, says] : cases) {
-    const Run poor = run(window, {"SPECULUM_HIDE=" + std::string(lacks)}, Place::inner);
+  struct Case {
+    const Kind& kind;
+    std::string lacks;
+    std::string says;
+  };
+  for (const auto& [kind, lacks, says] :
+       {Case{render, "clip_distance", "lacks shaderClipDistance"}, Case{render, "graphics", "lacks a queue that draws"},
+        Case{window, "present", "lacks a queue that presents to this window"},
+        Case{render, "allocations=30", "the device takes 30 allocations"},
+        Case{render, "image_side=40", "the device takes at most 40 a side"}}) {
+    const Run poor = run(kind, {"SPECULUM_HIDE=" + lacks}, Place::inner);
     EXPECT_EQ(poor.exitCode, 2) << lacks;
     EXPECT_EQ(poor.lines, 1) << poor.output;
     EXPECT_NE(poor.output.find(says), std::string::npos) << poor.output;
+    EXPECT_FALSE(poor.picture) << lacks;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <stdexcept>
 
 namespace speculum {
 
@@ -20,6 +21,12 @@ uint32_t mipLevelCount(VkExtent2D extent) {
 }
 
 Image::Image(Device& device, const ImageDesc& desc) : desc_(desc) {
+  const uint32_t largest = device.limits().maxImageDimension2D;
+  if (std::max(desc.extent.width, desc.extent.height) > largest) {
+    throw std::runtime_error(desc.name + " of " + std::to_string(desc.extent.width) + "x" +
+                             std::to_string(desc.extent.height) + " pixels: the device takes at most " +
+                             std::to_string(largest) + " a side (lower --size or reflection.scale)");
+  }
   owned_ = device.create(vkCreateImage,
                          {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                           .imageType = VK_IMAGE_TYPE_2D,

@@ -438,11 +438,12 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProc(VkInstance instance, const
 // unloads this layer for each, so that only a first call can fail.
 template <typename Tag, typename Chain, typename... Arguments>
 VkResult before(const Chain* chain, Arguments... arguments) {
-  const Fault& fault = state.fault;
+  const Fault fault = state.fault;
   if (fault.function != Tag::function.name || (fault.result == VK_INCOMPLETE && counts(arguments...))) {
     return chain->pfnNextLayer(chain->pNextLink, arguments...);
   }
   unsetenv("SPECULUM_FAULT");
+  state.fault = {};
   const VkResult happened =
       fault.result == VK_INCOMPLETE ? chain->pfnNextLayer(chain->pNextLink, arguments...) : VK_SUCCESS;
   return happened == VK_SUCCESS ? fault.result : happened;
