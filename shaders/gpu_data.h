@@ -23,7 +23,8 @@ using glm::vec4;
 // A pass's view, its background and its lights.
 struct ViewData {
   mat4 clipFromRelative;
-  vec4 rayX;  // relative direction of the ray through a pixel: rayX * x + rayY * y + rayOrigin, not normalised
+  vec3 rayX;  // relative direction of the ray through a pixel: rayX * x + rayY * y + rayOrigin, not normalised
+  uint checksFinite;  // debug.check_finite
   vec4 rayY;
   vec4 rayOrigin;
   vec4 clipPlane;  // (n, h): a relative point p is drawn where n.p + h >= 0

@@ -16,4 +16,4 @@ layout(set = 0, binding = 6, std430) readonly buffer Materials { MaterialData ma
 
 layout(push_constant) uniform Draw { DrawConstants draw; };
 
-vec3 rayThrough(vec2 pixel) { return view.rayX.xyz * pixel.x + view.rayY.xyz * pixel.y + view.rayOrigin.xyz; }
+vec3 rayThrough(vec2 pixel) { return view.rayX * pixel.x + view.rayY.xyz * pixel.y + view.rayOrigin.xyz; }

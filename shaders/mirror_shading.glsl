@@ -168,7 +168,7 @@ vec4 reprojected(float nearest) {
 // Returns the pixel of the view at which a point behind the mirror is seen. The point is relative and in front of the
 // eye.
 vec2 pixelOf(vec3 point) {
-  vec3 x = view.rayX.xyz;
+  vec3 x = view.rayX;
   vec3 y = view.rayY.xyz;
   vec3 axis = cross(x, y);
   vec3 onPlane = point * (dot(view.rayOrigin.xyz, axis) / dot(point, axis)) - view.rayOrigin.xyz;

@@ -33,5 +33,9 @@ void main() {
       vec3(dot(normalFromMesh[0], normal), dot(normalFromMesh[1], normal), dot(normalFromMesh[2], normal));
   textureUv = uv;
   gl_Position = clipFromMesh * p;
-  gl_ClipDistance[0] = clipAtMirror ? dot(clipPlane, p) : 1.0;
+  // Nearer than the rounding of its position a vertex has no direction, and the triangle is seen edge-on: it is cut off.
+  vec3 offset = vec3(relativeFromMesh[0].w, relativeFromMesh[1].w, relativeFromMesh[2].w);
+  const float rounding2 = 5.7e-14;  // (2^-22)^2
+  bool atEye = dot(relativePosition, relativePosition) <= rounding2 * dot(offset, offset);
+  gl_ClipDistance[0] = atEye ? -1e30 : clipAtMirror ? dot(clipPlane, p) : 1.0;
 }

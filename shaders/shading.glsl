@@ -5,6 +5,7 @@ layout(constant_id = 6) const uint lightCount = manyLights;  // view.lightCount,
 
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
+const float radianceMax = 1e30;  // leaves room for sums, and times 0 it is 0
 const float shareMax = 65472.0;  // largest value of a layer: the sum of two rounds to halfMax at most
 
 struct Surface {
@@ -67,6 +68,9 @@ vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
   return lightRadiance(light.position - surface.position, light.radius, light.irradiance, surface, toViewer);
 }
 
+// Keeps what is not a number, for debug.check_finite to find; min() need not.
+vec3 bounded(vec3 radiance) { return mix(radiance, vec3(radianceMax), greaterThan(radiance, vec3(radianceMax))); }
+
 vec3 surfaceRadiance(Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
   vec3 radiance = surface.emission + view.ambient * surface.diffuse;
@@ -79,7 +83,7 @@ vec3 surfaceRadiance(Surface surface) {
       radiance += lightRadiance(passLights[i], surface, toViewer);
     }
   }
-  return radiance;
+  return bounded(radiance);
 }
 
 // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
@@ -122,14 +126,22 @@ Surface objectSurface(vec3 position, vec3 normal, MaterialData material, Materia
 
 vec3 backgroundRadiance(vec3 direction) {
   if (view.hasSky == 0) {
-    return view.background;
+    return bounded(view.background);
   }
   float y = safeNormalize(direction).y;
-  return y >= 0.0 ? mix(view.horizon.rgb, view.zenith.rgb, sqrt(y))
-                  : mix(view.horizon.rgb, view.ground.rgb, min(1.0, -8.0 * y));
+  return bounded(y >= 0.0 ? mix(view.horizon.rgb, view.zenith.rgb, sqrt(y))
+                          : mix(view.horizon.rgb, view.ground.rgb, min(1.0, -8.0 * y)));
 }
 
 // Returns the value as a half-float target can store it: beyond its range some drivers store infinity, and one such
 // sample spoils a resolve. `disparity` is 1 / w of clip space in 1/m, 0 at infinity: a cached image is reprojected by
 // it.
-vec4 storable(vec3 radiance, float disparity) { return clamp(vec4(radiance, disparity), 0.0, halfMax); }
+vec4 storable(vec3 radiance, float disparity) {
+  vec4 value = vec4(radiance, disparity);
+  vec4 stored = clamp(value, 0.0, halfMax);
+  if (view.checksFinite != 0) {
+    // clamp() hides what is not a number. By its bits, because compilers may take isnan() for false.
+    stored = mix(stored, value, greaterThan(floatBitsToUint(value) & 0x7fffffffu, uvec4(0x7f800000u)));
+  }
+  return stored;
+}

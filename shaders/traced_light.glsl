@@ -100,5 +100,5 @@ vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self) {
       radiance += arriving;
     }
   }
-  return radiance;
+  return bounded(radiance);
 }

@@ -1,6 +1,7 @@
 // Sweeps without a GPU: statistics, the front, plans, and a run over a renderer that is the ray tracer itself.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -403,6 +404,20 @@ TEST_F(SmallSweep, ResultsRefuseNumbersThatAreNoInt) {
   std::string text = json.dump();
   text.replace(text.find("\"nested\""), 8, std::string(5000, '[') + std::string(5000, ']'));
   EXPECT_NE(readProblem(text), "nothing");
+}
+
+TEST_F(SweepFiles, ManyKeysAreRefusedInShortTime) {
+  std::string json = "{\"points\": [{\"settings\": {";
+  std::string toml = "[[grid]]\n[grid.settings]\n";
+  for (int i = 0; i < 100'000; ++i) {
+    json += "\"" + std::to_string(i) + "\": 1,";
+    toml += "k" + std::to_string(i) + " = 1\n";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(readProblem(json + "\"a\": 1}}]}"),
+            "an object has more than 10000 members (a results.json of speculum accuracy is needed)");
+  EXPECT_NE(problem(toml).find("has 100000 keys"), std::string::npos) << problem(toml).substr(0, 200);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST_F(SweepFiles, OtherFilesAreNoResults) {

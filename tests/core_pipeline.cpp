@@ -68,18 +68,19 @@ TEST_F(PipelineCacheTest, UnwritableDirectoryIsNoError) {
 class HotReload : public GpuTest {
  protected:
   HotReload() {
+    fs::create_directory(folder_);
     for (const auto& entry : fs::directory_iterator(glslDir)) {
-      fs::copy_file(entry.path(), directory_.path() / entry.path().filename());
+      fs::copy_file(entry.path(), folder_ / entry.path().filename());
     }
     RendererOptions options = headless(extent);
-    options.shaderDir = directory_.path();
+    options.shaderDir = folder_;
     renderer_.emplace(device_, options);
     scene_.emplace(*renderer_, extent, 1);
   }
 
   // Replaces `from` in a shader and gives the file a newer time.
   void edit(const std::string& name, const std::string& from, const std::string& to) {
-    const fs::path file = directory_.path() / name;
+    const fs::path file = folder_ / name;
     const std::vector<uint8_t> content = readFile(file);
     std::string text(content.begin(), content.end());
     const size_t at = text.find(from);
@@ -98,6 +99,7 @@ class HotReload : public GpuTest {
   }
 
   TemporaryDirectory directory_;
+  const fs::path folder_ = directory_.path() / "with a blank: and \\ more";
   std::optional<Renderer> renderer_;
   std::optional<SmallScene> scene_;
   int edits_ = 0;

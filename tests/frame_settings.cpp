@@ -128,9 +128,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "reflection.clip: 'maybe' is not a choice (clip_distance | oblique | none)"},
         BadValue{"view.wireframe", "1", "view.wireframe: '1' is not a choice (true | false)"},
         BadValue{"view.clear_color", "1,2",
-                 "view.clear_color: '1,2' is not a color (three linear values >= 0, such as 0.1,0.2,0.3)"},
+                 "view.clear_color: '1,2' is not a color (three linear values 0 .. 1e38, such as 0.1,0.2,0.3)"},
         BadValue{"view.clear_color", "1,2,3,4",
-                 "view.clear_color: '1,2,3,4' is not a color (three linear values >= 0, such as 0.1,0.2,0.3)"},
+                 "view.clear_color: '1,2,3,4' is not a color (three linear values 0 .. 1e38, such as 0.1,0.2,0.3)"},
         BadValue{"view.exposur", "1", "view.exposur: unknown setting (did you mean 'view.exposure'?)"}));
 
 TEST(Settings, UnknownKeyListsAll) {

@@ -39,8 +39,8 @@ std::vector<glm::dvec3> ring(int count, double (*radius)(int)) {
 }
 
 TEST(Triangulate, ConvexPolygonsAreFans) {
-  const std::vector<glm::dvec3> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  EXPECT_EQ(triangulate(square), (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  const std::vector<glm::dvec3> house{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0.5, 1.5, 0}, {0, 1, 0}};
+  EXPECT_EQ(triangulate(house), (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
   expectTiles(ring(300, [](int) { return 1.0; }));
 }
 
@@ -62,6 +62,20 @@ TEST(Triangulate, PointsOnEdgesAreNoEars) {
 TEST(Triangulate, DegeneratePolygonsStillEnd) {
   EXPECT_EQ(triangulate(std::vector<glm::dvec3>(5, glm::dvec3(1.0))).size(), 3u);
   EXPECT_EQ(triangulate(std::vector<glm::dvec3>{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);
+}
+
+TEST(Triangulate, QuadsThatAreNotConvexAreTiled) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(0.05, 0.95);
+  for (int i = 0; i < 1000; ++i) {
+    // The fourth vertex lies within the triangle of the others.
+    const double a = part(random);
+    const double b = (1.0 - a) * part(random);
+    std::vector<glm::dvec3> dart{{0, 0, 0}, {1, 0.2, 0.3}, {0.3, 1, -0.5}};
+    dart.push_back((1.0 - a - b) * dart[0] + a * dart[1] + b * dart[2]);
+    std::rotate(dart.begin(), dart.begin() + i % 4, dart.end());
+    expectTiles(dart);
+  }
 }
 
 // Ear clipping that remembers nothing from one ear to the next.
@@ -94,7 +108,7 @@ std::vector<std::array<int, 3>> earsByTheRule(const std::vector<glm::dvec3>& poi
 
 TEST(Triangulate, FindsTheEarsOfTheRule) {
   std::mt19937 random(7);
-  for (int count = 3; count < 60; ++count) {
+  for (int count = 5; count < 60; ++count) {
     for (int kind = 0; kind < 4; ++kind) {
       std::vector<glm::dvec3> points;
       for (int i = 0; i < count; ++i) {

@@ -1,6 +1,7 @@
 // EXR files whose header, table and chunks disagree.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <climits>
 #include <random>
@@ -30,6 +31,7 @@ struct ExrFile {
   int compression = 0;
   int lineOrder = 0;
   std::optional<int> chunkCount;
+  bool emptyTable = false;
   std::optional<std::array<int, 3>> tiles;  // width, height, mode
   std::vector<Chunk> chunks;
 
@@ -96,7 +98,8 @@ struct ExrFile {
     float next = 1.0f;
     const size_t begin = file.size() + 8 * chunks.size();
     for (const Chunk& chunk : chunks) {
-      append(file, static_cast<uint64_t>(static_cast<int64_t>(begin + data.size()) + chunk.offsetError));
+      const int64_t offset = static_cast<int64_t>(begin + data.size()) + chunk.offsetError;
+      append(file, emptyTable ? uint64_t{0} : static_cast<uint64_t>(offset));
       for (const int part : chunk.where) {
         append(data, part);
       }
@@ -149,6 +152,28 @@ TEST_F(ExrLayout, RowsStandWhereTheirChunksSay) {
     for (size_t i = 0; i < 20; ++i) {
       EXPECT_EQ(image.pixels[i], glm::vec3(1.0f + static_cast<float>(i))) << "line order " << lineOrder;
     }
+  }
+}
+
+TEST_F(ExrLayout, TablesThatWereNeverWrittenAreRebuilt) {
+  std::mt19937 random(1);
+  for (int height = 1; height < 40; ++height) {
+    ExrFile file = rows(height);
+    const LinearImage expected = read(file.bytes());
+    file.emptyTable = true;
+    EXPECT_EQ(read(file.bytes()).pixels, expected.pixels) << height << " rows";
+    std::shuffle(file.chunks.begin(), file.chunks.end(), random);
+    const LinearImage shuffled = read(file.bytes());
+    for (int i = 0; i < height; ++i) {
+      EXPECT_EQ(shuffled.at(0, file.chunks[i].where[0] - file.window[1]).x, 1.0f + 4.0f * static_cast<float>(i));
+    }
+    std::string bytes = file.bytes();
+    bytes.resize(bytes.size() - 1);
+    EXPECT_NE(refusal(bytes), "") << "cut off";
+    file.chunks.back().where[0] = 1000;
+    EXPECT_NE(refusal(file.bytes()), "") << "a row that is not there";
+    file.chunks.back().where[0] = file.chunks.front().where[0];
+    EXPECT_NE(refusal(file.bytes()), "") << "a row that stands there twice";
   }
 }
 

@@ -167,5 +167,55 @@ TEST(Exr, ReadsAlphaGreyAndHalf) {
   }
 }
 
+// Zeros, `count` times 258 of them, as deflate packs them best.
+std::string packedZeros(size_t count) {
+  std::string bytes("\x78\x01", 2);
+  unsigned buffer = 0;
+  int bits = 0;
+  const auto put = [&](unsigned value, int length) {
+    buffer |= value << bits;
+    for (bits += length; bits >= 8; bits -= 8) {
+      bytes += static_cast<char>(buffer);
+      buffer >>= 8;
+    }
+  };
+  put(0b011, 3);       // the last block, with fixed codes
+  put(0b00001100, 8);  // 0
+  for (size_t i = 0; i < count; ++i) {
+    put(0b10100011, 8);  // 258 bytes
+    put(0, 5);           // as the one before
+  }
+  put(0, 15);
+  return bytes + std::string(4, '\0');  // a checksum, which nothing reads
+}
+
+std::string pngOf(unsigned width, unsigned height, const std::string& packed) {
+  std::string file("\x89PNG\r\n\x1a\n");
+  const auto number = [](size_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) {
+      bytes += static_cast<char>(value >> shift);
+    }
+    return bytes;
+  };
+  const auto chunk = [&](const std::string& name, const std::string& data) {
+    file += number(data.size()) + name + data + number(0);
+  };
+  chunk("IHDR", number(width) + number(height) + std::string("\x08\x00\x00\x00\x00", 5));
+  for (size_t at = 0; at < packed.size(); at += 100'000) {
+    chunk("IDAT", packed.substr(at, 100'000));
+  }
+  chunk("IEND", "");
+  return file;
+}
+
+TEST(Png, SmallFilesDoNotUnpackToGigabytes) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(readImage8(folder.write("a.png", pngOf(515, 100, packedZeros(200)))).height, 100);
+  EXPECT_EQ(readImage8(folder.write("more.png", pngOf(4, 4, packedZeros(200)))).height, 4) << "a little more";
+  const fs::path bomb = folder.write("bomb.png", pngOf(4, 4, packedZeros(1'000'000)));
+  expectFault([&] { readImage8(bomb); }, bomb, "unpacks to more than its pixels");
+}
+
 }  // namespace
 }  // namespace speculum

@@ -1,9 +1,13 @@
 #include "scene/obj_loader.hpp"
 
 #include <gtest/gtest.h>
+#include <spdlog/fmt/fmt.h>
+#include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "geometry/polygon.hpp"
 #include "obj_support.hpp"
@@ -62,8 +66,8 @@ TEST_F(ObjLoader, CornersAreSharedByIndexTriple) {
       "f 1/1/1 2/2/1 3/3/1 4/4/1\nf 1/2/1 2/2/1 3/3/1\n");
   EXPECT_EQ(mesh.indices.size(), 9u);
   EXPECT_EQ(mesh.vertices.size(), 5u) << "only the first corner of the second face differs";
-  EXPECT_EQ(mesh.vertices[2].uv, glm::dvec2(1, 1));
-  EXPECT_EQ(mesh.vertices[2].normal, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(mesh.vertices[3].uv, glm::dvec2(1, 1));
+  EXPECT_EQ(mesh.vertices[3].normal, glm::dvec3(0, 0, 1));
 }
 
 TEST_F(ObjLoader, RelativeIndicesCountBackwards) {
@@ -207,8 +211,10 @@ TEST_F(ObjLoader, ExponentsOfAnySize) {
 }
 
 TEST_F(ObjLoader, RadiusOfAnySize) {
-  EXPECT_NEAR(load("v 0 0 0\nv 6e200 0 0\nv 0 8e200 0\nf 1 2 3\n").radius / 5e200, 1.0, 1e-14);
-  EXPECT_NEAR(load("v 0 0 0\nv 6e-200 0 0\nv 0 8e-200 0\nf 1 2 3\n").radius / 5e-200, 1.0, 1e-14);
+  const Mesh large = load("v 0 0 0\nv 6e200 0 0\nv 0 8e200 0\nf 1 2 3\n");
+  EXPECT_NEAR(large.radius * (large.unit / 5e200), 1.0, 1e-14);
+  const Mesh small = load("v 0 0 0\nv 6e-200 0 0\nv 0 8e-200 0\nf 1 2 3\n");
+  EXPECT_NEAR(small.radius * (small.unit / 5e-200), 1.0, 1e-14);
 }
 
 TEST_F(ObjLoader, CommentsAndByteOrderMarkAreSkipped) {
@@ -280,6 +286,91 @@ INSTANTIATE_TEST_SUITE_P(
         ObjFault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
         ObjFault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no triangle"}),
     [](const auto& info) { return std::string(info.param.name); });
+
+// Corners of the triangles by their positions, whatever corner each begins with.
+std::vector<std::array<int, 3>> sorted(std::vector<std::array<int, 3>> triangles) {
+  for (std::array<int, 3>& t : triangles) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+TEST_F(ObjLoader, QuadsAreCutAsByTinyobjloader) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (int i = 0; i < 500; ++i) {
+    // Convex, bent out of their plane, and in turn with diagonals of one length.
+    std::string obj;
+    for (int corner = 0; corner < 4; ++corner) {
+      const double angle = 1.5707963 * corner + (i % 2 == 0 ? 0.0 : 0.6 * number(random));
+      const double radius = i % 2 == 0 ? 1.0 + i : std::exp(0.3 * number(random));
+      obj += fmt::format("v {} {} {}\n", i % 2 == 0 ? corner % 3 == 0 ? 0.0 : radius : radius * std::cos(angle),
+                         i % 2 == 0 ? corner < 2 ? 0.0 : radius : radius * std::sin(angle),
+                         i % 2 == 0 ? 0.0 : 0.2 * number(random));
+    }
+    obj += "f 1 2 3 4\n";
+    tinyobj::ObjReader other;
+    ASSERT_TRUE(other.ParseFromString(obj, "", {}));
+    std::vector<std::array<int, 3>> expected;
+    const auto& indices = other.GetShapes().at(0).mesh.indices;
+    for (size_t k = 0; k < indices.size(); k += 3) {
+      expected.push_back({indices[k].vertex_index, indices[k + 1].vertex_index, indices[k + 2].vertex_index});
+    }
+    std::vector<glm::dvec3> corners;
+    for (size_t k = 0; k < 12; k += 3) {
+      const auto& v = other.GetAttrib().vertices;
+      corners.emplace_back(v[k], v[k + 1], v[k + 2]);
+    }
+    const Mesh mesh = load(obj);
+    std::vector<std::array<int, 3>> actual(mesh.indices.size() / 3);
+    for (size_t k = 0; k < mesh.indices.size(); ++k) {
+      const glm::dvec3 p = mesh.vertices[mesh.indices[k]].position + mesh.center;
+      const auto nearest = std::min_element(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
+        return glm::distance(a, p) < glm::distance(b, p);
+      });
+      actual[k / 3][k % 3] = static_cast<int>(nearest - corners.begin());
+    }
+    ASSERT_EQ(sorted(actual), sorted(expected)) << obj;
+  }
+}
+
+TEST_F(ObjLoader, ModelsOfAnySizeKeepTheirShape) {
+  const Mesh usual = load(kSquare + "f 1 2 3 4\n");
+  for (const int exponent : {-300, -100, -40, -13, -3, 3, 13, 40, 100, 290}) {
+    std::string obj;
+    for (const char* corner : {"0 0", "1 0", "1 1", "0 1"}) {
+      obj += fmt::format("v {}e{} {}e{} 0\n", corner[0], exponent, corner[2], exponent);
+    }
+    const Mesh mesh = load(obj + "f 1 2 3 4\n");
+    ASSERT_EQ(mesh.indices, usual.indices) << exponent;
+    const double size = std::pow(10.0, exponent);
+    EXPECT_NEAR(mesh.radius * mesh.unit / size, usual.radius, 1e-12);
+    EXPECT_TRUE(mesh.radius > 1e-13 && mesh.radius < 1e13) << exponent;
+    for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+      const glm::dvec3 p = mesh.vertices[i].position * mesh.unit / size;
+      EXPECT_NEAR(glm::distance(p, usual.vertices[i].position), 0.0, 1e-12) << exponent;
+      EXPECT_TRUE(std::isnormal(static_cast<float>(mesh.vertices[i].position.x))) << exponent;
+    }
+  }
+}
+
+TEST_F(ObjLoader, TextureCoordinatesFarAwayKeepTheirFraction) {
+  for (const double far : {0.0, 1e4, -1e6, 1e9, -1e12, 1e300}) {
+    std::string obj = kSquare;
+    for (const double u : {0.25, 1.25, 1.75, 0.5}) {
+      obj += fmt::format("vt {} {}\n", far + u, 0.5 * u - far);
+    }
+    const Mesh mesh = load(obj + "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
+    for (const Vertex& vertex : mesh.vertices) {
+      EXPECT_LE(std::max(std::abs(vertex.uv.x), std::abs(vertex.uv.y)), 4100.0) << far;
+      const glm::dvec3 corner = vertex.position + mesh.center;
+      const double u = corner.x == 0.0 ? (corner.y == 0.0 ? 0.25 : 0.5) : (corner.y == 0.0 ? 1.25 : 1.75);
+      const double expected = far == 1e300 ? 0.0 : u;
+      EXPECT_NEAR(std::remainder(vertex.uv.x - expected, 1.0), 0.0, 1e-3) << far;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace speculum

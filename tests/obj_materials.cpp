@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "image/color.hpp"
@@ -131,15 +132,48 @@ TEST_F(MtlFile, MostAreTenThousand) {
 
 TEST_F(MtlFile, FaultsNameTheirLine) {
   for (const auto& [mtl, fault] : std::initializer_list<std::pair<std::string, const char*>>{
-           {"newmtl a\nKd nan 0 0\n", "2: Kd: is not finite"},
-           {"newmtl a\nKs 0 -1 0\n", "2: Ks: is negative"},
+           {"newmtl a\nKd nan 0 0\n", "2: Kd: is nan"},
+           {"newmtl a\nKs 0 -1 0\n", "2: Ks: is -1"},
            {"newmtl a\nKe x 0 0\n", "2: Ke: 'x' is not a number"},
            {"newmtl a\nKd 0.5\n", "2: Kd: has 1 numbers (3 are needed)"},
-           {"newmtl a\nNs inf\n", "2: Ns: is not finite"},
+           {"newmtl a\nNs inf\n", "2: Ns: is inf"},
            {"newmtl a\nd half\n", "2: d: 'half' is not a number"},
            {std::string("newmtl a\n\0\0", 11), "2: file: is not a text file"}}) {
     EXPECT_TRUE(faultOf(kSquare, mtl).starts_with(std::string("m.mtl:") + fault)) << fault;
   }
+}
+
+TEST_F(MtlFile, LibrariesHaveBlanksAndBackslashes) {
+  for (const std::string name :
+       {"a b.mtl", "two  blanks and more .mtl", "with'quote \xff.mtl", "folder/in it/c d.mtl"}) {
+    folder_.write(name, "newmtl a\nKd 0.125 0 0\n");
+    std::string escaped;
+    for (const char c : name) {
+      escaped += (c == ' ' ? "\\" : "") + std::string(1, c);
+    }
+    std::string windows = name;
+    std::replace(windows.begin(), windows.end(), '/', '\\');
+    for (const std::string& written : {name, escaped, windows, "none.mtl " + escaped}) {
+      const Mesh mesh = load("mtllib " + written + "\n" + kSquare + "usemtl a\nf 1 2 3\n");
+      EXPECT_EQ(mesh.parts.at(0).material.diffuse.x, 0.125) << written;
+    }
+  }
+}
+
+TEST_F(MtlFile, NumbersAreRefusedByKey) {
+  for (const std::string key : {"Kd", "Ks", "Ke", "Ns"}) {
+    for (const std::string value : {"1e39", "1e300", "-1", "nan", "inf", "-inf", "1e99999999999"}) {
+      const bool color = key != "Ns";
+      if (!color && value.find_first_of("nf") == std::string::npos && value.size() < 9) {
+        continue;
+      }
+      const std::string fault = faultOf(kSquare + "f 1 2 3\n", "newmtl a\n" + key + " 0.5 0.5 " + value + "\n");
+      EXPECT_EQ(color, fault.starts_with("m.mtl:2: " + key + ": is ")) << fault;
+    }
+  }
+  const Mesh mesh = load("usemtl a\n" + kSquare + "f 1 2 3\n", "newmtl a\nNs 1e300\nKd 1e30 1e-300 0\n");
+  EXPECT_EQ(mesh.parts.at(0).material.shininess, 1e6);
+  EXPECT_EQ(mesh.parts.at(0).material.diffuse.x, 1e30);
 }
 
 }  // namespace

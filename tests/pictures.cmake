@@ -17,3 +17,4 @@ foreach(call CreateBuffer DestroyBuffer CreateImage DestroyImage CreateShaderMod
   target_link_options(effects_ledger_tests PRIVATE LINKER:--wrap=vk${call})
 endforeach()
 speculum_test(accumulated_tests SOURCES accumulated_pictures.cpp LIBRARIES picture_support LABELS pictures)
+speculum_test(number_tests SOURCES number_ranges.cpp LIBRARIES picture_support LABELS pictures)

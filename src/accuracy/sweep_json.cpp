@@ -126,6 +126,21 @@ SweepSeries readSeries(const JsonReader& reader, size_t pointCount) {
 
 }  // namespace
 
+ordered_json parseJson(const std::vector<uint8_t>& bytes) {
+  constexpr int mostMembers = 10'000;
+  std::vector<int> members;  // of the objects around
+  return ordered_json::parse(bytes.begin(), bytes.end(), [&](int, ordered_json::parse_event_t event, ordered_json&) {
+    if (event == ordered_json::parse_event_t::object_start) {
+      members.push_back(0);
+    } else if (event == ordered_json::parse_event_t::object_end) {
+      members.pop_back();
+    } else if (event == ordered_json::parse_event_t::key && ++members.back() > mostMembers) {
+      throw std::runtime_error("an object has more than 10000 members");
+    }
+    return true;
+  });
+}
+
 ordered_json errorsJson(const ErrorFigures& errors) {
   const auto counted = [](const ImageMetrics& metrics) {
     ordered_json json = metricsJson(metrics);
@@ -171,11 +186,13 @@ SweepResults readSweepResults(const std::filesystem::path& file) {
   ordered_json json;
   try {
     const std::vector<uint8_t> bytes = readFile(file, 64u << 20);
-    json = ordered_json::parse(bytes.begin(), bytes.end());
+    json = parseJson(bytes);
   } catch (const nlohmann::json::exception&) {
     throw InputError(file.string() + ": not JSON (a results.json of speculum accuracy is needed)");
-  } catch (const std::runtime_error& error) {
+  } catch (const FileError& error) {
     throw InputError(error.what());
+  } catch (const std::runtime_error& error) {
+    throw InputError(file.string() + ": " + error.what() + " (a results.json of speculum accuracy is needed)");
   }
   const JsonReader reader(file, json);
   SweepResults results{.scene = reader.get<std::string>("scene"),

@@ -10,6 +10,10 @@
 
 namespace speculum {
 
+// Throws std::runtime_error, or nlohmann's exceptions for what is no JSON. Members of an object are found in time
+// proportional to their number, which is limited before they are read.
+nlohmann::ordered_json parseJson(const std::vector<uint8_t>& bytes);
+
 // Returns results.json of `speculum accuracy`.
 nlohmann::ordered_json sweepJson(const SweepResults& results);
 

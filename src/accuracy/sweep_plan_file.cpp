@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "frame/setting_fields.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/toml_file.hpp"
 
@@ -52,6 +53,10 @@ using Axes = std::vector<std::pair<std::string, std::vector<std::string>>>;
 Axes readAxes(const TableReader& table) {
   Axes axes;
   if (const std::optional<TableReader> settings = table.subtable("settings")) {
+    if (settings->table().size() > settingFields().size()) {
+      table.fail("settings", "has " + std::to_string(settings->table().size()) + " keys",
+                 "there are " + std::to_string(settingFields().size()) + " settings");
+    }
     for (const auto& [key, node] : settings->table()) {
       axes.emplace_back(std::string(key.str()), valueTexts(*settings, key.str(), node));
     }

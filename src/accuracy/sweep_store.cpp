@@ -24,7 +24,7 @@ std::optional<ordered_json> readJson(const fs::path& file) {
   }
   try {
     const std::vector<uint8_t> bytes = readFile(file);
-    return ordered_json::parse(bytes.begin(), bytes.end());
+    return parseJson(bytes);
   } catch (const std::exception&) {
     spdlog::warn("{}: unreadable, what it held is measured again", file.string());
     return std::nullopt;
@@ -99,7 +99,7 @@ void SweepStore::save() const {
       json[key]["error"] = errorsJson(*m.errors);
     }
   }
-  replaceFile(folder_ / "measurements.json", json.dump());
+  replaceFile(folder_ / "measurements.json", json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {

@@ -171,7 +171,7 @@ void CameraController::frame(const Sphere& sphere, double aspect, const Part& pa
   take(last_);
   const glm::dvec2 slope = std::tan(0.5 * glm::radians(spec_.verticalFov)) * glm::dvec2(aspect, 1.0);
   const double narrowest = std::atan(std::min(slope.x * part.half.x, slope.y * part.half.y));
-  const double distance = std::max(sphere.radius, 10.0 * spec_.near) / std::sin(narrowest);
+  const double distance = std::max(sphere.radius, 10.0 * std::min(spec_.near, 1.0)) / std::sin(narrowest);
   const glm::dmat3 axes = glm::transpose(last_.worldToView);
   target_ = sphere.center - axes * glm::dvec3(part.center * slope * distance, 0.0);
   eye_ = target_ + axes[2] * distance;
@@ -196,7 +196,8 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
   }
   const double distance = side == MirrorSide::back ? radius / std::sin(narrowerHalfAngle(aspect)) : 0.0;
   // On the plane itself, whether the mirror shows its front would be up to rounding.
-  eye_ = side == MirrorSide::back ? middle - forward * distance : middle + mirror.normal * (10.0 * spec_.near);
+  eye_ = side == MirrorSide::back ? middle - forward * distance
+                                  : middle + mirror.normal * (10.0 * std::min(spec_.near, 1.0));
   target_ = eye_ + forward * std::max(distance, radius);
 }
 

@@ -1,12 +1,14 @@
 #include "app/effect_prices.hpp"
 
+#include "platform/process.hpp"
+
 namespace speculum {
 
 namespace {
 
 double gpuMs(Session& session, const Settings& settings, double time) {
   session.setSettings(settings);
-  session.draw(time, false);
+  session.draw(time, false, [] { return !interruptRequested(); });
   session.finish();
   return session.lastFrame().timings.gpuMs;
 }
@@ -28,7 +30,7 @@ std::vector<EffectPrice> effectPrices(Session& session, double time, int pairs) 
     for (const auto& [key, value] : changes) {
       setSetting(without, key, value);
     }
-    for (int pair = 0; pair <= pairs; ++pair) {
+    for (int pair = 0; pair <= pairs && !interruptRequested(); ++pair) {
       const double with = gpuMs(session, all, time);
       const double rest = gpuMs(session, without, time);
       if (pair > 0) {

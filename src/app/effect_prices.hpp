@@ -10,6 +10,7 @@ using EffectPrice = std::vector<double>;
 
 // Of all effects, in the order of EffectKind, for the frame that the session drew last: frames with the effect and
 // without it in turn, `pairs` of them after one that is not counted. The session's settings are as before afterwards.
+// Ends early, with fewer pairs, once an interrupt is requested.
 std::vector<EffectPrice> effectPrices(Session& session, double time, int pairs);
 
 }  // namespace speculum

@@ -1,6 +1,8 @@
 #include "app/options.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <CLI/CLI.hpp>
+
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -68,6 +70,13 @@ Bookmark parseCamera(const std::string& text) {
     throw UsageError("--camera: '" + text +
                      "' is not a camera (position:target, position:target:up or position:target:up:FOV with a vertical "
                      "field of view of 1 .. 170 degrees, such as 0,1,4:0,1,0)");
+  }
+  for (size_t i = 0; i < std::min<size_t>(count, 3); ++i) {
+    for (const double value : lists[i]) {
+      if (!kCoordinate.contains(value)) {
+        throw UsageError(fmt::format("--camera: {} is out of range ({})", value, kCoordinate.text()));
+      }
+    }
   }
   const auto point = [&](size_t i) { return glm::dvec3(lists[i][0], lists[i][1], lists[i][2]); };
   return {.position = point(0),
@@ -225,8 +234,9 @@ void applyRaw(const Raw& raw, Options& options) {
   } else {
     options.bookmark = raw.camera;
   }
-  if (!std::isfinite(options.time)) {
-    throw UsageError("--time: not a finite number (seconds of animation, such as 2.5)");
+  if (!kTime.contains(options.time)) {
+    throw UsageError(fmt::format("--time: {} is out of range ({} seconds of animation, such as 2.5)", options.time,
+                                 kTime.shortText()));
   }
   // A range check accepts NaN, and no error is above a NaN.
   if (!std::isfinite(options.fps)) {

@@ -202,6 +202,9 @@ int runBench(const Options& options) {
   (*merged)["totals"]["interval_ms"] = *intervals;
   if (options.benchPrices) {
     addPrices(*merged, effectPrices(session, options.time, std::max(5, measured / 4)));
+    if (interruptRequested()) {
+      return 1;
+    }
   }
   if (!options.json.empty()) {
     writeJson(options.json, *merged);

@@ -241,7 +241,8 @@ void SceneEditor::addLight(const SceneView& view) {
 
 void SceneEditor::addObject(const SceneView& view, int mesh) {
   beginChange();
-  const double size = glm::length(document_.scene().meshes.at(static_cast<size_t>(mesh)).halfExtent);
+  const Mesh& model = document_.scene().meshes.at(static_cast<size_t>(mesh));
+  const double size = model.unit * glm::length(model.halfExtent);
   select(document_.addObject(mesh, pointAhead(view, 0.9, objectAhead * size)));
 }
 

@@ -261,7 +261,7 @@ void writeText(const std::filesystem::path& file, const std::string& text) {
 }
 
 void writeJson(const std::filesystem::path& file, const ordered_json& json) {
-  writeText(file, json.dump(2) + "\n");
+  writeText(file, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace speculum

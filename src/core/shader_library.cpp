@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <sstream>
 #include <stdexcept>
 
 #include "platform/process.hpp"
@@ -26,19 +25,18 @@ bool isSpirv(const std::vector<uint8_t>& code) {
   return magic == spirvMagic;
 }
 
-// Sources in a make rule "output: source include include", lines joined by backslashes.
-std::vector<fs::path> sourcesIn(const fs::path& depfile) {
+// Sources in a make rule "output: source include include", lines joined by backslashes. All begin with the folder,
+// whose own blanks nothing marks.
+std::vector<fs::path> sourcesIn(const fs::path& depfile, const fs::path& folder) {
   const auto content = readFileIfAny(depfile);
   std::vector<fs::path> sources;
   if (!content) {
     return sources;
   }
-  std::string text(content->begin(), content->end());
-  const size_t colon = text.find(": ");
-  std::replace(text.begin(), text.end(), '\\', ' ');
-  std::istringstream words(colon == std::string::npos ? "" : text.substr(colon + 2));
-  for (std::string word; words >> word;) {
-    sources.emplace_back(word);
+  const std::string text(content->begin(), content->end());
+  const std::string prefix = (folder / "").string();
+  for (size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at + prefix.size())) {
+    sources.emplace_back(text.substr(at, text.find_first_of(" \\\n", at + prefix.size()) - at));
   }
   return sources;
 }
@@ -119,7 +117,7 @@ bool ShaderLibrary::compile(const std::string& name, Entry& entry) {
   }
   entry.error.clear();
   // A file that was written to during the compilation stays newer than what was seen, and is compiled again.
-  if (std::vector<fs::path> sources = sourcesIn(depfile); !sources.empty() && sources != entry.sources) {
+  if (std::vector<fs::path> sources = sourcesIn(depfile, glslDir_); !sources.empty() && sources != entry.sources) {
     entry.sources = std::move(sources);
     entry.newest = newest(entry.sources);
   }

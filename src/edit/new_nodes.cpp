@@ -30,7 +30,7 @@ glm::dmat3 linearOf(const Object& object) {
 
 // Half the extent of the model's box along the world's axes.
 glm::dvec3 halfExtent(const Object& object, const Mesh& mesh) {
-  const glm::dmat3 linear = linearOf(object);
+  const glm::dmat3 linear = linearOf(object) * mesh.unit;
   return glm::abs(linear[0]) * mesh.halfExtent.x + glm::abs(linear[1]) * mesh.halfExtent.y +
          glm::abs(linear[2]) * mesh.halfExtent.z;
 }

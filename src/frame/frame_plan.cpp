@@ -43,6 +43,10 @@ struct Candidate {
   }
 };
 
+// Bounds time and memory of a plan, whatever reflection.max_passes is: 30 000 passes of a few mirrors each, or 2 000 of
+// a thousand.
+constexpr size_t mostWork = 2'000'000;
+
 double largest(const glm::dvec3& v) {
   return std::max({v.x, v.y, v.z});
 }
@@ -131,6 +135,7 @@ class Planner {
   std::priority_queue<Candidate> candidates_;
   std::optional<Occlusion> occlusion_;
   int discovered_ = 0;
+  size_t work_ = 0;  // mirrors looked at, and as much time and memory spent on what else a pass has
 };
 
 void Planner::addInstance(PlannedPass& pass, const View& readable, int i) {
@@ -176,6 +181,7 @@ void Planner::fill(int node) {
       nodes_[node].pass.lights.push_back(static_cast<int>(i));
     }
   }
+  work_ += state_.mirrors.size() + (state_.instances.size() + nodes_[node].pass.instances.size()) / 16 + 64;
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
@@ -259,6 +265,9 @@ void Planner::expand(const Candidate& candidate) {
   const MirrorDraw& draw = nodes_[candidate.parent].pass.mirrors[candidate.draw];
   if (static_cast<int>(nodes_.size()) > settings_.maxPasses) {
     return skip(parent, draw.mirror, SkipReason::maxPasses, "max_passes " + std::to_string(settings_.maxPasses));
+  }
+  if (work_ > mostWork) {
+    return skip(parent, draw.mirror, SkipReason::maxPasses, "too many to plan");
   }
   const glm::dvec2 picture = nodes_[0].pass.view.pictureSize * settings_.scale;
   const glm::dvec2 ratio = picture / parent.pictureSize;

@@ -15,6 +15,9 @@ namespace {
 
 // Rounding of what is drawn on the GPU, as a part of its size; floats are off by 1e-7 of it.
 constexpr double roundingPart = 1e-5;
+// Mirrors and instances of a view that are tested. Testing all against each other takes time in the square of their
+// number, and those that look small hide little.
+constexpr size_t mostTested = 512;
 // Limits of the search for several occluders: pieces of the polygon that are not hidden yet, and occluders.
 constexpr size_t mostPieces = 24;
 constexpr size_t mostOccluders = 64;
@@ -154,17 +157,9 @@ Occlusion::Body& Occlusion::bodyOf(int instance) {
   return *body;
 }
 
-void Occlusion::setView(const View& view, std::span<const int> instances) {
-  view_ = &view;
-  instances_ = instances;
-  ++viewNumber_;
-}
-
-const std::optional<OccludedRegion>& Occlusion::regionOf(Face& face, bool isMirror) const {
+const std::optional<OccludedRegion>& Occlusion::regionOf(Face& face) const {
   if (std::exchange(face.hidden.view, viewNumber_) != viewNumber_) {
-    // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
-    const bool drawn = !isMirror || !visiblePart(*view_, face.occluder.polygon).empty();
-    face.hidden.region = drawn ? hiddenByFace(face.occluder, *view_, projection_) : std::nullopt;
+    face.hidden.region = hiddenByFace(face.occluder, *view_, projection_);
   }
   return face.hidden.region;
 }
@@ -210,16 +205,16 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
         !prefilter.reachesBeyond(face.occluder.plane)) {
       return false;
     }
-    const std::optional<OccludedRegion>& region = regionOf(face, of.isMirror);
+    const std::optional<OccludedRegion>& region = regionOf(face);
     return region && found.add(*region, nullptr, of, eye, polygon);
   };
-  for (size_t i = 0; i < mirrors_.size(); ++i) {
-    if (static_cast<int>(i) != mirror && addFace(mirrors_[i], {.isMirror = true, .index = static_cast<int>(i)})) {
+  for (const int i : viewMirrors_) {
+    if (i != mirror && addFace(mirrors_[static_cast<size_t>(i)], {.isMirror = true, .index = i})) {
       return found;
     }
   }
   const bool simplifies = meshErrorIn(*view_, settings_) > 0.0;
-  for (const int i : instances_) {
+  for (const int i : viewInstances_) {
     const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
@@ -250,10 +245,48 @@ std::string Occlusion::nameOfOccluder(const Occluder& occluder) const {
   return nameOf("object", scene_.objects[static_cast<size_t>(object)].name, object);
 }
 
-std::optional<std::string> Occlusion::hiddenBy(int mirror, std::span<const glm::dvec3> polygon) {
+bool Occlusion::skips(const View& view) const {
   // An oblique depth buffer may keep another order, so nothing is hidden.
-  const bool oblique = settings_.reflection.clip == ClipMethod::oblique && view_->clip;
-  if (!settings_.debug.skipHidden || settings_.view.wireframe || oblique || polygon.empty()) {
+  const bool oblique = settings_.reflection.clip == ClipMethod::oblique && view.clip;
+  return settings_.debug.skipHidden && !settings_.view.wireframe && !oblique;
+}
+
+void Occlusion::setView(const View& view, std::span<const int> instances) {
+  view_ = &view;
+  ++viewNumber_;
+  viewMirrors_.clear();
+  viewInstances_.assign(instances.begin(), instances.end());
+  if (mirrors_.empty() || !skips(view)) {
+    return;
+  }
+  // Keeps those of the widest angle, in their order.
+  const auto keepLargest = [&](std::vector<int>& candidates, const auto& sphereOf) {
+    if (candidates.size() > mostTested) {
+      const auto angle = [&](int i) {
+        const auto [center, radius] = sphereOf(static_cast<size_t>(i));
+        return radius / std::max(glm::length(center - view.eye) - radius, 1e-300);
+      };
+      std::nth_element(candidates.begin(), candidates.begin() + mostTested, candidates.end(),
+                       [&](int a, int b) { return std::pair(-angle(a), a) < std::pair(-angle(b), b); });
+      candidates.resize(mostTested);
+      std::sort(candidates.begin(), candidates.end());
+    }
+  };
+  for (size_t i = 0; i < mirrors_.size(); ++i) {
+    // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
+    if (!visiblePart(view, mirrors_[i].occluder.polygon).empty()) {
+      viewMirrors_.push_back(static_cast<int>(i));
+    }
+  }
+  keepLargest(viewMirrors_, [&](size_t i) {
+    return std::pair(mirrors_[i].occluder.center, mirrors_[i].occluder.radius);
+  });
+  keepLargest(viewInstances_,
+              [&](size_t i) { return std::pair(state_.instances[i].center, state_.instances[i].radius); });
+}
+
+std::optional<std::string> Occlusion::hiddenBy(int mirror, std::span<const glm::dvec3> polygon) {
+  if (!skips(*view_) || polygon.empty()) {
     return std::nullopt;
   }
   const Occluders found = occludersOf(mirror, polygon);

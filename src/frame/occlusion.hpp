@@ -19,7 +19,8 @@ class Occlusion {
  public:
   Occlusion(const Scene& scene, const SceneState& state, const Settings& settings, const Projection& projection);
 
-  // Sets the view that hiddenBy() is about. `instances` are those that it shows. Keeps references to both.
+  // Sets the view that hiddenBy() is about, to which it keeps a reference. Of the mirrors and `instances` that it shows,
+  // those that look largest are tested if there are very many.
   void setView(const View& view, std::span<const int> instances);
 
   // Names the occluders that hide all of `polygon` (world), a part of `mirror`, in the view: "object NAME", "mirror
@@ -58,9 +59,10 @@ class Occlusion {
   static FlatOccluder flatOccluder(std::vector<glm::dvec3> polygon, double size);
   static BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state);
   Body& bodyOf(int instance);
-  const std::optional<OccludedRegion>& regionOf(Face& face, bool isMirror) const;
+  const std::optional<OccludedRegion>& regionOf(Face& face) const;
   const std::optional<BodyRegion>& regionOf(Body& body) const;
   Occluders occludersOf(int mirror, std::span<const glm::dvec3> polygon);
+  bool skips(const View& view) const;
   std::string nameOfOccluder(const Occluder& occluder) const;
   std::optional<std::string> hiddenTogether(std::span<const Occluder> occluders,
                                             std::span<const glm::dvec3> polygon) const;
@@ -70,7 +72,8 @@ class Occlusion {
   const Settings& settings_;
   const Projection& projection_;
   const View* view_ = nullptr;
-  std::span<const int> instances_;
+  std::vector<int> viewMirrors_;    // that are tested in the view, ascending
+  std::vector<int> viewInstances_;  // likewise
   int viewNumber_ = -1;
   std::vector<Face> mirrors_;                // parallel to SceneState::mirrors
   std::vector<double> largestFaces_;         // by mesh, radius as a part of the mesh's

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "scene/member_count.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
@@ -382,7 +383,7 @@ std::string settingRange(const SettingField& field) {
       }
       return names;
     }
-    std::string operator()(const ColorSetting&) const { return "r,g,b (linear, >= 0)"; }
+    std::string operator()(const ColorSetting&) const { return "r,g,b (linear, " + kRadiance.shortText() + ")"; }
     std::string operator()(const TextSetting& text) const { return std::string(text.meaning); }
 
     static std::string shortNumber(double value) {

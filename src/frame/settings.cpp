@@ -8,6 +8,7 @@
 #include "frame/setting_fields.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
@@ -39,7 +40,7 @@ std::optional<glm::dvec3> parseColor(std::string_view text) {
     while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
     while (!part.empty() && part.back() == ' ') part.remove_suffix(1);
     const std::optional<double> value = parseNumber(part);
-    if (!value || *value < 0.0) {
+    if (!value || !kRadiance.contains(*value)) {
       return std::nullopt;
     }
     color[channel] = *value;
@@ -107,7 +108,8 @@ struct Parser {
   Problem operator()(const ColorSetting& color) const {
     const std::optional<glm::dvec3> value = parseColor(text);
     if (!value) {
-      return "'" + std::string(text) + "' is not a color (three linear values >= 0, such as 0.1,0.2,0.3)";
+      return "'" + std::string(text) + "' is not a color (three linear values " + kRadiance.shortText() +
+             ", such as 0.1,0.2,0.3)";
     }
     color.value.of(settings) = value;
     return std::nullopt;

@@ -33,6 +33,12 @@ SineCosine sineCosine(double degrees) {
 
 }  // namespace
 
+double productModulo(double a, double b, double m) {
+  const double product = a * b;
+  const double lost = std::fma(a, b, -product);
+  return std::remainder(std::remainder(product, m) + std::remainder(lost, m), m);
+}
+
 double largestEntry(const glm::dmat3& m) {
   const glm::dvec3 rows = glm::max(glm::abs(m[0]), glm::max(glm::abs(m[1]), glm::abs(m[2])));
   return std::max({rows.x, rows.y, rows.z});

@@ -4,6 +4,9 @@
 
 namespace speculum {
 
+// a b modulo m, within m / 2 of 0 and to the last digit however large the product is.
+double productModulo(double a, double b, double m);
+
 // x -> linear * x + translation, in double. Composition order is that of matrices: (a * b)(x) = a(b(x)).
 struct Affine {
   glm::dmat3 linear{1.0};

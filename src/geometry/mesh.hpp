@@ -59,9 +59,11 @@ struct MeshCluster {
 };
 
 // Triangles in model space, counter-clockwise seen from outside. Positions are kept in double relative to `center`, so
-// that their conversion to float for the GPU loses nothing to a far-off origin.
+// that their conversion to float for the GPU loses nothing to a far-off origin. Positions, sizes and radius count in
+// units of the model's, so that they stay floats whatever its size; only the centre does not.
 struct Mesh {
   std::filesystem::path source;
+  double unit = 1.0;           // of model space; a power of two
   glm::dvec3 center{0.0};      // model space, of the bounding box
   glm::dvec3 halfExtent{0.0};  // of the bounding box
   double radius = 0.0;         // of the bounding sphere about `center`

@@ -1,5 +1,6 @@
 #include "geometry/triangulate.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "geometry/polygon.hpp"
@@ -90,13 +91,35 @@ class EarClipper {
   std::vector<Search> searches_;
 };
 
+double squaredLength(const glm::dvec3& v) {
+  return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+
+// A diagonal outside of a quad that is not convex would cover what the quad leaves free.
+bool isInside(std::span<const glm::dvec3> quad, const std::array<std::array<int, 3>, 2>& triangles) {
+  const glm::dvec3 normal = newellVector(quad);
+  return std::all_of(triangles.begin(), triangles.end(), [&](const std::array<int, 3>& t) {
+    return glm::dot(normal, glm::cross(quad[t[1]] - quad[t[0]], quad[t[2]] - quad[t[0]])) >= 0.0;
+  });
+}
+
+std::vector<std::array<int, 3>> triangulateQuad(std::span<const glm::dvec3> quad) {
+  constexpr std::array<std::array<int, 3>, 2> fromFirst{{{0, 1, 2}, {0, 2, 3}}};
+  constexpr std::array<std::array<int, 3>, 2> fromSecond{{{0, 1, 3}, {1, 2, 3}}};
+  const bool firstIsShorter = squaredLength(quad[2] - quad[0]) < squaredLength(quad[3] - quad[1]);
+  const auto& shorter = firstIsShorter ? fromFirst : fromSecond;
+  const auto& other = firstIsShorter ? fromSecond : fromFirst;
+  const auto& chosen = !isInside(quad, shorter) && isInside(quad, other) ? other : shorter;
+  return {chosen.begin(), chosen.end()};
+}
+
 }  // namespace
 
 std::vector<std::array<int, 3>> triangulate(std::span<const glm::dvec3> polygon) {
   if (polygon.size() == 3) {
     return {{0, 1, 2}};
   }
-  return EarClipper(polygon).run();
+  return polygon.size() == 4 ? triangulateQuad(polygon) : EarClipper(polygon).run();
 }
 
 }  // namespace speculum

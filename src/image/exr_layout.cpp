@@ -72,6 +72,30 @@ class ExrLayout {
     }
   }
 
+  // Rows that a writer never listed, because it was interrupted or does not seek: the table is filled from the chunks,
+  // which follow each other.
+  void completeTable(std::vector<uint8_t>& bytes) const {
+    if (tiled_) {
+      return;
+    }
+    const int64_t rows = rowsOfChunk();
+    const auto chunks = static_cast<uint64_t>((height_ + rows - 1) / rows);
+    Cursor table(file_, table_);
+    const Bytes entries = table.take(8 * chunks);
+    if (std::any_of(entries.begin(), entries.end(), [](uint8_t byte) { return byte != 0; })) {
+      return;
+    }
+    uint64_t at = table_ + 8 * chunks;
+    for (uint64_t i = 0; i < chunks; ++i) {
+      Cursor chunk(file_, at);
+      const int64_t index = (int64_t{chunk.value<int32_t>()} - top_) / rows;
+      const auto size = chunk.value<int32_t>();
+      require(index >= 0 && index < static_cast<int64_t>(chunks) && size >= 1, "its table of chunks is unfinished");
+      std::memcpy(&bytes[table_ + 8 * static_cast<uint64_t>(index)], &at, sizeof at);
+      at += 8 + static_cast<uint64_t>(size);
+    }
+  }
+
   size_t lineOrderOffset() const { return static_cast<size_t>(attribute("lineOrder", 1).data() - file_.data()); }
 
  private:
@@ -148,8 +172,10 @@ class ExrLayout {
     return Cursor(file_, offset);
   }
 
+  int64_t rowsOfChunk() const { return compression_ == zip ? 16 : compression_ == piz ? 32 : 1; }
+
   void checkRows() {
-    const int64_t rows = compression_ == zip ? 16 : compression_ == piz ? 32 : 1;
+    const int64_t rows = rowsOfChunk();
     const int64_t chunks = (height_ + rows - 1) / rows;
     checkCount(chunks);
     Cursor table(file_, table_);
@@ -235,6 +261,7 @@ class ExrLayout {
 
 void checkExrLayout(std::vector<uint8_t>& bytes) {
   ExrLayout layout(bytes);
+  layout.completeTable(bytes);
   layout.checkChunks();
   bytes[layout.lineOrderOffset()] = 0;
 }

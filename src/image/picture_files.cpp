@@ -38,6 +38,51 @@ void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& by
   }
 }
 
+// Bytes that a PNG of this header unpacks to at most: rows of either kind of interlacing, each after its filter.
+int64_t largestUnpacked(int64_t width, int64_t height, int64_t bitsPerPixel) {
+  return (width * bitsPerPixel + 7) / 8 * height + 4 * height + 64;
+}
+
+// The decoder unpacks all that the compressed data hold, however much more than the pixels need. Such files are
+// unpacked once before, into no more than is needed.
+void checkUnpackedSize(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
+  constexpr size_t signature = 8;
+  constexpr int64_t mostPerByte = 1032;  // of deflate
+  constexpr int64_t harmless = int64_t{1} << 28;
+  constexpr std::array<int64_t, 7> channelsOf{1, 0, 3, 1, 2, 0, 4};  // by colour type
+  const auto number = [&](size_t at) {
+    return int64_t{bytes[at]} << 24 | int64_t{bytes[at + 1]} << 16 | int64_t{bytes[at + 2]} << 8 | bytes[at + 3];
+  };
+  if (bytes[0] != 0x89 || bytes.size() < signature + 25) {
+    return;
+  }
+  const size_t header = signature + 8;
+  const int64_t channels = bytes[header + 9] < channelsOf.size() ? channelsOf[bytes[header + 9]] : 0;
+  // Some files hold a little more than they need.
+  const int64_t most =
+      (int64_t{1} << 26) + largestUnpacked(number(header), number(header + 4), channels * bytes[header + 8]);
+  std::vector<char> packed;
+  for (size_t at = signature; at + 12 <= bytes.size();) {
+    const auto size = static_cast<size_t>(number(at));
+    if (size > bytes.size() - at - 12) {
+      break;
+    }
+    if (std::equal(&bytes[at + 4], &bytes[at + 8], "IDAT")) {
+      packed.insert(packed.end(), &bytes[at + 8], &bytes[at + 8] + size);
+    }
+    at += size + 12;
+  }
+  if (static_cast<int64_t>(packed.size()) * mostPerByte <= most + harmless || most > INT32_MAX) {
+    return;
+  }
+  std::vector<char> unpacked(static_cast<size_t>(most));
+  if (stbi_zlib_decode_buffer(unpacked.data(), static_cast<int>(most), packed.data(), static_cast<int>(packed.size())) <
+      0) {
+    throw FileError(file, "the picture is damaged, or unpacks to more than its pixels",
+                    "a complete PNG or JPEG file is needed");
+  }
+}
+
 void appendBytes(void* context, void* data, int size) {
   auto& bytes = *static_cast<std::vector<uint8_t>*>(context);
   const auto* first = static_cast<const uint8_t*>(data);
@@ -52,6 +97,7 @@ Image8 readImage8(const std::filesystem::path& file) {
     throw FileError(file, "is not a picture that can be read", "a PNG or JPEG file is needed");
   }
   checkSize(file, bytes);
+  checkUnpackedSize(file, bytes);
   int width = 0;
   int height = 0;
   int channels = 0;

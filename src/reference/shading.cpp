@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/affine.hpp"
+
 namespace speculum {
 
 namespace {
@@ -115,7 +117,7 @@ glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const gl
   }
   const double k = 2.0 * pi / mirror.ripple->wavelength;
   const double slope = mirror.ripple->amplitude * k;
-  const double shift = mirror.ripple->speed * time;
+  const double shift = productModulo(mirror.ripple->speed, time, mirror.ripple->wavelength);
   const double x = glm::dot(position - state.origin, state.axisX);
   const double y = glm::dot(position - state.origin, state.axisY);
   const glm::dvec3 first = slope * std::cos(k * (x + shift)) * state.axisX;

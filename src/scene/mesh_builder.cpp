@@ -15,6 +15,9 @@ namespace speculum {
 
 namespace {
 
+// Of a texture along a triangle's edge: more are noise at any distance, and would leave the range of floats.
+constexpr double mostRepeats = 1e9;
+
 double largestComponent(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -66,8 +69,17 @@ void rebase(Mesh& mesh) {
   mesh.center = box.center();
   for (Vertex& vertex : mesh.vertices) {
     vertex.position -= mesh.center;
-    mesh.halfExtent = glm::max(mesh.halfExtent, glm::abs(vertex.position));
     mesh.radius = std::max(mesh.radius, length(vertex.position));
+  }
+  // Far from the limits of floats, whose products they are part of. Other models keep their numbers as they are.
+  constexpr double largestRadius = 1e12;
+  if (mesh.radius > largestRadius || mesh.radius < 1.0 / largestRadius) {
+    mesh.unit = std::exp2(std::floor(std::log2(mesh.radius)));
+  }
+  mesh.radius /= mesh.unit;
+  for (Vertex& vertex : mesh.vertices) {
+    vertex.position /= mesh.unit;
+    mesh.halfExtent = glm::max(mesh.halfExtent, glm::abs(vertex.position));
   }
 }
 
@@ -105,16 +117,30 @@ void MeshBuilder::setMaterial(int material) {
 void MeshBuilder::addFace(std::span<const FaceCorner> corners) {
   points_.clear();
   for (const FaceCorner& corner : corners) {
-    const glm::dvec2 uv = corner.texcoord < 0 ? glm::dvec2(0.0) : texcoords_[corner.texcoord];
-    if (!isFinite(positions_[corner.position]) || !isFinite(glm::dvec3(uv, 0.0))) {
+    if (!isFinite(positions_[corner.position]) || !isFinite(glm::dvec3(uvOf(corner), 0.0))) {
       ++nonFinite_;
       return;
     }
     points_.push_back(positions_[corner.position]);
   }
+  uvShift_ = uvShiftOf(corners);
   for (const auto& [a, b, c] : triangulate(points_)) {
     addTriangle(corners[a], corners[b], corners[c]);
   }
+}
+
+// A texture repeats, so whole numbers can be taken off where a float would lose the fraction.
+glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
+  constexpr double nearEnough = 4096.0;
+  glm::dvec2 largest(0.0);
+  for (const FaceCorner& corner : corners) {
+    largest = glm::max(largest, glm::abs(uvOf(corner)));
+  }
+  return std::max(largest.x, largest.y) > nearEnough ? glm::floor(uvOf(corners[0])) : glm::dvec2(0.0);
+}
+
+glm::dvec2 MeshBuilder::uvOf(const FaceCorner& corner) const {
+  return corner.texcoord < 0 ? glm::dvec2(0.0) : texcoords_[corner.texcoord];
 }
 
 void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c) {
@@ -139,7 +165,7 @@ void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const Fa
 uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal) {
   const auto index = static_cast<uint32_t>(vertices_.size());
   const bool usable = corner.normal >= 0 && normals_[corner.normal] != glm::dvec3(0.0);
-  if (usable) {
+  if (usable && uvShift_ == glm::dvec2(0.0)) {
     const auto [found, isNew] = sharedVertices_.try_emplace(corner, index);
     if (!isNew) {
       return found->second;
@@ -147,7 +173,7 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
   }
   vertices_.push_back({.position = positions_[corner.position],
                        .normal = usable ? normals_[corner.normal] : triangleNormal,
-                       .uv = corner.texcoord < 0 ? glm::dvec2(0.0) : texcoords_[corner.texcoord]});
+                       .uv = glm::clamp(uvOf(corner) - uvShift_, -mostRepeats, mostRepeats)});
   return index;
 }
 

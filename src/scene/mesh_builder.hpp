@@ -46,6 +46,8 @@ class MeshBuilder {
     size_t operator()(const FaceCorner& corner) const;
   };
 
+  glm::dvec2 uvOf(const FaceCorner& corner) const;
+  glm::dvec2 uvShiftOf(std::span<const FaceCorner> corners) const;
   void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
   void warn(const std::filesystem::path& file) const;
@@ -54,6 +56,7 @@ class MeshBuilder {
   std::vector<glm::dvec2> texcoords_;
   std::vector<glm::dvec3> normals_;  // unit, or zero: unusable
   std::vector<glm::dvec3> points_;   // of the face that is added
+  glm::dvec2 uvShift_{0.0};          // taken off its texture coordinates
   int material_ = -1;
   std::vector<uint32_t>* indices_ = nullptr;              // of material_, set by its next triangle
   std::map<int, std::vector<uint32_t>> materialIndices_;  // by material

@@ -32,8 +32,8 @@ std::string disc(double radius) {
 
 // Writes a scene whose unit is the radius of the model's bounding sphere, with the model's centre above the origin.
 std::string sceneText(const fs::path& file, const Mesh& mesh) {
-  const double r = mesh.radius;
-  const double height = mesh.halfExtent.y + kGap * r;  // of the centre
+  const double r = mesh.radius * mesh.unit;
+  const double height = mesh.halfExtent.y * mesh.unit + kGap * r;  // of the centre
   const glm::dvec3 center(0.0, height, 0.0);
   const glm::dvec3 target = center - glm::dvec3(0.0, 0.22 * r, 0.0);
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));
@@ -69,8 +69,9 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
 Scene modelScene(const fs::path& file, const LoadProgress& progress) {
   std::vector<Texture> textures;
   Mesh mesh = loadObj(file, textures, progress);
-  if (!(mesh.radius >= kSmallest && mesh.radius <= kLargest)) {
-    throwInputError(file, 1, "v", fmt::format("the model's bounding sphere has a radius of {} m", mesh.radius),
+  const double radius = mesh.radius * mesh.unit;
+  if (!(radius >= kSmallest && radius <= kLargest)) {
+    throwInputError(file, 1, "v", fmt::format("the model's bounding sphere has a radius of {} m", radius),
                     "1e-9 .. 1e12 is needed, or a scene that scales the model");
   }
   Scene scene = parseScene(file, sceneText(file, mesh));

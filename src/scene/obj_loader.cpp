@@ -105,9 +105,14 @@ class ObjReader {
     mesh_.addFace(corners_);
   }
 
-  // Reads the first of the named files that exists. A backslash escapes the next character, such as a blank.
+  // A single name with blanks, or several names, of which the first that is there counts. A backslash keeps a blank
+  // behind it; any other separates folders.
   void readMaterials(const LineReader& line) {
     const std::string_view names = line.argument();
+    if (names.find(' ') != std::string_view::npos && materials_.isThere(names)) {
+      materials_.read(names);
+      return;
+    }
     std::string name;
     for (size_t i = 0; i <= names.size(); ++i) {
       if (i == names.size() || names[i] == ' ') {
@@ -115,9 +120,8 @@ class ObjReader {
           return;
         }
         name.clear();
-      } else if (names[i] != '\\') {
-        name += names[i];
-      } else if (++i < names.size()) {
+      } else {
+        i += names.substr(i).starts_with("\\ ");
         name += names[i];
       }
     }

@@ -15,6 +15,7 @@
 #include "platform/files.hpp"
 #include "scene/input_error.hpp"
 #include "scene/text_lines.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
@@ -26,15 +27,6 @@ namespace {
 fs::path relativeTo(const fs::path& file, std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   return (file.parent_path() / name).lexically_normal();
-}
-
-// The parser's arithmetic may round the largest doubles to infinity.
-bool allFinite(const Material& material) {
-  const auto finite = [](const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  return finite(material.diffuse) && finite(material.specular) && finite(material.emission) &&
-         std::isfinite(material.shininess);
 }
 
 Texture loadTexture(const fs::path& file) {
@@ -90,16 +82,14 @@ std::string_view textureName(const LineReader& line) {
 }
 
 // Returns the line with its numbers rewritten, because the parser's arithmetic overflows on 1e2147483648.
-std::string checkedNumbers(LineReader& line, bool color) {
+std::string checkedNumbers(LineReader& line, size_t count, const Range& range) {
   std::string text(line.keyword());
-  for (const double value : color ? line.numbers(3, 3) : line.numbers(1, 1)) {
-    if (!std::isfinite(value)) {
-      line.fail(line.keyword(), "is not finite", "finite numbers are needed");
+  for (const double value : line.numbers(count, count)) {
+    if (!range.contains(value)) {
+      line.fail(line.keyword(), fmt::format("is {}", value), range.text());
     }
-    if (color && value < 0.0) {
-      line.fail(line.keyword(), "is negative", "colors are 0 or more");
-    }
-    text += ' ' + fmt::to_string(value);
+    // No number of a material makes a difference beyond; the parser rounds the largest doubles to infinity.
+    text += ' ' + fmt::to_string(std::clamp(value, -1e38, 1e38));
   }
   return text;
 }
@@ -124,8 +114,10 @@ CheckedMtl checkMtl(const fs::path& file, std::string_view text) {
   while (line.next()) {
     const std::string_view key = line.keyword();
     const bool color = key == "Kd" || key == "Ks" || key == "Ke";
-    if (color || key == "Ns" || key == "d" || key == "Tr") {
-      checked.text.append(checkedNumbers(line, color));
+    if (color) {
+      checked.text.append(checkedNumbers(line, 3, key == "Ke" ? kRadiance : kSurfaceColor));
+    } else if (key == "Ns" || key == "d" || key == "Tr") {
+      checked.text.append(checkedNumbers(line, 1, kAny));
     } else if (key == "newmtl") {
       if (++count > kMostMaterials) {
         line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
@@ -151,10 +143,15 @@ Material materialOf(const tinyobj::material_t& source) {
           .diffuse = color(source.diffuse),
           .specular = color(source.specular),
           .emission = color(source.emission),
-          .shininess = std::max(1.0, static_cast<double>(source.shininess))};
+          .shininess = std::clamp(static_cast<double>(source.shininess), kLeastShininess, kMostShininess)};
 }
 
 }  // namespace
+
+bool ObjMaterials::isThere(std::string_view name) const {
+  std::error_code ignored;
+  return fs::is_regular_file(relativeTo(objFile_, std::string(name)), ignored);
+}
 
 bool ObjMaterials::read(std::string_view name) {
   const fs::path file = relativeTo(objFile_, std::string(trimmed(name)));
@@ -205,10 +202,6 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
   }
   const Entry& entry = entries_[index];
   Material material = entry.material;
-  if (!allFinite(material)) {
-    throwInputError(entry.file, std::max(1, entry.line), "newmtl", "has a number that is out of range",
-                    "numbers that a double can hold are needed");
-  }
   if (!entry.opaque) {
     spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.line,
                  material.name);

@@ -19,6 +19,7 @@ class ObjMaterials {
   // Reads an MTL file, relative to the OBJ file; a second time it does nothing. Returns false and logs a warning when
   // it is missing. Throws InputError for malformed numbers and too many materials.
   bool read(std::string_view name);
+  bool isThere(std::string_view name) const;
 
   // Index of a material; -1, and a warning the first time, when there is none.
   int find(std::string_view name);

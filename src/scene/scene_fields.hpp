@@ -18,12 +18,13 @@ enum class FieldUse { appearance, placement, label };
 template <typename Owner, typename Value>
 struct FieldTraits {
   std::string_view unit = {};
-  Range range = kAny;        // of each number
-  double floor = kAny.low;   // smaller numbers count as this one
-  bool required = false;     // a file must have it
-  bool alwaysSaved = false;  // even at its default, because its table exists for it
-  bool color = false;        // linear RGB
-  bool uniform = false;      // one number stands for three equal ones
+  Range range = kAny;          // of each number
+  double floor = kAny.low;     // smaller numbers count as this one
+  double ceiling = kAny.high;  // larger numbers count as this one
+  bool required = false;       // a file must have it
+  bool alwaysSaved = false;    // even at its default, because its table exists for it
+  bool color = false;          // linear RGB
+  bool uniform = false;        // one number stands for three equal ones
   FieldUse use = FieldUse::appearance;
   double step = 0.01;                            // change for a pixel of a drag in the inspector
   bool (*applies)(const Owner& node) = nullptr;  // if false, the field is neither read nor saved
@@ -55,19 +56,19 @@ Field<Owner, Value> field(Value Owner::*member, std::string_view key, std::strin
 
 inline const auto& fieldsOf(const Sky*) {
   static const std::tuple fields{
-      field(&Sky::zenith, "zenith", "straight up", {.range = kNotNegative, .required = true, .color = true}),
-      field(&Sky::horizon, "horizon", "at the horizon", {.range = kNotNegative, .required = true, .color = true}),
-      field(&Sky::ground, "ground", "below it", {.range = kNotNegative, .required = true, .color = true})};
+      field(&Sky::zenith, "zenith", "straight up", {.range = kRadiance, .required = true, .color = true}),
+      field(&Sky::horizon, "horizon", "at the horizon", {.range = kRadiance, .required = true, .color = true}),
+      field(&Sky::ground, "ground", "below it", {.range = kRadiance, .required = true, .color = true})};
   return fields;
 }
 
 inline const auto& fieldsOf(const Environment*) {
   static const std::tuple fields{
       field(&Environment::background, "background", "radiance of rays that hit nothing: the clear color",
-            {.range = kNotNegative, .color = true}),
+            {.range = kRadiance, .color = true}),
       field(&Environment::sky, "sky", "replaces the background"),
       field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse color",
-            {.range = kNotNegative, .color = true})};
+            {.range = kRadiance, .color = true})};
   return fields;
 }
 
@@ -101,7 +102,7 @@ inline const auto& fieldsOf(const ObjectMirror*) {
       field(&ObjectMirror::reflectance, "reflectance", "as of a mirror",
             {.range = kUnit, .alwaysSaved = true, .color = true}),
       field(&ObjectMirror::fresnel, "fresnel", "as of a mirror"),
-      field(&ObjectMirror::baseColor, "base_color", "as of a mirror", {.range = kNotNegative, .color = true})};
+      field(&ObjectMirror::baseColor, "base_color", "as of a mirror", {.range = kSurfaceColor, .color = true})};
   return fields;
 }
 
@@ -119,13 +120,14 @@ inline const auto& fieldsOf(const Object*) {
       field(&Object::spin, "spin", "added to the rotation",
             {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5}),
       field(&Object::color, "color", "replaces Kd of the whole model; a texture stays and is multiplied",
-            {.range = kNotNegative, .color = true, .start = glm::dvec3(0.6)}),
+            {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.6)}),
       field(&Object::specular, "specular", "replaces Ks of the whole model",
-            {.range = kNotNegative, .color = true, .start = glm::dvec3(0.2)}),
-      field(&Object::shininess, "shininess", "replaces Ns, the exponent of the highlights; below 1 counts as 1",
-            {.floor = 1.0, .step = 1.0, .start = 50.0}),
+            {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.2)}),
+      field(&Object::shininess, "shininess",
+            "replaces Ns, the exponent of the highlights; below 1 counts as 1, above 1e6 as 1e6",
+            {.floor = kLeastShininess, .ceiling = kMostShininess, .step = 1.0, .start = 50.0}),
       field(&Object::emission, "emission", "replaces Ke of the whole model: radiance that lights nothing else",
-            {.range = kNotNegative, .color = true, .start = glm::dvec3(1.0)}),
+            {.range = kRadiance, .color = true, .start = glm::dvec3(1.0)}),
       field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
       field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
   return fields;
@@ -147,23 +149,24 @@ inline const auto& fieldsOf(const PointLight*) {
       field(&PointLight::name, "name", "for messages and the panel", {.use = FieldUse::label}),
       field(&PointLight::position, "position", "of the centre",
             {.unit = "m", .range = kCoordinate, .required = true, .use = FieldUse::placement}),
-      field(&PointLight::color, "color", "of light and sphere", {.range = kNotNegative, .color = true}),
+      field(&PointLight::color, "color", "of light and sphere", {.range = kRadiance, .color = true}),
       field(&PointLight::intensity, "intensity", "irradiance at 1 m on a surface that faces the light",
-            {.range = kNotNegative, .step = 0.1}),
+            {.range = kRadiance, .step = 0.1}),
       field(&PointLight::radius, "radius", "of the visible sphere, and the floor of the inverse square law",
             {.unit = "m", .range = kLength, .step = 0.002}),
-      field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = kNotNegative}),
+      field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = kRadiance}),
       field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors hide the light from what is behind them"),
       field(&PointLight::orbit, "orbit", "circles around an axis", {.use = FieldUse::placement})};
   return fields;
 }
 
 inline const auto& fieldsOf(const Ripple*) {
-  static const std::tuple fields{field(&Ripple::amplitude, "amplitude", "0: no ripple",
-                                       {.unit = "m", .range = kNotNegative, .alwaysSaved = true, .step = 0.0002}),
-                                 field(&Ripple::wavelength, "wavelength", "of both trains of waves",
-                                       {.unit = "m", .range = kPositive, .step = 0.005}),
-                                 field(&Ripple::speed, "speed", "of the waves", {.unit = "m/s", .step = 0.005})};
+  static const std::tuple fields{
+      field(&Ripple::amplitude, "amplitude", "0: no ripple",
+            {.unit = "m", .range = kAmplitude, .alwaysSaved = true, .step = 0.0002}),
+      field(&Ripple::wavelength, "wavelength", "of both trains of waves",
+            {.unit = "m", .range = kWavelength, .step = 0.005}),
+      field(&Ripple::speed, "speed", "of the waves", {.unit = "m/s", .range = kWaveSpeed, .step = 0.005})};
   return fields;
 }
 
@@ -194,10 +197,10 @@ inline const auto& fieldsOf(const Mirror*) {
             {.range = kUnit, .color = true}),
       field(&Mirror::fresnel, "fresnel", "Schlick: reflects more at grazing angles, all at 90 degrees"),
       field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
-            {.range = kNotNegative, .color = true}),
+            {.range = kSurfaceColor, .color = true}),
       field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
       field(&Mirror::backColor, "back_color", "diffuse color of the back of a one-sided mirror",
-            {.range = kNotNegative, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
+            {.range = kSurfaceColor, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
       field(&Mirror::roughness, "roughness", "spread of the reflection: GGX with alpha = roughness squared",
             {.range = kUnit, .step = 0.002}),
       // The loader drops ripples without height.

@@ -1,5 +1,7 @@
 #include "scene/scene_loader.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -99,15 +101,23 @@ void checkCount(const TableReader& table, const Object& object, int earlier) {
   }
 }
 
-// Larger extents leave the range of doubles when they are squared.
-bool extentInRange(const glm::dvec3& scale, const Mesh& mesh) {
-  const glm::dvec3 farthest = glm::abs(scale) * (glm::abs(mesh.center) + mesh.radius);
-  return std::max({farthest.x, farthest.y, farthest.z}) <= 1e150;
+// Farther vertices are no floats once they are projected; rays to and from a curved mirror square their distance.
+double largestExtent(const Object& object) {
+  return object.mirror ? 1e18 : 1e35;
+}
+
+bool extentInRange(const Object& object, const Mesh& mesh) {
+  const glm::dvec3 farthest = glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius * mesh.unit);
+  return std::max({farthest.x, farthest.y, farthest.z}) <= largestExtent(object);
+}
+
+std::string extentRemedy(const Object& object) {
+  return fmt::format("at most {:g} m are needed{}", largestExtent(object), object.mirror ? " of a curved mirror" : "");
 }
 
 void checkExtent(const TableReader& table, const Object& object, const Mesh& mesh) {
-  if (!extentInRange(object.scale, mesh)) {
-    table.fail("scale", "leaves the range of double precision", "model and scale of at most 1e150 m are needed");
+  if (!extentInRange(object, mesh)) {
+    table.fail("scale", "makes the model too large", extentRemedy(object));
   }
 }
 
@@ -188,8 +198,8 @@ int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
   const size_t textures = scene.textures.size();
   try {
     Mesh mesh = loadObj(file, scene.textures, progress);
-    if (!extentInRange(glm::dvec3(1.0), mesh)) {
-      throwInputError(file, 1, "v", "leaves the range of double precision", "a model of at most 1e150 m is needed");
+    if (!extentInRange({}, mesh)) {
+      throwInputError(file, 1, "v", "makes the model too large", extentRemedy({}));
     }
     scene.meshes.push_back(std::move(mesh));
   } catch (...) {

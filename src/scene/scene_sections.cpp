@@ -15,20 +15,13 @@ namespace {
 
 using Key = std::string_view;
 
-// Products with shorter vectors leave the range of doubles when they are squared.
-constexpr double kShortest = 1e-30;
-
-bool hasDirection(const glm::dvec3& v) {
-  return glm::length(v) >= kShortest;
-}
-
 // Bounds the time to check a polygon, which grows with its square.
 constexpr size_t kMostVertices = 1000;
 
 template <typename Value, typename Field>
 Value readValue(const TableReader& table, const Field& field, const Value& fallback) {
   if constexpr (std::is_same_v<Value, double>) {
-    return std::max(field.floor, table.number(field.key, fallback, field.range));
+    return std::clamp(table.number(field.key, fallback, field.range), field.floor, field.ceiling);
   } else if constexpr (std::is_same_v<Value, int>) {
     return static_cast<int>(table.integer(field.key, fallback, static_cast<int64_t>(field.range.low),
                                           static_cast<int64_t>(field.range.high)));

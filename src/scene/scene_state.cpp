@@ -17,12 +17,13 @@ void addInstances(const Scene& scene, int objectIndex, double time, std::vector<
   const glm::dmat3 linear =
       glm::dmat3(rotation[0] * object.scale.x, rotation[1] * object.scale.y, rotation[2] * object.scale.z);
   const double largestScale = std::max({std::abs(object.scale.x), std::abs(object.scale.y), std::abs(object.scale.z)});
+  const glm::dvec3 center = linear * mesh.center;
   for (int copy = 0; copy < object.copies.count; ++copy) {
     InstanceState instance{.object = objectIndex, .copy = copy, .mesh = object.mesh};
     const glm::dvec3 position = object.position + static_cast<double>(copy) * object.copies.step;
-    instance.worldFromMesh = {linear, position + linear * mesh.center};
+    instance.worldFromMesh = {linear * mesh.unit, position + center};
     instance.center = instance.worldFromMesh.translation;
-    instance.radius = mesh.radius * largestScale * (1.0 + 1e-12);
+    instance.radius = mesh.radius * mesh.unit * largestScale * (1.0 + 1e-12);
     instances.push_back(instance);
   }
 }
@@ -32,7 +33,8 @@ LightState lightState(const PointLight& light, double time) {
     return {light.position};
   }
   const Orbit& orbit = *light.orbit;
-  return {orbit.center + rotationAboutAxis(orbit.axis, orbit.speed * time) * (light.position - orbit.center)};
+  return {orbit.center +
+          rotationAboutAxis(orbit.axis, productModulo(orbit.speed, time, 360.0)) * (light.position - orbit.center)};
 }
 
 // Unit direction of the first edge with a length, projected into the plane, off which vertices may lie a little.
@@ -73,14 +75,15 @@ CameraPose poseAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm
                      double near) {
   const glm::dvec3 back = -glm::normalize(forward);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
-  CameraPose pose{.eye = eye, .verticalFov = glm::radians(verticalFovDegrees), .near = near};
+  constexpr double smallestNear = 1e-20;  // nearer ones gain nothing, and depth has to stay a float
+  CameraPose pose{.eye = eye, .verticalFov = glm::radians(verticalFovDegrees), .near = std::max(near, smallestNear)};
   pose.worldToView = glm::transpose(glm::dmat3(right, glm::cross(back, right), back));
   return pose;
 }
 
 // Rotates the direction instead of computing it from eye and target, which far from the origin may round to one point.
 CameraPose cameraPose(const CameraSpec& camera, double time) {
-  const glm::dmat3 turn = rotationAboutAxis(camera.up, camera.orbitSpeed * time);
+  const glm::dmat3 turn = rotationAboutAxis(camera.up, productModulo(camera.orbitSpeed, time, 360.0));
   const glm::dvec3 arm = turn * (camera.position - camera.target);
   return poseAlong(camera.target + arm, -arm, camera.up, camera.verticalFov, camera.near);
 }
@@ -106,7 +109,7 @@ glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, dou
 glm::dvec3 spunBy(const glm::dvec3& spin, double time) {
   glm::dvec3 angles;
   for (int i = 0; i < 3; ++i) {
-    angles[i] = std::remainder(spin[i] * time, 360.0);
+    angles[i] = productModulo(spin[i], time, 360.0);
   }
   return angles;
 }
@@ -114,8 +117,8 @@ glm::dvec3 spunBy(const glm::dvec3& spin, double time) {
 CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,
                   double near) {
   const glm::dvec3 forward = target - eye;
-  const double sideLength = glm::length(glm::cross(forward, up));
-  if (!(sideLength > 1e-9 * glm::length(forward) * glm::length(up))) {
+  if (!hasDirection(forward) || !hasDirection(up) ||
+      !(glm::length(glm::cross(forward, up)) > 1e-9 * glm::length(forward) * glm::length(up))) {
     throw std::invalid_argument("the camera's target is its position, or lies along its up vector");
   }
   return poseAlong(eye, forward, up, verticalFovDegrees, near);

@@ -21,6 +21,12 @@ struct CameraPose {
   bool operator==(const CameraPose&) const = default;
 };
 
+// Products with shorter vectors leave the range of doubles when they are squared.
+inline constexpr double kShortest = 1e-30;
+inline bool hasDirection(const glm::dvec3& v) {
+  return glm::length(v) >= kShortest;
+}
+
 // Throws std::invalid_argument when eye and target coincide or `up` is parallel to the view direction.
 CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,
                   double near);

@@ -9,6 +9,25 @@
 
 namespace speculum {
 
+namespace {
+
+// Bytes of the character beyond ASCII that the text begins with; 0 if it is not UTF-8, as names of files need not be.
+size_t sequenceLength(std::string_view text) {
+  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned lead = byte(0);
+  const size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  // Neither longer than needed, nor half of a pair of UTF-16, nor beyond U+10FFFF.
+  const unsigned low = lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
+  const unsigned high = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
+  bool valid = lead >= 0xc2 && lead <= 0xf4 && byte(1) >= low && byte(1) <= high;
+  for (size_t i = 2; i < length; ++i) {
+    valid = valid && (byte(i) & 0xc0) == 0x80;
+  }
+  return valid ? length : 0;
+}
+
+}  // namespace
+
 std::string tomlText(double value) {
   const double size = std::abs(value);
   // An integer has no negative zero.
@@ -52,7 +71,8 @@ std::string tomlText(bool value) {
 
 std::string tomlText(std::string_view value) {
   std::string text = "\"";
-  for (const char c : value) {
+  for (size_t i = 0; i < value.size(); ++i) {
+    const char c = value[i];
     if (c == '"' || c == '\\') {
       text.append(1, '\\').append(1, c);
     } else if (c == '\n') {
@@ -61,8 +81,13 @@ std::string tomlText(std::string_view value) {
       text += "\\t";
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
       text += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
-    } else {
+    } else if (static_cast<unsigned char>(c) < 0x80) {
       text += c;
+    } else if (const size_t length = sequenceLength(value.substr(i)); length > 0) {
+      text += value.substr(i, length);
+      i += length - 1;
+    } else {
+      text += "\\uFFFD";
     }
   }
   return text + "\"";

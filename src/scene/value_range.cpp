@@ -24,10 +24,16 @@ std::string Range::text() const {
 }
 
 std::string Range::shortText() const {
-  if (high <= 1e6) {
-    return fmt::format("{:g} .. {}", low, high);
+  // "1e15", where the standard library writes 1e+15.
+  const auto number = [](double value) {
+    std::string text = fmt::format("{:g}", value);
+    const size_t plus = text.find('+');
+    return plus == std::string::npos ? text : text.erase(plus, 1);
+  };
+  if (high == std::numeric_limits<double>::max()) {
+    return low == -high ? "" : (aboveLow ? "> " : ">= ") + number(low);
   }
-  return low == 0.0 ? aboveLow ? "> 0" : ">= 0" : "";
+  return (aboveLow ? "> " : "") + number(low) + " .. " + number(high);
 }
 
 }  // namespace speculum

@@ -12,12 +12,16 @@ FrameBuffers::FrameBuffers(Device& device, std::span<const char* const> names, s
   }
 }
 
-void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::byte> data) {
+void FrameBuffers::checkSize(size_t kind, uint64_t bytes) const {
   const uint64_t limit = device_.limits().maxStorageBufferRange;
-  if (data.size() > limit) {
-    throw std::runtime_error("a frame has " + std::to_string(data.size() >> 20) + " MiB of " + names_[kind] +
+  if (bytes > limit) {
+    throw std::runtime_error("a frame has " + std::to_string(bytes >> 20) + " MiB of " + names_[kind] +
                              ", the device takes " + std::to_string(limit >> 20) + " (" + advice_ + ")");
   }
+}
+
+void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::byte> data) {
+  checkSize(kind, data.size());
   Buffer& buffer = buffers_[frame.index][kind];
   if (!buffer || buffer.bytes() < data.size()) {
     buffer = Buffer(

@@ -16,7 +16,9 @@ class FrameBuffers {
   // `names` of the kinds, with static lifetime. `advice` says how to make a scene's frames smaller.
   FrameBuffers(Device& device, std::span<const char* const> names, std::string advice);
 
-  // Throws std::runtime_error with the advice if the device takes no buffer of that size.
+  // Throws std::runtime_error with the advice if the device takes no buffer of that size, as write() does. Call it
+  // before much memory is filled.
+  void checkSize(size_t kind, uint64_t bytes) const;
   void write(const Frame& frame, size_t kind, std::span<const std::byte> data);
   template <typename T>
   void write(const Frame& frame, size_t kind, const std::vector<T>& data) {

@@ -36,7 +36,7 @@ void setRays(gpu::ViewData& data, const View& view, const Projection& projection
   const glm::dvec2 origin = glm::dvec2(view.rect.x, view.rect.y) - glm::dvec2(target);
   // Device coordinates of the target's pixel (0, 0), without the projection's offset.
   const glm::dvec2 corner = origin * step - 1.0 - projection.offset;
-  data.rayX = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(step.x * sx, 0.0, 0.0)), 0.0f);
+  data.rayX = glm::vec3(viewToWorld * glm::dvec3(step.x * sx, 0.0, 0.0));
   data.rayY = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(0.0, -step.y * sy, 0.0)), 0.0f);
   data.rayOrigin = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(corner.x * sx, -corner.y * sy, -1.0)), 0.0f);
 }
@@ -171,6 +171,11 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   mirrorVertices_.clear();
   passes_.clear();
   const Source source{scene, state, settings, environment, plan};
+  size_t drawn = plan.main.instances.size();
+  for (const PlannedPass& pass : plan.passes) {
+    drawn += pass.instances.size();
+  }
+  buffers_.checkSize(instances, drawn * sizeof(gpu::InstanceData));
   for (const PlannedPass& pass : plan.passes) {
     addPass(source, pass, plan.projection, {0, 0});
   }
@@ -222,6 +227,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
   setRays(view, pass.view, common, corner);
   setBackground(view, environment);
+  view.checksFinite = settings.debug.checkFinite;
   view.picture = static_cast<uint32_t>(plan.picture);
   view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, 0.0));
   view.throughput = glm::vec3(pass.channels);
@@ -248,9 +254,9 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
     const PointLight& light = scene.lights[i];
     lights_.push_back({.position = glm::vec3(source.state.lights[i].position - pass.view.eye),
                        .radius = static_cast<float>(light.radius),
-                       .irradiance = glm::vec3(light.color * light.intensity),
+                       .irradiance = radiance(light.color * light.intensity),
                        .castsShadow = light.castsShadow,
-                       .glow = glm::vec3(light.color * light.glow),
+                       .glow = radiance(light.color * light.glow),
                        .hasGlyph = hasGlyph(light, source.settings.effects)});
   }
   std::copy_n(lights_.end() - static_cast<std::ptrdiff_t>(order.size()),

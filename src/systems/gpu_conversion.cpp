@@ -3,11 +3,16 @@
 #include <algorithm>
 
 #include "geometry/affine.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
 glm::vec4 row(const glm::dmat3& m, int r, double w) {
   return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], w));
+}
+
+glm::vec3 radiance(const glm::dvec3& product) {
+  return glm::vec3(glm::min(product, kRadiance.high));
 }
 
 gpu::MaterialChange materialChange(const Object& object) {

@@ -13,6 +13,8 @@ namespace speculum {
 
 // Row `r` of a matrix, and `w`.
 glm::vec4 row(const glm::dmat3& m, int r, double w);
+// Returns products of radiances, which may leave the range of floats.
+glm::vec3 radiance(const glm::dvec3& product);
 // Returns the colours that replace those of the object's material.
 gpu::MaterialChange materialChange(const Object& object);
 // Returns the constants for drawing a part of an object; the caller sets firstTriangle.

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
 #include "systems/gpu_conversion.hpp"
 
@@ -65,11 +66,12 @@ Bounds boundsOf(const MirrorState& mirror, const glm::dvec3& eye) {
 
 void setRipple(const Ripple& ripple, double time, gpu::TraceMirror& data) {
   const double k = 2.0 * std::numbers::pi / ripple.wavelength;
+  constexpr double steepest = 1e15;  // its square is a float, and steeper slopes look the same
   data.hasRipple = 1;
   data.waveNumber = static_cast<float>(k);
-  data.rippleSlope = static_cast<float>(ripple.amplitude * k);
+  data.rippleSlope = static_cast<float>(std::min(ripple.amplitude * k, steepest));
   // Reduced in double: a float of the phase would have lost its fraction after hours.
-  data.ripplePhase = static_cast<float>(std::remainder(k * ripple.speed * time, 2.0 * std::numbers::pi));
+  data.ripplePhase = static_cast<float>(k * productModulo(ripple.speed, time, ripple.wavelength));
 }
 
 }  // namespace
@@ -245,7 +247,7 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
     const glm::dvec3 image = reflectPoint(position, {mirror.origin, mirror.normal});
     paths.push_back({.image = glm::vec3(image - state.camera.eye),
                      .radius = static_cast<float>(light.radius),
-                     .irradiance = glm::vec3(light.color * light.intensity),
+                     .irradiance = radiance(light.color * light.intensity),
                      .castsShadow = light.castsShadow && settings.effects.shadows,
                      .light = glm::vec3(position - state.camera.eye),
                      .mirror = static_cast<uint32_t>(mirrored.mirror)});

@@ -33,7 +33,7 @@ const char* formatOf(double step) {
 template <typename Field>
 bool dragNumbers(const Field& field, const char* label, double* values, int count) {
   const double low = std::max({field.range.low, field.floor, -farthest}) + (field.range.aboveLow ? field.step / 10 : 0);
-  const double high = std::min(field.range.high, farthest);
+  const double high = std::min({field.range.high, field.ceiling, farthest});
   return ImGui::DragScalarN(label, ImGuiDataType_Double, values, count, static_cast<float>(field.step), &low, &high,
                             formatOf(field.step), ImGuiSliderFlags_AlwaysClamp);
 }

@@ -1,0 +1,223 @@
+// Every number of a scene file, from nothing to beyond a float: refused by its key, or drawn as the tracer does.
+#include <gtest/gtest.h>
+#include <toml++/toml.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "frame/frame_plan.hpp"
+#include "image/color.hpp"
+#include "image/picture_files.hpp"
+#include "picture_support.hpp"
+#include "reference/ray_tracer.hpp"
+#include "sampling.hpp"
+#include "scene/input_error.hpp"
+#include "scene/scene_fields.hpp"
+#include "scene_text.hpp"
+#include "truth_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{48, 27};
+
+// Has every key that takes numbers.
+const char* const everyNumber = R"([environment]
+background = [0.2, 0.3, 0.4]
+sky = { zenith = [0.2, 0.3, 0.8], horizon = [0.7, 0.7, 0.6], ground = [0.2, 0.2, 0.1] }
+ambient = [0.1, 0.1, 0.1]
+[camera]
+position = [0.1, 1.2, 4.0]
+target = [0.2, 0.8, 0.1]
+up = [0.1, 1.0, 0.2]
+vertical_fov = 50.0
+near = 0.001
+orbit_speed = 3.0
+[[object]]
+model = "MODELS/sphere.obj"
+position = [-0.5, 0.9, 0.2]
+rotation = [10.0, 20.0, 30.0]
+scale = [0.5, 0.6, 0.7]
+spin = [5.0, 6.0, 7.0]
+color = [0.7, 0.3, 0.2]
+specular = [0.3, 0.3, 0.3]
+shininess = 30.0
+emission = [0.05, 0.0, 0.0]
+copies = { count = 2, step = [0.3, 0.1, 0.2] }
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.9, 0.6, 0.4]
+scale = 0.4
+mirror = { reflectance = [0.9, 0.8, 0.7], base_color = [0.1, 0.1, 0.2] }
+[[light]]
+position = [1.0, 3.0, 2.0]
+color = [1.0, 0.9, 0.8]
+intensity = 8.0
+radius = 0.2
+glow = 1.0
+orbit = { center = [0.1, 2.0, 0.2], axis = [0.1, 1.0, 0.1], speed = 4.0 }
+[[mirror]]
+position = [0.1, 0.0, -0.2]
+rotation = [-90.0, 2.0, 3.0]
+size = [4.0, 3.0]
+spin = [0.1, 0.2, 0.3]
+reflectance = [0.8, 0.7, 0.9]
+base_color = [0.1, 0.2, 0.1]
+back_color = [0.1, 0.1, 0.1]
+roughness = 0.0
+[[mirror]]
+polygon = [[-2.0, 0.0, -2.0], [2.0, 0.0, -2.0], [2.0, 2.5, -2.0], [-2.0, 2.5, -2.0]]
+reflectance = [0.6, 0.6, 0.6]
+ripple = { amplitude = 0.002, wavelength = 0.5, speed = 0.2 }
+[[bookmark]]
+name = "side"
+position = [2.0, 1.0, 2.0]
+target = [0.0, 1.0, 0.0]
+up = [0.0, 1.0, 0.0]
+vertical_fov = 40.0
+)";
+
+const double values[] = {0.0,   -0.0, 1e-300, -1e-300, 1e-45,  -1e-45,  1e-30,    -1e-30,    1e-12,
+                         1e9,   -1e9, 1e15,   1e20,    -1e20,  1e30,    -1e30,    1e36,      1e38,
+                         -1e38, 1e39, -1e39,  1e300,   -1e300, 1.7e308, INFINITY, -INFINITY, NAN};
+
+// Calls `visit` with the path of each number below the node; of an array, with the first unless `all`.
+void forEachNumber(toml::node& node, const std::string& path, bool all,
+                   const std::function<void(toml::node&, const std::string&)>& visit) {
+  if (node.is_number()) {
+    visit(node, path);
+  } else if (toml::table* table = node.as_table()) {
+    for (auto&& [key, value] : *table) {
+      forEachNumber(value, path + (path.empty() ? "" : ".") + std::string(key.str()), all, visit);
+    }
+  } else if (toml::array* array = node.as_array()) {
+    const size_t count = all || array->is_array_of_tables() ? array->size() : std::min<size_t>(array->size(), 1);
+    for (size_t i = 0; i < count; ++i) {
+      forEachNumber((*array)[i], path + "[" + std::to_string(i) + "]", all, visit);
+    }
+  }
+}
+
+// Draws scenes that differ in numbers only, one after the other.
+class NumberRanges : public testing::Test {
+ protected:
+  Image8 draw(const Scene& scene, double time) {
+    static_cast<SceneContent&>(drawn_) = scene;
+    const SceneState state = evaluate(drawn_, time);
+    Settings settings = settingsOf(scene);
+    settings.view.samples = settings.reflection.samples = 1;
+    settings.reflection.maxDepth = 2;
+    settings.debug.checkFinite = true;
+    sceneRenderer_.restart();
+    Frame frame = renderer_.beginFrame().value();
+    frame.capture = true;
+    const FramePlan plan = planFrame(drawn_, state, settings, size.width, size.height);
+    sceneRenderer_.record(frame, state, settings, plan, std::nullopt, true);
+    renderer_.endFrame(frame);
+    return pictureOf(renderer_.readback());
+  }
+
+  static Image8 trace(const Scene& scene, double time) {
+    const TraceResult traced = *RayTracer(scene, evaluate(scene, time))
+                                    .render({.width = size.width, .height = size.height, .samples = 1, .maxDepth = 2});
+    return toDisplay(traced.image, 1.0, ToneMap::clamp);
+  }
+
+  std::filesystem::path file_ = writeScene("numbers", everyNumber);
+  Scene drawn_ = loadScene(file_);
+  Device device_{{}};
+  Renderer renderer_{device_, {.extent = {size.width, size.height}}};
+  SceneRenderer sceneRenderer_{renderer_, drawn_};
+};
+
+TEST_F(NumberRanges, NumbersAreRefusedByKeyOrDrawn) {
+  toml::table root = toml::parse_file(file_.string());
+  int drawn = 0;
+  size_t key = 0;
+  forEachNumber(root, "", fullTests(), [&](toml::node& node, const std::string& path) {
+    const double value = node.value<double>().value();
+    ++key;
+    for (size_t i = 0; i < std::size(values); ++i) {
+      if (!fullTests() && (i + key) % 7 != 0) {
+        continue;
+      }
+      const double other = values[i];
+      node.is_integer() ? void(node.as_integer()->get() = static_cast<int64_t>(std::clamp(other, -1e18, 1e18)))
+                        : void(node.as_floating_point()->get() = other);
+      std::stringstream text;
+      text << toml::toml_formatter(root);
+      const std::filesystem::path file = writeScene("varied", text.str());
+      const std::string what = path + " = " + testing_support::text(other);
+      std::optional<Scene> scene;
+      try {
+        scene = loadScene(file);
+      } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what;
+        const std::string key = path.substr(path.rfind('.') + 1);
+        EXPECT_NE(std::string(error.what()).find(key.substr(0, key.find('['))), std::string::npos)
+            << what << ": " << error.what();
+        continue;
+      }
+      ++drawn;
+      const double time = 1.5;
+      const Image8 picture = draw(*scene, time);
+      const PictureAgreement agreement = difference(picture, trace(*scene, time), 3);
+      EXPECT_GE(agreement.within(), 0.97) << what << ": " << agreement.over << " pixels, up to " << agreement.largest;
+    }
+    node.is_integer() ? void(node.as_integer()->get() = static_cast<int64_t>(value))
+                      : void(node.as_floating_point()->get() = value);
+  });
+  renderer_.waitIdle();
+  EXPECT_EQ(sceneRenderer_.finiteWatch().count(), 0u);
+  EXPECT_GE(drawn, 80);
+}
+
+TEST(LargeTextures, AreDrawnSmaller) {
+  for (const bool wide : {true, false}) {
+    Image8 image(wide ? 20'000 : 2, wide ? 2 : 20'000);
+    for (int i = 0; i < 40'000; ++i) {
+      const int along = wide ? i % 20'000 : i / 2;
+      const auto wave = static_cast<uint8_t>(128 + 100 * std::sin(along * 0.001));
+      std::copy_n(std::array<uint8_t, 4>{wave, 90, static_cast<uint8_t>(along / 100), 255}.begin(), 4,
+                  image.rgba.begin() + 4 * i);
+    }
+    writePng(sceneDirectory() / "wide.png", image);
+    std::ofstream(sceneDirectory() / "wide.mtl") << "newmtl a\nmap_Kd wide.png\n";
+    writeModel("wide.obj",
+               "mtllib wide.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    const auto file = writeScene("wide",
+                                 "[environment]\nambient = [1, 1, 1]\n[camera]\nposition = [0, 0, 2]\n"
+                                 "target = [0, 0, 0]\n[[object]]\nmodel = 'wide.obj'\n");
+    expectTruth(file, {64, 36}, 1, trace(file, {64, 36}, 1));
+  }
+}
+
+// The eye at a vertex, and nearer to one than floats place it.
+TEST(EyeAtAVertex, FillsNothing) {
+  writeModel("cube.obj",
+             "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+             "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n");
+  Random random(4);
+  for (int i = 0; i < 12; ++i) {
+    const glm::dvec3 corner(random.chance(0.5) ? 1 : -1, random.chance(0.5) ? 1 : -1, random.chance(0.5) ? 1 : -1);
+    const glm::dvec3 position = i % 3 == 0 ? glm::dvec3(0.0) : random.inBox(3.0);
+    const double offset = i % 4 == 0 ? 0.0 : i % 4 == 1 ? 1e-12 : i % 4 == 2 ? 1e-8 : 1e-5;
+    const glm::dvec3 eye = position + 0.7 * corner + offset * glm::normalize(corner);
+    const auto file = writeScene("corner" + std::to_string(i),
+                                 "[environment]\nbackground = [0.2, 0.4, 0.6]\nambient = [1, 1, 1]\n" +
+                                     cameraText(eye, eye + random.direction()) +
+                                     objectText("cube.obj", position, {0, 0, 0}, 0.7, {1, 0, 0}) +
+                                     objectText("cube.obj", position + 2.0 * corner, {20, 30, 40}, 0.5, {0, 1, 0}));
+    const Truth truth = trace(file, {64, 36}, 1);
+    const PictureAgreement agreement = difference(draw(truthOptions(file, {64, 36}, 1)), truth.picture, 2);
+    EXPECT_GE(agreement.within(), 0.98) << i << ": " << agreement.over << " pixels";
+  }
+}
+
+}  // namespace
+}  // namespace speculum
