@@ -97,7 +97,11 @@ TEST(SceneLimits, ScalesStayInTheRangeOfDoubles) {
     EXPECT_EQ(faultOf(object + "scale = " + scale + "\n"),
               "6: object[0].scale: leaves the range of double precision (scales nearer to 1 are needed)");
   }
-  EXPECT_EQ(faultOf(object + "scale = [1e-100, 1e100, -1]\n"), "no InputError was thrown");
+  EXPECT_EQ(faultOf(object + "scale = [1e-100, 1e100, -1]\n"),
+            "6: object[0].scale: makes the model too large (at most 1e+35 m are needed)");
+  EXPECT_EQ(faultOf(object + "scale = [1e-30, 1e30, -1]\n"), "no InputError was thrown");
+  EXPECT_EQ(faultOf(object + "mirror = {}\nscale = [1e-30, 1e30, -1]\n"),
+            "7: object[0].scale: makes the model too large (at most 1e+18 m are needed of a curved mirror)");
 }
 
 TEST(SceneLimits, AllCopiesTogetherAreLimited) {

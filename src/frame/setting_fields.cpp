@@ -71,7 +71,7 @@ constexpr SettingField fields[] = {
      .cost = "Pixels grow with its square. Below 1 reflections blur, above 1 edges smooth.",
      .slider = SettingSlider{0.125, 4.0, "%.3f"}},
     {.key = "reflection.samples",
-     .kind = IntegerSetting{at<&R::samples>, 1, 8, false, true},
+     .kind = IntegerSetting{at<&R::samples>, 1, 8, true},
      .label = "Samples",
      .text = "samples a pixel of mirror images",
      .cost = "Shading grows with it."},
@@ -82,7 +82,7 @@ constexpr SettingField fields[] = {
      .cost = "Each level adds passes.",
      .slider = SettingSlider{0, 32, "%d", false}},
     {.key = "reflection.min_pixels",
-     .kind = NumberSetting{at<&R::minPixels>, 0.0, 1e12, true},
+     .kind = NumberSetting{at<&R::minPixels>, 0.0, 1e12},
      .label = "Min. pixels",
      .text = "smallest visible mirror area worth a pass",
      .cost = "Saves passes of small mirrors.",
@@ -95,13 +95,13 @@ constexpr SettingField fields[] = {
      .cost = "Saves passes of faint bounces.",
      .slider = SettingSlider{0.0, 1.0, "%.5f"}},
     {.key = "reflection.max_passes",
-     .kind = IntegerSetting{at<&R::maxPasses>, 1, anyCount, true},
+     .kind = IntegerSetting{at<&R::maxPasses>, 1, anyCount},
      .label = "Max. passes",
      .text = "most mirror passes a frame, best first",
      .cost = "Bounds the time.",
      .slider = SettingSlider{1, 256, "%d", false}},
     {.key = "reflection.update_interval",
-     .kind = IntegerSetting{at<&R::updateInterval>, 1, anyCount, true},
+     .kind = IntegerSetting{at<&R::updateInterval>, 1, anyCount},
      .label = "Update interval",
      .text = "mirrors seen directly are rendered every n-th frame and reprojected in between",
      .cost = "Saves their passes in between; what moves in them moves in steps.",
@@ -134,7 +134,7 @@ constexpr SettingField fields[] = {
      .cost = "Pixels fall with its square; the picture is softer.",
      .slider = SettingSlider{0.125, 1.0, "%.3f"}},
     {.key = "view.samples",
-     .kind = IntegerSetting{at<&V::samples>, 1, 8, false, true},
+     .kind = IntegerSetting{at<&V::samples>, 1, 8, true},
      .label = "Samples",
      .text = "samples a pixel of the main view",
      .cost = "Shading grows with it.",
@@ -253,14 +253,14 @@ constexpr SettingField fields[] = {
      .text = "curved mirrors trace rays, or look up six images about the object's centre",
      .cost = "environment takes no rays; images are rendered only when they change."},
     {.key = "effects.environment_size",
-     .kind = IntegerSetting{at<&E::environmentSize>, 16, 1024, false, true},
+     .kind = IntegerSetting{at<&E::environmentSize>, 16, 1024, true},
      .label = "Map size",
      .text = "side of an environment map's six images",
      .cost = "Time and memory grow with its square.",
      .unit = "texels",
      .needs = environmentMaps},
     {.key = "effects.environment_interval",
-     .kind = IntegerSetting{at<&E::environmentInterval>, 1, anyCount, true},
+     .kind = IntegerSetting{at<&E::environmentInterval>, 1, anyCount},
      .label = "Map interval",
      .text = "environment maps are rendered anew every n-th frame at most",
      .cost = "What moves in them moves in steps.",
@@ -275,7 +275,7 @@ constexpr SettingField fields[] = {
      .needs = environmentMaps},
 
     {.key = "quality.budget_ms",
-     .kind = NumberSetting{at<&Q::budgetMs>, 0.0, 1e6, true},
+     .kind = NumberSetting{at<&Q::budgetMs>, 0.0, 1e6},
      .label = "GPU budget (ms)",
      .text = "the most accurate measured settings within so many GPU ms; 0: off",
      .cost = "Costs nothing itself.",
@@ -361,13 +361,13 @@ const SettingField* findSettingField(std::string_view key) {
 
 std::string settingRange(const SettingField& field) {
   struct Visitor {
-    std::string operator()(const NumberSetting& n) const {
-      return shortNumber(n.low) + " .." + (n.openEnd ? "" : " " + shortNumber(n.high));
+    std::string operator()(const NumberSetting& n) const { return shortNumber(n.low) + " .. " + shortNumber(n.high); }
+    std::string operator()(const AutomaticSetting& n) const {
+      return "auto | " + shortNumber(n.low) + " .. " + shortNumber(n.high);
     }
-    std::string operator()(const AutomaticSetting& n) const { return "auto | " + shortNumber(n.low) + " .."; }
     std::string operator()(const IntegerSetting& n) const {
       if (!n.powersOfTwo) {
-        return std::to_string(n.low) + " .." + (n.openEnd ? "" : " " + std::to_string(n.high));
+        return std::to_string(n.low) + " .. " + std::to_string(n.high);
       }
       std::string powers = std::to_string(n.low);
       for (int power = 2 * n.low; power <= n.high; power *= 2) {

@@ -18,14 +18,13 @@ struct SettingMember {
   const T& of(const Settings& settings) const { return in(const_cast<Settings&>(settings)); }
 };
 
-// Numbers from low to high. With `openEnd` users do not see `high`, which only guards against overflow.
+// Numbers from low to high.
 struct NumberSetting {
   SettingMember<double> value;
   double low = 0.0;
   double high = 1.0;
-  bool openEnd = false;
 };
-// A number from low to an open end, or "auto": none.
+// A number from low to high, or "auto": none.
 struct AutomaticSetting {
   SettingMember<std::optional<double>> value;
   double low = 0.0;
@@ -35,7 +34,6 @@ struct IntegerSetting {
   SettingMember<int> value;
   int low = 0;
   int high = 1;
-  bool openEnd = false;
   bool powersOfTwo = false;
 };
 struct BooleanSetting {

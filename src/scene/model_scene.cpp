@@ -39,7 +39,7 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));
   const glm::dvec3 eye = target + 1.3 * r / std::sin(glm::radians(0.5 * kFieldOfView)) * towards;
   std::string toml = fmt::format("# {} by itself, over a mirror of its size.\ntitle = {}\n\n",
-                                 oneLine(file.filename().string()), tomlText(file.stem().string()));
+                                 tomlText(file.filename().string()), tomlText(file.stem().string()));
   toml +=
       "[environment]\n"
       "sky     = { zenith = [0.1, 0.21, 0.45], horizon = [0.8, 0.8, 0.78], ground = [0.5, 0.5, 0.5] }\n"

@@ -1,9 +1,12 @@
 // Animation after an hour's pause, with a clock that goes backwards, after 1e6 s: every transform finite and exact.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
+#include "geometry/affine.hpp"
 #include "transform_support.hpp"
 
 namespace speculum {
@@ -114,6 +117,24 @@ TEST(TimeSteps, FloatAnglesAndSummedStepsDrift) {
   }
   EXPECT_GT(difference(glm::dmat3(sum), longTurn({0, 1, 0}, turned(0.0, 47.3, 3600))), 1e-4)
       << "the naive way should fail";
+}
+
+// Turns and ripples after days and after millions of years, against whole numbers: speeds in steps of 2^-20.
+TEST(LongTimes, ProductsKeepTheirRemainder) {
+  std::mt19937_64 random(11);
+  for (const double longest : {1e5, 1e7, 1e9, 1e12, 1e15}) {
+    double worst = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      const auto time = static_cast<int64_t>(random() % static_cast<uint64_t>(longest));
+      const auto steps = static_cast<int64_t>(random() % (int64_t{1} << 40)) - (int64_t{1} << 39);
+      constexpr int64_t circle = int64_t{360} << 20;
+      const auto rest = static_cast<int64_t>(__int128{steps} * time % circle);
+      const double expected = static_cast<double>(rest) / (1 << 20);
+      const double actual = productModulo(static_cast<double>(steps) / (1 << 20), static_cast<double>(time), 360.0);
+      worst = std::max(worst, std::abs(std::remainder(actual - expected, 360.0)));
+    }
+    EXPECT_LE(worst, 1e-9) << "after up to " << longest << " s";
+  }
 }
 
 }  // namespace
