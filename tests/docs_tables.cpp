@@ -117,7 +117,7 @@ std::string fieldValue(const Field& field, const Node& node) {
     }
   }
   add(field.uniform ? "or a number" : "");
-  add(field.color && field.range.shortText() == kNotNegative.shortText() ? "" : field.range.shortText());
+  add(field.range.shortText());
   add(std::string(field.unit));
   return text;
 }
