@@ -31,7 +31,7 @@ struct ViewData {
   vec3 ambient;
   uint picture;  // index in a mean of pictures; seeds random numbers
   vec3 background;
-  uint hasSky;  // the background is a gradient of the next three colours
+  uint hasSky;  // the background is a gradient of the next three colors
   vec4 zenith;
   vec4 horizon;
   vec4 ground;
@@ -66,7 +66,7 @@ struct MaterialData {
   uint textureIndex;  // index into traceTextures, if hasTexture
 };
 
-// Colours of an object that replace those of its material.
+// Colors of an object that replace those of its material.
 struct MaterialChange {
   vec3 diffuse;
   uint replacesDiffuse;

@@ -12,7 +12,7 @@
 #endif
 
 layout(constant_id = 0) const uint diffuseLookup = textureNone;
-layout(constant_id = 1) const bool glossy = true;  // the specular colour is not black
+layout(constant_id = 1) const bool glossy = true;  // the specular color is not black
 
 layout(set = 1, binding = 0) uniform sampler2D diffuseTexture;  // linear radiance factors; with ENVIRONMENT the map
 

@@ -60,7 +60,7 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   }
 }
 
-// Colour of a texture, bilinear.
+// Color of a texture, bilinear.
 vec3 textureColor(uint index, vec2 uv) {
   TraceTexture source = traceTextures[index];
   ivec2 size = ivec2(source.width, source.height);

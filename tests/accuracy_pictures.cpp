@@ -10,7 +10,7 @@ double luminance(const glm::dvec3& c) {
   return 0.2126 * srgbDecode(c.r) + 0.7152 * srgbDecode(c.g) + 0.0722 * srgbDecode(c.b);
 }
 
-TEST(HeatMap, ColoursRiseInLuminance) {
+TEST(HeatMap, ColorsRiseInLuminance) {
   double last = -1.0;
   for (int i = 0; i <= 255; ++i) {
     const double y = luminance(heatColor(i / 255.0));

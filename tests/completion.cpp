@@ -126,8 +126,8 @@ TEST(Help, EndsWithExamplesThatParse) {
   }
 }
 
-// Output has no colours even on a terminal, so that NO_COLOR has nothing to switch off.
-TEST(Output, HasNoColours) {
+// Output has no colors even on a terminal, so that NO_COLOR has nothing to switch off.
+TEST(Output, HasNoColors) {
   for (const char* arguments : {"--help", "info", "--bogus", "render --scene no_mirror --size 8x8 --log-level trace"}) {
     const ProcessResult result =
         runProcess({"script", "-qec", program + " " + arguments + " --out x.jpg", "/dev/null"});

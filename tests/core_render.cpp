@@ -29,7 +29,7 @@ class Render : public testing::TestWithParam<int> {};
 TEST_P(Render, TriangleReachesTheDisplayImage) {
   const std::vector<uint8_t> bytes = render(RenderPath::automatic, GetParam());
   ASSERT_EQ(bytes.size(), size_t{4} * extent.width * extent.height);
-  // The corner holds the clear colour of the offscreen target, sampled twice on its way.
+  // The corner holds the clear color of the offscreen target, sampled twice on its way.
   const uint8_t* corner = pixel(bytes, 63, 0);
   EXPECT_EQ(std::vector(corner, corner + 4), (std::vector<uint8_t>{64, 32, 191, 255}));
   // Near the triangle's second corner green dominates.

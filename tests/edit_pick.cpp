@@ -1,4 +1,4 @@
-// The node that a ray finds at a pixel, against the colour that the rasteriser drew there.
+// The node that a ray finds at a pixel, against the color that the rasteriser drew there.
 #include "edit/pick.hpp"
 
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ glm::dvec3 randomColor(Random& random) {
   return {r, g, channel(random)};
 }
 
-// Gives each node a colour of its own, independent of light. A mirror shows half of its reflection and half of its own
-// colour, so that a pixel's colour identifies all the mirrors that it is seen through.
+// Gives each node a color of its own, independent of light. A mirror shows half of its reflection and half of its own
+// color, so that a pixel's color identifies all the mirrors that it is seen through.
 void makeFlat(Scene& scene) {
   Random random(7);
   scene.environment = {.ambient = glm::dvec3(1.0)};
@@ -64,7 +64,7 @@ bool showsBack(const Scene& scene, const SceneState& state, const Picked& mirror
          glm::dot(state.mirrors[index].normal, seen->eye() - state.mirrors[index].origin) < 0.0;
 }
 
-// Returns the colour that the nodes found at a pixel would give.
+// Returns the color that the nodes found at a pixel would give.
 glm::dvec3 flatColor(const Scene& scene, const SceneState& state, const std::vector<Picked>& found,
                      const PictureView& picture) {
   glm::dvec3 color(0.0);

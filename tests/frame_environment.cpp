@@ -142,7 +142,7 @@ TEST(EnvironmentMap, IsRenderedWhenItsContentChanged) {
   frames.scene.objects[ball].position.y += 0.1;
   EXPECT_EQ(frames.rendered(), 1);
   frames.scene.objects[ball].mirror->reflectance *= 0.5;
-  EXPECT_EQ(frames.rendered(), 0) << "its own colour is not in it";
+  EXPECT_EQ(frames.rendered(), 0) << "its own color is not in it";
   frames.settings.effects.environmentSize = 64;
   EXPECT_EQ(frames.rendered(), 1);
   EXPECT_EQ(frames.plan.maps[0].size, 64);

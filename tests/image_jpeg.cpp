@@ -36,7 +36,7 @@ double rmsDifference(const Image8& a, const Image8& b) {
   return std::sqrt(sum / (0.75 * static_cast<double>(a.rgba.size())));
 }
 
-TEST(Jpeg, KeepsSizeAndColourAndDropsAlpha) {
+TEST(Jpeg, KeepsSizeAndColorAndDropsAlpha) {
   for (const auto& [width, height] : {std::pair{1, 1}, std::pair{37, 19}, std::pair{160, 90}, std::pair{300, 1}}) {
     const Image8 image = smoothPicture(width, height);
     const Image8 read = decoded(encodeJpeg(image, 95));

@@ -213,7 +213,7 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   click("accuracy.difference");
   ASSERT_TRUE(waitFor([&] { return measured.difference.find("mean FLIP") == 0; })) << measured.difference;
   run(3);
-  // The background is right: the darkest colour of the map, at the window's left edge below the panel.
+  // The background is right: the darkest color of the map, at the window's left edge below the panel.
   const Image8 heat = picture();
   const uint8_t* corner = heat.at(3, height - 3);
   EXPECT_NE(corner[0], plain.at(3, height - 3)[0]);

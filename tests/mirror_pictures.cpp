@@ -263,7 +263,7 @@ TEST_P(OmittedBarrier, IsNoticed) {
   options.renderPath = RenderPath::renderPass;
   // A check's own barriers would order what one that is missing does not.
   set(options, {{"debug.check_finite", "false"}, {"reflection.skip_unchanged", "false"}});
-  // Images that keep their samples have no single-sample colour.
+  // Images that keep their samples have no single-sample color.
   const bool single = std::string(GetParam()) == "offscreenBeforeWrite";
   set(options, {{"debug.omit_barrier", GetParam()}, {"view.samples", "4"}, {"reflection.samples", single ? "1" : "4"}});
   Session session(options);
@@ -314,10 +314,10 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
   }
 }
 
-// Blurring reads the image beside the visible region, which must be drawn: with one colour all around, the mirror has
-// that colour too.
+// Blurring reads the image beside the visible region, which must be drawn: with one color all around, the mirror has
+// that color too.
 TEST(MirrorPictures, BlurredImagesAreDrawnBesideTheirMirror) {
-  const std::filesystem::path file = writeScene("one_colour", R"(
+  const std::filesystem::path file = writeScene("one_color", R"(
 [environment]
 sky = { zenith = [0.4, 0.5, 0.6], horizon = [0.4, 0.5, 0.6], ground = [0.4, 0.5, 0.6] }
 [camera]

@@ -235,7 +235,7 @@ TEST(ReferenceTracer, SphereSilhouetteIsTheTangentCone) {
   EXPECT_NEAR(covered / (pi * radius * radius), 1.0, 1e-3);
 }
 
-TEST(ReferenceTracer, ClearColourReplacesTheSky) {
+TEST(ReferenceTracer, ClearColorReplacesTheSky) {
   Scene scene;
   scene.camera = testing::cameraAt({0, 0, 3}, {0, 0, 0});
   scene.environment.background = glm::dvec3(7.0);

@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
     Light, SceneFault,
     testing::Values(
         Fault{"NoPosition", "[[light]]\nglow = 1\n", "4: light[0].position:", "is missing"},
-        Fault{"UnknownKey", kLight + "colour = [1,1,1]\n", "6: light[0].colour:", "did you mean 'color'?"},
+        Fault{"UnknownKey", kLight + "color = [1,1,1]\n", "6: light[0].color:", "did you mean 'color'?"},
         Fault{"ColorNegative", kLight + "color = [1, -1, 1]\n", "6: light[0].color[1]:", "0 or more"},
         Fault{"IntensityNegative", kLight + "intensity = -1\n", "6: light[0].intensity:", "0 or more"},
         Fault{"RadiusZero", kLight + "radius = 0.0\n", "6: light[0].radius:", "above 0"},

@@ -146,7 +146,7 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
     settings.debug.maskPasses = true;
     session.setSettings(settings);
   }
-  // A triangle's colours may have another last bit with lavapipe when other triangles are in its draw, which is more
+  // A triangle's colors may have another last bit with lavapipe when other triangles are in its draw, which is more
   // than that where it is steep.
   EXPECT_LT(parts.pixels, cuts) << "of 14 400 each, in a quarter of them";
   EXPECT_LE(parts.most, 16);

@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Paths, TargetView,
                            return std::string(renderPathName(info.param.first)) + info.param.second;
                          });
 
-TEST(TargetViews, ColourIsThePictureMagnified) {
+TEST(TargetViews, ColorIsThePictureMagnified) {
   QuietSession session(hallOptions());
   const FramePlan plan = session.draw(0.0, false).plan;
   drawWith(session, std::nullopt);

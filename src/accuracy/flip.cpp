@@ -55,7 +55,7 @@ double labCurve(double t) {
   return t > delta * delta * delta ? std::cbrt(t) : t / (3.0 * delta * delta) + 4.0 / 29.0;
 }
 
-// CIELAB with its colour channels weighted by lightness (Hunt's effect).
+// CIELAB with its color channels weighted by lightness (Hunt's effect).
 glm::dvec3 huntLab(const glm::dvec3& rgb) {
   const glm::dvec3 r = xyzFromRgb * rgb / white;
   const glm::dvec3 f(labCurve(r.x), labCurve(r.y), labCurve(r.z));

@@ -27,7 +27,7 @@ struct TruthRequest {
   int height = 0;
   int samples = 64;  // a square; the noise floor takes a grid of one more a side
   bool noiseFloor = true;
-  Settings settings;  // exposure, tone curve and clear colour of the pictures compared
+  Settings settings;  // exposure, tone curve and clear color of the pictures compared
 };
 
 // Called with the finished fraction, 0 .. 1; false cancels.

@@ -32,7 +32,7 @@ constexpr VkAccessFlags colorAccess = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_A
 
 constexpr Scope colorWrites{colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr Scope colorUses{colorStage, colorAccess};
-// Includes shaders that sampled a colour before it was copied or checked.
+// Includes shaders that sampled a color before it was copied or checked.
 constexpr Scope colorWritesAndSamplings{colorStage | sampleStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr Scope depthWrites{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 constexpr Scope depthUses{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | depthWrites.access};
@@ -51,7 +51,7 @@ constexpr VkImageLayout depthAttachment = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHME
 constexpr VkImageLayout sampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout unsaid = VK_IMAGE_LAYOUT_UNDEFINED;
 
-// Rules by kind. A submission waits for the acquire semaphore of a swapchain image at the colour stage, which chains it
+// Rules by kind. A submission waits for the acquire semaphore of a swapchain image at the color stage, which chains it
 // to the image's barrier.
 constexpr std::array<Rule, barrierKindCount> rules = {{
     {"offscreenBeforeWrite", colorWrites, colorUses, attachment},

@@ -12,8 +12,8 @@ class Image;
 
 // Kinds of dependency, named so that a test can omit each in turn and expect a message from validation.
 enum class BarrierKind {
-  offscreenBeforeWrite,         // resolved or single-sample colour: earlier samplings and writes -> attachment
-  offscreenSamplesBeforeWrite,  // multisampled colour: earlier resolves, samplings and writes -> attachment
+  offscreenBeforeWrite,         // resolved or single-sample color: earlier samplings and writes -> attachment
+  offscreenSamplesBeforeWrite,  // multisampled color: earlier resolves, samplings and writes -> attachment
   offscreenDepthBeforeWrite,    // late depth writes of the pass before -> clear
   offscreenToSample,            // attachment -> fragment shader
   mainBeforeWrite,              // the same four for the main view
@@ -34,7 +34,7 @@ enum class BarrierKind {
 };
 inline constexpr int barrierKindCount = static_cast<int>(BarrierKind::mipmapToBlit) + 1;
 
-// Layout of the overlay's pass. Validation layer 1.3.239 treats colour writes and loads of different render passes as
+// Layout of the overlay's pass. Validation layer 1.3.239 treats color writes and loads of different render passes as
 // ordered by rasterisation, and reports a missing dependency between them only at a change of layout.
 inline constexpr VkImageLayout overlayLayout = VK_IMAGE_LAYOUT_GENERAL;
 

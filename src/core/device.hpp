@@ -42,7 +42,7 @@ struct DeviceInfo {
 };
 
 struct DeviceCaps {
-  VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;  // for RGBA16F colour and D32F depth alike
+  VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;  // for RGBA16F color and D32F depth alike
   double timestampPeriod = 0.0;                             // nanoseconds per tick
   uint32_t timestampValidBits = 0;                          // 0: no timestamps
   bool pipelineStatistics = false;

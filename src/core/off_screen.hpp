@@ -35,14 +35,14 @@ struct OffScreenDesc {
   std::string name;
   VkExtent2D extent{1, 1};
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-  bool keepSamples = false;  // the output is the multisampled colour, read sample by sample; else it is resolved
-  bool readSamples = false;  // the multisampled colour can be read too, if the pass stores it
+  bool keepSamples = false;  // the output is the multisampled color, read sample by sample; else it is resolved
+  bool readSamples = false;  // the multisampled color can be read too, if the pass stores it
   bool depth = true;
   TargetRole role = TargetRole::offscreen;
   SharedDepth* shared = nullptr;  // outlives the target; its sample count replaces `samples`
 };
 
-// A render target that is sampled later: its colour, with one sample or resolved to one or with all its samples, and
+// A render target that is sampled later: its color, with one sample or resolved to one or with all its samples, and
 // depth of its own or shared.
 class OffScreen {
  public:

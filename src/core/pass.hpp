@@ -41,8 +41,8 @@ struct PassViewport {
 struct PassDesc {
   std::string name;
   PassTargets targets;
-  // Pixels of the target; only these are cleared and written. Outside them a resolved or single-sample offscreen colour
-  // is kept; depth, multisampled colour and swapchain images are kept only when loaded.
+  // Pixels of the target; only these are cleared and written. Outside them a resolved or single-sample offscreen color
+  // is kept; depth, multisampled color and swapchain images are kept only when loaded.
   VkRect2D renderArea{};
   PassViewport viewport;
   VkRect2D scissor{};  // pixels of the target, within the render area
@@ -51,7 +51,7 @@ struct PassDesc {
   float clearDepth = 0.0f;  // reversed Z: infinitely far
   bool loadColor = false;   // else cleared
   bool storeDepth = false;
-  bool storeSamples = false;       // keeps multisampled colour for passes that load or read it
+  bool storeSamples = false;       // keeps multisampled color for passes that load or read it
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
   bool grouped = false;            // its barriers are those of its PassGroup
   bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path

@@ -117,7 +117,7 @@ std::optional<std::string> missing(const PhysicalDevice& device) {
     return "Vulkan 1.3 or VK_EXT_extended_dynamic_state";
   }
   if (!(device.caps.sampleCounts & VK_SAMPLE_COUNT_1_BIT)) {
-    return "RGBA16F colour and D32F depth attachments";
+    return "RGBA16F color and D32F depth attachments";
   }
   return std::nullopt;
 }

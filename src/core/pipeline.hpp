@@ -30,7 +30,7 @@ struct GraphicsPipelineDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER;  // reversed Z
   bool depthClamp = true;                            // nothing is cut at the near plane; ignored where not supported
   bool sampleShading = false;                        // one invocation per sample; ignored where not supported
-  bool adds = false;                                 // additive blending of colour and alpha; else they replace
+  bool adds = false;                                 // additive blending of color and alpha; else they replace
   bool lines = false;                                // wireframe; filled where not supported
   VkCullModeFlags cullMode = VK_CULL_MODE_NONE;
   std::vector<VkVertexInputBindingDescription> vertexBindings;

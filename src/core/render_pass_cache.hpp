@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// Properties in which the project's one-subpass render passes differ. Attachments: colour, resolve, depth.
+// Properties in which the project's one-subpass render passes differ. Attachments: color, resolve, depth.
 struct RenderPassKey {
   VkFormat color = VK_FORMAT_UNDEFINED;
   VkFormat depth = VK_FORMAT_UNDEFINED;

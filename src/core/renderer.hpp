@@ -68,7 +68,7 @@ class Renderer {
   PassScope beginOverlay(Frame& frame);
   void endFrame(Frame& frame);
 
-  // The display image as a pass target: UNORM colour without depth. Their role is TargetRole::swapchain.
+  // The display image as a pass target: UNORM color without depth. Their role is TargetRole::swapchain.
   PassTargets displayTargets(Frame& frame);
   VkFormat displayFormat() const;
   VkExtent2D displayExtent() const;

@@ -13,7 +13,7 @@ namespace speculum {
 Mirror newMirror(const glm::dvec3& position, const glm::dvec3& viewer);
 // Makes a light that is as bright at the viewer as one of intensity 1 a metre away.
 PointLight newLight(const glm::dvec3& position, const glm::dvec3& viewer);
-// Makes an object with a mesh of the scene, at scale 1 and with the mesh's own colours. `position` (world) is below its
+// Makes an object with a mesh of the scene, at scale 1 and with the mesh's own colors. `position` (world) is below its
 // middle.
 Object newObject(const Scene& scene, int mesh, const glm::dvec3& position);
 

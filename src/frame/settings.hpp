@@ -107,14 +107,14 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-// Sets one key of settingFields(). The value is text as on a command line: numbers, true/false, names, colours as
+// Sets one key of settingFields(). The value is text as on a command line: numbers, true/false, names, colors as
 // "r,g,b" or "[r, g, b]". Returns what is wrong and what would be right, or nothing.
 std::optional<std::string> setSetting(Settings& settings, std::string_view key, std::string_view value);
 std::string settingValue(const Settings& settings, std::string_view key);
 // "key=value" of every key, a line each. Equal for equal settings.
 std::string settingsKey(const Settings& settings);
 
-// A setting as `--set key=value` takes it. The value is empty for a colour that is not set.
+// A setting as `--set key=value` takes it. The value is empty for a color that is not set.
 struct SettingChange {
   std::string key;
   std::string value;

@@ -49,7 +49,7 @@ void checkUnpackedSize(const std::filesystem::path& file, const std::vector<uint
   constexpr size_t signature = 8;
   constexpr int64_t mostPerByte = 1032;  // of deflate
   constexpr int64_t harmless = int64_t{1} << 28;
-  constexpr std::array<int64_t, 7> channelsOf{1, 0, 3, 1, 2, 0, 4};  // by colour type
+  constexpr std::array<int64_t, 7> channelsOf{1, 0, 3, 1, 2, 0, 4};  // by color type
   const auto number = [&](size_t at) {
     return int64_t{bytes[at]} << 24 | int64_t{bytes[at + 1]} << 16 | int64_t{bytes[at + 2]} << 8 | bytes[at + 3];
   };

@@ -74,7 +74,7 @@ class ObjReader {
   void readLine(LineReader& line) {
     const std::string_view keyword = line.keyword();
     if (keyword == "v") {
-      // A weight or the three values of a colour may follow; they are not used.
+      // A weight or the three values of a color may follow; they are not used.
       const std::vector<double>& numbers = line.numbers(3, 8);
       mesh_.addPosition({numbers[0], numbers[1], numbers[2]});
     } else if (keyword == "vt") {

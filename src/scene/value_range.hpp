@@ -23,7 +23,7 @@ inline constexpr Range kCoordinate{.low = -1e15, .high = 1e15};
 inline constexpr Range kLength{.low = 0.0, .high = 1e15, .aboveLow = true};
 // Degrees per second: times any number of seconds is still a double.
 inline constexpr Range kTurn{.low = -1e9, .high = 1e9};
-// Radiance and irradiance: floats, whose products with surfaces' colours are floats as well or saturate. Colours of
+// Radiance and irradiance: floats, whose products with surfaces' colors are floats as well or saturate. Colors of
 // surfaces: what a float loses of a light times one is less than a screen shows.
 inline constexpr Range kRadiance{.low = 0.0, .high = 1e38};
 inline constexpr Range kSurfaceColor{.low = 0.0, .high = 1e30};

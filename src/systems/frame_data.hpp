@@ -24,7 +24,7 @@ struct MirrorImage {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
-// Instances of one mesh that stand together in the instance buffer and share their colours.
+// Instances of one mesh that stand together in the instance buffer and share their colors.
 struct Batch {
   int mesh = 0;
   int object = 0;           // index into Scene::objects, of the first instance

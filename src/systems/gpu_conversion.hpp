@@ -15,7 +15,7 @@ namespace speculum {
 glm::vec4 row(const glm::dmat3& m, int r, double w);
 // Returns products of radiances, which may leave the range of floats.
 glm::vec3 radiance(const glm::dvec3& product);
-// Returns the colours that replace those of the object's material.
+// Returns the colors that replace those of the object's material.
 gpu::MaterialChange materialChange(const Object& object);
 // Returns the constants for drawing a part of an object; the caller sets firstTriangle.
 gpu::DrawConstants drawConstants(const Material& material, const Object& object, float handedness);

@@ -6,7 +6,7 @@
 namespace speculum {
 
 // Draws the mirrors of a pass: fronts look up the images that other passes rendered for them, fronts without an image
-// show the background, backs show their colour. An image with the pass's samples and pixels is read sample by sample;
+// show the background, backs show their color. An image with the pass's samples and pixels is read sample by sample;
 // the diffuse layer under the reflection, whose loop over the lights costs much more, is then a draw of its own with
 // one invocation per pixel. Rippled and rough mirrors trace what they reflect, rippled ones at each sample, because
 // their reflections have edges. A cached image is read like a new one as long as nothing moved, otherwise it is

@@ -22,7 +22,7 @@ class TexelProbe {
  public:
   explicit TexelProbe(Renderer& renderer);
 
-  // Reads a texel of a colour target or a depth that can be sampled; `descriptor` is the image's. Its layout stays.
+  // Reads a texel of a color target or a depth that can be sampled; `descriptor` is the image's. Its layout stays.
   void probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel);
   // Releases the GPU's objects as soon as the frames that were probed have finished, and drops the value.
   void release();

@@ -106,7 +106,7 @@ void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
   scale_ = 0.0f;
 }
 
-// Call between frames, because a frame that is laid out keeps its sizes and colours.
+// Call between frames, because a frame that is laid out keeps its sizes and colors.
 void SimpleUI::prepareTheme() {
   const float scale = window_.contentScale() * static_cast<float>(windows_.state().choices.percent) / 100.0f;
   const Theme theme = windows_.state().choices.theme;

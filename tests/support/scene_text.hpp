@@ -26,7 +26,7 @@ std::string text(const glm::dvec3& v);
 // The table [camera].
 std::string cameraText(const glm::dvec3& position, const glm::dvec3& target, const glm::dvec3& up = {0, 1, 0});
 
-// The table [[object]] of a matt model in that colour.
+// The table [[object]] of a matt model in that color.
 std::string objectText(const std::string& model, const glm::dvec3& position, const glm::dvec3& rotation, double scale,
                        const glm::dvec3& color);
 

@@ -288,7 +288,7 @@ function pictureViewer({ results, fronts, pictures }, selection) {
   const items = new Map(results.points.map((point, i) =>
     [String(i), viewerItem(point, String(i), shown.get(String(i)))]));
   const legend = pictures.legend
-    ? pictureOr(pictures.legend, { class: 'legend', alt: 'Colours of the error map and the errors they stand for' }) : null;
+    ? pictureOr(pictures.legend, { class: 'legend', alt: 'Colors of the error map and the errors they stand for' }) : null;
   return makeViewer({
     items, size: results.size.map(pixels => Math.max(1, pixels)).join('/'), legend,
     choices: byCost(results.points).map(point => items.get(String(results.points.indexOf(point))))

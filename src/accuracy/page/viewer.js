@@ -96,7 +96,7 @@ function makeStepper({ label, keys, from, to, textOf }, selection) {
 
 // items: [{ key, option, picture, map, pictureAlt, mapAlt, missingPicture, missingMap, caption }] by key, where
 // pictures are { width, height, uri } or absent; choices: those offered in the list; size: "width/height";
-// legend: of the map's colours.
+// legend: of the map's colors.
 function makeViewer({ items, choices, choiceLabel, stepper, size, left, right, reference, legend, mapCaption }, selection) {
   const panes = make('div', { class: 'panes' });
   const split = makeSplitFrame({ size, reference, left, right });
