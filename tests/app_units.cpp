@@ -191,7 +191,7 @@ TEST(CameraControl, OrbitStaysAboveTheFloor) {
   EXPECT_LT(camera.pose(start).eye.y, 0.5);
 }
 
-TEST(CameraControl, DragsTurnModeratelyAndStopAtThePole) {
+TEST(CameraControl, DragsTurnAndStopAtThePole) {
   CameraSpec spec;
   spec.position = {0.0, 2.0, 4.0};
   spec.target = {0.0, 1.0, 0.0};

@@ -72,7 +72,7 @@ std::string shape(const Field& field) {
   return "number";
 }
 
-// The value in a node without keys; nothing for what has none.
+// Returns the value in a node without keys; nothing for a field without a default.
 template <typename Field, typename Node>
 std::string defaultText(const Field& field, const Node& node) {
   using Value = typename Field::Value;
@@ -85,7 +85,7 @@ std::string defaultText(const Field& field, const Node& node) {
   return "";
 }
 
-// Calls `visit` with each field, the node that holds its default and the key's prefix, tables within included.
+// Calls `visit` with each field, those of nested tables too, the node that holds its default, and the key's prefix.
 template <Described Node, typename Visitor>
 void forEachRow(const std::string& prefix, const Visitor& visit) {
   const Node node{};
@@ -132,7 +132,7 @@ std::string fieldsList() {
   return list;
 }
 
-// Holds a part of a file between two lines against what it should be.
+// Compares the part of a file between two lines with what it should be.
 void expectPart(const std::filesystem::path& name, const std::string& first, const std::string& last,
                 const std::string& expected) {
   const std::filesystem::path file = sourceDir() / name;
@@ -172,7 +172,7 @@ TEST(Descriptions, MakeTheListsOfSceneKeys) {
   expectList(page, "bookmark", fieldsList<Bookmark>());
 }
 
-// A word of a dictionary, quoted once more.
+// Quotes a word for a fuzzer's dictionary.
 std::string word(const std::string& text) {
   std::string word = "\"";
   for (const char c : text) {

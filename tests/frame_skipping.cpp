@@ -215,7 +215,7 @@ TEST(Hidden, SimplifiedMeshesHideNothingInTheMainView) {
   EXPECT_FALSE(isHidden(planOf(scene, settings), {0}));
 }
 
-// Whether a convex polygon holds a point, both in device coordinates.
+// Says whether a convex polygon holds a point, both in device coordinates.
 bool holds(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
   bool left = true;
   bool right = true;

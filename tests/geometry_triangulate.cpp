@@ -78,7 +78,7 @@ TEST(Triangulate, QuadsThatAreNotConvexAreTiled) {
   }
 }
 
-// Ear clipping that remembers nothing from one ear to the next.
+// Clips ears without keeping anything from one ear to the next.
 std::vector<std::array<int, 3>> earsByTheRule(const std::vector<glm::dvec3>& points) {
   const glm::dvec3 normal = newellVector(points);
   const auto turn = [&](int a, int b, int c) {

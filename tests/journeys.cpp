@@ -1,5 +1,5 @@
-// The window as a user drives it: real X events under a window manager, pictures compared. What single commands and
-// panels do is tested without a display.
+// The window as a user drives it: real X events under a window manager, pictures compared. Single commands and panels
+// are tested without a display.
 #include <random>
 
 #include "core/handle.hpp"
@@ -183,7 +183,7 @@ TEST_F(Journey, InputBetweenFramesGoesWhereItWasMeant) {
   expectQuiet();
 }
 
-TEST_F(Journey, ScreenshotsShowTheWindowWithAndWithoutPanels) {
+TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   press("space");
   press("F12");
   press("shift+F12");

@@ -17,7 +17,7 @@ class IdleWindow : public Journey {
     options.settings = {{"view.continuous", "false"}, {"debug.check_finite", "false"}};
     return options;
   }
-  // Frames drawn and steps made within so many seconds.
+  // Returns the frames drawn and steps made within so many seconds.
   std::pair<int, int> during(double seconds) {
     const int before = demo_->framesDrawn();
     int steps = 0;
@@ -26,7 +26,7 @@ class IdleWindow : public Journey {
     }
     return {demo_->framesDrawn() - before, steps};
   }
-  // Until half a second has gone by without a frame.
+  // Waits until half a second has gone by without a frame.
   void settle() {
     const auto end = Clock::now() + std::chrono::seconds(20);
     while (during(0.5).first > 0) {

@@ -44,7 +44,7 @@ class ScarceMemory : public Journey {
   }
 };
 
-TEST_F(ScarceMemory, TexturesThatDoNotFitAreLeftOut) {
+TEST_F(ScarceMemory, TexturesBeyondMemoryAreLeftOut) {
   press("space");
   refuseMemory(fewest, most);
   const std::filesystem::path file = open("scarce");

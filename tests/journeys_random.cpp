@@ -1,5 +1,4 @@
-// Whatever a person, a cat or a child may do to the window, for SPECULUM_SECONDS: no crash, no validation message, and
-// afterwards it still works.
+// Random input to the window for SPECULUM_SECONDS: no crash, no validation message, and afterwards it still works.
 #include <cstdlib>
 #include <iostream>
 #include <random>
@@ -48,7 +47,7 @@ class RandomInput : public Journey {
     return {"mousemove", "--window", window_, place(static_cast<int>(size.width)),
             place(static_cast<int>(size.height))};
   }
-  // Errors are none: a window manager may be slower than the next event.
+  // Ignores errors, because a window manager may be slower than the next event.
   void send(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "xdotool");
     runProcess(arguments);

@@ -125,7 +125,7 @@ class Journey : public testing::Test {
     const PixelRect rect = widget(name);
     clickAt(rect.x + std::min(rect.width / 2, 40), rect.y + rect.height / 2);
   }
-  // Settings need no widget to be set.
+  // Changes a setting without a widget.
   void setSetting(const std::string& key, const std::string& value) {
     Settings settings = view().settings.current;
     ASSERT_FALSE(speculum::setSetting(settings, key, value));
@@ -133,7 +133,7 @@ class Journey : public testing::Test {
     run(3);
   }
 
-  // Changes the session for this test.
+  // Changes the keyboard layout for this test.
   void setKeyboard(const std::vector<std::string>& layout) {
     std::vector<std::string> command = {"setxkbmap"};
     command.insert(command.end(), layout.begin(), layout.end());

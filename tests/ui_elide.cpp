@@ -1,4 +1,4 @@
-// Names that do not fit.
+// Shortened names.
 #include <gtest/gtest.h>
 
 #include "ui/elide.hpp"
@@ -11,7 +11,7 @@ float widthOf(std::string_view text) {
   return 10.0f * static_cast<float>(text.size());
 }
 
-TEST(Elide, WhatFitsStays) {
+TEST(Elide, FittingTextStays) {
   EXPECT_EQ(startThatFits("left > right", 120.0f, widthOf), "left > right");
   EXPECT_EQ(startThatFits("", 0.0f, widthOf), "");
 }

@@ -1,4 +1,4 @@
-// What clicks on the panels ask for, and what the panels keep to themselves.
+// Commands that clicks on the panels send, and the state that panels keep.
 #include "panel_support.hpp"
 
 namespace speculum {
@@ -435,7 +435,7 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   EXPECT_FALSE(has("edit.look_out"));
 }
 
-TEST_F(Inspector, VerticesAreAppliedOnceTheyAreAPolygon) {
+TEST_F(Inspector, OnlyValidPolygonsAreApplied) {
   Mirror sail;
   sail.name = "sail";
   sail.polygon = {{-0.8, 0.5, -1}, {0.8, 0.5, -1}, {0.8, 1.6, -1}, {-0.8, 1.6, -1}};
@@ -525,7 +525,7 @@ TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
   EXPECT_TRUE(sent<CancelMeasurement>());
 }
 
-TEST_F(AccuracyWindow, DifferenceIsShownWhileTheWindowIsOpen) {
+TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
   click("accuracy.difference", 0.05);
   ASSERT_TRUE(sent<ShowDifference>());
   EXPECT_TRUE(std::get<ShowDifference>(commands_.front()).shown);

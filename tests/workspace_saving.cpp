@@ -79,7 +79,7 @@ TEST_F(LimitedFrames, QuitNeverAsks) {
   EXPECT_EQ(edit().prompt, Prompt::none);
 }
 
-TEST_F(Saving, SavedAsAnotherFileTheSceneStaysThere) {
+TEST_F(Saving, SaveAsSwitchesToTheNewFile) {
   const fs::path other = fs::path(options_.scene).replace_filename("other.toml");
   std::ofstream(other) << "somebody's";
   clickBall();
@@ -125,7 +125,7 @@ TEST_F(Saving, MissingFoldersAreNamed) {
   EXPECT_EQ(scene().file, home_.path() / "named.toml");
 }
 
-TEST_F(Saving, SecondSaveKeepsTheSettingsOfTheFirst) {
+TEST_F(Saving, SecondSaveKeepsSettingsOfTheFirst) {
   setExposure(2.0);
   send(Save{});
   EXPECT_FALSE(edit().unsavedSettings);
@@ -164,7 +164,7 @@ TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
   EXPECT_FALSE(edit().selected) << "it does not outlive its scene";
 }
 
-// Changes made while a scene is read are asked about when it has come.
+// Changes made while a scene is loading bring up the prompt once it is loaded.
 TEST_F(Saving, ChangesDuringLoadingAreAskedAbout) {
   send(OpenScene{sourceFile("scenes/no_mirror.toml")});
   removeBall();
@@ -223,7 +223,7 @@ TEST_F(ShippedScene, BareNameMeansTheUsersFolder) {
   EXPECT_TRUE(fs::exists(documentsDir() / "Speculum" / "mine.toml"));
 }
 
-// Saved once more it would be overwritten, which is not for a test to do.
+// The test does not save twice, because that would overwrite a shipped scene.
 TEST_F(ShippedScene, OwnFileIsRefusedAtFirst) {
   removeFirst();
   send(AskWhereToSave{});

@@ -12,7 +12,7 @@ class WindowView : public WorkspaceTest {
  protected:
   WindowView() : WorkspaceTest(wallScene) {}
 
-  // Whether the whole wall is in the picture.
+  // Says whether the whole wall is in the picture.
   bool seesWall() {
     const CameraPose pose = camera();
     const double half = std::tan(0.5 * pose.verticalFov);

@@ -16,7 +16,7 @@ constexpr double degreesPerPixel = 0.25;
 constexpr double zoomPerNotch = 0.88;
 constexpr double lean = 0.15;        // tangent of an angle
 constexpr double steepest = 0.995;   // cosine of view direction and up
-constexpr double leastLight = 0.25;  // metres around a light that are worth a look
+constexpr double leastLight = 0.25;  // metres around a light that are shown
 
 Sphere boundsOfAll(const SceneState& state) {
   glm::dvec3 low(std::numeric_limits<double>::infinity());
@@ -112,7 +112,7 @@ void CameraController::turn(double yawDegrees, double pitchDegrees) {
   const glm::dvec3 right = glm::dvec3(glm::transpose(last_.worldToView)[0]);
   const glm::dmat3 yaw = rotationAboutAxis(up, -yawDegrees);
   const glm::dvec3 turned = yaw * arm;
-  // Towards the pole as far as is allowed. A scene may start steeper than that; back from there must be possible.
+  // Turns towards the pole as far as allowed. A scene may start steeper than that, and must be able to turn back.
   const double height = glm::degrees(std::asin(std::clamp(glm::dot(glm::normalize(turned), up), -1.0, 1.0)));
   const double limit = std::max(glm::degrees(std::asin(steepest)), std::abs(height));
   const double rise = orbit ? pitchDegrees : -pitchDegrees;
@@ -134,8 +134,8 @@ void CameraController::zoom(double notches) {
   const glm::dvec3 arm = eye_ - target_;
   const glm::dvec3 shorter = arm * std::pow(zoomPerNotch, notches);
   if (mode_ == CameraMode::orbit) {
-    // The eye never reaches the target, where no view is defined, nor a distance at which doubles no longer tell them
-    // apart. A scene may start beyond these bounds.
+    // Keeps the eye from the target, where no view is defined, and from distances at which doubles cannot separate the
+    // two. A scene may start beyond these bounds.
     const double now = glm::length(arm);
     const double least = std::min(now, 1e-6 * (1.0 + glm::length(target_)));
     const double most = std::max(now, 1e9);
@@ -153,7 +153,7 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
   }
   take(last_);
   pivot_.reset();
-  // Near the target not ever slower, but slow enough for what the scene shows.
+  // Bounds the speed from below, because it falls near the target.
   const double least = std::min(0.5, 0.6 * glm::distance(spec_.position, spec_.target));
   const double speed = std::max(least, 0.6 * glm::length(eye_ - target_));  // metres per second
   const glm::dvec3 step = glm::transpose(last_.worldToView) * direction * (speed * seconds);
@@ -161,7 +161,7 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
   target_ += step;
 }
 
-// Half the picture's angle, in radians, along its narrower side.
+// Returns half the picture's angle, in radians, along its narrower side.
 double CameraController::narrowerHalfAngle(double aspect) const {
   const double vertical = 0.5 * glm::radians(spec_.verticalFov);
   return std::min(vertical, std::atan(std::tan(vertical) * aspect));
@@ -189,13 +189,14 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
   const glm::dvec3 up = glm::normalize(spec_.up);
   glm::dvec3 forward = mirror.normal;
   if (std::abs(glm::dot(forward, up)) > steepest) {
-    // A floor's or a ceiling's normal leaves open what is up in the picture: lean the way that the camera looks.
+    // A floor's or a ceiling's normal does not define what is up in the picture, so the view leans in the camera's
+    // direction.
     const glm::dvec3 back = glm::transpose(last_.worldToView)[2];
     const glm::dvec3 level = -back + glm::dot(back, up) * up;
     forward = glm::normalize(forward + lean * (glm::length(level) > 1e-6 ? glm::normalize(level) : mirror.axisX));
   }
   const double distance = side == MirrorSide::back ? radius / std::sin(narrowerHalfAngle(aspect)) : 0.0;
-  // On the plane itself, whether the mirror shows its front would be up to rounding.
+  // On the plane itself, rounding would decide whether the mirror shows its front.
   eye_ = side == MirrorSide::back ? middle - forward * distance
                                   : middle + mirror.normal * (10.0 * std::min(spec_.near, 1.0));
   target_ = eye_ + forward * std::max(distance, radius);

@@ -13,26 +13,28 @@ struct Sphere {
   glm::dvec3 center{0.0};  // world
   double radius = 0.0;     // metres
 };
-// Holds the selected thing; with nothing selected objects and mirrors as they are, of radius 0 if there are none.
+// Returns a sphere around the selected node or, with nothing selected, around all objects and mirrors; of radius 0 if
+// there are none.
 Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& selection = {});
 
-// Moves the camera by hand. Until it is first touched, the camera is the scene's, animation included.
+// Camera that the user moves. Until the user does, it is the scene's, animation included.
 class CameraController {
  public:
   void reset(const CameraSpec& spec);
-  // Stands there as if it had been moved there by hand.
+  // Moves the camera there, as if the user had.
   void stand(const CameraSpec& spec);
   void setMode(CameraMode mode) { mode_ = mode; }
 
-  // Drag of the pointer in pixels; fly: turns the view, orbit: turns about the target.
+  // Turns the view by a drag of the pointer, in pixels; in orbit mode about the target.
   void drag(double dx, double dy);
-  // Drag of the pointer in pixels of a picture of that height: what is as far as the target follows the pointer.
+  // Moves the camera sideways by a drag of the pointer, in pixels of a picture of that height, so that points as far
+  // away as the target follow the pointer.
   void pan(double dx, double dy, double pictureHeight);
-  // Degrees, to the right and downwards: as drag does.
+  // Turns as drag() does, by degrees to the right and downwards.
   void turn(double yaw, double pitch);
-  // Notches of the wheel; orbit: nearer to the target, fly: along the view.
+  // Moves by notches of the wheel: nearer to the target in orbit mode, along the view in fly mode.
   void zoom(double notches);
-  // Along right, up and backwards of the view, each in -1 .. 1, for `seconds`.
+  // Flies along right, up and backwards of the view, each in -1 .. 1, for `seconds`.
   void move(const glm::dvec3& direction, double seconds);
 
   // Part of the picture, from (-1, -1) at its lower left to (1, 1).
@@ -46,11 +48,11 @@ class CameraController {
   // Height along up that orbits do not go below, unless the eye is there already.
   void setFloor(double height) { floor_ = height; }
 
-  // Stands behind the mirror or at its surface, before its middle, and looks where its front looks. From behind it is
-  // as far off as shows all of its back. `aspect` as above.
+  // Looks from the mirror's middle in the direction of its front: from its surface, or from so far behind that all of
+  // its back is seen. `aspect` as above.
   void lookFrom(const MirrorState& mirror, MirrorSide side, double aspect);
 
-  // The camera as it stands by hand; nothing while it is the scene's.
+  // Returns the camera if the user has moved it; nothing while it is the scene's.
   std::optional<CameraSpec> place() const;
 
   CameraPose pose(const CameraPose& animated);

@@ -21,7 +21,7 @@ fs::path viewsFolder() {
   return userCacheDir() / "views";
 }
 
-// Whether the file stands among those that come with the program, or among copies.
+// Says whether the file stands among those that come with the program, or among copies.
 bool isShipped(const fs::path& file) {
   const fs::path scenes = dataDirectory("scenes");
   const std::array folders{scenes, scenes.parent_path() / "models", viewsFolder()};
@@ -32,12 +32,12 @@ bool isShipped(const fs::path& file) {
   });
 }
 
-// Where scenes are saved unless the user names another place; made when it is needed.
+// Returns the default folder for saved scenes; created on first use.
 fs::path ownFolder() {
   return documentsDir() / "Speculum";
 }
 
-// Removes all but the newest copies, which somebody may still want.
+// Removes all copies but the newest.
 void keepNewest(const fs::path& folder) {
   constexpr size_t kept = 100;
   std::error_code none;
@@ -62,7 +62,7 @@ DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::
       prompts_(prompts),
       settingsAtLoad_(loaded.settings) {}
 
-// Settings are in the scene's file too.
+// Counts changed settings too, because they are saved with the scene.
 bool DocumentController::hasUnsaved(const Settings& settings) const {
   return editor_.document().modified() || settings != loaded_.settings;
 }
@@ -80,7 +80,7 @@ bool DocumentController::confirmDiscard(const Settings& settings, std::optional<
   return false;
 }
 
-// A file that comes with the program is not overwritten unasked.
+// Prompts for another file instead of overwriting one that comes with the program.
 std::optional<Command> DocumentController::save(const Settings& settings) {
   editor_.release();
   prompt_ = Prompt::none;
@@ -175,7 +175,7 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
   std::error_code none;
   fs::create_directories(folder, none);
   const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, settings));
-  // Other content gets another name, so that commands that were copied before stay right.
+  // Names the copy by its content, so that commands copied earlier stay right.
   Fingerprint fingerprint;
   fingerprint.add(std::string_view(text));
   const fs::path file = folder / (loaded_.scene.file.stem().string() + "-" + fingerprint.hex() + ".toml");

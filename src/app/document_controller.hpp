@@ -21,7 +21,7 @@ class DocumentController {
   bool prompting() const { return prompt_ != Prompt::none; }
   void forgetDiscard() { discarded_.reset(); }  // the next confirmDiscard() prompts again
 
-  // Answers to a prompt. Each returns the command that waited for it, if any.
+  // Answers to a prompt. Answers to a prompt. Each returns the command that waited for it, if any.
   std::optional<Command> save(const Settings& settings);
   std::optional<Command> saveAs(const std::filesystem::path& file, const Settings& settings);
   std::optional<Command> discard(const Settings& settings);

@@ -4,12 +4,12 @@
 
 namespace speculum {
 
-// GPU milliseconds that an effect adds to a frame, one for each pair of frames; empty for an effect that nothing calls
-// for or that cannot be left out.
+// GPU milliseconds that an effect adds to a frame, one value for each pair of frames. Empty for an effect that nothing
+// calls for or that cannot be left out.
 using EffectPrice = std::vector<double>;
 
-// Of all effects, in the order of EffectKind, for the frame that the session drew last: frames with the effect and
-// without it in turn, `pairs` of them after one that is not counted. The session's settings are as before afterwards.
+// Measures all effects, in the order of EffectKind, for the frame that the session drew last: draws frames with and
+// without the effect in turn, `pairs` of them after one that is not counted. Restores the session's settings.
 // Ends early, with fewer pairs, once an interrupt is requested.
 std::vector<EffectPrice> effectPrices(Session& session, double time, int pairs);
 

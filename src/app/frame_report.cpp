@@ -70,19 +70,19 @@ std::string_view reasonText(SkipReason reason) {
   return texts[static_cast<size_t>(reason)];
 }
 
-// The view in which the last mirror of the path is drawn; null if it has no pass.
+// Returns the pass in which the last mirror of the path is drawn; null if there is none.
 const PlannedPass* seenIn(const FramePlan& plan, const std::vector<int>& path) {
   const std::vector<int> parent(path.begin(), path.end() - 1);
   return parent.empty() ? &plan.main : mirrorPass(plan, parent);
 }
 
-// Where a pass's mirror is seen in the picture, in its pixels: the part that the view it is seen in can see. Views in
-// mirrors line up with the picture, so this holds for mirrors in mirrors too. Empty for a plan without such a pass.
+// Returns the visible region of a mirror in pixels of the picture, with which views in mirrors line up too. Empty if
+// the plan has no pass for it.
 std::vector<glm::vec2> outlineOf(const FramePlan& plan, const std::vector<int>& path, int width, int height) {
   std::vector<glm::vec2> outline;
   const PlannedPass* parent = path.empty() ? nullptr : seenIn(plan, path);
   Projection projection = plan.projection;
-  projection.offset = glm::dvec2(0.0);  // outlines stay while pictures are accumulated
+  projection.offset = glm::dvec2(0.0);  // so that outlines do not move while pictures are accumulated
   if (!parent) {
     return outline;
   }
@@ -91,7 +91,7 @@ std::vector<glm::vec2> outlineOf(const FramePlan& plan, const std::vector<int>& 
       continue;
     }
     for (const glm::dvec4& clip : toClip(parent->view, projection, visiblePart(parent->view, draw.polygon))) {
-      // A vertex in the eye's plane has no place on the screen.
+      // Vertices in the eye's plane cannot be projected.
       if (clip.w <= 1e-12) {
         return {};
       }
@@ -160,8 +160,7 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
   view_.history.addGpu(timings.frame, timings.gpuMs, passes);
 }
 
-// While images are reused, lists the passes of as many frames as it takes to render each, and those whose images are
-// reused: a list that changed from frame to frame could not be read.
+// Lists passes whose images are reused too, because a list that changes from frame to frame cannot be read.
 void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& timings,
                                const SceneRenderer& sceneRenderer) {
   const FramePlan& plan = frame.plan;
@@ -196,7 +195,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     index = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
-  // The times, if it has them, are of an earlier frame, whose plan may have differed.
+  // Times are of an earlier frame, whose plan may have differed.
   const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
   for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == timed[i]; });
@@ -217,11 +216,11 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
   }
 }
 
-// A mirror without a pass is outlined where the view it would be seen in shows it.
+// Outlines a mirror without a pass where the view that draws it shows it.
 void FrameReport::updateSkipped(const RecordedFrame& frame, const std::vector<int>& hovered) {
   view_.outlinedSkipped.clear();
   view_.skippedOutline.clear();
-  // The path was pointed at in the last frame: an edit may have taken mirrors away since.
+  // The path is that of the last frame; an edit may have removed mirrors since.
   const auto exists = [&](int mirror) { return static_cast<size_t>(mirror) < frame.state.mirrors.size(); };
   if (!hovered.empty() && std::all_of(hovered.begin(), hovered.end(), exists)) {
     const PictureView picture(frame.state.camera, frame.plan.width, frame.plan.height);
@@ -251,7 +250,7 @@ std::optional<DebugView> FrameReport::target(const TargetRequest& request, const
   if (!request.area) {
     return std::nullopt;
   }
-  // The image may be smaller than when it was pointed at.
+  // The image may have become smaller since the pointer was there.
   const bool within = request.probe && request.probe->x < view_.target.size.x && request.probe->y < view_.target.size.y;
   return DebugView{.pass = static_cast<int>(mirror ? mirror - plan.passes.data() : std::ssize(plan.passes)),
                    .area = *request.area,

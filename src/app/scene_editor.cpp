@@ -308,7 +308,8 @@ void SceneEditor::redo() {
   }
 }
 
-// Undoes or redoes a step. Nodes stay selected together as long as all of them keep their indices.
+// Undoes or redoes a step. Undoes or redoes a step. Nodes stay selected together as long as all of them keep their
+// indices.
 void SceneEditor::step(void (SceneDocument::*way)()) {
   beforeChange_();
   const uint64_t structure = document_.structureRevision();

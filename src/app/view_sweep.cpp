@@ -15,7 +15,7 @@ namespace speculum {
 
 namespace {
 
-// Enough for errors to be told apart, and done in a fraction of the time of a report's 64.
+// Samples a pixel: enough to rank errors, in a fraction of the time of a report's 64.
 constexpr int truthSamples = 16;
 constexpr int roughSamples = 4;
 constexpr double roughPixels = 160.0 * 90.0;
@@ -31,7 +31,7 @@ Settings baseOf(const SweepRequest& request) {
   Settings base = request.base;
   base.quality = {};
   base.reflection.updateInterval = 1;  // the view stands still
-  base.debug.checkFinite = false;      // its time is not the settings'
+  base.debug.checkFinite = false;      // its time would be counted
   return base;
 }
 

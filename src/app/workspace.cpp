@@ -18,7 +18,7 @@ struct Overloaded : Functions... {
   using Functions::operator()...;
 };
 
-// Models that come with the program, where its scenes look for them.
+// Finds the models that come with the program.
 std::vector<fs::path> findShippedModels() {
   std::vector<fs::path> models;
   std::error_code none;
@@ -206,7 +206,7 @@ SceneState Workspace::state(double time) {
   return state;
 }
 
-// Nothing while the window has no pixels.
+// Returns nothing while the window has no pixels.
 std::optional<SceneView> Workspace::sceneView(double time) {
   const glm::ivec2 size = host_.pictureSize();
   if (size.x == 0 || size.y == 0) {
@@ -264,7 +264,7 @@ UiView Workspace::view(const DeviceView& device, const std::string& message) con
 
 void Workspace::update() {
   takeSceneChange();
-  // Changes made while the scene was read are not lost either.
+  // Prompts for changes made while the scene was loading, too.
   if (browser_.loaded() && document_->confirmDiscard(settings_.current, std::nullopt)) {
     showScene(browser_.takeLoaded());
   } else if (const std::optional<std::string> error = browser_.takeError()) {
@@ -281,8 +281,8 @@ void Workspace::update() {
   settingsHistory_.changed(before, settings_.current, true, editor().document());
 }
 
-// Images that are reused whatever they show would show the scene before the change, and those of mirrors whose indices
-// changed another mirror. All others are compared with what they show.
+// Drops cached images of the old scene that content comparison does not cover: those reused by an interval, and those
+// of mirrors whose indices changed.
 void Workspace::takeSceneChange() {
   if (!editor().changedSinceLastCall()) {
     return;
@@ -336,12 +336,12 @@ void Workspace::takeChosenFile() {
   }
 }
 
-// The prompt about unsaved changes comes first; its answer goes on here.
+// Opens a scene, after the prompt about unsaved changes if there are any.
 void Workspace::open(const fs::path& file) {
   document_->closeOpenPrompt();
   if (document_->confirmDiscard(settings_.current, OpenScene{file})) {
     Options options = options_;
-    options.sweepResults.clear();  // of the scene that the window began with
+    options.sweepResults.clear();  // they belong to the first scene
     problem_.clear();
     browser_.open(file, options);
   }
@@ -376,7 +376,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   }
 }
 
-// A model that the scene does not have is read first. If that fails the scene is as before.
+// Adds an object. Loads the model first if the scene does not have it; if that fails, the scene stays as it was.
 void Workspace::addObject(const fs::path& model) {
   const std::optional<SceneView> view = sceneView(time());
   if (!view) {
@@ -430,7 +430,7 @@ void Workspace::quit() {
   }
 }
 
-// Ends one state at a time.
+// Ends one thing at a time: drag, window, selection, message.
 void Workspace::escape() {
   if (editor().dragging()) {
     return editor().cancelDrag();
@@ -491,7 +491,7 @@ void Workspace::lookFromMirror(MirrorSide side) {
                          report_.view().passes, aspect());
 }
 
-// The options that draw the present view of the scene in `file`.
+// Returns the options that draw the present view of the scene in `file`.
 Options Workspace::shownOptions(const fs::path& file) {
   Options options = options_;
   const glm::ivec2 size = host_.pictureSize();

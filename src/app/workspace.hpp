@@ -15,19 +15,20 @@
 
 namespace speculum {
 
-// The window around a workspace, as far as the workspace needs it.
+// The part of the window that a workspace uses.
 class WorkspaceHost {
  public:
   virtual ~WorkspaceHost() = default;
 
-  // Draws this scene from now on, or the same one with other models. If it throws, another call follows.
+  // Shows this scene from now on, or the same one with other models. If it throws, it is called again with the old
+  // scene.
   virtual void useScene(const Scene& scene) = 0;
   virtual void dropCachedImages() = 0;
   virtual void scenesListed() = 0;             // the list of scenes has changed
   virtual glm::ivec2 pictureSize() const = 0;  // pixels; 0 while there is nothing to see
   virtual PixelRect freePicture() const = 0;   // part of it that no panel covers
   virtual double contentScale() const = 0;
-  virtual std::string gpu() const = 0;  // as --gpu names it
+  virtual std::string gpu() const = 0;  // value of --gpu
   virtual void setClipboard(const std::string& text) = 0;
   virtual void setTitle(const std::string& title) = 0;
   virtual void close() = 0;
@@ -40,8 +41,8 @@ class WorkspaceHost {
   virtual bool closeTopWindow() = 0;  // false if there is none
 };
 
-// The scene that is shown and all that can be done with it: every action of the user comes here as a command, from
-// panels, keys, gamepad and tests alike. Knows neither a window nor a GPU.
+// The scene that is shown and everything that users do with it: each action comes here as a command, from panels, keys,
+// gamepad and tests. Depends on neither a window nor a GPU.
 class Workspace {
  public:
   // Loads the scene of the options. The host must outlive the workspace, and is not called before the first command.
@@ -50,22 +51,23 @@ class Workspace {
 
   void apply(const Command& command);
 
-  // The pointer, in screen coordinates of the window; `overPanels`: what it does there is the panels'.
+  // Handle the pointer, in screen coordinates of the window. `overPanels` says that the event belongs to the panels.
   void pointerButton(const MouseButtonEvent& event, bool overPanels);
   void pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap);
   void scrolled(double notches) { camera_.camera().zoom(notches); }
 
   // The stages of a frame, in this order. `seconds` since the last frame.
-  double frameSeconds(double seconds) const;  // that the frame takes: fixed while frames are recorded
+  double frameSeconds(double seconds) const;  // animation time of the frame: fixed while frames are recorded
   void moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds);
-  // Fills the view for the frame that is `seconds` from now. `pointerOverPicture`: handles below it light up.
+  // Fills the view for the frame that is `seconds` from now. With `pointerOverPicture` the handle below the pointer
+  // lights up.
   void prepareView(double seconds, bool pointerOverPicture);
   UiView view(const DeviceView& device, const std::string& message) const;
-  void update();  // after the frame's commands: takes what came from the background
+  void update();  // after the frame's commands: takes finished background work
   void advance(double seconds) { playback_.advance(seconds); }
   void frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured);
 
-  // Whether frames are wanted although nothing happens.
+  // Say whether frames are needed although nothing happens.
   bool animates() const { return !playback_.view().paused && moves(scene()); }
   bool working() const { return accuracy_.working() || browser_.loading() || fileDialog_; }
   uint64_t revision() const { return document_->editor().document().revision(); }

@@ -17,7 +17,7 @@ constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
 constexpr float gridOpacity = 0.16f;
 constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
 
-// Logarithmic axes over what there is to show, in screen coordinates.
+// Logarithmic axes that fit the points, in screen coordinates.
 struct Plot {
   ImVec2 corner;  // top left
   ImVec2 size;
@@ -51,7 +51,7 @@ Plot plotOf(const AccuracyView& accuracy, const ImVec2& corner, const ImVec2& si
   return plot;
 }
 
-// 1, 2 and 5 times powers of ten.
+// Calls draw() with 1, 2 and 5 times powers of ten.
 template <typename Draw>
 void forTicks(double low, double high, const Draw& draw) {
   const int last = static_cast<int>(std::floor(std::log10(high)));
@@ -129,7 +129,7 @@ int nearestPoint(const Plot& plot, const AccuracyView& accuracy, const ImVec2& m
   return nearest;
 }
 
-// Error against milliseconds; a click on a point applies it.
+// Plots error against milliseconds; a click on a point applies it.
 void plot(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -174,7 +174,7 @@ void frontSlider(PanelContext& ui) {
   ImGui::TextUnformatted("Fast");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-8.0f * ImGui::GetFontSize());
-  // '%' in a name would be taken for a format.
+  // Escapes '%', because ImGui takes the text as a format.
   if (ImGui::SliderInt("Accurate", &index, 0, std::max(last, 0),
                        text.find('%') == std::string::npos ? text.c_str() : "") &&
       last >= 0) {

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double farthest = 1e15;  // metres and degrees; docs/scene_format.md, Limits
 
-// "casts_light" is "Casts light", "orbit.speed" in degrees per second "Orbit speed (deg/s)".
+// Makes a label of a key: "casts_light" becomes "Casts light", "orbit.speed" in degrees per second "Orbit speed
+// (deg/s)".
 std::string labelOf(std::string path, std::string_view unit) {
   std::replace_if(
       path.begin(), path.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
@@ -25,7 +26,7 @@ std::string labelOf(std::string path, std::string_view unit) {
   return unit.empty() ? path : path + " (" + std::string(unit) + ")";
 }
 
-// Decimals that a drag by a pixel changes.
+// Returns a format with the decimals that a drag by a pixel changes.
 const char* formatOf(double step) {
   return step >= 1.0 ? "%.0f" : step >= 0.1 ? "%.2f" : step >= 0.001 ? "%.3f" : "%.4f";
 }
@@ -38,7 +39,7 @@ bool dragNumbers(const Field& field, const char* label, double* values, int coun
                             formatOf(field.step), ImGuiSliderFlags_AlwaysClamp);
 }
 
-// Zero along an axis would be an error of the file.
+// Keeps scales from zero, which the loader refuses.
 template <typename Field>
 bool scaleWidget(const Field& field, const char* label, glm::dvec3& scale) {
   glm::dvec3 edited = scale;
@@ -89,13 +90,13 @@ class FieldRows {
   explicit FieldRows(const RecordWidget& record, std::function<bool()> polygon = {})
       : record_(record), polygon_(std::move(polygon)) {}
 
-  // True if the user changed a field.
+  // Returns true if the user changed a field.
   template <Described Node>
   bool edit(Node& node, const std::string& prefix = {}) {
     bool changed = false;
     forEachField<Node>([&](const auto& field) {
       using Value = typename std::decay_t<decltype(field)>::Value;
-      // A field that is set stays in sight even while it would not be saved.
+      // A field that is set stays visible even if it would not be saved.
       const bool applies = IsOptional<Value>::value || field.appliesTo(node);
       if (applies && (!field.shown || field.shown(node))) {
         changed = row(field, prefix + std::string(field.key), node.*field.member) || changed;
@@ -120,7 +121,7 @@ class FieldRows {
     }
   }
 
-  // A box that switches the value on, then its own widget or rows.
+  // Draws a check box that switches the value on, then its widget or rows.
   template <typename Field, typename Value>
   bool optionalRow(const Field& field, const std::string& path, std::optional<Value>& value) {
     bool on = value.has_value();

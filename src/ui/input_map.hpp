@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// A key or a movement of the pointer, and what it does in the window.
+// A key or a movement of the pointer, with its command or effect in the window.
 struct Shortcut {
   const char* keys;  // as the list of keys shows it
   const char* help;
@@ -28,7 +28,7 @@ std::span<const Shortcut> gamepadHelp();
 
 const char* keysOf(const Command& command);  // "Ctrl+S": the first shortcut of that kind; empty if there is none
 
-// The command of a key that goes down. Shift is ignored for keys that have no command of their own with it.
+// Returns the command of a key that goes down. Ignores Shift for keys without a command of their own with Shift.
 std::optional<Command> commandOf(const KeyEvent& event);
 
 struct GamepadCommand {

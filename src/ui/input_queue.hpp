@@ -10,7 +10,7 @@ struct InputEvent {
   Kind kind = Kind::key;
   int code = 0;          // GLFW's of the key or button; the character
   bool down = false;     // of key and button
-  bool command = false;  // a key that stands for no character and is no modifier, or any while Control or Alt is held
+  bool command = false;  // a key without a character that is no modifier, or any key with Control or Alt
   double x = 0.0;        // of pointer (screen coordinates) and wheel (notches)
   double y = 0.0;
 };
@@ -21,7 +21,7 @@ struct InputEvent {
 class InputQueue {
  public:
   void push(const InputEvent& event);
-  // The events that the next frame may see together.
+  // Takes the events that the next frame may handle together.
   std::vector<InputEvent> take();
   bool empty() const { return events_.empty(); }
 

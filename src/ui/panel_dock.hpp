@@ -9,20 +9,20 @@
 namespace speculum {
 
 // Places windows along the left and right edge of the display, those of an edge below each other, until the user moves
-// them. What was moved stays where it was put as far as the display shows it; the others follow the display's size and
-// each other. The layout file holds which windows the user moved, sized or collapsed.
+// them. Moved windows stay where the user put them, as far as the display shows them; the others follow the display's
+// size and each other. The layout file lists the windows that the user moved, sized or collapsed.
 class PanelDock {
  public:
   enum class Edge { left, right };
 
-  // Makes the layout file of the present ImGui context keep that; once, before its first frame. The dock must outlive
-  // the context.
+  // Saves these windows in the layout file of the present ImGui context. Call it once, before the context's first
+  // frame; the dock must outlive the context.
   void remember();
   // In each ImGui frame before the first begin(). Pixels kept free: `top` above all windows, `bottom` below those of
   // the left edge. While all windows are `hidden` they keep their order.
   void beginFrame(float top, float bottom, bool hidden);
-  // ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. ImGui::End must
-  // follow whatever it returns.
+  // Calls ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. Call
+  // ImGui::End whatever it returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
   // Display without the docked windows.
   WindowRect freeRect() const;
@@ -33,9 +33,9 @@ class PanelDock {
   struct Panel {
     bool docked = true;
     bool collapsed = false;
-    WindowRect wish;          // the user's; a docked one's size alone, 0: none
-    glm::vec2 display{0.0f};  // that was, when it was put there; as large a one does not move it
-    WindowRect given;         // last
+    WindowRect wish;          // set by the user; of a docked window only the size, 0: none
+    glm::vec2 display{0.0f};  // size of the display when the window was put there
+    WindowRect given;         // last rectangle of the window
     Edge edge = Edge::left;
     glm::vec2 ems{0.0f};
     bool shown = false;  // in this frame or the last
@@ -47,7 +47,7 @@ class PanelDock {
   void read(Panel& panel, const char* line);
 
   std::map<std::string, Panel> panels_;
-  std::vector<Panel*> order_;  // in which those that are shown were opened
+  std::vector<Panel*> order_;  // shown windows in the order of opening
   std::map<const Panel*, WindowRect> docked_;
   float top_ = 0.0f;
   float bottom_ = 0.0f;

@@ -16,7 +16,7 @@ struct WindowRect {
 
 struct WindowWish {
   glm::vec2 size{0.0f};
-  float least = 0.0f;  // height that it can do with
+  float least = 0.0f;  // smallest usable height
 };
 
 struct WindowRoom {
@@ -25,14 +25,14 @@ struct WindowRoom {
   float top = 0.0f;     // kept free above
   float bottom = 0.0f;  // and below
   float taken = 0.0f;   // width at the opposite edge
-  bool right = false;   // the edge; else the left one
+  bool right = false;   // right edge, else the left one
 };
 
-// Windows along an edge: below each other, as high as they wish where there is room, then all lower, then in a column
-// beside; where there is no room for one either, lower than they can do with. Those of a column never overlap.
+// Arranges windows along an edge: below each other at the height they have in `wishes` if there is room, else all
+// lower, else in a further column beside; without room for one, lower than `least`. Windows of a column never overlap.
 std::vector<WindowRect> arrangeWindows(std::span<const WindowWish> wishes, const WindowRoom& room);
 
-// The nearest place that shows the window whole; what is larger than the display becomes as large.
+// Returns the nearest rectangle that shows the whole window, no larger than the display.
 WindowRect fitWindow(const WindowRect& wish, const glm::vec2& display);
 
 }  // namespace speculum

@@ -4,13 +4,13 @@
 
 namespace speculum {
 
-// All windows of the user interface in the current Dear ImGui context: what they show comes in as a view, what the user
-// does goes out as commands. Knows no Vulkan and no GLFW.
+// All windows of the user interface in the current Dear ImGui context. They show a view and return the user's actions
+// as commands; Vulkan and GLFW are not needed.
 class PanelWindows {
  public:
   PanelWindows();
 
-  // Once, before the first frame of the ImGui context, which must end before this object.
+  // Call it once, before the first frame of the ImGui context, which must end before this object.
   void rememberLayout() { dock_.remember(); }
   // Lays out everything between ImGui::NewFrame and ImGui::Render.
   UiOutput build(const UiView& view);
@@ -25,7 +25,7 @@ class PanelWindows {
   void openInspector();
   // Display without panels, in screen coordinates.
   WindowRect freeRect() const;
-  bool closeTop();  // the window on top, but for the main panel; false if there is none
+  bool closeTop();  // closes the top window except the main panel; false if there is none
 
  private:
   void mainPanel(PanelContext& ui);

@@ -9,14 +9,14 @@
 
 namespace speculum {
 
-// State of the panels that nothing else needs.
+// State of the panels that only they use.
 struct PanelState {
   PanelChoices choices;
   bool help = false;
   bool inspector = false;
   std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector, until it moves
-  bool focusNodes = false;            // the list of nodes gets the keyboard once
-  bool editing = false;               // an EditNode that continues has not ended
+  bool focusNodes = false;            // the list of nodes takes the keyboard in the next frame
+  bool editing = false;               // a continued EditNode has not ended
   bool setting = false;               // the widget of the last SetSettings is held
   int hoveredPass = -1;               // index into FrameView::passes; -1: none
   bool showDifference = false;
@@ -34,16 +34,16 @@ struct PanelState {
   std::array<char, 64> logFilter{};  // text that a line must contain
   LogLevel logLevel = LogLevel::info;
 
-  // Vertices of the selected mirror while they are typed: in between they may describe no mirror.
+  // Vertices of the selected mirror while they are typed, which may not be a valid polygon yet.
   struct Polygon {
     std::vector<glm::dvec3> vertices;    // world, metres
-    std::vector<glm::dvec3> taken;       // the mirror's, as they were when `vertices` came from them or went to them
-    int mirror = -1;                     // whose they are
-    std::optional<std::string> problem;  // why `vertices` are not the mirror's: one line
+    std::vector<glm::dvec3> taken;       // the mirror's when `vertices` were last equal to them
+    int mirror = -1;                     // index into Scene::mirrors
+    std::optional<std::string> problem;  // why `vertices` are not a valid polygon: one line
   } polygon;
 
   const Scene* modelsOf = nullptr;             // scene that `model` was chosen for
-  std::optional<std::filesystem::path> model;  // that is added next; none: `modelFile`
+  std::optional<std::filesystem::path> model;  // model to add next; none: `modelFile`
   std::string modelFile;                       // typed
   std::string saveAs;                          // typed
 
@@ -91,7 +91,7 @@ void performance(PanelContext& ui);
 void device(PanelContext& ui);
 void log(PanelContext& ui);
 void accuracy(PanelContext& ui);
-// Leaves its lower part to the picture below: the renderer draws the target there.
+// Leaves its lower part transparent, because the renderer draws the target there.
 void targets(PanelContext& ui);
 bool hasTarget(const PassView& pass);
 
@@ -100,32 +100,32 @@ void loading(PanelContext& ui);  // while something is loaded
 void help(PanelContext& ui);
 void inspector(PanelContext& ui, PanelDock& dock);
 void message(PanelContext& ui, const WindowRect& picture);  // an error, until it is dismissed
-void prompts(PanelContext& ui);                             // over all others, while something is asked
+void prompts(PanelContext& ui);                             // over all others, while a prompt is open
 
 // Drawn over the picture, behind all windows.
-void passOutline(const PanelContext& ui);  // around the mirror that is pointed at, of a pass or skipped
+void passOutline(const PanelContext& ui);  // around the mirror of the pass or skipped row under the pointer
 void editOverlay(const OverlayView& overlay);
 
-// At the lower left edge of the display, over nothing else: PanelDock keeps its place free. `width`: pixels, of the
-// panel; 0 while that is hidden, and the line is as large as its text.
+// Draws the status line at the lower left edge of the display, which PanelDock keeps free. `width` is the panel's, in
+// pixels; 0 while the panel is hidden, and the line is then as wide as its text.
 float statusHeight();  // pixels
 void statusLine(const StatusView& status, float width);
 
-// After each widget of a setting: records it, explains it, and at the line's end offers the scene's value if the
-// setting has another. That button is recorded as "reset." and the key.
+// Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
+// it to the scene's value if it differs. The button is recorded as "reset." and the key.
 void describe(PanelContext& ui, std::string_view key);
-// After a widget: explains it while the pointer is on it.
+// Call after a widget: shows a tooltip while the pointer is on it.
 void tip(const char* text);
-// After a widget: records where it stands, by name.
+// Call after a widget: records its rectangle by name.
 void recordWidget(PanelContext& ui, std::string_view key);
 std::string mebibytes(uint64_t bytes);  // without the unit
 std::string milliseconds(double ms);    // the same without the unit; "-" for NaN
 std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
-// Wraps at the window's edge.
+// Text in a colour, wrapped at the window's edge.
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
-// A button that is recorded and explained.
+// Draws a button, records it and shows its tooltip.
 bool button(PanelContext& ui, const char* label, std::string_view key, const char* tip, bool enabled = true);
 
 }  // namespace panels

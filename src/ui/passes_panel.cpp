@@ -31,7 +31,7 @@ void depthResolution(const PassView& pass, ClipMethod inUse) {
   tip(text.c_str());
 }
 
-// From the cell on over those to its right, which are empty, to the window's edge.
+// Draws text from the cell to the window's edge, over the empty cells to its right.
 void textAcrossColumns(const std::string& text) {
   const ImVec2 corner = ImGui::GetWindowPos();
   const ImVec2 size = ImGui::GetWindowSize();
@@ -122,7 +122,7 @@ void passRow(PanelContext& ui, const PassNode& node) {
   ImGui::TreePop();
 }
 
-// Dark below light: it can be seen on any picture.
+// Draws a light line over a wider dark one, which shows on any picture.
 template <typename Draw>
 void inTwoTones(const Draw& draw) {
   const float line = std::max(1.0f, 0.14f * ImGui::GetFontSize());

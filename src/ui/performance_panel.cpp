@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t fewest = 60;  // frames across a graph
 
-// From 0 up; frames whose figure is not known leave a gap.
+// Draws a graph from 0 up; frames without a figure leave a gap.
 void graph(const char* name, std::vector<float> values, float height) {
   const double p95 = percentile(values, 0.95);
   const float top = std::isnan(p95) ? 1.0f : static_cast<float>(1.4 * p95);
@@ -26,7 +26,7 @@ void graph(const char* name, std::vector<float> values, float height) {
   ImGui::PopID();
 }
 
-// Few frames have their passes timed: those that follow show the same.
+// Repeats each value until the next one, because few frames have their passes timed.
 std::vector<float> continued(std::vector<float> values) {
   for (size_t i = 1; i < values.size(); ++i) {
     values[i] = std::isnan(values[i]) ? values[i - 1] : values[i];
@@ -34,7 +34,7 @@ std::vector<float> continued(std::vector<float> values) {
   return values;
 }
 
-// One row: name, median, p95 and the graph.
+// Draws one row: name, median, p95 and the graph.
 void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();

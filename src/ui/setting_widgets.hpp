@@ -5,7 +5,7 @@
 
 namespace speculum::panels {
 
-// A list to choose from. True if the user chose another of `names`.
+// Draws a drop-down list. Returns true if the user chose another of `names`.
 bool choice(const char* label, int& index, std::span<const std::string> names);
 // Linear numbers, as files have them, up to `most`, and a swatch that opens a picker.
 bool colorEdit(const char* label, glm::dvec3& linear, double most);
@@ -15,7 +15,7 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most);
 bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background,
                    std::span<const int> samples);
 
-// A row for each setting whose key begins with `prefix`, but for those whose need is not met.
+// Draws a row for each setting whose key begins with `prefix`, except those whose need is not met.
 void settingRows(PanelContext& ui, std::string_view prefix);
 
 }  // namespace speculum::panels

@@ -20,7 +20,7 @@ struct Rect {
   ImVec2 high;
 };
 
-// Fills `outer` without `inner`, which lies in it.
+// Fills Fills `outer` without `inner`, which lies in it.
 void fillAround(const Rect& outer, const Rect& inner, ImU32 color) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(outer.low, {outer.high.x, inner.low.y}, color);

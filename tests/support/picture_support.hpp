@@ -25,8 +25,8 @@ struct PictureAgreement {
 // Compares the pixels whose `counts` is set, all of them if it is empty. Throws std::runtime_error when sizes differ.
 PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
 
-// Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes NAME-actual.png,
-// NAME-expected.png and NAME-difference.png below the build tree and says where.
+// Expects Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes
+// NAME-actual.png, NAME-expected.png and NAME-difference.png below the build tree and says where.
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts = {});
 
