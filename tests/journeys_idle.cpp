@@ -81,7 +81,6 @@ TEST_F(IdleWindow, DrawsNothingUntilSomethingHappens) {
   press("space");
   ASSERT_TRUE(view().playback.paused);
   settle();
-  expectQuiet();
 }
 
 TEST_F(IdleWindow, ShownDepthNeedsTheMainView) {
@@ -101,7 +100,6 @@ TEST_F(IdleWindow, ShownDepthNeedsTheMainView) {
   pointAt(60, 60);
   run(2);
   EXPECT_GT(mainView().framesAgo, 0) << "nobody looks at it any more";
-  expectQuiet();
 }
 
 TEST_F(IdleWindow, OtherSizesAndScenesAreRendered) {
@@ -122,7 +120,6 @@ TEST_F(IdleWindow, OtherSizesAndScenesAreRendered) {
   ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; })) << view().message;
   settle();
   expectAsRendered(other, {500, 400});
-  expectQuiet();
 }
 
 TEST_F(IdleWindow, MovingPictureIsLoweredAndThenExact) {
@@ -149,7 +146,6 @@ TEST_F(IdleWindow, MovingPictureIsLoweredAndThenExact) {
   demo_->apply(SetSettings{settings});
   EXPECT_LT(drag(width - 160), 0.2);
   EXPECT_TRUE(rightOfThePanel() == exact);
-  expectQuiet();
 }
 
 TEST_F(IdleWindow, StillPictureConvergesToTheCopiedCommand) {
@@ -170,7 +166,6 @@ TEST_F(IdleWindow, StillPictureConvergesToTheCopiedCommand) {
       {"bash", "-c", "cd '" + home_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
   ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
   EXPECT_TRUE(readImage8(home_.path() / "journey.png").rgba == shown.rgba) << command;
-  expectQuiet();
 }
 
 // Without a mirror there is little to vary, and the measurement is soon done.
@@ -224,7 +219,6 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   click("accuracy.difference");
   run(3);
   EXPECT_GT(picture().at(3, height - 3)[2], 60) << "the picture is back";
-  expectQuiet();
 }
 
 }  // namespace

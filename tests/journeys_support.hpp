@@ -54,6 +54,12 @@ class Journey : public testing::Test {
     }
   }
 
+  void TearDown() override {
+    ASSERT_TRUE(demo_);
+    EXPECT_EQ(demo_->device().validationMessages(), 0);
+    EXPECT_EQ(demo_->nonFinite() > 0, showsNonFinite_);
+  }
+
   void start() {
     demo_ = std::make_unique<Demo>(options_);
     demo_->setCapture(true);
@@ -164,10 +170,6 @@ class Journey : public testing::Test {
     std::sort(files.begin(), files.end());
     return files;
   }
-  void expectQuiet() {
-    EXPECT_EQ(demo_->device().validationMessages(), 0);
-    EXPECT_EQ(demo_->nonFinite(), 0u);
-  }
 
   test::VirtualDisplay display_;
   TemporaryDirectory home_;
@@ -176,6 +178,7 @@ class Journey : public testing::Test {
   std::unique_ptr<Demo> demo_;
   std::string window_;  // its id
   bool otherKeyboard_ = false;
+  bool showsNonFinite_ = false;  // set by a test that draws values that are not finite
 };
 
 }  // namespace speculum::testing_support

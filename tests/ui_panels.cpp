@@ -44,12 +44,9 @@ TEST_F(PanelTest, TimeRowScrubsAndSteps) {
   ASSERT_TRUE(sent<Seek>());
   EXPECT_GT(std::get<Seek>(commands_.back()).seconds, 5.0);
   EXPECT_LE(std::get<Seek>(commands_.back()).seconds, 20.0);
-  click("time.on");
-  EXPECT_EQ(only<StepTime>().steps, 1);
-  click("time.back");
-  EXPECT_EQ(only<StepTime>().steps, -1);
-  click("pause", 0.1);
-  EXPECT_TRUE(only<SetPaused>().paused);
+  EXPECT_EQ(clickFor<StepTime>("time.on").steps, 1);
+  EXPECT_EQ(clickFor<StepTime>("time.back").steps, -1);
+  EXPECT_TRUE(clickFor<SetPaused>("pause", 0.1).paused);
   drag("time.speed", 0.5, 30);
   EXPECT_GT(std::get<SetTimeSpeed>(commands_.back()).factor, 1.0);
 }
@@ -58,26 +55,18 @@ TEST_F(PanelTest, ButtonsSendTheirCommands) {
   camera_.bookmarks = {"door", "sky"};
   camera_.bookmark = 1;
   run(2);
-  click("copy");
-  EXPECT_TRUE(sent<CopyCommandLine>());
-  click("screenshot");
-  EXPECT_TRUE(only<TakeScreenshot>().withPanel);
-  click("camera.reset");
-  EXPECT_TRUE(sent<ResetCamera>());
-  click("bookmark.add");
-  EXPECT_TRUE(sent<AddBookmark>());
-  click("bookmark.remove");
-  EXPECT_EQ(only<RemoveBookmark>().index, 1u);
+  clickFor<CopyCommandLine>("copy");
+  EXPECT_TRUE(clickFor<TakeScreenshot>("screenshot").withPanel);
+  clickFor<ResetCamera>("camera.reset");
+  clickFor<AddBookmark>("bookmark.add");
+  EXPECT_EQ(clickFor<RemoveBookmark>("bookmark.remove").index, 1u);
   click("bookmarks");
-  click("bookmark.door");
-  EXPECT_EQ(only<GoToBookmark>().index, 0u);
+  EXPECT_EQ(clickFor<GoToBookmark>("bookmark.door").index, 0u);
   click("scene");
-  click("scene.two");
-  EXPECT_EQ(only<OpenScene>().file, "/scenes/two.obj");
+  EXPECT_EQ(clickFor<OpenScene>("scene.two").file, "/scenes/two.obj");
   browser_.loading = "two.obj";
   run(2);
-  click("loading.cancel");
-  EXPECT_TRUE(sent<CancelLoading>());
+  clickFor<CancelLoading>("loading.cancel");
 }
 
 TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
@@ -116,19 +105,15 @@ TEST_F(PanelTest, MenusSendTheirCommands) {
   browser_.recent = {"/scenes/two.obj"};
   edit_.undo = "change Exposure";
   click("menu.File");
-  click("menu.Open...");
-  EXPECT_TRUE(sent<AskWhatToOpen>());
+  clickFor<AskWhatToOpen>("menu.Open...");
   click("menu.File");
   click("menu.Open recent");
   run(3);
-  click("menu./scenes/two.obj");
-  EXPECT_EQ(only<OpenScene>().file, "/scenes/two.obj");
+  EXPECT_EQ(clickFor<OpenScene>("menu./scenes/two.obj").file, "/scenes/two.obj");
   click("menu.Edit");
-  click("menu.Undo change Exposure###Undo");
-  EXPECT_TRUE(sent<Undo>());
+  clickFor<Undo>("menu.Undo change Exposure###Undo");
   click("menu.View");
-  click("menu.Look out of mirror");
-  EXPECT_EQ(only<LookFromMirror>().side, MirrorSide::front);
+  EXPECT_EQ(clickFor<LookFromMirror>("menu.Look out of mirror").side, MirrorSide::front);
 }
 
 TEST_F(PanelTest, FilesAreChosenFromTheWindowsOwnList) {
@@ -150,8 +135,7 @@ TEST_F(PanelTest, FilesAreChosenFromTheWindowsOwnList) {
 TEST_F(PanelTest, GalleryOpensScenes) {
   click("panel.Scenes", 0.1);
   run(2);
-  click("gallery.two");
-  EXPECT_EQ(only<OpenScene>().file, "/scenes/two.obj");
+  EXPECT_EQ(clickFor<OpenScene>("gallery.two").file, "/scenes/two.obj");
   click("gallery.one");
   EXPECT_FALSE(sent<OpenScene>()) << "it is shown";
 }
@@ -252,8 +236,7 @@ TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
 TEST_F(PanelTest, PresentModesAreThoseOffered) {
   device_.presentModes = {"fifo", "immediate"};
   click("menu.Window");
-  click("present.immediate", 0.1);
-  EXPECT_EQ(only<SetPresentMode>().index, 1u);
+  EXPECT_EQ(clickFor<SetPresentMode>("present.immediate", 0.1).index, 1u);
 }
 
 TEST_F(PanelTest, LogIsFilteredCopiedAndCleared) {
@@ -261,14 +244,11 @@ TEST_F(PanelTest, LogIsFilteredCopiedAndCleared) {
   log_.add(LogLevel::error, "a lazy dog");
   click("panel.Log", 0.1);
   run(2);
-  click("log.copy");
-  EXPECT_EQ(only<CopyText>().text, "info: the quick brown fox\nerror: a lazy dog\n");
+  EXPECT_EQ(clickFor<CopyText>("log.copy").text, "info: the quick brown fox\nerror: a lazy dog\n");
   click("log.filter");
   type("dog");
-  click("log.copy");
-  EXPECT_EQ(only<CopyText>().text, "error: a lazy dog\n");
-  click("log.clear");
-  EXPECT_TRUE(sent<ClearLog>());
+  EXPECT_EQ(clickFor<CopyText>("log.copy").text, "error: a lazy dog\n");
+  clickFor<ClearLog>("log.clear");
 }
 
 TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
@@ -276,12 +256,9 @@ TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
   click("panel.Performance", 0.1);
   run(2);
   EXPECT_TRUE(has("graph.Frame"));
-  click("performance.copy");
-  EXPECT_EQ(only<CopyText>().text, frame_.history.csv());
-  click("performance.pause", 0.1);
-  EXPECT_TRUE(only<PauseHistory>().paused);
-  click("performance.clear");
-  EXPECT_TRUE(sent<ClearHistory>());
+  EXPECT_EQ(clickFor<CopyText>("performance.copy").text, frame_.history.csv());
+  EXPECT_TRUE(clickFor<PauseHistory>("performance.pause", 0.1).paused);
+  clickFor<ClearHistory>("performance.clear");
 }
 
 TEST_F(PanelTest, EscapeClosesWindowsFromTheTop) {
@@ -327,15 +304,12 @@ class Inspector : public PanelTest {
 };
 
 TEST_F(Inspector, ListSelectsAndToggles) {
-  click("edit.node.1");
-  EXPECT_EQ(only<SelectNode>().node, (Selection{Selection::Kind::mirror, 1}));
+  EXPECT_EQ(clickFor<SelectNode>("edit.node.1").node, (Selection{Selection::Kind::mirror, 1}));
   ImGui::GetIO().KeyShift = true;
-  click("edit.node.0");
-  EXPECT_EQ(only<ToggleNode>().node, (Selection{Selection::Kind::mirror, 0}));
+  EXPECT_EQ(clickFor<ToggleNode>("edit.node.0").node, (Selection{Selection::Kind::mirror, 0}));
   ImGui::GetIO().KeyShift = false;
   ImGui::GetIO().KeyCtrl = true;
-  click("edit.node.0");
-  EXPECT_TRUE(sent<ToggleNode>());
+  clickFor<ToggleNode>("edit.node.0");
 }
 
 TEST_F(Inspector, ClickAfterItOpenedIsThePictures) {
@@ -355,16 +329,12 @@ TEST_F(Inspector, ClickAfterItOpenedIsThePictures) {
 }
 
 TEST_F(Inspector, NodesAreAddedOfTheChosenModel) {
-  click("edit.add_mirror");
-  EXPECT_TRUE(sent<AddMirror>());
-  click("edit.add_light");
-  EXPECT_TRUE(sent<AddLight>());
-  click("edit.add_object");
-  EXPECT_EQ(only<AddObject>().model, "/models/ball.obj");
+  clickFor<AddMirror>("edit.add_mirror");
+  clickFor<AddLight>("edit.add_light");
+  EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "/models/ball.obj");
   click("edit.model");
   click("edit.model.vase");
-  click("edit.add_object");
-  EXPECT_EQ(only<AddObject>().model, "/models/vase.obj");
+  EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "/models/vase.obj");
   click("edit.model");
   click("edit.model.file");
   run(2);
@@ -372,8 +342,7 @@ TEST_F(Inspector, NodesAreAddedOfTheChosenModel) {
   EXPECT_FALSE(sent<AddObject>()) << "no file is named";
   click("edit.model_file");
   type("own.obj");
-  click("edit.add_object");
-  EXPECT_EQ(only<AddObject>().model, "own.obj");
+  EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "own.obj");
 }
 
 TEST_F(Inspector, HistoryButtonsNeedSomethingToDo) {
@@ -383,16 +352,11 @@ TEST_F(Inspector, HistoryButtonsNeedSomethingToDo) {
   edit_.undo = "move mirror 'left'";
   edit_.unsaved = true;
   selectMirror(0);
-  click("edit.delete");
-  EXPECT_TRUE(sent<RemoveSelected>());
-  click("edit.duplicate");
-  EXPECT_TRUE(sent<DuplicateSelected>());
-  click("edit.undo");
-  EXPECT_TRUE(sent<Undo>());
-  click("edit.save");
-  EXPECT_TRUE(sent<Save>());
-  click("edit.save_as");
-  EXPECT_TRUE(sent<AskWhereToSave>());
+  clickFor<RemoveSelected>("edit.delete");
+  clickFor<DuplicateSelected>("edit.duplicate");
+  clickFor<Undo>("edit.undo");
+  clickFor<Save>("edit.save");
+  clickFor<AskWhereToSave>("edit.save_as");
 }
 
 TEST_F(Inspector, DraggedNumbersAreOneContinuedEdit) {
@@ -403,8 +367,7 @@ TEST_F(Inspector, DraggedNumbersAreOneContinuedEdit) {
   EXPECT_TRUE(first.continued);
   EXPECT_GT(std::get<Mirror>(first.node).position.x, scene_.mirrors[0].position.x);
   EXPECT_TRUE(sent<EndEdit>());
-  click("edit.two_sided", 0.1);
-  EXPECT_NE(std::get<Mirror>(only<EditNode>().node).twoSided, scene_.mirrors[0].twoSided);
+  EXPECT_NE(std::get<Mirror>(clickFor<EditNode>("edit.two_sided", 0.1).node).twoSided, scene_.mirrors[0].twoSided);
 }
 
 TEST_F(Inspector, ClickedNumbersAreTyped) {
@@ -423,14 +386,10 @@ TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
 TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   edit_.through = {1, 0};
   selectMirror(0);
-  click("edit.look_behind");
-  EXPECT_EQ(only<LookFromMirror>().side, MirrorSide::back);
-  click("edit.look_out");
-  EXPECT_EQ(only<LookFromMirror>().side, MirrorSide::front);
-  click("edit.through.0");
-  EXPECT_EQ(only<SelectNode>().node, (Selection{Selection::Kind::mirror, 1}));
-  click("edit.rotate", 0.1);
-  EXPECT_EQ(only<SetGizmoMode>().mode, GizmoMode::turn);
+  EXPECT_EQ(clickFor<LookFromMirror>("edit.look_behind").side, MirrorSide::back);
+  EXPECT_EQ(clickFor<LookFromMirror>("edit.look_out").side, MirrorSide::front);
+  EXPECT_EQ(clickFor<SelectNode>("edit.through.0").node, (Selection{Selection::Kind::mirror, 1}));
+  EXPECT_EQ(clickFor<SetGizmoMode>("edit.rotate", 0.1).mode, GizmoMode::turn);
   select({Selection::Kind::light, 0});
   EXPECT_FALSE(has("edit.look_out"));
 }
@@ -464,18 +423,15 @@ TEST_F(Inspector, OnlyValidPolygonsAreApplied) {
   EXPECT_EQ(five[2], 0.5 * (five[1] + five[3]));
   scene_.mirrors[0].polygon = five;
   run(2);
-  click("edit.polygon.0.remove");
-  EXPECT_EQ(std::get<Mirror>(only<EditNode>().node).polygon.size(), 4u);
+  EXPECT_EQ(std::get<Mirror>(clickFor<EditNode>("edit.polygon.0.remove").node).polygon.size(), 4u);
 }
 
 TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   edit_.prompt = Prompt::unsavedChanges;
   run(3);
-  click("ask.discard");
-  EXPECT_TRUE(sent<DiscardChanges>());
+  clickFor<DiscardChanges>("ask.discard");
   run(3);
-  click("ask.save_as");
-  EXPECT_TRUE(sent<AskWhereToSave>());
+  clickFor<AskWhereToSave>("ask.save_as");
   edit_.prompt = Prompt::saveAs;
   edit_.proposedFile = "/home/scene.toml";
   run(4);
@@ -486,8 +442,7 @@ TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   tap(ImGuiKey_Enter);
   EXPECT_EQ(only<SaveAs>().file, "/other");
   run(3);
-  click("where.cancel");
-  EXPECT_TRUE(sent<CancelPrompt>());
+  clickFor<CancelPrompt>("where.cancel");
   edit_.prompt = Prompt::none;
   run(3);
   EXPECT_FALSE(has("where.cancel"));
@@ -504,8 +459,7 @@ class AccuracyWindow : public PanelTest {
 };
 
 TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
-  click("accuracy.point exact");
-  EXPECT_EQ(only<ApplyPoint>().point, 1);
+  EXPECT_EQ(clickFor<ApplyPoint>("accuracy.point exact").point, 1);
   accuracy_.current = 1;
   click("accuracy.slider", 0.05);
   ASSERT_TRUE(sent<ApplyPoint>());
@@ -515,14 +469,12 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
 }
 
 TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
-  click("accuracy.measure");
-  EXPECT_TRUE(sent<MeasureAccuracy>());
+  clickFor<MeasureAccuracy>("accuracy.measure");
   accuracy_.measuring = true;
   accuracy_.stage = "tracing";
   run(2);
   EXPECT_FALSE(has("accuracy.measure"));
-  click("accuracy.cancel");
-  EXPECT_TRUE(sent<CancelMeasurement>());
+  clickFor<CancelMeasurement>("accuracy.cancel");
 }
 
 TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
