@@ -121,7 +121,7 @@ void recordWidget(PanelContext& ui, std::string_view key);
 std::string mebibytes(uint64_t bytes);  // without the unit
 std::string milliseconds(double ms);    // the same without the unit; "-" for NaN
 std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
-// Text in a colour, wrapped at the window's edge.
+// Text in a color, wrapped at the window's edge.
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
