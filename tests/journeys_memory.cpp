@@ -55,6 +55,7 @@ TEST_F(ScarceMemory, TexturesBeyondMemoryAreLeftOut) {
   EXPECT_NE(view().log.lines().back().text.find(message), std::string::npos);
   EXPECT_TRUE(view().settings.current.effects.textures) << "the user's choice stays";
   const int refused = refusedAllocations();
+  click("message.dismiss");
   const Image8 without = barePicture();
   EXPECT_EQ(refusedAllocations(), refused) << "not tried in every frame";
   EXPECT_EQ(without.rgba, expected(file, "false").rgba);

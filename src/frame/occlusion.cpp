@@ -278,9 +278,8 @@ void Occlusion::setView(const View& view, std::span<const int> instances) {
       viewMirrors_.push_back(static_cast<int>(i));
     }
   }
-  keepLargest(viewMirrors_, [&](size_t i) {
-    return std::pair(mirrors_[i].occluder.center, mirrors_[i].occluder.radius);
-  });
+  keepLargest(viewMirrors_,
+              [&](size_t i) { return std::pair(mirrors_[i].occluder.center, mirrors_[i].occluder.radius); });
   keepLargest(viewInstances_,
               [&](size_t i) { return std::pair(state_.instances[i].center, state_.instances[i].radius); });
 }

@@ -13,8 +13,7 @@ void checkParts(const Mesh& mesh, size_t textureCount) {
     next += part.indexCount;
     const Material& material = part.material;
     for (const glm::dvec3& color : {material.diffuse, material.specular, material.emission}) {
-      require(finite(color) && glm::all(glm::greaterThanEqual(color, glm::dvec3(0.0))),
-              "colors are finite, 0 or more");
+      require(finite(color) && glm::all(glm::greaterThanEqual(color, glm::dvec3(0.0))), "colors are finite, 0 or more");
     }
     require(std::isfinite(material.shininess) && material.shininess >= 1.0, "shininess is finite, 1 or more");
     require(material.diffuseTexture < static_cast<int>(textureCount), "a texture's index is in range");
