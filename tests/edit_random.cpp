@@ -91,9 +91,10 @@ void randomize(const Field& field, Value& value) {
     value = whole(1, 4);
   } else if constexpr (std::is_same_v<Value, double>) {
     const Range& range = field.range;
-    value = range.high <= 1e6  ? range.low + (range.high - range.low) * share()
-            : range.low == 0.0 ? positive()
-                               : std::clamp(std::max(number(), field.floor), range.low, range.high);
+    value = range.high <= 1e6 ? range.low + (range.high - range.low) * share()
+            : range.low == 0.0
+                ? positive()
+                : std::clamp(number(), std::max(range.low, field.floor), std::min(range.high, field.ceiling));
   } else if constexpr (std::is_same_v<Value, std::string>) {
     value = name();
   } else if constexpr (std::is_enum_v<Value>) {
