@@ -117,14 +117,14 @@ TEST(SceneLimits, PositionsAndSpeedsStayFinite) {
   const std::string mirror = "[[mirror]]\nsize = [1e6, 1e6]\n";
   EXPECT_EQ(faultOf(mirror + "position = [1e15, -1e15, 0]\nspin = [1e9, 0, -1e9]\n"), "no InputError was thrown");
   EXPECT_EQ(faultOf(mirror + "position = [1.1e15, 0, 0]\n"),
-            "6: mirror[0].position[0]: is 1100000000000000 (a finite number -1e+15 .. 1e+15 is needed)");
+            "6: mirror[0].position[0]: is 1100000000000000 (a finite number -1e15 .. 1e15 is needed)");
   EXPECT_EQ(faultOf(mirror + "spin = [0, 1.1e9, 0]\n"),
-            "6: mirror[0].spin[1]: is 1100000000 (a finite number -1e+09 .. 1e+09 is needed)");
+            "6: mirror[0].spin[1]: is 1100000000 (a finite number -1e9 .. 1e9 is needed)");
   EXPECT_EQ(faultOf("[[mirror]]\nsize = [1, 1]\nposition = [0, 0, 2e10]\n"),
             "6: mirror[0].position: is too far from the origin for the mirror's size "
             "(at most 1e10 times its width and height are needed)");
   EXPECT_EQ(faultOf("[[light]]\nposition = [0, 0, 0]\nradius = 1e16\n"),
-            "6: light[0].radius: is 1e+16 (a finite number above 0 and up to 1e+15 is needed)");
+            "6: light[0].radius: is 1e+16 (a finite number above 0 and up to 1e15 is needed)");
   EXPECT_EQ(faultOf("up = [0, 1e-31, 0]\n"),
             "4: camera.up: has no direction (a vector that is not zero, such as [0, 1, 0], is needed)");
 }
