@@ -75,8 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"gallery", {}}, Case{"gallery", {{"reflection.scale", "0.5"}, {"view.samples", "1"}}},
                     Case{"facing_mirrors", {{"reflection.samples", "1"}}},
                     Case{"facing_mirrors", {{"reflection.mesh_error", "1"}}}, Case{"many_mirrors", {}},
-                    Case{"mirror_ball", {{"effects.per_sample", "false"}}}, Case{"pool", {}}, Case{"bounced_light", {}},
-                    Case{"shadows", {}},
+                    Case{"mirror_ball", {{"effects.per_sample", "false"}}}, Case{"pool", {{"view.samples", "1"}}},
+                    Case{"bounced_light", {}}, Case{"shadows", {}},
                     Case{"rough", {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}}},
                     Case{"outdoors", {{"reflection.clip", "oblique"}}}),
     [](const auto& info) { return std::string(info.param.scene) + "_" + std::to_string(info.index); });
