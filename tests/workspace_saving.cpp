@@ -307,7 +307,10 @@ TEST_F(Saving, NextStartOffersTheKeptChanges) {
   send(Save{});
   EXPECT_EQ(edit().prompt, Prompt::saveAs) << "a copy is no place for a scene";
   start();
-  EXPECT_EQ(edit().prompt, Prompt::none) << "it is offered once";
+  EXPECT_EQ(edit().prompt, Prompt::recovery) << "neither saved nor discarded";
+  send(CancelPrompt{});
+  start();
+  EXPECT_EQ(edit().prompt, Prompt::none);
 }
 
 TEST_F(Saving, UndrawableStepIsTakenBack) {
@@ -316,6 +319,8 @@ TEST_F(Saving, UndrawableStepIsTakenBack) {
   EXPECT_TRUE(workspace_->takeBack("no memory"));
   EXPECT_EQ(scene().objects.size(), 1u);
   EXPECT_EQ(workspace_->problem(), "Cannot remove object 'ball': no memory");
+  EXPECT_FALSE(workspace_->takeBack("no memory")) << "no frame was drawn: it was not that step";
+  EXPECT_TRUE(scene().objects.empty()) << "the work is kept";
 }
 
 TEST_F(Saving, FailuresKeepUnsavedSettings) {

@@ -114,8 +114,12 @@ void AccuracyController::beforeFrame(Settings& settings) {
   findCurrentPoint(settings);
 }
 
-void AccuracyController::applyBudget(Settings& settings) {
+void AccuracyController::acceptBudget(const Settings& settings) {
   budget_ = {settings.quality.budgetMs, settings.quality.maxError};
+}
+
+void AccuracyController::applyBudget(Settings& settings) {
+  acceptBudget(settings);
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
     view_.choice = choice->why;

@@ -26,6 +26,8 @@ class AccuracyController {
 
   // Call before a frame: takes finished results, and applies quality.* where it has changed.
   void beforeFrame(Settings& settings);
+  // Takes a budget that undo brought back together with the settings that it had chosen: it chooses none.
+  void acceptBudget(const Settings& settings);
   // Call after a frame is drawn. `image` returns its pixels.
   void afterFrame(const ShownPicture& shown, const std::function<Image8()>& image);
   // Returns the picture to show instead of the scene, if it changed since the last call; one without pixels shows the

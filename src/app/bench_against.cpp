@@ -62,7 +62,8 @@ int benchAgainst(const Options& options) {
     return arguments;
   };
   const std::vector<std::string> own = command(executablePath());
-  std::vector<std::string> other = command(options.againstBinary.empty() ? executablePath() : options.againstBinary);
+  std::vector<std::string> other =
+      command(options.againstBinary.empty() ? executablePath() : std::filesystem::absolute(options.againstBinary));
   for (const auto& [key, value] : options.againstSettings) {
     other.insert(other.end(), {"--set", key + "=" + value});
   }

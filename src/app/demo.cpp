@@ -41,6 +41,7 @@ Demo::Demo(const Options& options)
       deviceView_(deviceView(renderer_, device_)),
       last_(Clock::now()) {
   applyDebugSettings(workspace_.settings(), device_);
+  shownFile_ = workspace_.scene().file;
   installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
   scenesListed();
@@ -291,7 +292,7 @@ void Demo::useScene(const Scene& scene) {
   output_ = {};  // it may request a target of the old scene
   sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, scene);
   ++scenes_;
-  sceneIsNew_ = true;
+  sceneIsNew_ = std::exchange(shownFile_, scene.file) != scene.file;
 }
 
 glm::ivec2 Demo::pictureSize() const {

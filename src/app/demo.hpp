@@ -104,6 +104,7 @@ class Demo : private WorkspaceHost {
   int scenes_ = 0;             // number of scenes shown before this one
   LevelJob levels_;
   bool sceneIsNew_ = true;  // no picture of it was drawn
+  std::filesystem::path shownFile_;
   Settings frameSettings_;
   std::string message_;
   uint64_t nonFinite_ = 0;  // of scenes shown before

@@ -62,9 +62,9 @@ DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::
       prompts_(prompts),
       settingsAtLoad_(loaded.settings) {}
 
-// Counts changed settings too, because they are saved with the scene.
 bool DocumentController::hasUnsaved(const Settings& settings) const {
-  return editor_.document().modified() || settings != loaded_.settings;
+  return editor_.document().modified() || settings != loaded_.settings ||
+         loaded_.scene.file.parent_path() == viewsFolder();
 }
 
 bool DocumentController::confirmDiscard(const Settings& settings, std::optional<Command> then) {
@@ -101,7 +101,7 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
 void DocumentController::askWhere() {
   const fs::path file = editor_.document().usualFile();
   const bool usual = isWritable(file) && !isShipped(file);
-  proposed_ = usual ? file : ownFolder() / file.filename();
+  proposed_ = fs::absolute(usual ? file : ownFolder() / file.filename());
   note_.clear();
   prompt_ = Prompt::saveAs;
 }

@@ -21,7 +21,10 @@ class DocumentController {
   bool prompting() const { return prompt_ != Prompt::none; }
   void forgetDiscard() { discarded_.reset(); }  // the next confirmDiscard() prompts again
 
-  // Answers to a prompt. Answers to a prompt. Each returns the command that waited for it, if any.
+  // Says whether there are changes to save, of the settings too. A copy that was kept after a failure counts as one.
+  bool hasUnsaved(const Settings& settings) const;
+
+  // Answers to a prompt. Each returns the command that waited for it, if any.
   std::optional<Command> save(const Settings& settings);
   std::optional<Command> saveAs(const std::filesystem::path& file, const Settings& settings);
   std::optional<Command> discard(const Settings& settings);
@@ -48,7 +51,6 @@ class DocumentController {
     Settings settings;
   };
 
-  bool hasUnsaved(const Settings& settings) const;
   bool saveTo(const std::filesystem::path& named, const Settings& settings);
 
   LoadedScene& loaded_;

@@ -105,21 +105,26 @@ void Workspace::apply(const Command& command) {
                  [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
                  [&](const ResetSettings&) { setSettings(loaded_->settings); },
                  [&](const AskWhatToOpen&) { askWhatToOpen(); },
-                 [&](const OpenScene& c) {
-                   forgetRecovery();
-                   open(c.file);
-                 },
+                 [&](const OpenScene& c) { open(c.file); },
                  [&](const OpenDropped& c) { openDropped(c.files); },
                  [&](const CancelLoading&) {
                    browser_.cancelLoading();
                    document_->forgetDiscard();
                  },
-                 [&](const Save&) { resume(document_->save(settings_.current)); },
+                 [&](const Save&) {
+                   resume(document_->save(settings_.current));
+                   forgetRecoveryIfSaved();
+                 },
                  [&](const AskWhereToSave&) { document_->askWhere(); },
-                 [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_.current)); },
+                 [&](const SaveAs& c) {
+                   resume(document_->saveAs(c.file, settings_.current));
+                   forgetRecoveryIfSaved();
+                 },
                  [&](const DiscardChanges&) { resume(document_->discard(settings_.current)); },
                  [&](const CancelPrompt&) {
-                   forgetRecovery();
+                   if (edit_.prompt == Prompt::recovery) {
+                     forgetRecovery();
+                   }
                    document_->cancelPrompt();
                    if (browser_.loaded()) {
                      browser_.cancelLoading();
@@ -303,6 +308,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   accuracy_.afterFrame(shown, radiance);
+  tookBack_ = false;
 }
 
 // The desktop's dialog, if it has one that can be started; else a prompt of the window.
@@ -333,6 +339,8 @@ void Workspace::takeChosenFile() {
   const std::string text = result->output.substr(0, result->output.find_last_not_of("\n") + 1);
   if (result->exitCode == 0 && !text.empty()) {
     open(text.substr(text.rfind('\n') + 1));
+  } else if (result->exitCode > 1 && !document_->prompting()) {  // 1: the user cancelled
+    document_->askWhatToOpen(fs::absolute(scene().file).parent_path() / "");
   }
 }
 
@@ -426,6 +434,9 @@ void Workspace::resume(const std::optional<Command>& afterPrompt) {
 
 void Workspace::quit() {
   if (document_->confirmDiscard(settings_.current, Quit{})) {
+    if (edit_.prompt != Prompt::recovery) {
+      forgetRecovery();  // what it was about is saved or discarded
+    }
     host_.close();
   }
 }
@@ -458,19 +469,23 @@ void Workspace::togglePanels() {
 
 void Workspace::undo() {
   editor().release();
+  editor().endEdit();
   const std::string step = settingsHistory_.undoLabel(editor().document());
   if (!settingsHistory_.undo(editor().document(), settings_.current)) {
     editor().undo();
   }
+  accuracy_.acceptBudget(settings_.current);
   status_.set(step.empty() ? "Nothing to undo" : "Undone: " + step);
 }
 
 void Workspace::redo() {
   editor().release();
+  editor().endEdit();
   const std::string step = settingsHistory_.redoLabel(editor().document());
   if (!settingsHistory_.redo(editor().document(), settings_.current)) {
     editor().redo();
   }
+  accuracy_.acceptBudget(settings_.current);
   status_.set(step.empty() ? "Nothing to redo" : "Redone: " + step);
 }
 
@@ -539,7 +554,14 @@ void Workspace::toggleRecording(bool withPanel) {
 }
 
 bool Workspace::takeBack(const std::string& why) {
+  editor().release();
+  editor().endEdit();
   const std::string step = settingsHistory_.undoLabel(editor().document());
+  if (std::exchange(tookBack_, !step.empty())) {
+    redo();  // it was not that step
+    tookBack_ = false;
+    return false;
+  }
   if (step.empty()) {
     return false;
   }
@@ -550,8 +572,12 @@ bool Workspace::takeBack(const std::string& why) {
 
 void Workspace::forgetRecovery() {
   std::error_code none;
-  if (edit_.prompt == Prompt::recovery) {
-    fs::remove(recoveryRecord(), none);
+  fs::remove(recoveryRecord(), none);
+}
+
+void Workspace::forgetRecoveryIfSaved() {
+  if (!document_->hasUnsaved(settings_.current)) {
+    forgetRecovery();
   }
 }
 

@@ -74,7 +74,8 @@ class Workspace {
   bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
 
-  // After a frame that could not be drawn: undoes the last step and shows why. False if there is none.
+  // After a frame that could not be drawn: undoes the last step and shows why. False if there is none, or if
+  // that did not help in the last frame: then it is done again.
   bool takeBack(const std::string& why);
   // Before the program ends without a prompt: keeps unsaved changes in a copy, logs where, and makes the next start
   // offer it.
@@ -99,6 +100,7 @@ class Workspace {
   void askWhatToOpen();
   void takeChosenFile();
   void forgetRecovery();
+  void forgetRecoveryIfSaved();
   void open(const std::filesystem::path& file);
   void openDropped(const std::vector<std::filesystem::path>& files);
   void showScene(std::unique_ptr<LoadedScene> scene);
@@ -146,6 +148,7 @@ class Workspace {
   std::string title_;                         // of the window
   std::string problem_;
   uint64_t shownStructure_ = 0;  // of the scene, in the last frame
+  bool tookBack_ = false;        // a step, and no frame was drawn since
 };
 
 }  // namespace speculum
