@@ -107,7 +107,7 @@ class Planner {
  private:
   void fill(int node);
   void addInstance(PlannedPass& pass, const View& readable, int i);
-  void consider(int node, int mirror, const View& drawn);
+  void consider(int node, Sight sight);
   void propose(int node, Sight sight);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
   void expand(const Candidate& candidate);
@@ -185,11 +185,23 @@ void Planner::fill(int node) {
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
-  occlusion_->setView(view, nodes_[node].pass.instances);
-  for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
-    const bool last = !view.path.empty() && view.path.back() == static_cast<int>(i);
-    if (!last) {
-      consider(node, static_cast<int>(i), drawn);
+  const auto isOwn = [&](size_t i) { return !view.path.empty() && view.path.back() == static_cast<int>(i); };
+  std::vector<std::optional<Sight>> sights(scene_.mirrors.size());  // of the mirrors before the eye
+  std::vector<int> seen;
+  for (size_t i = 0; i < sights.size(); ++i) {
+    if (!isOwn(i) && !behindEye(view, state_.mirrors[i].polygon)) {
+      sights[i] = sightOf(scene_, state_, view, drawn, static_cast<int>(i));
+      if (!sights[i]->visible.empty()) {
+        seen.push_back(static_cast<int>(i));
+      }
+    }
+  }
+  occlusion_->setView(view, nodes_[node].pass.instances, std::move(seen));
+  for (size_t i = 0; i < sights.size(); ++i) {
+    if (sights[i]) {
+      consider(node, std::move(*sights[i]));
+    } else if (!isOwn(i)) {
+      skip(view, static_cast<int>(i), SkipReason::behind);
     }
   }
 }
@@ -205,14 +217,10 @@ void Planner::skip(const View& view, int mirror, SkipReason reason, std::string 
   plan_.skipped.push_back(std::move(skipped));
 }
 
-void Planner::consider(int node, int mirror, const View& drawn) {
+void Planner::consider(int node, Sight sight) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
-  const std::vector<glm::dvec3>& polygon = state_.mirrors[mirror].polygon;
-  if (behindEye(view, polygon)) {
-    return skip(view, mirror, SkipReason::behind);
-  }
-  Sight sight = sightOf(scene_, state_, view, drawn, mirror);
+  const int mirror = sight.draw.mirror;
   const std::optional<std::string> occluder =
       sight.visible.empty() ? std::nullopt : occlusion_->hiddenBy(mirror, sight.draw.polygon);
   if (sight.draw.back) {

@@ -251,10 +251,11 @@ bool Occlusion::skips(const View& view) const {
   return settings_.debug.skipHidden && !settings_.view.wireframe && !oblique;
 }
 
-void Occlusion::setView(const View& view, std::span<const int> instances) {
+void Occlusion::setView(const View& view, std::span<const int> instances, std::vector<int> mirrors) {
   view_ = &view;
   ++viewNumber_;
-  viewMirrors_.clear();
+  // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
+  viewMirrors_ = std::move(mirrors);
   viewInstances_.assign(instances.begin(), instances.end());
   if (mirrors_.empty() || !skips(view)) {
     return;
@@ -272,12 +273,6 @@ void Occlusion::setView(const View& view, std::span<const int> instances) {
       std::sort(candidates.begin(), candidates.end());
     }
   };
-  for (size_t i = 0; i < mirrors_.size(); ++i) {
-    // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
-    if (!visiblePart(view, mirrors_[i].occluder.polygon).empty()) {
-      viewMirrors_.push_back(static_cast<int>(i));
-    }
-  }
   keepLargest(viewMirrors_,
               [&](size_t i) { return std::pair(mirrors_[i].occluder.center, mirrors_[i].occluder.radius); });
   keepLargest(viewInstances_,

@@ -19,9 +19,9 @@ class Occlusion {
  public:
   Occlusion(const Scene& scene, const SceneState& state, const Settings& settings, const Projection& projection);
 
-  // Sets the view that hiddenBy() is about, to which it keeps a reference. Of the mirrors and `instances` that it
-  // shows, those that look largest are tested if there are very many.
-  void setView(const View& view, std::span<const int> instances);
+  // Sets the view that hiddenBy() is about, to which it keeps a reference. Of the `instances` and `mirrors` that it
+  // shows, both ascending, those that look largest are tested if there are very many.
+  void setView(const View& view, std::span<const int> instances, std::vector<int> mirrors);
 
   // Names the occluders that hide all of `polygon` (world), a part of `mirror`, in the view: "object NAME", "mirror
   // NAME", or several of them; nothing if they do not.
