@@ -2,6 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "geometry/mesh_levels.hpp"
 
 namespace speculum {
@@ -13,13 +16,7 @@ bool LevelJob::ready(const Scene& scene, int sceneNumber) {
   if (job_.running()) {
     return false;
   }
-  std::vector<Mesh> missing;  // copies, because the scene may be replaced meanwhile
-  for (const Mesh& mesh : scene.meshes) {
-    if (!levelsMade(mesh)) {
-      missing.push_back(mesh);
-    }
-  }
-  if (missing.empty()) {
+  if (std::ranges::all_of(scene.meshes, levelsMade)) {
     return true;
   }
   if (const std::optional<std::string> error = job_.takeError()) {
@@ -27,6 +24,8 @@ bool LevelJob::ready(const Scene& scene, int sceneNumber) {
     failed_ = sceneNumber;
   }
   if (failed_ != sceneNumber) {
+    std::vector<Mesh> missing;  // copies, because the scene may be replaced meanwhile
+    std::ranges::remove_copy_if(scene.meshes, std::back_inserter(missing), levelsMade);
     job_.start(0.0, [meshes = std::move(missing)](const auto& report) {
       for (const Mesh& mesh : meshes) {
         levelsOf(mesh, [&] { return !report(0.0); });
