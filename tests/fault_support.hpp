@@ -40,7 +40,7 @@ class FaultTest : public testing::Test {
     if (place == Place::early) {
       command.push_back("XDG_DATA_HOME=" + layer + "/data");
     } else {
-      // Of the layers that are named, the first that is found is nearest to the program; others come after them.
+      // The layer that the loader finds first in these folders is nearest to the program.
       const std::string validation = "/usr/share/vulkan/explicit_layer.d:";
       const bool inner = place == Place::inner;
       command.push_back("VK_ADD_LAYER_PATH=" + (inner ? validation : "") + layer);

@@ -15,7 +15,8 @@ namespace speculum {
 
 namespace {
 
-// Of a texture along a triangle's edge: more are noise at any distance, and would leave the range of floats.
+// Largest number of times that a texture is repeated along a triangle's edge. More repeats look like noise at any
+// distance, and would leave the range of floats.
 constexpr double mostRepeats = 1e9;
 
 double largestComponent(const glm::dvec3& v) {
