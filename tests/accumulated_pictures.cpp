@@ -137,9 +137,9 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {
     Options options = shipped("rough", 1);
-    set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "32"}});
+    set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "16"}});
     QuietSession session(options);
-    shown(session, 16);
+    shown(session, 16);  // 256 rays a pixel
     const LinearImage truth = session.radiance();
     const auto error = [&](int rays, int pictures) {
       set(session, {{"effects.rough_samples", std::to_string(rays)}});

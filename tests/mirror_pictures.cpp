@@ -229,7 +229,9 @@ TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
 }
 
 TEST(MirrorPictures, MovingFramesKeepTheirMemory) {
-  QuietSession session(headless(sourceFile("scenes/many_mirrors.toml"), {96, 54}));
+  Options options = headless(sourceFile("scenes/many_mirrors.toml"), {96, 54});
+  set(options, {{"reflection.max_passes", "16"}});
+  QuietSession session(options);
   for (int i = 0; i < 10; ++i) {
     session.draw(0.2 * i, false);
   }

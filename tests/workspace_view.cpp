@@ -232,6 +232,12 @@ TEST_F(WindowView, HiddenPanelsSayHowTheyReturn) {
   EXPECT_EQ(status(), "Panels hidden. Tab shows them again.");
 }
 
+TEST(StatusLine, FadesInItsLastSecond) {
+  EXPECT_EQ(statusAlpha(statusSeconds - 1.0), 1.0f);
+  EXPECT_FLOAT_EQ(statusAlpha(statusSeconds - 0.25), 0.25f);
+  EXPECT_LE(statusAlpha(statusSeconds), 0.0f);
+}
+
 TEST_F(WindowView, WarningsReachTheStatusLine) {
   spdlog::warn("this device has no 8 samples\nmore");
   frame();
