@@ -107,6 +107,8 @@ class Planner {
  private:
   void fill(int node);
   void addInstance(PlannedPass& pass, const View& readable, int i);
+  void skipUnseen(const View& view, int mirror);
+  void skipBack(const View& view, int mirror, double height);
   void consider(int node, Sight sight);
   void propose(int node, Sight sight);
   void skip(const View& view, int mirror, SkipReason reason, std::string detail = {});
@@ -185,23 +187,25 @@ void Planner::fill(int node) {
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
-  const auto isOwn = [&](size_t i) { return !view.path.empty() && view.path.back() == static_cast<int>(i); };
-  std::vector<std::optional<Sight>> sights(scene_.mirrors.size());  // of the mirrors before the eye
+  const auto isOwn = [&](int mirror) { return !view.path.empty() && view.path.back() == mirror; };
+  std::vector<Sight> sights;  // of the mirrors that are seen; a view may look at a thousand that are not
   std::vector<int> seen;
-  for (size_t i = 0; i < sights.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
     if (!isOwn(i) && !behindEye(view, state_.mirrors[i].polygon)) {
-      sights[i] = sightOf(scene_, state_, view, drawn, static_cast<int>(i));
-      if (!sights[i]->visible.empty()) {
-        seen.push_back(static_cast<int>(i));
+      Sight sight = sightOf(scene_, state_, view, drawn, i);
+      if (!sight.visible.empty()) {
+        sights.push_back(std::move(sight));
+        seen.push_back(i);
       }
     }
   }
   occlusion_->setView(view, nodes_[node].pass.instances, std::move(seen));
-  for (size_t i = 0; i < sights.size(); ++i) {
-    if (sights[i]) {
-      consider(node, std::move(*sights[i]));
+  size_t next = 0;
+  for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
+    if (next < sights.size() && sights[next].draw.mirror == i) {
+      consider(node, std::move(sights[next++]));
     } else if (!isOwn(i)) {
-      skip(view, static_cast<int>(i), SkipReason::behind);
+      skipUnseen(view, i);
     }
   }
 }
@@ -217,20 +221,32 @@ void Planner::skip(const View& view, int mirror, SkipReason reason, std::string 
   plan_.skipped.push_back(std::move(skipped));
 }
 
+void Planner::skipUnseen(const View& view, int mirror) {
+  const MirrorState& placed = state_.mirrors[mirror];
+  if (behindEye(view, placed.polygon)) {
+    return skip(view, mirror, SkipReason::behind);
+  }
+  const double height = heightAbove(placed, view.eye);
+  if (showsBack(scene_.mirrors[mirror], height)) {
+    return skipBack(view, mirror, height);
+  }
+  skip(view, mirror, SkipReason::outside);
+}
+
+void Planner::skipBack(const View& view, int mirror, double height) {
+  skip(view, mirror, SkipReason::backface, height == 0.0 ? "the eye is in its plane" : "");
+}
+
 void Planner::consider(int node, Sight sight) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
   const int mirror = sight.draw.mirror;
-  const std::optional<std::string> occluder =
-      sight.visible.empty() ? std::nullopt : occlusion_->hiddenBy(mirror, sight.draw.polygon);
+  const std::optional<std::string> occluder = occlusion_->hiddenBy(mirror, sight.draw.polygon);
   if (sight.draw.back) {
-    if (!sight.visible.empty() && sight.height < 0.0 && !occluder) {
+    if (sight.height < 0.0 && !occluder) {
       pass.mirrors.push_back(std::move(sight.draw));
     }
-    return skip(view, mirror, SkipReason::backface, sight.height == 0.0 ? "the eye is in its plane" : "");
-  }
-  if (sight.visible.empty()) {
-    return skip(view, mirror, SkipReason::outside);
+    return skipBack(view, mirror, sight.height);
   }
   if (occluder) {
     return skip(view, mirror, SkipReason::hidden, "behind " + *occluder);
@@ -433,10 +449,12 @@ void Planner::reuseImage(MirrorDraw& draw, const Node& node) {
 
 // Drops the reasons of mirrors that are seen in reused images only.
 void Planner::dropSkipsInReused() {
+  std::vector<bool> reused(scene_.mirrors.size(), false);
+  for (const CachedImage& image : plan_.cached) {
+    reused[static_cast<size_t>(image.mirror)] = image.cacheIndex >= 0;
+  }
   std::erase_if(plan_.skipped, [&](const SkippedMirror& skipped) {
-    return skipped.depth > 0 && std::any_of(plan_.cached.begin(), plan_.cached.end(), [&](const CachedImage& image) {
-             return image.cacheIndex >= 0 && image.mirror == skipped.path.front();
-           });
+    return skipped.depth > 0 && reused[static_cast<size_t>(skipped.path.front())];
   });
 }
 

@@ -5,16 +5,14 @@
 
 namespace speculum {
 
-namespace {
-
-// Signed distance of the eye from the mirror's plane; exactly 0 where rounding leaves no side to be on. Coordinates are
-// rounded, so that the threshold grows with their distance from the origin.
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
   const double height = glm::dot(mirror.normal, eye - mirror.origin);
   return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
 }
 
-}  // namespace
+bool showsBack(const Mirror& mirror, double height) {
+  return height <= 0.0 && !(mirror.twoSided && height < 0.0);
+}
 
 Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror) {
   const MirrorState& geometry = state.mirrors[mirror];
@@ -22,7 +20,7 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, con
               .height = heightAbove(geometry, view.eye),
               .visible = visiblePart(view, geometry.polygon)};
   MirrorDraw& draw = sight.draw;
-  draw.back = sight.height <= 0.0 && !(scene.mirrors[mirror].twoSided && sight.height < 0.0);
+  draw.back = showsBack(scene.mirrors[mirror], sight.height);
   if (!sight.visible.empty()) {
     draw.polygon = visiblePart(drawn, geometry.polygon);
   }

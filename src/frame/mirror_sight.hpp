@@ -10,9 +10,16 @@ namespace speculum {
 // A mirror as the eye of a view sees it.
 struct Sight {
   MirrorDraw draw;                  // before settings are applied
-  double height = 0.0;              // metres of the eye before the mirror's front; exactly 0 in its plane
+  double height = 0.0;              // heightAbove() of the view's eye
   std::vector<glm::dvec3> visible;  // world; visible region
 };
+
+// Metres of the eye before the mirror's front; exactly 0 where rounding leaves no side to be on. Coordinates are
+// rounded, so that the threshold grows with their distance from the origin.
+double heightAbove(const MirrorState& mirror, const glm::dvec3& eye);
+
+// Says whether an eye `height` metres before the mirror's front sees no reflection, but its back or its edge.
+bool showsBack(const Mirror& mirror, double height);
 
 // Finds what a view sees of a mirror. `drawn` is the view, widened by what is drawn beyond its edge. Polygons are cut
 // by it before they are drawn, because floats are too coarse for the depth near the eye of a polygon whose vertices lie

@@ -116,6 +116,15 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
 }
 
 std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
+  // Most mirrors of a view that shows many lie beyond one plane; these cost no memory.
+  const auto beyond = [&](const Plane& plane) {
+    return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return plane.distance(p) < 0.0; });
+  };
+  if ((view.clip && beyond(*view.clip)) || std::any_of(view.cone.begin(), view.cone.end(), [&](const glm::dvec3& n) {
+        return beyond({view.eye, n});
+      })) {
+    return {};
+  }
   std::vector<glm::dvec3> part = clippedPart(view, polygon);
   for (const glm::dvec3& normal : view.cone) {
     if (part.size() < 3) {
