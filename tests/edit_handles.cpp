@@ -49,7 +49,7 @@ TEST(PitchYawRoll, KeepsTheRollAtGimbalLock) {
 
 TEST(GizmoHandles, HandlesAreHitWhereDrawn) {
   const PictureView picture = lookingAt({3, 2, 4}, {0, 0, 0});
-  for (const GizmoMode mode : {GizmoMode::move, GizmoMode::turn}) {
+  for (const GizmoMode mode : {GizmoMode::move, GizmoMode::turn, GizmoMode::scale}) {
     const Gizmo gizmo(mode, {0.2, 0.1, 0.0}, arm);
     std::vector<Grip> drawn;
     for (const GizmoShape& shape : gizmo.shapes(picture)) {
@@ -65,7 +65,7 @@ TEST(GizmoHandles, HandlesAreHitWhereDrawn) {
         drawn.push_back(shape.handle);
       }
     }
-    EXPECT_GE(drawn.size(), mode == GizmoMode::turn ? 3u : 7u);
+    EXPECT_GE(drawn.size(), mode == GizmoMode::move ? 7u : mode == GizmoMode::turn ? 3u : 4u);
     EXPECT_EQ(gizmo.at(picture, picture.pixel(gizmo.pivot()).value() + glm::dvec2(300.0, 0.0), 6.0), Grip::none);
   }
 }
@@ -210,6 +210,49 @@ TEST(Transforming, NodesStandWhereTheyWereMoved) {
       const glm::dvec3 middle = pivotOf(scene, before, {Selection::Kind::mirror, i});
       for (size_t v = 0; v < 4; ++v) {
         const glm::dvec3 expected = middle + by + turn * (before.mirrors[i].polygon[v] - middle);
+        RC_ASSERT(glm::distance(state.mirrors[i].polygon[v], expected) < 1e-7);
+      }
+    }
+  });
+}
+
+TEST(Transforming, NodesGrowAlongTheirAxesAboutTheirPivots) {
+  rc::check([] {
+    Scene scene;
+    scene.meshes.push_back({.center = {0.2, 0.9, 0.0}, .halfExtent = glm::dvec3(0.5), .radius = 0.4});
+    scene.objects.push_back({.mesh = 0, .position = inBox(3), .rotation = inBox(180), .spin = inBox(60)});
+    scene.objects[0].copies = {.count = 3, .step = inBox(1)};
+    scene.mirrors.push_back({.position = inBox(3), .rotation = inBox(180), .spin = inBox(60), .size = {2, 1}});
+    Mirror polygon;
+    polygon.polygon = evaluate(scene, 0.0).mirrors[0].polygon;
+    scene.mirrors.push_back(polygon);
+    const double time = uniform(0, 20);
+    const SceneState before = evaluate(scene, time);
+    const glm::dvec3 factors = glm::dvec3(1.5) + inBox(1.0);
+    Scene after = scene;
+    const auto grow = [&](auto& node, const Selection& selection) {
+      const glm::dmat3 axes = scaleAxesOf(scene, before, selection).directions;
+      const glm::dvec3 pivot = pivotOf(scene, before, selection);
+      node = std::get<std::decay_t<decltype(node)>>(scaled(node, factors, axes, pivot, selection.copy));
+    };
+    const Selection object{Selection::Kind::object, 0, 2};
+    grow(after.objects[0], object);
+    for (int i : {0, 1}) {
+      grow(after.mirrors[static_cast<size_t>(i)], {Selection::Kind::mirror, i});
+    }
+    const SceneState state = evaluate(after, time);
+    RC_ASSERT(glm::distance(state.instances[2].center, before.instances[2].center) < 1e-8);
+    for (int i = 0; i < 3; ++i) {
+      RC_ASSERT(glm::distance(state.instances[2].worldFromMesh.linear[i],
+                              factors[i] * before.instances[2].worldFromMesh.linear[i]) < 1e-7);
+    }
+    for (int i : {0, 1}) {
+      const glm::dvec3 middle = pivotOf(scene, before, {Selection::Kind::mirror, i});
+      for (int v = 0; v < 4; ++v) {
+        const glm::dvec3 arm = before.mirrors[i].polygon[v] - middle;
+        const glm::dvec3 x = before.mirrors[i].axisX;
+        const glm::dvec3 y = before.mirrors[i].axisY;
+        const glm::dvec3 expected = middle + factors.x * glm::dot(arm, x) * x + factors.y * glm::dot(arm, y) * y;
         RC_ASSERT(glm::distance(state.mirrors[i].polygon[v], expected) < 1e-7);
       }
     }

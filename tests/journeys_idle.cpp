@@ -181,6 +181,13 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   ASSERT_TRUE(waitFor([&] { return !view().accuracy.measuring; }));
   EXPECT_TRUE(view().accuracy.points.empty());
   run(2);
+  Settings settings = view().settings.current;
+  settings.quality.maxError = 0.9;
+  demo_->apply(SetSettings{settings});
+  settings.view.exposure = 2.0;
+  demo_->apply(SetSettings{settings});
+  demo_->apply(Undo{});
+  run(2);
   const int before = demo_->framesDrawn();
   click("accuracy.measure");
   ASSERT_TRUE(waitFor([&] { return !view().accuracy.points.empty(); })) << view().accuracy.about;
@@ -192,6 +199,9 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   ASSERT_FALSE(measured.front.empty());
   EXPECT_GT(measured.noiseFloor, 0.0);
   EXPECT_GT(measured.points[0].ms, 0.0);
+  EXPECT_EQ(measured.current, measured.front.front()) << "the bound chose it";
+  EXPECT_EQ(view().edit.undo, "change Max. mean FLIP");
+  EXPECT_EQ(view().edit.redo, "change Exposure") << "no step of the user's";
   // The most accurate point takes four samples; the window began with one.
   const int best = measured.front.back();
   EXPECT_NE(measured.current, best);

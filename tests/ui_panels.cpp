@@ -390,6 +390,7 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   EXPECT_EQ(clickFor<LookFromMirror>("edit.look_out").side, MirrorSide::front);
   EXPECT_EQ(clickFor<SelectNode>("edit.through.0").node, (Selection{Selection::Kind::mirror, 1}));
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.rotate", 0.1).mode, GizmoMode::turn);
+  EXPECT_EQ(clickFor<SetGizmoMode>("edit.scale_handles", 0.1).mode, GizmoMode::scale);
   select({Selection::Kind::light, 0});
   EXPECT_FALSE(has("edit.look_out"));
 }

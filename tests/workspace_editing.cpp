@@ -81,12 +81,34 @@ TEST_F(Editing, DraggedAxisFollowsThePixels) {
 
 TEST_F(Editing, RingsRotateAndSnap) {
   clickBall();
-  send(ToggleGizmoMode{});
+  send(NextGizmoMode{});
   EXPECT_EQ(edit().mode, GizmoMode::turn);
   // A quarter and a little of the ring that faces the eye.
   dragRing(ballAt_, {-40.0, -10.0, 20.0, 53.0}, true);
   EXPECT_EQ(object().rotation, glm::dvec3(0.0, 0.0, 90.0)) << "93 degrees in steps of 15";
   EXPECT_EQ(edit().undo, "rotate object 'ball'");
+}
+
+TEST_F(Editing, BoxesScaleAlongTheNodesOwnAxes) {
+  const glm::dvec3 before = std::get<Object>(nodeOf(scene(), ball)).scale;
+  clickBall();
+  send(SetGizmoMode{GizmoMode::scale});
+  drag(ballAt_ + glm::dvec2(92.0, 0.0), {46.0, 0.0});
+  expectNear(object().scale, before * glm::dvec3(1.5, 1.0, 1.0));
+  EXPECT_EQ(object().position, glm::dvec3(0.3, 1.0, 0.5));
+  EXPECT_EQ(edit().undo, "scale object 'ball'");
+  drag(ballAt_, {0.0, -92.0});
+  expectNear(object().scale, before * glm::dvec3(3.0, 2.0, 2.0));
+  drag(ballAt_, {-500.0, 0.0});
+  EXPECT_GT(object().scale.x, 0.0) << "never zero, which is no scale";
+  for (int i = 0; i < 3; ++i) {
+    send(Undo{});
+  }
+  EXPECT_EQ(object().scale, before);
+  click(lampAt_);
+  const double radius = std::get<PointLight>(nodeOf(scene(), lamp)).radius;
+  drag(lampAt_, {92.0, 0.0});
+  EXPECT_NEAR(std::get<PointLight>(nodeOf(scene(), lamp)).radius, 2.0 * radius, 1e-9);
 }
 
 TEST_F(Editing, OtherButtonsDoNotDisturbADrag) {

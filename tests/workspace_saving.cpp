@@ -57,8 +57,7 @@ TEST_F(Saving, SavingAtThePromptWritesAndQuits) {
 
 TEST_F(Saving, UnsavedSettingsAreAskedAbout) {
   setExposure(2.0);
-  EXPECT_FALSE(edit().unsaved);
-  EXPECT_TRUE(edit().unsavedSettings);
+  EXPECT_TRUE(edit().unsaved);
   send(Quit{});
   send(CancelPrompt{});
   EXPECT_FALSE(host_.closed);
@@ -128,7 +127,7 @@ TEST_F(Saving, MissingFoldersAreNamed) {
 TEST_F(Saving, SecondSaveKeepsSettingsOfTheFirst) {
   setExposure(2.0);
   send(Save{});
-  EXPECT_FALSE(edit().unsavedSettings);
+  EXPECT_FALSE(edit().unsaved);
   EXPECT_EQ(settingsOf(onDisk()).view.exposure, 2.0);
   EXPECT_EQ(view().settings.ofScene.view.exposure, 2.0) << "resets go back to it";
   removeBall();
@@ -304,6 +303,8 @@ TEST_F(Saving, NextStartOffersTheKeptChanges) {
   send(OpenScene{kept});
   waitFor([&] { return scene().file == kept; });
   EXPECT_TRUE(scene().objects.empty());
+  EXPECT_TRUE(edit().unsaved);
+  EXPECT_NE(host_.title.find("*"), std::string::npos) << host_.title;
   send(Save{});
   EXPECT_EQ(edit().prompt, Prompt::saveAs) << "a copy is no place for a scene";
   start();

@@ -339,6 +339,27 @@ TEST_F(Opening, DesktopsDialogNamesTheFile) {
   waitFor([&] { return shownScene() == "sphere.obj"; });
 }
 
+// A window that sleeps must wake up for a scene that was read between two of its looks.
+TEST_F(Opening, LoadedSceneIsWorkUntilTaken) {
+  const auto load = [&] {
+    workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});
+    while (!workspace_->browser().loaded()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(workspace_->working());
+  };
+  load();
+  setExposure(2.0);
+  ASSERT_TRUE(workspace_->prompting());
+  EXPECT_FALSE(workspace_->working()) << "nothing happens before the answer";
+  send(CancelPrompt{});
+  send(Undo{});
+  load();
+  frame();
+  EXPECT_EQ(shownScene(), "no_mirror");
+  EXPECT_FALSE(workspace_->working());
+}
+
 TEST_F(Opening, LoadingIsCancelled) {
   std::ofstream large(home_.path() / "large.obj");
   for (int i = 0; i < 400000; ++i) {

@@ -77,8 +77,9 @@ void AccuracyController::measure(SweepRequest request) {
   sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
     std::shared_ptr<const SweepResults> rough;
     const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
-    rough = std::make_shared<SweepResults>(measureRoughly(request, progress));
-    return rough->points.empty() ? SweepResults() : measureView(request, progress);
+    ViewMeasurement measurement(request);
+    rough = std::make_shared<SweepResults>(measurement.rough(progress));
+    return rough->points.empty() ? SweepResults() : measurement.whole(progress);
   });
 }
 
@@ -108,10 +109,14 @@ void AccuracyController::applyPoint(int point, Settings& settings) const {
 
 void AccuracyController::beforeFrame(Settings& settings) {
   takeResults();
+  followBudget(settings);
+  findCurrentPoint(settings);
+}
+
+void AccuracyController::followBudget(Settings& settings) {
   if (settings.quality.budgetMs != budget_.ms || settings.quality.maxError != budget_.error) {
     applyBudget(settings);
   }
-  findCurrentPoint(settings);
 }
 
 void AccuracyController::acceptBudget(const Settings& settings) {

@@ -24,8 +24,10 @@ class AccuracyController {
   void applyPoint(int point, Settings& settings) const;
   void showDifference(bool shown) { view_.showsDifference = shown; }
 
-  // Call before a frame: takes finished results, and applies quality.* where it has changed.
+  // Call before a frame: takes finished results, from which a budget that is set chooses.
   void beforeFrame(Settings& settings);
+  // Applies the choice of quality.* if that differs from what was applied last.
+  void followBudget(Settings& settings);
   // Takes a budget that undo brought back together with the settings that it had chosen: it chooses none.
   void acceptBudget(const Settings& settings);
   // Call after a frame is drawn. `image` returns its pixels.

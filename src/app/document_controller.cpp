@@ -186,7 +186,7 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
 
 void DocumentController::fill(EditView& view, const Settings& settings) const {
   editor_.fill(view);
-  view.unsavedSettings = settings != loaded_.settings;
+  view.unsaved = hasUnsaved(settings);
   view.prompt = prompt_;
   view.proposedFile = proposed_;
   view.note = note_;

@@ -8,7 +8,8 @@ NodeDrag::NodeDrag(GizmoDrag gizmo, const Scene& scene, const SceneState& state,
                    const glm::dvec2& pixel)
     : gizmo_(std::move(gizmo)), time_(state.time), pixel_(pixel) {
   for (const Selection& node : nodes) {
-    starts_.push_back({node, nodeOf(scene, node), pivotOf(scene, state, node)});
+    starts_.push_back(
+        {node, nodeOf(scene, node), pivotOf(scene, state, node), scaleAxesOf(scene, state, node).directions});
   }
 }
 
@@ -25,21 +26,33 @@ std::vector<PlacedNode> NodeDrag::to(const glm::dvec2& pixel, bool snap) {
 // A light has no orientation, so it orbits the pivot.
 SceneNode NodeDrag::dragged(const Start& start) const {
   const glm::dvec3& pivot = starts_.front().pivot;
-  if (!turns()) {
+  const glm::dvec3 away = start.pivot - pivot;
+  if (modeOf(handle()) == GizmoMode::move) {
     return moved(start.node, change_.translation, time_);
+  }
+  if (modeOf(handle()) == GizmoMode::scale) {
+    const glm::dmat3& axes = starts_.front().axes;
+    const SceneNode node = scaled(start.node, change_.factors, start.axes, start.pivot, start.selection.copy);
+    return moved(node, axes * (change_.factors * (glm::transpose(axes) * away)) - away, time_);
   }
   if (change_.degrees == 0.0) {
     return start.node;
   }
   if (start.selection.kind == Selection::Kind::light) {
-    return moved(start.node, pivot + change_.rotation * (start.pivot - pivot) - start.pivot, time_);
+    return moved(start.node, change_.rotation * away - away, time_);
   }
   return turned(start.node, change_.rotation, pivot, start.selection.copy, time_);
 }
 
 std::string NodeDrag::label() const {
   const int axis = axisOf(handle());
-  if (turns()) {
+  if (handle() == Grip::scaleAll) {
+    return fmt::format("x {:.3f}", change_.factors.x);
+  }
+  if (modeOf(handle()) == GizmoMode::scale) {
+    return std::string(1, "XYZ"[axis]) + fmt::format("  x {:.3f}", change_.factors[axis]);
+  }
+  if (modeOf(handle()) == GizmoMode::turn) {
     return std::string(1, "XYZ"[axis]) + fmt::format("  {:+.1f} deg", change_.degrees);
   }
   if (handle() <= Grip::moveZ) {

@@ -139,8 +139,9 @@ PictureView SceneEditor::clickedImage(const SceneView& view) const {
 Gizmo SceneEditor::gizmo(const SceneView& view) const {
   const Selection& selected = document_.selection();
   const bool turns = selected.kind != Selection::Kind::light || !others_.empty();
-  const GizmoMode mode = turns ? mode_ : GizmoMode::move;
-  return {mode, pivotOf(document_.scene(), view.state, selected), armPixels * view.scale};
+  const GizmoMode mode = mode_ == GizmoMode::turn && !turns ? GizmoMode::move : mode_;
+  return {mode, pivotOf(document_.scene(), view.state, selected), armPixels * view.scale,
+          scaleAxesOf(document_.scene(), view.state, selected)};
 }
 
 bool SceneEditor::press(const SceneView& view, const glm::dvec2& pixel) {
@@ -161,7 +162,8 @@ bool SceneEditor::press(const SceneView& view, const glm::dvec2& pixel) {
 
 void SceneEditor::drag(const glm::dvec2& pixel, bool snap) {
   if (drag_) {
-    replace(drag_->turns() ? "rotate" : "move", drag_->to(pixel, snap));
+    constexpr std::array verbs{"move", "rotate", "scale"};
+    replace(verbs[static_cast<size_t>(modeOf(drag_->handle()))], drag_->to(pixel, snap));
   }
 }
 
@@ -358,7 +360,6 @@ void SceneEditor::fill(EditView& view) const {
   view.models = models_;
   view.undo = document_.undoLabel();
   view.redo = document_.redoLabel();
-  view.unsaved = document_.modified();
 }
 
 const MeshOutline& SceneEditor::meshOutline(const Selection& node) {

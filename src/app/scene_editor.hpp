@@ -43,7 +43,7 @@ class SceneEditor {
   void select(const Selection& node);  // alone
   void selectNext(int step);           // in the order of the scene, round
   void setMode(GizmoMode mode) { mode_ = mode; }
-  void toggleMode() { mode_ = mode_ == GizmoMode::move ? GizmoMode::turn : GizmoMode::move; }
+  void nextMode() { mode_ = static_cast<GizmoMode>((static_cast<int>(mode_) + 1) % 3); }
 
   // Replaces a node by one of its kind. With `continued` further edits until endEdit() belong to the same step of undo.
   void edit(const Selection& target, const SceneNode& node, bool continued);

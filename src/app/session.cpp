@@ -19,6 +19,10 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+VkExtent2D rendererExtent(PictureSize size) {
+  return {static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height)};
+}
+
 const Bookmark& bookmarkNamed(const std::string& name, const Scene& scene) {
   std::vector<std::string_view> names;
   for (const Bookmark& bookmark : scene.bookmarks) {
@@ -102,7 +106,7 @@ DeviceOptions deviceOptions(const Options& options, Window* window) {
 
 RendererOptions rendererOptions(const Options& options, Window* window) {
   return {.window = window,
-          .extent = {static_cast<uint32_t>(options.size.width), static_cast<uint32_t>(options.size.height)},
+          .extent = rendererExtent(options.size),
           .presentMode = options.presentMode,
           .shaderDir = options.shaderDir};
 }
@@ -236,6 +240,11 @@ void Session::collectFinished() {
       ++place;
     }
   }
+}
+
+void Session::resize(PictureSize size) {
+  size_ = size;
+  renderer_.resizeHeadless(rendererExtent(size));
 }
 
 void Session::setSettings(const Settings& settings) {

@@ -85,6 +85,7 @@ class Session {
   const DrawnFrame& draw(double time, bool capture, const std::function<bool()>& afterPicture = {});
   // Drops all cached images: the next frame renders everything.
   void restart() { sceneRenderer_.restart(); }
+  void resize(PictureSize size);  // from the next frame on
   // Changes the settings from the next frame on. Throws UsageError for a debug.omit_barrier that does not exist.
   void setSettings(const Settings& settings);
   // Waits for the GPU, after which lastFrame() is complete.

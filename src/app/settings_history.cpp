@@ -27,41 +27,36 @@ std::string SettingsHistory::labelOf(const Step& step) {
   return label;
 }
 
-bool SettingsHistory::nextUndone(const SceneDocument& document) const {
-  return !undo_.empty() && undo_.back().position >= document.position();
-}
-
 // A new step of the document makes the ones that were undone stale: they follow steps that it lacks.
-bool SettingsHistory::nextRedone(const SceneDocument& document) const {
+bool SettingsHistory::isNext(UndoWay way, const SceneDocument& document) const {
+  if (way == UndoWay::back) {
+    return !undo_.empty() && undo_.back().position >= document.position();
+  }
   return !redo_.empty() && redo_.back().position == document.position() && redo_.back().revision == document.changes();
 }
 
-std::string SettingsHistory::undoLabel(const SceneDocument& document) const {
-  return nextUndone(document) ? labelOf(undo_.back()) : document.undoLabel();
+std::string SettingsHistory::label(UndoWay way, const SceneDocument& document) const {
+  const bool back = way == UndoWay::back;
+  if (isNext(way, document)) {
+    return labelOf((back ? undo_ : redo_).back());
+  }
+  return back ? document.undoLabel() : document.redoLabel();
 }
 
-std::string SettingsHistory::redoLabel(const SceneDocument& document) const {
-  return nextRedone(document) ? labelOf(redo_.back()) : document.redoLabel();
-}
-
-bool SettingsHistory::undo(const SceneDocument& document, Settings& settings) {
-  if (!nextUndone(document)) {
+bool SettingsHistory::step(UndoWay way, const SceneDocument& document, Settings& settings) {
+  if (!isNext(way, document)) {
     return false;
   }
-  redo_.push_back(std::move(undo_.back()));
-  redo_.back().revision = document.changes();
-  undo_.pop_back();
-  settings = redo_.back().before;
-  return true;
-}
-
-bool SettingsHistory::redo(const SceneDocument& document, Settings& settings) {
-  if (!nextRedone(document)) {
-    return false;
+  const bool back = way == UndoWay::back;
+  std::vector<Step>& from = back ? undo_ : redo_;
+  Step& step = (back ? redo_ : undo_).emplace_back(std::move(from.back()));
+  from.pop_back();
+  step.revision = document.changes();
+  for (const SettingField& field : settingFields()) {
+    if (!sameSetting(field, step.before, step.after)) {
+      copySetting(field, back ? step.before : step.after, settings);
+    }
   }
-  undo_.push_back(std::move(redo_.back()));
-  redo_.pop_back();
-  settings = undo_.back().after;
   return true;
 }
 

@@ -8,18 +8,19 @@
 
 namespace speculum {
 
+enum class UndoWay { back, forward };
+
 // Undo and redo of a scene and its settings, in the order in which they were changed.
 class SettingsHistory {
  public:
   // After a change of the settings. `continued`: part of the step before.
   void changed(const Settings& before, const Settings& after, bool continued, SceneDocument& document);
 
-  // Labels of the steps that undo and redo would take; empty: none.
-  std::string undoLabel(const SceneDocument& document) const;
-  std::string redoLabel(const SceneDocument& document) const;
-  // True if the next step is one of the settings, which is taken; else it is the document's.
-  bool undo(const SceneDocument& document, Settings& settings);
-  bool redo(const SceneDocument& document, Settings& settings);
+  // Label of the next step that way; empty: none.
+  std::string label(UndoWay way, const SceneDocument& document) const;
+  // True if the next step is one of the settings, which is taken; else it is the document's. Other settings than those
+  // of the step stay: a measurement may have chosen them since.
+  bool step(UndoWay way, const SceneDocument& document, Settings& settings);
 
  private:
   struct Step {
@@ -29,8 +30,7 @@ class SettingsHistory {
     uint64_t revision = 0;
   };
   static std::string labelOf(const Step& step);
-  bool nextUndone(const SceneDocument& document) const;
-  bool nextRedone(const SceneDocument& document) const;
+  bool isNext(UndoWay way, const SceneDocument& document) const;
 
   std::vector<Step> undo_;
   std::vector<Step> redo_;

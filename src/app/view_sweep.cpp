@@ -35,15 +35,6 @@ Settings baseOf(const SweepRequest& request) {
   return base;
 }
 
-double baseMs(const SweepRequest& request) {
-  Session session(optionsOf(request));
-  session.setCamera(request.camera);
-  SessionSubject subject(session, request.time);
-  subject.cost(baseOf(request));  // compiles its pipelines
-  const FrameCost cost = subject.cost(baseOf(request));
-  return cost.gpuMs > 0.0 ? cost.gpuMs : cost.frameMs;
-}
-
 void multiply(Spread& spread, double factor) {
   for (double* ms : {&spread.median, &spread.minimum, &spread.lowerQuartile, &spread.upperQuartile}) {
     *ms *= factor;
@@ -73,51 +64,62 @@ std::filesystem::path storeFolder(Session& session, const SweepRequest& request)
   return sweeps / view.hex();
 }
 
-SweepResults measure(const SweepRequest& request, int samples, const SweepProgress& progress) {
-  const Options options = optionsOf(request);
-  const Settings base = baseOf(request);
-  Session session(options);
+}  // namespace
+
+ViewMeasurement::ViewMeasurement(const SweepRequest& request)
+    : request_(request), base_(baseOf(request)), session_(optionsOf(request)) {
+  session_.setCamera(request.camera);
+}
+
+SweepResults ViewMeasurement::measure(PictureSize size, int samples, const SweepProgress& progress) {
   if (!progress({"starting", 1.0})) {
     return {};
   }
-  session.setCamera(request.camera);
-  session.setSettings(base);
-  SceneState state = evaluate(session.scene(), request.time);
-  state.camera = request.camera;
-  const SweepPlan plan = viewSweep(sweepContext(session));
-  SessionSubject subject(session, request.time);
-  SweepStore store(storeFolder(session, request));
-  const SweepScene scene{.scene = session.scene(),
-                         .state = state,
-                         .width = options.size.width,
-                         .height = options.size.height,
-                         .truthSamples = samples};
-  SweepResults results = describeSweep(session, plan, request.time);
-  const bool finished = inBackground([&] { return runSweep(plan, base, scene, subject, store, results, progress); });
-  if (finished && session.device().validationMessages() > 0) {
+  session_.resize(size);
+  session_.setSettings(base_);
+  SceneState state = evaluate(session_.scene(), request_.time);
+  state.camera = request_.camera;
+  const SweepPlan plan = viewSweep(sweepContext(session_));
+  SessionSubject subject(session_, request_.time);
+  SweepStore store(storeFolder(session_, request_));
+  const SweepScene scene{
+      .scene = session_.scene(), .state = state, .width = size.width, .height = size.height, .truthSamples = samples};
+  SweepResults results = describeSweep(session_, plan, request_.time);
+  const bool finished = inBackground([&] { return runSweep(plan, base_, scene, subject, store, results, progress); });
+  if (finished && session_.device().validationMessages() > 0) {
     throw std::runtime_error("the measurement made validation messages");
   }
   return finished ? results : SweepResults();
 }
 
-}  // namespace
-
-SweepResults measureView(const SweepRequest& request, const SweepProgress& progress) {
-  return measure(request, truthSamples, progress);
+double ViewMeasurement::baseMs(PictureSize size) {
+  session_.resize(size);
+  const FrameCost cost = SessionSubject(session_, request_.time).cost(base_);
+  return cost.gpuMs > 0.0 ? cost.gpuMs : cost.frameMs;
 }
 
-SweepResults measureRoughly(const SweepRequest& request, const SweepProgress& progress) {
-  SweepRequest small = request;
-  PictureSize& size = small.options.size;
-  const double scale = std::min(1.0, std::sqrt(roughPixels / (size.width * size.height)));
-  size = {std::max(1, static_cast<int>(size.width * scale)), std::max(1, static_cast<int>(size.height * scale))};
+SweepResults ViewMeasurement::whole(const SweepProgress& progress) {
+  return measure(request_.options.size, truthSamples, progress);
+}
+
+SweepResults ViewMeasurement::rough(const SweepProgress& progress) {
+  const PictureSize whole = request_.options.size;
+  const double scale = std::min(1.0, std::sqrt(roughPixels / (whole.width * whole.height)));
+  const PictureSize small{std::max(1, static_cast<int>(whole.width * scale)),
+                          std::max(1, static_cast<int>(whole.height * scale))};
   SweepResults results = measure(small, roughSamples, progress);
-  if (!results.points.empty()) {
-    const double factor = baseMs(request) / baseMs(small);
-    for (SweepPoint& point : results.points) {
-      multiply(point.gpuMs, factor);
-      multiply(point.frameMs, factor);
-    }
+  if (results.points.empty()) {
+    return results;
+  }
+  baseMs(small);  // compiles its pipelines
+  const double smallMs = baseMs(small);
+  if (!progress({"times", 1.0})) {
+    return {};
+  }
+  const double factor = baseMs(whole) / smallMs;
+  for (SweepPoint& point : results.points) {
+    multiply(point.gpuMs, factor);
+    multiply(point.frameMs, factor);
   }
   return results;
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/pace.hpp"
+#include "app/recovery.hpp"
 #include "app/view_command.hpp"
-#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -31,14 +31,8 @@ std::vector<fs::path> findShippedModels() {
   return models;
 }
 
-// Names the copy that the last session left.
-fs::path recoveryRecord() {
-  return userConfigDir() / "recovery";
-}
-
 std::string windowTitle(const EditView& edit) {
-  const bool unsaved = edit.unsaved || edit.unsavedSettings;
-  return edit.scene->file.stem().string() + (unsaved ? "* - Speculum" : " - Speculum");
+  return edit.scene->file.stem().string() + (edit.unsaved ? "* - Speculum" : " - Speculum");
 }
 
 }  // namespace
@@ -52,11 +46,8 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
       accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
   browser_.list(loaded_->scene.file);
   startDocument();
-  const auto record = options.frames == 0 ? readFileIfAny(recoveryRecord()) : std::nullopt;
-  const fs::path kept = record ? fs::path(std::string(record->begin(), record->end())) : fs::path();
-  std::error_code none;
-  if (fs::is_regular_file(kept, none)) {
-    document_->offerRecovery(kept);
+  if (const auto kept = options.frames == 0 ? recoveryCopy() : std::nullopt) {
+    document_->offerRecovery(*kept);
   }
 }
 
@@ -138,7 +129,7 @@ void Workspace::apply(const Command& command) {
                    host_.openInspector();
                  },
                  [&](const SetGizmoMode& c) { editor().setMode(c.mode); },
-                 [&](const ToggleGizmoMode&) { editor().toggleMode(); },
+                 [&](const NextGizmoMode&) { editor().nextMode(); },
                  [&](const EditNode& c) { editor().edit(c.target, c.node, c.continued); },
                  [&](const EndEdit&) { editor().endEdit(); },
                  [&](const AddMirror&) {
@@ -158,8 +149,8 @@ void Workspace::apply(const Command& command) {
                    }
                  },
                  [&](const RemoveSelected&) { editor().remove(); },
-                 [&](const Undo&) { undo(); },
-                 [&](const Redo&) { redo(); },
+                 [&](const Undo&) { step(UndoWay::back); },
+                 [&](const Redo&) { step(UndoWay::forward); },
                  [&](const MeasureAccuracy&) { measureAccuracy(); },
                  [&](const CancelMeasurement&) { accuracy_.cancel(); },
                  [&](const ApplyPoint& c) {
@@ -249,8 +240,8 @@ void Workspace::prepareView(double seconds, bool pointerOverPicture) {
 
 void Workspace::fillEdit() {
   document_->fill(edit_, settings_.current);
-  edit_.undo = settingsHistory_.undoLabel(editor().document());
-  edit_.redo = settingsHistory_.redoLabel(editor().document());
+  edit_.undo = settingsHistory_.label(UndoWay::back, editor().document());
+  edit_.redo = settingsHistory_.label(UndoWay::forward, editor().document());
 }
 
 UiView Workspace::view(const DeviceView& device, const std::string& message) const {
@@ -281,9 +272,7 @@ void Workspace::update() {
   }
   takeChosenFile();
   browser_.updateView();
-  const Settings before = settings_.current;
   accuracy_.beforeFrame(settings_.current);
-  settingsHistory_.changed(before, settings_.current, true, editor().document());
 }
 
 // Drops cached images of the old scene that content comparison does not cover: those reused by an interval, and those
@@ -314,32 +303,16 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
 // The desktop's dialog, if it has one that can be started; else a prompt of the window.
 void Workspace::askWhatToOpen() {
   const fs::path folder = fs::absolute(scene().file).parent_path() / "";
-  if (fileDialog_) {
-    return;
-  }
-  if (const fs::path zenity = findProgram("zenity"); !zenity.empty()) {
-    fileDialog_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{zenity, "--file-selection", "--title=Open", "--filename=" + folder.string(),
-                                 "--file-filter=Scenes and models | *.toml *.obj", "--file-filter=All files | *"});
-  } else if (const fs::path kdialog = findProgram("kdialog"); !kdialog.empty()) {
-    fileDialog_ = std::make_unique<ChildProcess>(std::vector<std::string>{
-        kdialog, "--title", "Open", "--getopenfilename", folder, "Scenes and models (*.toml *.obj)"});
-  } else {
+  if (!fileDialog_.open(folder)) {
     document_->askWhatToOpen(folder);
   }
 }
 
-// The dialog may write warnings too; the file is the last line.
 void Workspace::takeChosenFile() {
-  const std::optional<ProcessResult> result = fileDialog_ ? fileDialog_->poll() : std::nullopt;
-  if (!result) {
-    return;
-  }
-  fileDialog_.reset();
-  const std::string text = result->output.substr(0, result->output.find_last_not_of("\n") + 1);
-  if (result->exitCode == 0 && !text.empty()) {
-    open(text.substr(text.rfind('\n') + 1));
-  } else if (result->exitCode > 1 && !document_->prompting()) {  // 1: the user cancelled
+  const std::optional<FileDialog::Answer> answer = fileDialog_.poll();
+  if (answer && answer->file) {
+    open(*answer->file);
+  } else if (answer && answer->failed && !document_->prompting()) {
     document_->askWhatToOpen(fs::absolute(scene().file).parent_path() / "");
   }
 }
@@ -457,8 +430,10 @@ void Workspace::escape() {
 }
 
 void Workspace::setSettings(const Settings& settings, bool continued) {
-  settingsHistory_.changed(settings_.current, settings, continued, editor().document());
-  settings_.current = settings;
+  Settings chosen = settings;
+  accuracy_.followBudget(chosen);
+  settingsHistory_.changed(settings_.current, chosen, continued, editor().document());
+  settings_.current = chosen;
 }
 
 void Workspace::togglePanels() {
@@ -467,26 +442,16 @@ void Workspace::togglePanels() {
   }
 }
 
-void Workspace::undo() {
+void Workspace::step(UndoWay way) {
   editor().release();
   editor().endEdit();
-  const std::string step = settingsHistory_.undoLabel(editor().document());
-  if (!settingsHistory_.undo(editor().document(), settings_.current)) {
-    editor().undo();
+  const bool back = way == UndoWay::back;
+  const std::string step = settingsHistory_.label(way, editor().document());
+  if (!settingsHistory_.step(way, editor().document(), settings_.current)) {
+    back ? editor().undo() : editor().redo();
   }
   accuracy_.acceptBudget(settings_.current);
-  status_.set(step.empty() ? "Nothing to undo" : "Undone: " + step);
-}
-
-void Workspace::redo() {
-  editor().release();
-  editor().endEdit();
-  const std::string step = settingsHistory_.redoLabel(editor().document());
-  if (!settingsHistory_.redo(editor().document(), settings_.current)) {
-    editor().redo();
-  }
-  accuracy_.acceptBudget(settings_.current);
-  status_.set(step.empty() ? "Nothing to redo" : "Redone: " + step);
+  status_.set(step.empty() ? (back ? "Nothing to undo" : "Nothing to redo") : (back ? "Undone: " : "Redone: ") + step);
 }
 
 void Workspace::frame(const Selection& node) {
@@ -556,23 +521,18 @@ void Workspace::toggleRecording(bool withPanel) {
 bool Workspace::takeBack(const std::string& why) {
   editor().release();
   editor().endEdit();
-  const std::string step = settingsHistory_.undoLabel(editor().document());
-  if (std::exchange(tookBack_, !step.empty())) {
-    redo();  // it was not that step
+  const std::string label = settingsHistory_.label(UndoWay::back, editor().document());
+  if (std::exchange(tookBack_, !label.empty())) {
+    step(UndoWay::forward);  // it was not that step
     tookBack_ = false;
     return false;
   }
-  if (step.empty()) {
+  if (label.empty()) {
     return false;
   }
-  undo();
-  problem_ = "Cannot " + step + ": " + why;
+  step(UndoWay::back);
+  problem_ = "Cannot " + label + ": " + why;
   return true;
-}
-
-void Workspace::forgetRecovery() {
-  std::error_code none;
-  fs::remove(recoveryRecord(), none);
 }
 
 void Workspace::forgetRecoveryIfSaved() {
@@ -585,7 +545,7 @@ void Workspace::keepUnsavedWork() noexcept {
   try {
     const fs::path file = document_->savedOrCopy(settings());
     if (file != scene().file) {
-      storeFile(recoveryRecord(), file.string());
+      recordRecovery(file);
       spdlog::error("unsaved changes are kept in {}", file.string());
     }
   } catch (const std::exception& error) {

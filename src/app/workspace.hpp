@@ -3,6 +3,7 @@
 #include "app/accuracy_controller.hpp"
 #include "app/capture.hpp"
 #include "app/document_controller.hpp"
+#include "app/file_dialog.hpp"
 #include "app/frame_report.hpp"
 #include "app/log_capture.hpp"
 #include "app/playback.hpp"
@@ -11,7 +12,6 @@
 #include "app/settings_history.hpp"
 #include "app/status_line.hpp"
 #include "app/view_controller.hpp"
-#include "platform/process.hpp"
 
 namespace speculum {
 
@@ -69,7 +69,10 @@ class Workspace {
 
   // Say whether frames are needed although nothing happens.
   bool animates() const { return !playback_.view().paused && moves(scene()); }
-  bool working() const { return accuracy_.working() || browser_.loading() || fileDialog_; }
+  bool working() const {
+    const bool waitsForAnswer = browser_.loaded() && document_->prompting();
+    return accuracy_.working() || (browser_.busy() && !waitsForAnswer) || fileDialog_.isOpen();
+  }
   uint64_t revision() const { return document_->editor().document().revision(); }
   bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
@@ -99,7 +102,6 @@ class Workspace {
  private:
   void askWhatToOpen();
   void takeChosenFile();
-  void forgetRecovery();
   void forgetRecoveryIfSaved();
   void open(const std::filesystem::path& file);
   void openDropped(const std::vector<std::filesystem::path>& files);
@@ -112,8 +114,7 @@ class Workspace {
   void escape();
   void setSettings(const Settings& settings, bool continued = false);
   void togglePanels();
-  void undo();
-  void redo();
+  void step(UndoWay way);
   void copyCommandLine();
   void measureAccuracy();
   void toggleRecording(bool withPanel);
@@ -144,8 +145,8 @@ class Workspace {
   SettingsView settings_;
   SettingsHistory settingsHistory_;
   EditView edit_;
-  std::unique_ptr<ChildProcess> fileDialog_;  // while it is open
-  std::string title_;                         // of the window
+  FileDialog fileDialog_;
+  std::string title_;  // of the window
   std::string problem_;
   uint64_t shownStructure_ = 0;  // of the scene, in the last frame
   bool tookBack_ = false;        // a step, and no frame was drawn since

@@ -18,12 +18,15 @@ constexpr double planeNear = 0.32;  // share of the arm where a plane's square b
 constexpr double planeFar = 0.56;
 constexpr double centerPixels = 7.0;  // radius of the handle of the view's plane
 constexpr double headPixels = 15.0;   // length of an arrow's head
+constexpr double boxPixels = 5.5;     // half a side of the head of a handle that scales
+constexpr double leastFactor = 0.01;  // of one drag
 // Sines of the angle between eye and axis, or eye and plane, below which a handle cannot be grabbed.
 constexpr double steepestAxis = 0.15;
 constexpr double flattestPlane = 0.12;
 constexpr double flattestRing = 0.15;  // below it, turning counts pixels along the ring's edge
 
 constexpr std::array moveAxes = {Grip::moveX, Grip::moveY, Grip::moveZ};
+constexpr std::array scaleAxes = {Grip::scaleX, Grip::scaleY, Grip::scaleZ};
 constexpr std::array movePlanes = {Grip::moveYZ, Grip::moveZX, Grip::moveXY};
 constexpr std::array rings = {Grip::turnX, Grip::turnY, Grip::turnZ};
 
@@ -32,7 +35,7 @@ bool isPlane(Grip handle) {
 }
 
 bool isRing(Grip handle) {
-  return handle >= Grip::turnX;
+  return modeOf(handle) == GizmoMode::turn;
 }
 
 glm::dvec3 unit(int axis) {
@@ -109,17 +112,26 @@ double rounded(double value, double step) {
   return step < 1.0 ? std::round(value / step) / std::round(1.0 / step) : std::round(value / step) * step;
 }
 
-// Adds an arrow as lines with a triangle of so many pixels as its head.
-void addArrow(const PictureView& picture, const glm::dvec3& pivot, int axis, double length,
+void addBox(Grip handle, const glm::dvec2& center, double half, std::vector<GizmoShape>& shapes) {
+  shapes.push_back({.handle = handle,
+                    .points = {center + glm::dvec2(-half, -half), center + glm::dvec2(half, -half),
+                               center + glm::dvec2(half, half), center + glm::dvec2(-half, half)},
+                    .filled = true});
+}
+
+// Adds a line with a head: a box for scaling, else an arrow's.
+void addShaft(const PictureView& picture, const glm::dvec3& pivot, const glm::dvec3& arm, Grip handle,
               std::vector<GizmoShape>& shapes) {
-  const Grip handle = moveAxes[static_cast<size_t>(axis)];
   GizmoShape shaft{.handle = handle};
-  addLine(shaft, picture.line(pivot + axisStart * length * unit(axis), pivot + length * unit(axis)));
+  addLine(shaft, picture.line(pivot + axisStart * arm, pivot + arm));
   const auto tail = picture.pixel(pivot);
-  const auto tip = picture.pixel(pivot + length * unit(axis));
+  const auto tip = picture.pixel(pivot + arm);
   shapes.push_back(std::move(shaft));
   if (!tail || !tip || glm::distance(*tail, *tip) < 1.0) {
     return;
+  }
+  if (modeOf(handle) == GizmoMode::scale) {
+    return addBox(handle, *tip, boxPixels, shapes);
   }
   const glm::dvec2 along = glm::normalize(*tip - *tail);
   const glm::dvec2 across = 0.36 * headPixels * glm::dvec2(-along.y, along.x);
@@ -155,11 +167,22 @@ void addRing(const PictureView& picture, const glm::dvec3& pivot, int axis, doub
 }  // namespace
 
 int axisOf(Grip handle) {
-  if (handle == Grip::none || handle == Grip::moveView) {
+  if (handle == Grip::none || handle == Grip::moveView || handle == Grip::scaleAll) {
     return -1;
   }
-  const Grip first = isRing(handle) ? Grip::turnX : isPlane(handle) ? Grip::moveYZ : Grip::moveX;
+  const Grip first = handle >= Grip::scaleX ? Grip::scaleX
+                     : isRing(handle)       ? Grip::turnX
+                     : isPlane(handle)      ? Grip::moveYZ
+                                            : Grip::moveX;
   return static_cast<int>(handle) - static_cast<int>(first);
+}
+
+GizmoMode modeOf(Grip handle) {
+  return handle >= Grip::scaleX ? GizmoMode::scale : handle >= Grip::turnX ? GizmoMode::turn : GizmoMode::move;
+}
+
+glm::dvec3 Gizmo::axis(int axis) const {
+  return mode_ == GizmoMode::scale ? scaleAxes_.directions[axis] : unit(axis);
 }
 
 std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
@@ -170,9 +193,17 @@ std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
   }
   const double length = arm_ * picture.metresPerPixel(pivot_);
   const glm::dvec3 sight = towards(picture, pivot_);
-  for (int axis = 0; axis < 3; ++axis) {
+  const bool scales = mode_ == GizmoMode::scale;
+  for (int axis = 0; axis < (scales ? scaleAxes_.count : 3); ++axis) {
     if (mode_ == GizmoMode::turn) {
       addRing(picture, pivot_, axis, length, shapes);
+      continue;
+    }
+    if (glm::length(glm::cross(sight, this->axis(axis))) > steepestAxis) {
+      const Grip handle = (scales ? scaleAxes : moveAxes)[static_cast<size_t>(axis)];
+      addShaft(picture, pivot_, length * this->axis(axis), handle, shapes);
+    }
+    if (scales) {
       continue;
     }
     const glm::dvec3 u = length * unit((axis + 1) % 3);
@@ -184,12 +215,11 @@ std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
         shapes.insert(shapes.begin(), std::move(*square));
       }
     }
-    if (glm::length(glm::cross(sight, unit(axis))) > steepestAxis) {
-      addArrow(picture, pivot_, axis, length, shapes);
-    }
   }
   if (mode_ == GizmoMode::move) {
     addCenter(*center, shapes);
+  } else if (scales) {
+    addBox(Grip::scaleAll, *center, centerPixels, shapes);
   }
   return shapes;
 }
@@ -212,8 +242,8 @@ GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle
     : picture_(picture), handle_(handle), pivot_(gizmo.pivot()), arm_(gizmo.arm()), pressed_(pixel) {
   const glm::dvec3 sight = towards(picture, pivot_);
   const int axis = axisOf(handle);
-  axis_ = axis >= 0 ? unit(axis) : glm::dvec3(0.0);
-  if (handle == Grip::moveView) {
+  axis_ = axis >= 0 ? gizmo.axis(axis) : glm::dvec3(0.0);
+  if (axis < 0) {
     normal_ = picture.forward();
   } else if (isRing(handle)) {
     normal_ = axis_;
@@ -252,6 +282,16 @@ std::optional<glm::dvec3> GizmoDrag::moveAt(const glm::dvec2& pixel) const {
   return handle_ == Grip::moveView || isPlane(handle_) ? by : axis_ * glm::dot(axis_, by);
 }
 
+// The handle's length more is one size more; all axes grow to the right and upwards.
+std::optional<double> GizmoDrag::factorAt(const glm::dvec2& pixel) const {
+  if (handle_ == Grip::scaleAll) {
+    const glm::dvec2 by = pixel - pressed_;
+    return 1.0 + (by.x - by.y) / arm_;
+  }
+  const auto by = moveAt(pixel);
+  return by ? std::optional(1.0 + glm::dot(axis_, *by) / (arm_ * picture_.metresPerPixel(pivot_))) : std::nullopt;
+}
+
 // Degrees; unbounded if pixels are counted.
 std::optional<double> GizmoDrag::angleAt(const glm::dvec2& pixel) const {
   if (onScreen_) {
@@ -267,6 +307,16 @@ std::optional<double> GizmoDrag::angleAt(const glm::dvec2& pixel) const {
 }
 
 GizmoDrag::Change GizmoDrag::to(const glm::dvec2& pixel, bool snap) {
+  if (modeOf(handle_) == GizmoMode::scale) {
+    if (const auto factor = factorAt(pixel)) {
+      const double by =
+          std::max(rounded(*factor, snap ? scaleSnap : grain(1.0 / arm_)), snap ? scaleSnap : leastFactor);
+      for (int i = 0; i < 3; ++i) {
+        change_.factors[i] = handle_ == Grip::scaleAll || i == axisOf(handle_) ? by : 1.0;
+      }
+    }
+    return change_;
+  }
   if (!isRing(handle_)) {
     if (const auto by = moveAt(pixel)) {
       const double step = snap ? moveSnap : grain(picture_.metresPerPixel(pivot_));

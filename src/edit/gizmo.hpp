@@ -4,13 +4,36 @@
 
 namespace speculum {
 
-enum class GizmoMode { move, turn };
+enum class GizmoMode { move, turn, scale };
 
 // Handle that the pointer grabs. Plane handles are named by the axes along which they move.
-enum class Grip { none, moveX, moveY, moveZ, moveYZ, moveZX, moveXY, moveView, turnX, turnY, turnZ };
+enum class Grip {
+  none,
+  moveX,
+  moveY,
+  moveZ,
+  moveYZ,
+  moveZX,
+  moveXY,
+  moveView,
+  turnX,
+  turnY,
+  turnZ,
+  scaleX,
+  scaleY,
+  scaleZ,
+  scaleAll
+};
 
-// Returns the world axis 0, 1 or 2 of a handle, or of a plane's normal; -1 for the view's plane and none.
+// Returns the axis 0, 1 or 2 of a handle, or of a plane's normal; -1 for the view's plane, all axes and none.
 int axisOf(Grip handle);
+GizmoMode modeOf(Grip handle);
+
+// Axes along which a node is scaled.
+struct ScaleAxes {
+  glm::dmat3 directions{1.0};  // columns, world, unit
+  int count = 3;               // of them that have handles, the first ones
+};
 
 // One part of the gizmo as it is drawn over the picture.
 struct GizmoShape {
@@ -20,12 +43,13 @@ struct GizmoShape {
   bool behind = false;  // the far half of a ring
 };
 
-// Handles around a point along the world's axes, of the same size on the picture at every distance. In a PictureView
-// through mirrors they surround the point's mirror image.
+// Handles around a point, of the same size on the picture at every distance: along the world's axes, or those of the
+// node for scaling. In a PictureView through mirrors they surround the point's mirror image.
 class Gizmo {
  public:
   // `pivot` in the world; `arm`: length of an axis and radius of a ring, pixels.
-  Gizmo(GizmoMode mode, const glm::dvec3& pivot, double arm) : mode_(mode), pivot_(pivot), arm_(arm) {}
+  Gizmo(GizmoMode mode, const glm::dvec3& pivot, double arm, const ScaleAxes& scaleAxes = {})
+      : mode_(mode), pivot_(pivot), arm_(arm), scaleAxes_(scaleAxes) {}
 
   // Empty for a point that the picture cannot show.
   std::vector<GizmoShape> shapes(const PictureView& picture) const;
@@ -34,11 +58,13 @@ class Gizmo {
 
   double arm() const { return arm_; }
   const glm::dvec3& pivot() const { return pivot_; }
+  glm::dvec3 axis(int axis) const;  // of the handles, world, unit
 
  private:
   GizmoMode mode_;
   glm::dvec3 pivot_;
   double arm_;
+  ScaleAxes scaleAxes_;
 };
 
 // A drag of one handle from press to release, in the picture as it was at the press.
@@ -48,9 +74,11 @@ class GizmoDrag {
     glm::dvec3 translation{0.0};  // metres, world
     glm::dmat3 rotation{1.0};     // about the pivot
     double degrees = 0.0;         // of the rotation, about the positive axis
+    glm::dvec3 factors{1.0};      // of the size, along ScaleAxes
   };
   static constexpr double moveSnap = 0.1;   // metres
   static constexpr double turnSnap = 15.0;  // degrees
+  static constexpr double scaleSnap = 0.1;
 
   GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle, const glm::dvec2& pixel);
 
@@ -61,6 +89,7 @@ class GizmoDrag {
 
  private:
   std::optional<glm::dvec3> moveAt(const glm::dvec2& pixel) const;
+  std::optional<double> factorAt(const glm::dvec2& pixel) const;
   std::optional<double> angleAt(const glm::dvec2& pixel) const;
   std::optional<glm::dvec3> meet(const glm::dvec2& pixel) const;
 

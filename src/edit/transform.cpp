@@ -22,6 +22,12 @@ glm::dvec3 tidy(const glm::dvec3& v) {
   return result;
 }
 
+// Rounds to nine digits, however small.
+double tidySize(double size) {
+  const double perUnit = std::pow(10.0, 8.0 - std::floor(std::log10(std::abs(size))));
+  return size != 0.0 && std::isfinite(perUnit) && perUnit > 0.0 ? std::round(size * perUnit) / perUnit : size;
+}
+
 glm::dvec3 turnedAngles(const glm::dvec3& angles, const glm::dvec3& spin, const glm::dmat3& rotation, double time) {
   const glm::dvec3 turned = angles + spunBy(spin, time);
   return tidy(pitchYawRoll(rotation * rotationFromDegrees(turned), turned) - spunBy(spin, time));
@@ -106,6 +112,43 @@ SceneNode turned(const SceneNode& node, const glm::dmat3& rotation, const glm::d
       mirror->position = tidy(about(pivot, rotation, mirror->position));
       mirror->rotation = turnedAngles(mirror->rotation, mirror->spin, rotation, time);
     }
+  }
+  return result;
+}
+
+ScaleAxes scaleAxesOf(const Scene& scene, const SceneState& state, const Selection& selection) {
+  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  if (selection.kind == Selection::Kind::object) {
+    const Object& object = scene.objects.at(index);
+    return {.directions = rotationFromDegrees(object.rotation + spunBy(object.spin, state.time))};
+  }
+  if (selection.kind == Selection::Kind::mirror) {
+    const MirrorState& mirror = state.mirrors.at(index);
+    return {.directions = {mirror.axisX, mirror.axisY, mirror.normal}, .count = 2};
+  }
+  return {.count = 0};
+}
+
+SceneNode scaled(const SceneNode& node, const glm::dvec3& factors, const glm::dmat3& axes, const glm::dvec3& pivot,
+                 int copy) {
+  const auto stretched = [&](const glm::dvec3& p) {
+    return pivot + axes * (factors * (glm::transpose(axes) * (p - pivot)));
+  };
+  SceneNode result = node;
+  if (auto* object = std::get_if<Object>(&result)) {
+    const glm::dvec3 step = static_cast<double>(copy) * object->copies.step;
+    object->position = tidy(stretched(object->position + step) - step);
+    for (int i = 0; i < 3; ++i) {
+      object->scale[i] = tidySize(object->scale[i] * factors[i]);
+    }
+  } else if (auto* light = std::get_if<PointLight>(&result)) {
+    const bool equal = factors.x == factors.y && factors.y == factors.z;
+    light->radius = equal ? tidySize(light->radius * factors.x) : light->radius;
+  } else if (auto* mirror = std::get_if<Mirror>(&result)) {
+    for (glm::dvec3& p : mirror->polygon) {
+      p = tidy(stretched(p));
+    }
+    mirror->size = {tidySize(mirror->size.x * factors.x), tidySize(mirror->size.y * factors.y)};
   }
   return result;
 }

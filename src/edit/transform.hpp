@@ -1,5 +1,6 @@
 #pragma once
 
+#include "edit/gizmo.hpp"
 #include "edit/selection.hpp"
 #include "scene/scene_state.hpp"
 
@@ -20,6 +21,13 @@ SceneNode moved(const SceneNode& node, const glm::dvec3& by, double time);
 // Returns the node turned about a point of the world, where it is at `time`. `copy` turns about the pivot, the other
 // copies about their own origins. Lights do not turn.
 SceneNode turned(const SceneNode& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time);
+
+// Axes along which the node has a size: an object three, a mirror two, a light none, which has a radius only.
+ScaleAxes scaleAxesOf(const Scene& scene, const SceneState& state, const Selection& selection);
+
+// Returns the node scaled about its pivot by factors along its axes. A light's radius follows factors that are equal.
+SceneNode scaled(const SceneNode& node, const glm::dvec3& factors, const glm::dmat3& axes, const glm::dvec3& pivot,
+                 int copy);
 
 // Returns pitch, yaw and roll in degrees with R = Ry Rx Rz, the solution nearest to `near`. At a pitch of 90 degrees,
 // where yaw and roll turn about one axis, the roll is that of `near`.

@@ -90,7 +90,7 @@ struct SelectNext {
 struct SetGizmoMode {
   GizmoMode mode = GizmoMode::move;
 };
-struct ToggleGizmoMode {};
+struct NextGizmoMode {};
 struct EditNode {
   Selection target;
   SceneNode node;          // of the target's kind
@@ -150,7 +150,7 @@ using Command =
                  GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused, SetTimeSpeed,
                  MultiplyTimeSpeed, SetSettings, ResetSettings, AskWhatToOpen, OpenScene, OpenDropped, CancelLoading,
                  Save, AskWhereToSave, SaveAs, DiscardChanges, CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext,
-                 SetGizmoMode, ToggleGizmoMode, EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected,
+                 SetGizmoMode, NextGizmoMode, EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected,
                  RemoveSelected, Undo, Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, ShowDifference,
                  TakeScreenshot, ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen,
                  TogglePanel, ToggleHelp, ToggleInspector, Escape, PauseHistory, ClearHistory, ClearLog>;

@@ -104,12 +104,12 @@ void historyButtons(PanelContext& ui) {
   action("Undo", "edit.undo", "Ctrl+Z   " + edit.undo, !edit.undo.empty(), Undo{});
   ImGui::SameLine();
   action("Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, !edit.redo.empty(), Redo{});
-  action("Save", "edit.save", "Ctrl+S   " + edit.scene->file.string(), edit.unsaved || edit.unsavedSettings, Save{});
+  action("Save", "edit.save", "Ctrl+S   " + edit.scene->file.string(), edit.unsaved, Save{});
   ImGui::SameLine();
   action("Save as...", "edit.save_as", "Ctrl+Shift+S", true, AskWhereToSave{});
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : edit.unsavedSettings ? "unsaved settings" : "saved");
+  ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : "saved");
 }
 
 }  // namespace

@@ -94,7 +94,8 @@ void throughButtons(PanelContext& ui) {
 
 void gizmoMode(PanelContext& ui) {
   for (const auto& [label, key, mode] :
-       {std::tuple("Move", "edit.move", GizmoMode::move), std::tuple("Rotate", "edit.rotate", GizmoMode::turn)}) {
+       {std::tuple("Move", "edit.move", GizmoMode::move), std::tuple("Rotate", "edit.rotate", GizmoMode::turn),
+        std::tuple("Scale", "edit.scale_handles", GizmoMode::scale)}) {
     if (ImGui::RadioButton(label, ui.view.edit.mode == mode)) {
       ui.send(SetGizmoMode{mode});
     }

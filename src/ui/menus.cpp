@@ -30,7 +30,7 @@ void fileMenu(PanelContext& ui) {
   }
   ImGui::Separator();
   const EditView& edit = ui.view.edit;
-  item(ui, "Save", Save{}, edit.unsaved || edit.unsavedSettings);
+  item(ui, "Save", Save{}, edit.unsaved);
   item(ui, "Save as...", AskWhereToSave{});
   ImGui::Separator();
   item(ui, "Save screenshot", TakeScreenshot{true});
@@ -51,7 +51,7 @@ void editMenu(PanelContext& ui) {
   const bool any = static_cast<bool>(edit.selected);
   item(ui, "Duplicate", DuplicateSelected{}, any);
   item(ui, "Delete", RemoveSelected{}, any);
-  item(ui, "Move or rotate", ToggleGizmoMode{}, any);
+  item(ui, "Move, rotate or scale", NextGizmoMode{}, any);
   ImGui::Separator();
   item(ui, "Add mirror", AddMirror{});
   item(ui, "Add light", AddLight{});

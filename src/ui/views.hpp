@@ -151,8 +151,7 @@ struct EditView {
   std::vector<std::filesystem::path> models;  // that an object can be added of
   std::string undo;                           // label of the step; empty: none
   std::string redo;
-  bool unsaved = false;
-  bool unsavedSettings = false;  // differ from those that were saved or loaded
+  bool unsaved = false;  // there are changes to save, of the settings too
   Prompt prompt = Prompt::none;
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
   std::string note;                    // what was saved, or why it was not
