@@ -123,6 +123,23 @@ TEST_F(CommandLine, BenchComparesRunsInTurn) {
   EXPECT_LT(ratio, 0.5);
 }
 
+// After two seconds the prices are being measured, which would take ten more.
+TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
+  const ProcessResult result = runProcess({"timeout", "--preserve-status",
+                                           "-s",      "INT",
+                                           "-k",      "4",
+                                           "2",       (binaryDir() / "speculum").string(),
+                                           "bench",   "--scene",
+                                           scene_,    "--size",
+                                           "32x18",   "--frames",
+                                           "2",       "--warmup",
+                                           "0",       "--prices",
+                                           "--set",   "view.accumulate=512",
+                                           "--json",  out("r.json")});
+  EXPECT_EQ(result.exitCode, 1) << result.output;
+  EXPECT_FALSE(std::filesystem::exists(out("r.json")));
+}
+
 TEST_F(CommandLine, HelpAndVersionExitZero) {
   const ProcessResult help = speculum({"--help"});
   EXPECT_EQ(help.exitCode, 0);

@@ -72,8 +72,11 @@ TEST_F(GpuTest, CountsItsMemory) {
   {
     const Buffer buffer(device_, 100000, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host, "test");
     EXPECT_GE(device_.allocatedBytes(), before + 100000);
+    EXPECT_EQ(device_.allocations(), 1u);
+    EXPECT_EQ(Device({}).allocations(), 0u);
   }
   EXPECT_EQ(device_.allocatedBytes(), before);
+  EXPECT_EQ(device_.allocations(), 0u);
   EXPECT_GT(device_.memoryBudget().budgetBytes, 0u);
 }
 

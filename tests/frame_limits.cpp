@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "frame/frame_plan.hpp"
+#include "platform/machine.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
 
@@ -42,6 +43,15 @@ TEST(PlanLimits, FewMirrorsPlanBoundedPasses) {
                           [](const SkippedMirror& skipped) { return skipped.detail == "too many to plan"; }));
 }
 
+// docs/scene_format.md states the bounds.
+void expectPlanned(const std::string& text, const std::string& kind) {
+  ASSERT_LE(camera.size() + text.size(), 65'536u);
+  const auto start = std::chrono::steady_clock::now();
+  planOf(text);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10)) << kind;
+  EXPECT_LT(peakResidentBytes(), 512u << 20) << kind;
+}
+
 // As many mirrors as 64 KiB name, in a row, beside each other and anywhere.
 TEST(PlanLimits, ThousandsOfMirrorsPlanInShortTime) {
   for (const char* kind : {"same", "row", "anywhere"}) {
@@ -54,10 +64,48 @@ TEST(PlanLimits, ThousandsOfMirrorsPlanInShortTime) {
                                      std::to_string(-2 - i % 53) + "]\n";
       }
     }
-    const auto start = std::chrono::steady_clock::now();
-    planOf(text);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10)) << kind;
+    expectPlanned(text, kind);
   }
+}
+
+// Mirrors that show each other, as often as the settings allow.
+TEST(PlanLimits, MirrorsInMirrorsPlanWithinTheBounds) {
+  const std::string deep =
+      "[settings]\nreflection = { max_depth = 32, max_passes = 1000000, min_pixels = 0, min_throughput = 0 }\n";
+  for (const int mirrors : {2, 20, 200, 900}) {
+    std::string text = deep;
+    for (int i = 0; i < mirrors; ++i) {
+      const std::string angle = std::to_string(360.0 * i / mirrors);
+      text += "[[mirror]]\ntwo_sided=true\nrotation=[0," + angle + "," + angle + "]\nsize=[9,9]\n";
+    }
+    expectPlanned(text, std::to_string(mirrors) + " through each other");
+  }
+  std::string text = deep;
+  for (int i = 0; text.size() < 65'000; ++i) {
+    text += "[[mirror]]\nsize=[9,9]\nposition=[0,0," + std::string(i % 2 == 0 ? "-" : "") + std::to_string(2 + i) +
+            "]\nrotation=[0," + (i % 2 == 0 ? "0" : "180") + ",0]\n";
+  }
+  expectPlanned(text, "facing");
+}
+
+TEST(PlanLimits, LightsInMirrorsPlanWithinTheBounds) {
+  std::string text =
+      "[settings]\nreflection = { max_depth = 32, max_passes = 1000000, min_pixels = 0, min_throughput = 0 }\n";
+  for (int i = 0; i < 6; ++i) {
+    text += "[[mirror]]\ntwo_sided=true\nrotation=[0," + std::to_string(60 * i) + ",9]\nsize=[9,9]\n";
+  }
+  while (text.size() < 65'000) {
+    text += "[[light]]\nposition=[1,1,1]\n";
+  }
+  expectPlanned(text, "lights");
+}
+
+TEST(PlanLimits, MillionCopiesPlanWithinTheBounds) {
+  const TemporaryFolder folder;
+  const auto model = folder.write("t.obj", "v 0 0 -3\nv 1 0 -3\nv 0 1 -3\nf 1 2 3\n");
+  expectPlanned("[[mirror]]\nsize=[9,9]\nposition=[0,0,-9]\n[[object]]\nmodel = '" + model.string() +
+                    "'\ncopies = { count = 1000000, step = [0.001, 0.001, 0] }\n",
+                "copies");
 }
 
 }  // namespace

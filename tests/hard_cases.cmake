@@ -14,7 +14,8 @@ speculum_test(hard_cases_finite SOURCES ${hard}/finite_pictures.cpp
               LIBRARIES picture_support display_support LABELS hard_cases pictures window)
 speculum_test(hard_cases_properties SOURCES ${hard}/properties.cpp ${hard}/transform_support.cpp
               LIBRARIES systems ext::rapidcheck LABELS hard_cases)
-speculum_test(hard_cases_random SOURCES ${hard}/random_scenes.cpp LIBRARIES picture_support LABELS hard_cases pictures)
+speculum_test(hard_cases_random SOURCES ${hard}/random_scenes.cpp support/random_scene.cpp occluder_shapes.cpp
+              LIBRARIES picture_support LABELS hard_cases pictures)
 
 # The patches that scripts/check-hard-cases tries must keep up with the sources.
 add_test(NAME hard_case_mutations_apply COMMAND ${PROJECT_SOURCE_DIR}/scripts/check-hard-cases --applies)

@@ -95,70 +95,6 @@ TEST_P(LookAlikes, AreDrawnWithTheirOwnColors) {
 
 INSTANTIATE_TEST_SUITE_P(Lights, LookAlikes, testing::Values(0, 1, int{gpu::fixedLights}, int{gpu::fixedLights} + 1));
 
-// A point in a box, as a scene file takes it.
-std::string pointText(Random& random, const glm::dvec3& low, const glm::dvec3& high) {
-  std::ostringstream out;
-  out << "[" << random.uniform(low.x, high.x) << ", " << random.uniform(low.y, high.y) << ", "
-      << random.uniform(low.z, high.z) << "]";
-  return out.str();
-}
-
-std::string randomMirror(Random& random, double x, double y, double z, double yaw, double side) {
-  std::ostringstream out;
-  out << "[[mirror]]\nposition = [" << x << ", " << y << ", " << z << "]\nrotation = [" << random.uniform(-12, 12)
-      << ", " << yaw + random.uniform(-15, 15) << ", " << random.uniform(-40, 40) << "]\nsize = [" << side << ", "
-      << 0.8 * side << "]\nreflectance = " << random.vec(0.5, 1)
-      << "\ntwo_sided = " << (random.chance(0.3) ? "true" : "false") << "\n";
-  if (random.chance(0.4)) {
-    out << "base_color = " << random.vec(0, 0.5) << "\n";
-  }
-  if (random.chance(0.3)) {
-    out << "fresnel = \"schlick\"\n";
-  }
-  return out.str();
-}
-
-// A large mirror before the camera, on even seeds another behind it, so that mirrors are seen in mirrors.
-std::filesystem::path randomScene(unsigned seed) {
-  Random random(seed);
-  std::ostringstream out;
-  out << "[environment]\nbackground = " << random.vec(0, 1) << "\nambient = " << random.vec(0.02, 0.2) << "\n";
-  if (random.chance(0.5)) {
-    out << "sky = { zenith = " << random.vec(0, 1) << ", horizon = " << random.vec(0, 1)
-        << ", ground = " << random.vec(0, 1) << " }\n";
-  }
-  out << "[camera]\nposition = [" << random.uniform(-0.8, 0.8) << ", " << random.uniform(0.5, 1.5) << ", "
-      << random.uniform(2.6, 3.4) << "]\ntarget = [" << random.uniform(-0.4, 0.4) << ", " << random.uniform(0.6, 1.2)
-      << ", -3]\nvertical_fov = " << random.uniform(45, 80) << "\n";
-  for (unsigned i = 0; i < 7; ++i) {
-    out << randomObjectText(random, seed * 16 + i, 1.0, {0.5, 2}, [&] {
-      return pointText(random, {-3, -0.5, -2.5}, {3, 2, 2.5});
-    });
-  }
-  for (int i = 0; i < 2; ++i) {
-    out << randomLightText(random, pointText(random, {-3, 1, -2}, {3, 4, 3}));
-  }
-  out << randomMirror(random, 0, 1, -3, 0, random.uniform(12, 15));
-  if (seed % 2 == 0) {
-    out << randomMirror(random, 0, 1, 4.5, 180, random.uniform(12, 15));
-  }
-  out << randomMirror(random, random.uniform(-2, 2), random.uniform(0, 2), random.uniform(-2.5, 0),
-                      random.uniform(-60, 60), random.uniform(0.5, 1.5));
-  return writeScene("random_" + std::to_string(seed), out.str());
-}
-
-constexpr PictureSize randomSize{320, 180};
-
-void expectRandomTruth(unsigned seed) {
-  const std::filesystem::path file = randomScene(seed);
-  const Truth truth = trace(file, randomSize, 4);
-  EXPECT_GE(share(truth.traced.mirrorMask, 1), 0.3) << "too little of a mirror in view to judge by";
-  if (seed % 2 == 0) {
-    EXPECT_GT(share(truth.traced.mirrorDepth, 3), 0.0) << "no mirror of depth 2 in view";
-  }
-  expectTruth(file, randomSize, 4, truth);
-}
-
 TEST(NearTruth, OrderIsKeptNearerThanNear) {
   const std::filesystem::path file = writeScene("near", R"(
 [environment]
@@ -181,26 +117,8 @@ intensity = 20
 position = [0, 1, -2]
 size = [6, 4]
 )");
-  expectTruth(file, randomSize, 4, trace(file, randomSize, 4));
-}
-
-class RandomTruth : public testing::TestWithParam<unsigned> {};
-
-TEST_P(RandomTruth, IsDrawn) {
-  expectRandomTruth(GetParam());
-}
-
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomTruth, testing::ValuesIn(sampledSeeds(50, 7)), testing::PrintToStringParamName());
-
-TEST(FreshTruth, IsDrawn) {
-  // The fixed seeds are known to show enough of a mirror; among fresh ones, the first that does is taken.
-  unsigned seed = std::random_device()() % 1000000;
-  while (share(trace(randomScene(seed), randomSize, 4).traced.mirrorMask, 1) < 0.3) {
-    ++seed;
-  }
-  std::printf("fresh seed %u\n", seed);
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  expectRandomTruth(seed);
+  constexpr PictureSize size{320, 180};
+  expectTruth(file, size, 4, trace(file, size, 4));
 }
 
 }  // namespace

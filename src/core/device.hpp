@@ -101,7 +101,8 @@ class Device {
   int validationMessages() const { return instance_.messages().count(); }
   std::vector<std::string> lastValidationMessages() const { return instance_.messages().latest(); }  // 32, oldest first
 
-  uint64_t allocatedBytes() const { return allocatedBytes_; }  // live device memory of this process
+  uint64_t allocatedBytes() const { return allocatedBytes_; }  // live memory of this device
+  uint32_t allocations() const { return allocations_; }
   MemoryBudget memoryBudget() const;
 
   // Creates a named object: create(vkCreateFence, {.sType = ...}, "upload"). Throws as check() does.
@@ -161,6 +162,7 @@ class Device {
   std::unique_ptr<Functions> functions_;
   Barriers barriers_;
   std::atomic<uint64_t> allocatedBytes_{0};
+  std::atomic<uint32_t> allocations_{0};
   VkSampleCountFlags reportedSampleCounts_ = 0;
   std::vector<std::pair<int, std::function<void(uint64_t)>>> imageObservers_;
 };

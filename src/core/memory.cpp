@@ -16,7 +16,7 @@ Memory::Memory(Device& device, const VkMemoryRequirements& requirements, VkMemor
   }
   // Some are left for the panels.
   const uint32_t most = device.limits().maxMemoryAllocationCount;
-  if (liveHandles<VkDeviceMemory> + 16 >= int64_t{most}) {
+  if (device.allocations_ + 16 >= most) {
     throw OutOfMemoryError("allocate memory for " + name + ": the device takes " + std::to_string(most) +
                            " allocations (fewer textures, or a lower reflection.max_passes)");
   }
@@ -28,6 +28,7 @@ Memory::Memory(Device& device, const VkMemoryRequirements& requirements, VkMemor
   memory_ = {device.get(), memory};
   device.setName(memory, name);
   device.allocatedBytes_ += requirements.size;
+  ++device.allocations_;
   counted_ = {&device, Uncount{requirements.size}};
 }
 

@@ -20,7 +20,10 @@ class Memory {
  private:
   struct Uncount {
     uint64_t bytes;
-    void operator()(Device* device) const { device->allocatedBytes_ -= bytes; }
+    void operator()(Device* device) const {
+      device->allocatedBytes_ -= bytes;
+      --device->allocations_;
+    }
   };
   MemoryHandle memory_;
   std::unique_ptr<Device, Uncount> counted_;

@@ -43,9 +43,9 @@ struct Candidate {
   }
 };
 
-// Bounds time and memory of a plan, whatever reflection.max_passes is: 30 000 passes of a few mirrors each, or 2 000 of
-// a thousand.
-constexpr size_t mostWork = 2'000'000;
+// Bounds time and memory of a plan, whatever reflection.max_passes is: 25 000 passes of a few mirrors each, 1 200 of a
+// thousand, or 200 that show 200 others each.
+constexpr size_t mostWork = 2'500'000;
 
 double largest(const glm::dvec3& v) {
   return std::max({v.x, v.y, v.z});
@@ -137,7 +137,7 @@ class Planner {
   std::priority_queue<Candidate> candidates_;
   std::optional<Occlusion> occlusion_;
   int discovered_ = 0;
-  size_t work_ = 0;  // mirrors looked at, and as much time and memory spent on what else a pass has
+  size_t work_ = 0;  // twice the mirrors looked at, and as much time and memory spent on what else a pass has
 };
 
 void Planner::addInstance(PlannedPass& pass, const View& readable, int i) {
@@ -183,7 +183,6 @@ void Planner::fill(int node) {
       nodes_[node].pass.lights.push_back(static_cast<int>(i));
     }
   }
-  work_ += state_.mirrors.size() + (state_.instances.size() + nodes_[node].pass.instances.size()) / 16 + 64;
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
@@ -199,6 +198,9 @@ void Planner::fill(int node) {
       }
     }
   }
+  // Each mirror that is seen is kept with its polygon, and tested against the others.
+  work_ += 64 + 2 * sights.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
+           (state_.instances.size() + nodes_[node].pass.instances.size()) / 16 + state_.lights.size() / 8;
   occlusion_->setView(view, nodes_[node].pass.instances, std::move(seen));
   size_t next = 0;
   for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {

@@ -16,8 +16,6 @@
 
 namespace speculum::testing_support {
 
-namespace {
-
 void writeEvidence(const Image8& actual, const Image8& expected, const std::string& name) {
   const std::filesystem::path directory = binaryDir() / "tests" / "failed";
   std::filesystem::create_directories(directory);
@@ -31,8 +29,6 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
   writePng(directory / (name + "-difference.png"), shown);
   std::printf("see %s/%s-{actual,expected,difference}.png\n", directory.c_str(), name.c_str());
 }
-
-}  // namespace
 
 PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts) {
   if (a.width != b.width || a.height != b.height) {

@@ -25,10 +25,12 @@ struct PictureAgreement {
 // Compares the pixels whose `counts` is set, all of them if it is empty. Throws std::runtime_error when sizes differ.
 PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
 
-// Expects Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes
-// NAME-actual.png, NAME-expected.png and NAME-difference.png below the build tree and says where.
+// Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over, else writes the evidence.
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts = {});
+
+// Writes NAME-actual.png, NAME-expected.png and NAME-difference.png below the build tree and says where.
+void writeEvidence(const Image8& actual, const Image8& expected, const std::string& name);
 
 // Options for a headless picture with validation and debug.check_finite on. Tests add to its settings.
 Options headless(const std::filesystem::path& scene, PictureSize size = {640, 360});

@@ -29,13 +29,17 @@ Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, d
   return truth;
 }
 
+std::vector<std::pair<std::string, std::string>> truthSettings(int maxDepth) {
+  return {{"view.samples", "1"},
+          {"reflection.samples", "1"},
+          {"reflection.max_depth", std::to_string(maxDepth)},
+          {"reflection.max_passes", "100000"},
+          {"reflection.min_pixels", "0"}};
+}
+
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth) {
   Options options = headless(file, size);
-  set(options, {{"view.samples", "1"},
-                {"reflection.samples", "1"},
-                {"reflection.max_depth", std::to_string(maxDepth)},
-                {"reflection.max_passes", "100000"},
-                {"reflection.min_pixels", "0"}});
+  set(options, truthSettings(maxDepth));
   return options;
 }
 

@@ -16,7 +16,8 @@ struct Truth {
 
 Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, double time = 0.0);
 
-// Options under which the renderer draws what trace() traces: one sample, no bound on passes.
+// Settings under which the renderer draws what trace() traces: one sample, no bound on passes.
+std::vector<std::pair<std::string, std::string>> truthSettings(int maxDepth);
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth);
 
 // Expects every pixel that is not background within 2/255, except one in a thousand, and no 3x3 block wholly over.

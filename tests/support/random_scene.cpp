@@ -1,0 +1,345 @@
+#include "random_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "geometry/affine.hpp"
+#include "occluder_shapes.hpp"
+#include "picture_support.hpp"
+#include "scene_text.hpp"
+
+namespace speculum::testing_support {
+
+namespace {
+
+const std::string effectMark = "#effect ";
+
+// Builds a scene in a frame of its own: mirrors are given there.
+class Builder {
+ public:
+  explicit Builder(unsigned seed)
+      : random(seed),
+        shapes_(seed),
+        seed_(seed),
+        tidy(random.chance(0.4)),
+        alike_(random.chance(0.3)),
+        effects_(random.chance(0.5)) {
+    const double far = random.chance(0.6) ? 0.0 : std::pow(10.0, random.uniform(0, 7));
+    origin_ = far * random.inBox(1.0);
+    if (!tidy && random.chance(0.7)) {
+      frame_ = rotationFromDegrees({random.uniform(-80, 80), random.uniform(-180, 180), random.uniform(-180, 180)});
+    }
+    material_ = material();
+  }
+
+  glm::dvec3 at(const glm::dvec3& p) const { return origin_ + frame_ * p; }
+  double number(double low, double high) { return snapped(random.uniform(low, high), 0.25); }
+  double angle(double low, double high) { return snapped(random.uniform(low, high), 15.0); }
+  int count(int low, int high) { return static_cast<int>(random.uniform(low, high + 1 - 1e-9)); }
+  glm::dvec3 point(double halfSide) {
+    return {number(-halfSide, halfSide), number(-halfSide, halfSide), number(-halfSide, halfSide)};
+  }
+
+  // A convex polygon, counter-clockwise seen from the front.
+  void mirror(const std::vector<glm::dvec3>& corners) {
+    std::vector<glm::dvec3> placed;
+    for (const glm::dvec3& corner : corners) {
+      placed.push_back(at(corner));
+    }
+    out << "[[mirror]]\n" << polygonText(placed) << (alike_ ? material_ : material());
+    planes_.push_back(corners);
+  }
+  void mirror(const glm::dvec3& center, const glm::dvec3& rotation, const glm::dvec2& size, int corners = 4) {
+    const glm::dmat3 turn = rotationFromDegrees(rotation);
+    std::vector<glm::dvec3> polygon;
+    for (int i = 0; i < corners; ++i) {
+      const double a = 2.0 * std::numbers::pi * (i + 0.5) / corners;
+      const double reach = corners == 4 ? std::numbers::sqrt2 : 1.0;
+      polygon.push_back(center +
+                        turn * glm::dvec3(0.5 * reach * size.x * std::cos(a), 0.5 * reach * size.y * std::sin(a), 0));
+    }
+    mirror(polygon);
+  }
+  void anyMirror(double reach, double low, double high) {
+    mirror(point(reach), {angle(-90, 90), angle(-180, 180), angle(-90, 90)}, {number(low, high), number(low, high)},
+           random.chance(0.7) ? 4 : count(3, 8));
+  }
+
+  void objects(int number, double reach, double side) {
+    for (int i = 0; i < number; ++i) {
+      const auto position = [&] { return text(at(random.inBox(reach))); };
+      if (random.chance(0.5)) {
+        out << randomObjectText(random, seed_ * 16 + static_cast<unsigned>(i), side, {0.5, 2}, position);
+      } else {
+        shape(position(), random.uniform(0.2, 0.5) * side);
+      }
+      if (random.chance(0.2)) {
+        out << "copies = { count = " << count(2, 5) << ", step = " << random.vec(-1, 1) << " }\n";
+      }
+      if (random.chance(0.3)) {
+        out << "spin = " << random.vec(-90, 90) << "\n";
+      }
+      out << effect(0.15, "mirror = { reflectance = [0.9, 0.8, 0.7] }");
+    }
+  }
+  void shape(const std::string& position, double scale) {
+    const std::string file = "shape" + std::to_string(seed_) + "_" + std::to_string(shapes++) + ".obj";
+    writeModel(file, randomShape(shapes_).obj());
+    out << "[[object]]\nmodel = \"" << file << "\"\nposition = " << position << "\nrotation = " << random.vec(-180, 180)
+        << "\nscale = " << scale << "\ncolor = " << random.vec(0, 1) << "\n";
+  }
+  void lights(double reach) {
+    for (int i = count(1, 3); i > 0; --i) {
+      out << randomLightText(random, text(at(random.inBox(reach))));
+      if (random.chance(0.3)) {
+        out << "orbit = { center = " << text(origin_) << ", axis = " << text(random.direction())
+            << ", speed = " << random.uniform(-90, 90) << " }\n";
+      }
+      out << effect(0.3, "casts_shadow = true");
+    }
+  }
+  // Adds a view from `eye` to `target`, or now and then from close to the plane of a mirror.
+  void view(glm::dvec3 eye, glm::dvec3 target) {
+    if (random.chance(0.3)) {
+      const auto& p = planes_[static_cast<size_t>(random.uniform(0, mirrors() - 1e-9))];
+      const glm::dvec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+      const double height = std::pow(10.0, random.uniform(-6, -1));
+      eye = p[0] + random.uniform(0, 1.5) * (p[1] - p[0]) + random.uniform(0, 1.5) * (p[2] - p[1]) + height * normal;
+      // Half of the time it looks along the mirror.
+      const double rise = random.chance(0.5) ? std::pow(10.0, random.uniform(-5, -1.5)) : random.uniform(0, 2);
+      const glm::dvec3 along = glm::normalize(glm::cross(normal, random.direction()));
+      target = eye + along + (random.chance(0.8) ? -rise : rise) * normal;
+    }
+    if (glm::distance(eye, target) < 0.1) {
+      target = eye + random.direction();
+    }
+    static constexpr std::array<const char*, 6> angles = {"1", "3", "100", "130", "160", "170"};
+    glm::dvec3 up(0, 1, 0);
+    if (!tidy || glm::length(glm::cross(up, target - eye)) < 0.1) {
+      up = glm::cross(target - eye, random.direction());
+    }
+    const bool camera = views_++ == 0;
+    out << (camera ? "[camera]\n" : "[[bookmark]]\nname = \"" + std::to_string(views_) + "\"\n")
+        << "position = " << text(at(eye)) << "\ntarget = " << text(at(target)) << "\nup = " << text(frame_ * up)
+        << "\nvertical_fov = " << (random.chance(0.2) ? random.pick(angles) : text(random.uniform(40, 90))) << "\n";
+  }
+  double mirrors() const { return static_cast<double>(planes_.size()); }
+
+  Random random;
+
+ private:
+  double snapped(double value, double step) const { return tidy ? std::round(value / step) * step : value; }
+  // A line that only the scene with effects has.
+  std::string effect(double chance, const std::string& line) {
+    return effects_ && random.chance(chance) ? effectMark + line + "\n" : "";
+  }
+  std::string material() {
+    std::ostringstream text;
+    text << "reflectance = " << random.vec(0.5, 1.0) << "\n";
+    if (random.chance(0.4)) {
+      text << "base_color = " << random.vec(0, 0.5) << "\n";
+    }
+    if (random.chance(0.3)) {
+      text << "fresnel = \"schlick\"\n";
+    }
+    if (random.chance(0.3)) {
+      text << "two_sided = true\n";
+    }
+    text << effect(0.2, "roughness = " + std::to_string(random.uniform(0, 0.5)))
+         << effect(0.2, "ripple = { amplitude = 0.01, wavelength = 0.4 }") << effect(0.1, "casts_light = true");
+    return text.str();
+  }
+
+  std::mt19937 shapes_;
+  unsigned seed_;
+
+ public:
+  const bool tidy;  // coordinates of few digits, so that planes, edges and corners coincide
+  std::ostringstream out;
+  int shapes = 0;
+
+ private:
+  const bool alike_;  // all mirrors are of one material
+  const bool effects_;
+  glm::dvec3 origin_{0.0};
+  glm::dmat3 frame_{1.0};
+  std::string material_;
+  std::vector<std::vector<glm::dvec3>> planes_;  // polygons of the mirrors
+  int views_ = 0;
+};
+
+// An eye and what it looks at.
+struct Sight {
+  glm::dvec3 eye;
+  glm::dvec3 target;
+};
+
+Sight crossing(Builder& b) {
+  for (int i = b.count(2, 6); i > 0; --i) {
+    b.anyMirror(1.2, 1.0, 5.0);
+  }
+  b.objects(4, 2.0, 1.0);
+  b.lights(3.0);
+  return {{b.number(-3, 3), b.number(-2, 2), b.number(3, 5)}, b.point(0.5)};
+}
+
+// Walls around the eye, whose edges meet; images tile space for 180/n degrees.
+Sight prism(Builder& b) {
+  const int sides = b.count(3, 8);
+  const double radius = b.number(1.0, 3.0);
+  const double half = b.number(1.0, 2.0);
+  const int missing = b.random.chance(0.4) ? b.count(0, sides - 1) : sides;
+  std::vector<glm::dvec3> ring;
+  for (int i = 0; i < sides; ++i) {
+    const double a = 2.0 * std::numbers::pi * i / sides;
+    ring.emplace_back(radius * std::cos(a), 0, radius * std::sin(a));
+  }
+  const glm::dvec3 up(0, half, 0);
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const glm::dvec3& next = ring[(i + 1) % ring.size()];
+    if (static_cast<int>(i) != missing) {
+      b.mirror({ring[i] - up, next - up, next + up, ring[i] + up});
+    }
+  }
+  for (const double side : {-1.0, 1.0}) {
+    if (b.random.chance(0.3)) {
+      std::vector<glm::dvec3> lid;
+      for (const glm::dvec3& corner : ring) {
+        lid.push_back(corner + side * up);
+      }
+      if (side < 0.0) {
+        std::reverse(lid.begin(), lid.end());
+      }
+      b.mirror(lid);
+    }
+  }
+  b.objects(3, 0.6 * radius, 0.6);
+  b.lights(0.8 * radius);
+  const double inside = 0.5 * radius;
+  return {{b.number(-inside, inside), b.number(-0.5, 0.5), b.number(-inside, inside)}, b.point(inside)};
+}
+
+Sight facing(Builder& b) {
+  const double distance = b.number(0.5, 3.0);
+  const double tilt = b.tidy || b.random.chance(0.5) ? 0.0 : b.random.uniform(-5, 5);
+  b.mirror({0, 0, -distance}, {tilt, 0, 0}, {b.number(1, 6), b.number(1, 4)});
+  b.mirror({0, 0, distance}, {0, 180, tilt}, {b.number(1, 6), b.number(1, 4)});
+  if (b.random.chance(0.4)) {
+    b.mirror({0, -1, 0}, {-90, 0, 0}, {4, 2 * distance});
+  }
+  b.objects(3, 0.8 * distance, 0.5);
+  b.lights(distance);
+  return {{b.number(-1, 1), b.number(-0.5, 0.5), 0.5 * distance}, {b.number(-1, 1), b.number(-0.5, 0.5), -distance}};
+}
+
+// A plane of mirrors that adjoin each other, before it others that stand close.
+Sight tiles(Builder& b) {
+  const int columns = b.count(1, 4);
+  const int rows = b.count(1, 3);
+  const double side = b.number(0.5, 1.5);
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      if (b.random.chance(0.85)) {
+        b.mirror({side * (i - 0.5 * columns), side * (j - 0.5 * rows), 0}, {0, 0, 0}, {side, side});
+      }
+    }
+  }
+  for (int i = b.count(1, 4); i > 0; --i) {
+    const double gap = std::pow(10.0, b.random.uniform(-3, 0.5));
+    b.mirror({b.number(-2, 2), b.number(-1, 1), gap}, {0, b.random.chance(0.5) ? 180.0 : 0.0, b.angle(-90, 90)},
+             {b.number(0.5, 2), b.number(0.5, 2)}, b.count(3, 6));
+  }
+  b.mirror({0, 0, 5}, {b.angle(-15, 15), 180, 0}, {6, 4});
+  b.objects(4, 2.0, 0.8);
+  b.lights(3.0);
+  return {{b.number(-2, 2), b.number(-1, 1), b.number(2, 4)}, {b.number(-1, 1), b.number(-1, 1), 0}};
+}
+
+// Mirrors behind walls, arches and thin bodies.
+Sight openings(Builder& b) {
+  for (int i = 0; i < 6; ++i) {
+    b.shape(text(b.at({1.6 * (i % 3 - 1), 1.6 * (i / 3) - 0.8, b.number(-0.5, 0.5)})), b.number(0.5, 1.25));
+  }
+  for (int i = b.count(3, 9); i > 0; --i) {
+    const bool behind = b.random.chance(0.7);
+    b.mirror({b.number(-2, 2), b.number(-1.5, 1.5), behind ? b.number(-3, -1) : 5},
+             {b.angle(-15, 15), b.angle(-15, 15) + (behind ? 0 : 180), 0}, {b.number(0.25, 2), b.number(0.25, 2)});
+  }
+  b.objects(2, 2.0, 0.8);
+  b.lights(3.0);
+  return {{b.number(-2, 2), b.number(-1, 1), b.number(1.5, 4)}, {b.number(-1, 1), b.number(-1, 1), -1}};
+}
+
+// Two mirrors at 180/n degrees or any other angle, whose common edge is seen.
+Sight corner(Builder& b) {
+  const double degrees = b.random.chance(0.6) ? 180.0 / b.count(2, 8) : b.random.uniform(10, 170);
+  const double half = glm::radians(0.5 * degrees);
+  const glm::dvec3 left(-4 * std::sin(half), 0, 4 * std::cos(half) - 2);
+  const glm::dvec3 right(-left.x, 0, left.z);
+  const glm::dvec3 up(0, b.number(0.5, 2), 0);
+  const glm::dvec3 edge(0, 0, -2);
+  b.mirror({left - up, edge - up, edge + up, left + up});
+  b.mirror({edge - up, right - up, right + up, edge + up});
+  if (b.random.chance(0.4)) {
+    b.mirror({left - up, right - up, edge - up});
+  }
+  b.objects(3, 1.2, 0.6);
+  b.lights(2.0);
+  return {{b.number(-0.75, 0.75) + 0.1, b.number(-0.5, 0.5), b.number(1, 4)}, {b.number(-0.5, 0.5), 0, -2}};
+}
+
+}  // namespace
+
+RandomScene randomScene(unsigned seed) {
+  Builder b(seed);
+  struct Kind {
+    const char* name;
+    Sight (*build)(Builder&);
+  };
+  static constexpr std::array kinds{Kind{"crossing", crossing}, Kind{"prism", prism},       Kind{"facing", facing},
+                                    Kind{"tiles", tiles},       Kind{"openings", openings}, Kind{"corner", corner}};
+  const Kind& kind = kinds[seed % kinds.size()];
+  Random& random = b.random;
+  b.out << "[environment]\nbackground = " << random.vec(0, 1) << "\nambient = " << random.vec(0.1, 0.4) << "\n";
+  if (random.chance(0.4)) {
+    b.out << "sky = { zenith = " << random.vec(0, 1) << ", horizon = " << random.vec(0, 1)
+          << ", ground = " << random.vec(0, 1) << " }\n";
+  }
+  const Sight sight = kind.build(b);
+  for (int i = 0; i < 8; ++i) {
+    const double moved = i == 0 ? 0.0 : 0.5;
+    b.view(sight.eye + random.inBox(moved), sight.target + random.inBox(moved));
+  }
+  static constexpr std::array<const char*, 6> scales = {"0.5", "0.7", "1", "1", "1", "2"};
+  static constexpr std::array<const char*, 3> samples = {"1", "1", "4"};
+  RandomScene scene;
+  const std::string name = "random_" + std::to_string(seed);
+  std::string text = b.out.str();
+  scene.file = writeScene(name, text);
+  for (size_t mark = text.find(effectMark); mark != std::string::npos; mark = text.find(effectMark)) {
+    text.erase(mark, effectMark.size());
+  }
+  scene.withEffects = text == b.out.str() ? scene.file : writeScene(name + "_effects", text);
+  scene.kind = kind.name;
+  // About a hundred passes, if each mirror shows each other.
+  scene.maxDepth = b.count(1, std::clamp(static_cast<int>(std::log(100.0) / std::log(b.mirrors() - 0.8)), 1, 32));
+  scene.time = random.chance(0.3) ? std::pow(10.0, random.uniform(-1, 5)) : 0.0;
+  scene.settings = {{"reflection.scale", random.pick(scales)},
+                    {"reflection.samples", random.pick(samples)},
+                    {"view.samples", random.pick(samples)},
+                    {"view.scale", random.chance(0.2) ? "0.5" : "1"},
+                    {"reflection.max_depth", std::to_string(std::min(b.count(1, 3), scene.maxDepth))},
+                    {"reflection.max_passes", "1000"},
+                    {"reflection.mesh_error", random.chance(0.2) ? "2" : "0"},
+                    {"effects.rough_lookup", random.chance(0.7) ? "image" : "traced"},
+                    {"effects.rough_samples", "4"},
+                    {"effects.curved_lookup", random.chance(0.5) ? "environment" : "traced"},
+                    {"effects.environment_size", "32"},
+                    {"reflection.update_interval", random.chance(0.2) ? "2" : "1"}};
+  return scene;
+}
+
+}  // namespace speculum::testing_support

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace speculum::testing_support {
+
+// A valid scene that joins hard cases, the same for the same seed.
+struct RandomScene {
+  std::filesystem::path file;         // without shadows, ripples, rough and curved mirrors, light off mirrors
+  std::filesystem::path withEffects;  // with some of them, or the same
+  std::string kind;                   // of its mirrors, such as "prism"
+  int maxDepth = 4;
+  double time = 0.0;  // seconds
+  // Settings under which no debug switch may change the picture.
+  std::vector<std::pair<std::string, std::string>> settings;
+};
+
+// Mirrors that cross, face, nest or adjoin each other, tile a plane, form a prism or stand behind openings, up to
+// 1e7 m from the origin; copies, motion, fields of view of 1 to 170 degrees; the eye may be 1 um from a mirror. Further
+// views are bookmarks.
+RandomScene randomScene(unsigned seed);
+
+}  // namespace speculum::testing_support
