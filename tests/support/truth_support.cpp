@@ -35,7 +35,8 @@ Options truthOptions(const std::filesystem::path& file, PictureSize size, int ma
                 {"reflection.samples", "1"},
                 {"reflection.max_depth", std::to_string(maxDepth)},
                 {"reflection.max_passes", "100000"},
-                {"reflection.min_pixels", "0"}});
+                {"reflection.min_pixels", "0"},
+                {"effects.shadow_lookup", "traced"}});
   return options;
 }
 
