@@ -74,7 +74,7 @@ vec3 bounded(vec3 radiance) { return mix(radiance, vec3(radianceMax), greaterTha
 #ifdef SHADOW_MAPS
 #include "shadow_map.glsl"
 #else
-float litShare(uint index, LightData light, Surface surface) { return 1.0; }
+float litShare(uint index, LightData light) { return 1.0; }
 #endif
 
 vec3 surfaceRadiance(Surface surface) {
@@ -83,11 +83,11 @@ vec3 surfaceRadiance(Surface surface) {
   if (lightCount == manyLights) {
     for (uint i = 0; i < view.lightCount; ++i) {
       LightData light = lights[view.firstLight + i];
-      radiance += litShare(i, light, surface) * lightRadiance(light, surface, toViewer);
+      radiance += litShare(i, light) * lightRadiance(light, surface, toViewer);
     }
   } else {
     [[unroll]] for (uint i = 0; i < lightCount; ++i) {
-      radiance += litShare(i, passLights[i], surface) * lightRadiance(passLights[i], surface, toViewer);
+      radiance += litShare(i, passLights[i]) * lightRadiance(passLights[i], surface, toViewer);
     }
   }
   return bounded(radiance);

@@ -10,48 +10,48 @@ layout(set = 2, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMa
 const float leastShadowCosine = 0.05;  // steeper slopes count as this one
 const float shadowBias = 0.5;          // texels
 
-// Returns the lit ones of four texels.
-vec4 litTexels(vec2 corner, vec4 disparity) {
-  vec4 texels = textureGather(shadowTexels, corner / vec2(textureSize(shadowTexels, 0)));
-  return vec4(lessThanEqual(texels, disparity));
+// The point that shadows are looked up for, relative, and the normal of its triangle. Set before surfaceRadiance().
+vec3 receiver;
+vec3 receiverNormal;
+
+// Sets the receiver of a triangle from the interpolated position, which some drivers put off the triangle's plane where
+// it covers a pixel in part: the plane follows from the pixel's centre. Needs uniform control flow.
+void setReceiver(vec3 position, vec3 shadingNormal) {
+  vec3 center = rayThrough(gl_FragCoord.xy) / max(gl_FragCoord.w, 1e-30);
+  vec3 facet = cross(dFdx(center), dFdy(center));
+  float along = dot(facet, center) / dot(facet, position);  // not a number for a triangle without a plane
+  bool found = along > 0.5 && along < 2.0;
+  receiver = found ? along * position : position;
+  receiverNormal = found ? safeNormalize(facet * inversesqrt(max(dot(facet, facet), 1e-30))) : shadingNormal;
+  receiverNormal = dot(receiverNormal, shadingNormal) < 0.0 ? -receiverNormal : receiverNormal;
 }
 
-// Unit normal of the triangle at `position`, on the side of the shading normal. Needs uniform control flow.
-vec3 facetNormal(vec3 position, vec3 normal) {
-  vec3 facet = cross(dFdx(position), dFdy(position));
-  float length2 = dot(facet, facet);
-  facet = length2 > 1e-30 ? facet * inversesqrt(length2) : normal;
-  return dot(facet, normal) < 0.0 ? -facet : facet;
-}
-
-// Returns the share of the light that reaches the surface, the mean over a square of three texels. Each texel is
-// compared with the disparity of the surface's plane at that texel, which is linear on the face, so that no plane
+// Returns the share of the light that reaches the receiver, interpolated bilinearly between four texels. Each is
+// compared with the disparity of the receiver's plane at that texel, which is linear on the face, so that no plane
 // shadows itself whatever its slope.
-float shadowShare(LightData light, vec3 position, vec3 normal) {
-  vec3 p = position - light.position;
+float shadowShare(LightData light) {
+  vec3 p = receiver - light.position;
   CubeFace face = cubeFace(p);
   vec4 window = shadowMaps[light.shadowMap].faces[face.index];
   float disparity = 1.0 / max(face.along, 1e-30);
   vec2 at = vec2(dot(p, face.right), dot(p, face.down)) * disparity * window.xy + window.zw;
   float away = length(p);
-  float height = min(dot(normal, p), -leastShadowCosine * away);  // of the light below the surface's plane
-  vec2 gradient = vec2(dot(normal, face.right), dot(normal, face.down)) / (min(height, -1e-30) * window.xy);
+  float height = min(dot(receiverNormal, p), -leastShadowCosine * away);  // of the light below the surface's plane
+  vec2 gradient = vec2(dot(receiverNormal, face.right), dot(receiverNormal, face.down)) / (min(height, -1e-30) * window.xy);
   disparity += disparity * shadowBias / min(window.x, window.y);
 
-  vec2 corner = floor(at - 0.5);
-  vec2 f = at - 0.5 - corner;
-  vec4 x = disparity + gradient.x * (vec4(-1.0, 0.0, 1.0, 2.0) - f.x);  // of the four columns
-  vec4 y = gradient.y * (vec4(-1.0, 0.0, 1.0, 2.0) - f.y);
-  // textureGather gives the lower left, lower right, upper right and upper left texel of the four about a corner.
-  vec4 sum = litTexels(corner, x.xyyx + y.yyxx) * vec4(1.0 - f.x, 1.0, 1.0, 1.0 - f.x) * vec4(1.0, 1.0, 1.0 - f.y, 1.0 - f.y);
-  sum += litTexels(corner + vec2(2.0, 0.0), x.zwwz + y.yyxx) * vec4(1.0, f.x, f.x, 1.0) * vec4(1.0, 1.0, 1.0 - f.y, 1.0 - f.y);
-  sum += litTexels(corner + vec2(0.0, 2.0), x.xyyx + y.wwzz) * vec4(1.0 - f.x, 1.0, 1.0, 1.0 - f.x) * vec4(f.y, f.y, 1.0, 1.0);
-  sum += litTexels(corner + vec2(2.0, 2.0), x.zwwz + y.wwzz) * vec4(1.0, f.x, f.x, 1.0) * vec4(f.y, f.y, 1.0, 1.0);
-  return dot(sum, vec4(1.0 / 9.0));
+  vec2 corner = floor(at + 0.5);  // shared by the four texels
+  vec2 low = corner - 0.5 - at;
+  // In the order of textureGather: lower left, lower right, upper right, upper left, with y downwards.
+  vec4 x = low.x + vec4(0.0, 1.0, 1.0, 0.0);
+  vec4 y = low.y + vec4(1.0, 1.0, 0.0, 0.0);
+  vec4 texels = textureGather(shadowTexels, corner / vec2(textureSize(shadowTexels, 0)));
+  vec4 lit = vec4(lessThanEqual(texels, disparity + gradient.x * x + gradient.y * y));
+  return dot(lit, (1.0 - abs(x)) * (1.0 - abs(y)));
 }
 
-// Returns the share of light `index` of the pass that reaches the surface.
-float litShare(uint index, LightData light, Surface surface) {
+// Returns the share of light `index` of the pass that reaches the receiver.
+float litShare(uint index, LightData light) {
   bool shadowed = lightCount == manyLights ? light.shadowMap != noShadowMap : (shadowedLights >> index & 1u) != 0;
-  return shadowed ? shadowShare(light, surface.position, facetNormal(surface.position, surface.normal)) : 1.0;
+  return shadowed ? shadowShare(light) : 1.0;
 }

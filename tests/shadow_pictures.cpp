@@ -120,11 +120,14 @@ intensity = 6
 glow = 0
 casts_shadow = true
 )");
-  Options lit = headless(file, {320, 240});
-  set(lit, {{"effects.shadows", "false"}});
-  const Image8 expected = draw(lit);
-  for (const char* size : {"64", "256", "1024"}) {
-    EXPECT_EQ(difference(draw(mapped(file, {{"effects.shadow_map_size", size}})), expected, 1).over, 0) << size;
+  for (const char* samples : {"1", "4"}) {
+    Options lit = headless(file, {320, 240});
+    set(lit, {{"effects.shadows", "false"}, {"view.samples", samples}});
+    const Image8 expected = draw(lit);
+    for (const char* size : {"64", "256", "1024"}) {
+      const Image8 picture = draw(mapped(file, {{"effects.shadow_map_size", size}, {"view.samples", samples}}));
+      EXPECT_EQ(difference(picture, expected, 1).over, 0) << size << " texels, " << samples << " samples";
+    }
   }
 }
 

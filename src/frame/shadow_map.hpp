@@ -7,8 +7,8 @@
 
 namespace speculum {
 
-// Texels on each side of a face's window: a look-up reads two beyond its own, and rounding may move it.
-inline constexpr int shadowBorder = 3;
+// Texels on each side of a face's window: a look-up reads one beyond its own, and rounding may move it.
+inline constexpr int shadowBorder = 2;
 
 // A pass whose surfaces look shadows up, and all that is read of its image.
 struct ShadowReader {
