@@ -1,5 +1,6 @@
 // Reflections of a curved mirror, looked up in six images about its centre: EnvironmentMap in src/frame/frame_plan.hpp,
-// with the faces of src/frame/environment_map.cpp. The map is bound as `diffuseTexture`. Needs shading.glsl.
+// of src/frame/cube_face.hpp. The map is bound as `diffuseTexture`. Needs shading.glsl.
+#include "cube_face.glsl"
 
 const float environmentBorder = 1.0;  // texels of a face beyond its edges
 
@@ -10,16 +11,10 @@ struct MapTexel {
 };
 
 MapTexel mapTexel(vec3 d, int size) {
-  vec3 a = abs(d);
-  int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  float side = d[axis] < 0.0 ? -1.0 : 1.0;
-  vec3 forward = vec3(0.0);
-  forward[axis] = side;
-  vec3 up = axis == 1 ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0);
-  vec2 p = vec2(dot(d, cross(forward, up)), -dot(d, up)) / max(a[axis], 1e-30);
-  int face = 2 * axis + (side < 0.0 ? 1 : 0);
+  CubeFace face = cubeFace(d);
+  vec2 p = vec2(dot(d, face.right), dot(d, face.down)) / max(face.along, 1e-30);
   float within = float(size) - 2.0 * environmentBorder;
-  return MapTexel(size * ivec2(face % 3, face / 3), environmentBorder + (0.5 * clamp(p, -1.0, 1.0) + 0.5) * within);
+  return MapTexel(size * ivec2(face.index % 3, face.index / 3), environmentBorder + (0.5 * clamp(p, -1.0, 1.0) + 0.5) * within);
 }
 
 // Returns the map's radiance, interpolated bilinearly. The background is infinitely far, in direction d from

@@ -51,6 +51,19 @@ struct LightData {
   uint castsShadow;
   vec3 glow;  // radiance of the glyph
   uint hasGlyph;
+  uint shadowMap;  // index into shadowMaps; noShadowMap: none
+  uint padding0;
+  uint padding1;
+  uint padding2;
+};
+
+const uint noShadowMap = 0xffffffffu;
+const uint mostShadowMaps = 16;
+
+// Windows of a shadow map's faces: texel of the target = metres right and down in the plane one metre before the
+// light * xy + zw.
+struct ShadowMapData {
+  vec4 faces[6];
 };
 
 // Number of lights up to which shaders read a pass's lights at addresses that are known when they are compiled.
@@ -275,7 +288,7 @@ struct ProbeConstants {
 #ifdef __cplusplus
 static_assert(offsetof(ViewData, clipPlane) == 112 && offsetof(ViewData, hasSky) == 156 &&
               offsetof(ViewData, traceOffset) == 208 && offsetof(ViewData, firstLight) == 240 && sizeof(ViewData) == 256);
-static_assert(offsetof(LightData, irradiance) == 16 && sizeof(LightData) == 48);
+static_assert(offsetof(LightData, irradiance) == 16 && sizeof(LightData) == 64 && sizeof(ShadowMapData) == 96);
 static_assert(offsetof(MaterialData, specular) == 16 && sizeof(MaterialData) == 48);
 static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(InstanceData, traceInstance) == 176 &&
               sizeof(InstanceData) == 192);

@@ -223,6 +223,10 @@ vec3 baseRadiance(vec3 position) {
 #ifdef TRACED
   return tracedSurfaceRadiance(base, safeNormalize(-position), Skip(none, none, mirror.traceMirror, none, 0.0));
 #else
+#ifdef SHADOW_MAPS
+  receiver = position;
+  receiverNormal = mirror.normal;
+#endif
   return surfaceRadiance(base);
 #endif
 }

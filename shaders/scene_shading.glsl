@@ -99,6 +99,9 @@ void main() {
     surface.diffuse *= diffuseFactor();
   }
 #endif
+#ifdef SHADOW_MAPS
+  setReceiver(relativePosition, surface.normal);
+#endif
 #ifdef TRACED
   uint traceInstance = instances[instanceIndex].traceInstance;
   Skip self = Skip(traceInstance, draw.firstTriangle + uint(gl_PrimitiveID), none, none,

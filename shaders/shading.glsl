@@ -71,16 +71,23 @@ vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
 // Keeps what is not a number, for debug.check_finite to find; min() need not.
 vec3 bounded(vec3 radiance) { return mix(radiance, vec3(radianceMax), greaterThan(radiance, vec3(radianceMax))); }
 
+#ifdef SHADOW_MAPS
+#include "shadow_map.glsl"
+#else
+float litShare(uint index, LightData light) { return 1.0; }
+#endif
+
 vec3 surfaceRadiance(Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
   vec3 radiance = surface.emission + view.ambient * surface.diffuse;
   if (lightCount == manyLights) {
     for (uint i = 0; i < view.lightCount; ++i) {
-      radiance += lightRadiance(lights[view.firstLight + i], surface, toViewer);
+      LightData light = lights[view.firstLight + i];
+      radiance += litShare(i, light) * lightRadiance(light, surface, toViewer);
     }
   } else {
     [[unroll]] for (uint i = 0; i < lightCount; ++i) {
-      radiance += lightRadiance(passLights[i], surface, toViewer);
+      radiance += litShare(i, passLights[i]) * lightRadiance(passLights[i], surface, toViewer);
     }
   }
   return bounded(radiance);

@@ -170,6 +170,7 @@ Convergence convergence(const std::string& scene) {
                 {"reflection.min_pixels", "0"},
                 {"reflection.min_throughput", "0"},
                 {"reflection.max_depth", "32"},
+                {"effects.shadow_lookup", "traced"},
                 {"view.samples", "1"},
                 {"reflection.samples", "1"}});
   QuietSession session(options);

@@ -330,5 +330,30 @@ TEST(Ledger, EnvironmentMapsAreListedAndReleased) {
   EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].bytes, 0u);
 }
 
+// Targets, draws and pipelines exist while shadows are looked up, but nothing to trace rays with.
+TEST(Ledger, ShadowMapsAreListedAndReleased) {
+  counts = {};
+  QuietSession session(without(
+      optionsFor(sceneWith("shadow_maps", "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n"),
+                 {{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", "256"}}),
+      "shadows"));
+  const Drawn before = drawWith(session, "shadows", false, 3);
+  const Drawn during = drawWith(session, "shadows", true, 1);
+  const EffectCost cost = session.sceneRenderer().ledger()[EffectKind::shadows];
+  EXPECT_EQ(during.alive.at("Image"), before.alive.at("Image") + 2) << "all faces side by side, and their depth";
+  EXPECT_EQ(during.alive.at("Buffer"), before.alive.at("Buffer") + 1) << "the faces' windows";
+  EXPECT_GE(cost.pipelines, 2u) << "of the faces and of the teapot";
+  EXPECT_GE(cost.bytes, 6ull * 256 * 256 * (4 + 4));
+  EXPECT_GT(during.draws, before.draws);
+  EXPECT_NE(during.picture, before.picture);
+  const Drawn still = drawWith(session, "shadows", true, 2);
+  EXPECT_EQ(still.picture, during.picture);
+  EXPECT_EQ(still.draws, before.draws) << "an unchanged map is not drawn again";
+  const Drawn after = drawWith(session, "shadows", false, untilIdle);
+  EXPECT_EQ(after.released(before), before.alive);
+  EXPECT_EQ(after.picture, before.picture);
+  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::shadows].bytes, 0u);
+}
+
 }  // namespace
 }  // namespace speculum

@@ -75,7 +75,10 @@ class PlanSequence {
 
   const FramePlan& next(double time = 0.0) {
     plan = planFrame(scene, evaluate(scene, time), settings, width, height,
-                     {.images = plan.cached, .maps = plan.maps, .main = main.content.empty() ? nullptr : &main});
+                     {.images = plan.cached,
+                      .maps = plan.maps,
+                      .shadowMaps = plan.shadowMaps,
+                      .main = main.content.empty() ? nullptr : &main});
     main = {settings, plan.mainContent};
     return plan;
   }

@@ -143,6 +143,11 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   planner.add({{"view.texture_filter", "trilinear"}});
   for (const std::string& effect : context.effects) {
     planner.add({{effect, "false"}});
+    if (effect == "effects.shadows") {
+      for (const char* size : {"256", "1024", "4096"}) {
+        planner.add({{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", size}});
+      }
+    }
     if (effect == "effects.curved") {
       for (const char* size : {"64", "256"}) {
         planner.add({{"effects.curved_lookup", "environment"}, {"effects.environment_size", size}});

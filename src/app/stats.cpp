@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "frame/depth_readout.hpp"
+#include "frame/shadow_map.hpp"
 #include "platform/files.hpp"
 #include "platform/machine.hpp"
 
@@ -93,6 +94,18 @@ ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
                        {"depth", skip.depth},
                        {"reason", skipReasonName(skip.reason)},
                        {"detail", skip.detail}});
+  }
+  for (const ShadowMap& map : plan.shadowMaps) {
+    for (size_t i = 0; i < map.faces.size(); ++i) {
+      if (const ShadowFace& face = map.faces[i]; !face.rendered) {
+        const SkipReason reason = face.read ? SkipReason::unchanged : SkipReason::outside;
+        skipped.push_back({{"mirror", nullptr},
+                           {"path", ordered_json::array()},
+                           {"depth", nullptr},
+                           {"reason", skipReasonName(reason)},
+                           {"detail", shadowFaceName(map, i)}});
+      }
+    }
   }
   return skipped;
 }

@@ -14,9 +14,11 @@ Image makeColor(Device& device, const OffScreenDesc& desc, Use use) {
   VkImageUsageFlags usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   usage |= output || desc.readSamples ? VK_IMAGE_USAGE_SAMPLED_BIT : 0;
   usage |= samples == VK_SAMPLE_COUNT_1_BIT ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;
-  return Image(
-      device,
-      {.extent = desc.extent, .usage = usage, .samples = samples, .name = output ? desc.name : desc.name + " samples"});
+  return Image(device, {.extent = desc.extent,
+                        .format = desc.format,
+                        .usage = usage,
+                        .samples = samples,
+                        .name = output ? desc.name : desc.name + " samples"});
 }
 
 Image makeDepth(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples, std::string name) {

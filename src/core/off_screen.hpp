@@ -34,6 +34,7 @@ class SharedDepth {
 struct OffScreenDesc {
   std::string name;
   VkExtent2D extent{1, 1};
+  VkFormat format = colorFormat;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool keepSamples = false;  // the output is the multisampled color, read sample by sample; else it is resolved
   bool readSamples = false;  // the multisampled color can be read too, if the pass stores it

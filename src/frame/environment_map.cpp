@@ -1,44 +1,14 @@
 #include "frame/environment_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
+#include "frame/cube_face.hpp"
 #include "frame/scene_names.hpp"
 
 namespace speculum {
 
 namespace {
-
-struct Box {
-  glm::dvec3 low{1e300};
-  glm::dvec3 high{-1e300};
-
-  void add(const glm::dvec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-};
-
-// One box per instance, then one per mirror, in scene order.
-std::vector<Box> boxesOf(const Scene& scene, const SceneState& state) {
-  std::vector<Box> boxes;
-  for (const InstanceState& instance : state.instances) {
-    const glm::dvec3& half = scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent;
-    glm::dvec3 reach(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-      reach += glm::abs(instance.worldFromMesh.linear[axis]) * half[axis];
-    }
-    Box& box = boxes.emplace_back();
-    box.add(instance.worldFromMesh.translation - reach);
-    box.add(instance.worldFromMesh.translation + reach);
-  }
-  for (const MirrorState& mirror : state.mirrors) {
-    Box& box = boxes.emplace_back();
-    std::for_each(mirror.polygon.begin(), mirror.polygon.end(), [&](const glm::dvec3& p) { box.add(p); });
-  }
-  return boxes;
-}
 
 // Box that surrounds boxes[own]. Each side lies at the near face of the farthest box there, such as a wall, or at the
 // far face of a box that encloses the object, such as a room. Without either it lies at the end of the scene.
@@ -71,47 +41,13 @@ Box boxAround(size_t own, std::span<const Box> boxes) {
   return around;
 }
 
-// Adds a mirror without an image, as at reflection.max_depth.
-void addMirror(const Mirror& material, const MirrorState& mirror, int index, const View& drawn, PlannedPass& face) {
-  const double height = glm::dot(mirror.normal, face.view.eye - mirror.origin);
-  MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
-  draw.back = height < 0.0 && !material.twoSided;
-  draw.polygon = visiblePart(drawn, mirror.polygon);
-  if (height == 0.0 || draw.polygon.empty()) {
-    return;
-  }
-  if (height < 0.0) {
-    draw.plane.normal = -draw.plane.normal;
-    std::reverse(draw.polygon.begin(), draw.polygon.end());
-  }
-  face.mirrors.push_back(std::move(draw));
-}
-
 PlannedPass faceOf(const Scene& scene, const SceneState& state, const EnvironmentMap& map, const FaceAxes& axes) {
-  CameraPose pose;
-  pose.eye = map.center;
-  pose.worldToView =
-      glm::transpose(glm::dmat3(glm::cross(axes.forward, axes.up), axes.up, -axes.forward));  // the axes are its rows
-  PlannedPass face;
-  face.view = mainView(pose, map.projection, map.size, map.size);
-  face.areaPx = face.view.rect.area();
-  for (int i = 0; i < static_cast<int>(state.instances.size()); ++i) {
-    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    if (i != map.instance && sphereVisible(face.view, instance.center, instance.radius) &&
-        boxVisible(face.view, instance.worldFromMesh, scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent)) {
-      face.instances.push_back(i);
-    }
-  }
+  PlannedPass face = planFace({map.center, axes, map.projection, map.size}, scene, state, false, map.instance);
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (hasGlyph(scene.lights[i], map.settings.effects) &&
         sphereVisible(face.view, state.lights[i].position, scene.lights[i].radius)) {
       face.lights.push_back(static_cast<int>(i));
     }
-  }
-  View drawn = face.view;
-  widen(drawn, map.projection, 1);
-  for (size_t i = 0; i < scene.mirrors.size(); ++i) {
-    addMirror(scene.mirrors[i], state.mirrors[i], static_cast<int>(i), drawn, face);
   }
   return face;
 }
@@ -146,16 +82,6 @@ std::string mapName(const Scene& scene, const InstanceState& instance) {
 }
 
 }  // namespace
-
-std::span<const FaceAxes> faceAxes() {
-  static const std::array<FaceAxes, 6> axes = {{{"+x", {1, 0, 0}, {0, 1, 0}},
-                                                {"-x", {-1, 0, 0}, {0, 1, 0}},
-                                                {"+y", {0, 1, 0}, {0, 0, 1}},
-                                                {"-y", {0, -1, 0}, {0, 0, 1}},
-                                                {"+z", {0, 0, 1}, {0, 1, 0}},
-                                                {"-z", {0, 0, -1}, {0, 1, 0}}}};
-  return axes;
-}
 
 std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
                                             std::span<const PlannedPass* const> passes) {

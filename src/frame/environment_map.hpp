@@ -12,14 +12,6 @@ inline constexpr int environmentBorder = 1;
 // Curved mirrors that may have a map: those that cover the widest angle. Others show the background.
 inline constexpr size_t mostEnvironmentMaps = 32;
 
-// Directions in which the faces look, in the order of EnvironmentMap::faces.
-struct FaceAxes {
-  const char* name;
-  glm::dvec3 forward;  // world
-  glm::dvec3 up;
-};
-std::span<const FaceAxes> faceAxes();
-
 // Plans maps for the curved mirrors that these passes draw, all to be rendered. Empty unless effects.curved_lookup is
 // `environment`.
 std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,

@@ -6,6 +6,7 @@
 #include <queue>
 #include <sstream>
 
+#include "frame/cube_face.hpp"
 #include "frame/environment_map.hpp"
 #include "frame/image_reuse.hpp"
 #include "frame/mesh_level.hpp"
@@ -13,6 +14,7 @@
 #include "frame/occlusion.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame/picture_offset.hpp"
+#include "frame/shadow_map.hpp"
 
 namespace speculum {
 
@@ -106,7 +108,6 @@ class Planner {
 
  private:
   void fill(int node);
-  void addInstance(PlannedPass& pass, const View& readable, int i);
   void skipUnseen(const View& view, int mirror);
   void skipBack(const View& view, int mirror, double height);
   void consider(int node, Sight sight);
@@ -115,6 +116,7 @@ class Planner {
   void expand(const Candidate& candidate);
   View readable(const View& view) const;
   void findEffects();
+  void findShadows();
   ImageSurroundings surroundings() const;
   void simplify();
   void reuseUnchanged();
@@ -140,20 +142,6 @@ class Planner {
   size_t work_ = 0;  // twice the mirrors looked at, and as much time and memory spent on what else a pass has
 };
 
-void Planner::addInstance(PlannedPass& pass, const View& readable, int i) {
-  const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
-  const Mesh& mesh = scene_.meshes[instance.mesh];
-  const std::vector<IndexRange> ranges =
-      allSettings_.debug.cullClusters ? visibleRanges(readable, instance, mesh) : std::vector<IndexRange>{allOf(mesh)};
-  if (ranges.empty()) {
-    return;
-  }
-  pass.instances.push_back(i);
-  if (ranges.front() != allOf(mesh)) {
-    pass.partial.push_back({i, ranges});
-  }
-}
-
 // Widens the view by what look-ups read of its image beyond the visible region. Cached images are read farthest; all
 // views get that margin, so that the same is drawn in the same order with every update interval.
 View Planner::readable(const View& view) const {
@@ -170,13 +158,7 @@ View Planner::readable(const View& view) const {
 void Planner::fill(int node) {
   const View view = nodes_[node].pass.view;
   const View readable = this->readable(view);
-  for (size_t i = 0; i < state_.instances.size(); ++i) {
-    const InstanceState& instance = state_.instances[i];
-    if (sphereVisible(readable, instance.center, instance.radius) &&
-        boxVisible(readable, instance.worldFromMesh, scene_.meshes[instance.mesh].halfExtent)) {
-      addInstance(nodes_[node].pass, readable, static_cast<int>(i));
-    }
-  }
+  addVisibleInstances(readable, scene_, state_, allSettings_.debug.cullClusters, -1, nodes_[node].pass);
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
     const PointLight& light = scene_.lights[i];
     if (hasGlyph(light, allSettings_.effects) && sphereVisible(readable, state_.lights[i].position, light.radius)) {
@@ -333,7 +315,7 @@ void Planner::expand(const Candidate& candidate) {
   fill(index);
 }
 
-// Finds the environment maps, and the effects that they and all passes call for, of reused images too.
+// Finds the environment and shadow maps, and the effects that they and all passes call for, of reused images too.
 void Planner::findEffects() {
   std::vector<const PlannedPass*> passes;
   collect(0, passes);
@@ -346,13 +328,29 @@ void Planner::findEffects() {
   }
   passes.push_back(&nodes_[0].pass);
   plan_.effects = tracedEffects(scene_, state_, allSettings_, passes);
+  if (plan_.effects.shadowMaps) {
+    findShadows();
+  }
+}
+
+void Planner::findShadows() {
+  std::vector<ShadowReader> readers;
+  for (const Node& node : nodes_) {
+    readers.push_back({&node.pass, readable(node.pass.view), &plan_.projection});
+  }
+  for (const EnvironmentMap& map : plan_.maps) {
+    for (const PlannedPass& face : map.faces) {
+      readers.push_back({&face, face.view, &map.projection});
+    }
+  }
+  plan_.shadowMaps = shadowMaps(scene_, state_, allSettings_, readers);
 }
 
 // Chooses mesh levels. There are none where rays are traced: rays start on what is drawn and meet the full meshes,
-// which would shadow their own levels. There are none without clipping either: what is drawn may then be nearer than
-// the mirror, which the level's error is measured from.
+// which would shadow their own levels; so would shadow maps. There are none without clipping either: what is drawn may
+// then be nearer than the mirror, which the level's error is measured from.
 void Planner::simplify() {
-  if (settings_.clip == ClipMethod::none || plan_.effects.traces()) {
+  if (settings_.clip == ClipMethod::none || plan_.effects.traces() || plan_.effects.shadowMaps) {
     return;
   }
   for (Node& node : nodes_) {
@@ -365,6 +363,9 @@ void Planner::simplify() {
 
 ImageSurroundings Planner::surroundings() const {
   ImageSurroundings around{scene_, state_, allSettings_, plan_.projection, plan_.effects, {}};
+  for (const ShadowMap& map : plan_.shadowMaps) {
+    around.shadowSerial = std::max(around.shadowSerial, map.serial);
+  }
   for (const EnvironmentMap& map : plan_.maps) {
     around.maps.emplace_back(map.instance, map.serial);
   }
@@ -374,7 +375,10 @@ ImageSurroundings Planner::surroundings() const {
 // Reuses the cached images that would come out the same if they were rendered.
 void Planner::reuseUnchanged() {
   const View& main = nodes_[0].pass.view;
-  reuseMaps(plan_.maps, cache_.maps, {scene_, state_, allSettings_, plan_.projection, plan_.effects, {}}, main);
+  reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, allSettings_, state_);
+  ImageSurroundings withoutMaps = surroundings();
+  withoutMaps.maps.clear();
+  reuseMaps(plan_.maps, cache_.maps, withoutMaps, main);
   if (!settings_.skipUnchanged) {
     return;
   }
@@ -466,6 +470,10 @@ void Planner::reuseMean() {
   plan_.reused = std::move(plan_.passes);
   plan_.passes.clear();
   plan_.maps.clear();
+  plan_.shadowMaps.assign(cache_.shadowMaps.begin(), cache_.shadowMaps.end());
+  for (ShadowMap& map : plan_.shadowMaps) {
+    std::for_each(map.faces.begin(), map.faces.end(), [](ShadowFace& face) { face.rendered = false; });
+  }
   for (MirrorDraw& draw : plan_.main.mirrors) {
     draw.pass = -1;
   }

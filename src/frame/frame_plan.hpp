@@ -73,15 +73,37 @@ struct EnvironmentMap {
   int cacheIndex = -1;            // index into FrameCache::maps of the map that is reused; -1: this frame renders it
 };
 
+// A part of a shadow map: what a light illuminates in one direction, as disparities from the light.
+struct ShadowFace {
+  PlannedPass pass;       // objects and mirrors that cast shadows in it
+  Projection projection;  // of its window
+  glm::dvec2 low{0.0};    // window, metres right and down in the plane one metre before the light
+  glm::dvec2 high{0.0};
+  bool read = false;              // something that is drawn may look it up
+  bool rendered = false;          // this frame renders it; else, if it is read, its texels are unchanged
+  std::vector<uint64_t> content;  // all that its texels depend on; empty if they were never rendered
+};
+
+// Six images about a light that casts shadows, side by side, three to a row: effects.shadow_lookup = map.
+// docs/effects.md: Shadow maps.
+struct ShadowMap {
+  int light = 0;                  // index into Scene::lights
+  std::string name;               // of the light, for users
+  int size = 0;                   // texels of each side of a face
+  std::vector<ShadowFace> faces;  // in the order of faceAxes()
+  int serial = 0;                 // changes each time that a face of any map is rendered
+};
+
 // Kinds of recorded passes.
-enum class PassKind { mirror, environment, main, accumulation, display, debugView };
+enum class PassKind { mirror, environment, shadow, main, accumulation, display, debugView };
 
 // Identifies a pass. Equal for the same pass of different frames.
 struct PassId {
   PassKind kind = PassKind::mirror;
   std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
   int instance = -1;      // of an environment map, index into SceneState::instances
-  int face = -1;          // of an environment map, index into EnvironmentMap::faces
+  int light = -1;         // of a shadow map, index into Scene::lights
+  int face = -1;          // of an environment or shadow map, index into its faces
 
   bool operator==(const PassId&) const = default;
 };
@@ -104,6 +126,7 @@ struct MainImage {
 struct FrameCache {
   std::span<const CachedImage> images;  // FramePlan::cached of that frame
   std::span<const EnvironmentMap> maps;
+  std::span<const ShadowMap> shadowMaps;
   const MainImage* main = nullptr;  // null: the main view is drawn in any case
 };
 
@@ -121,7 +144,10 @@ struct FramePlan {
   // Passes that cached images replace, in no particular order: what they show is on the screen and calls for effects.
   std::vector<PlannedPass> reused;
   std::vector<EnvironmentMap> maps;  // of the curved mirrors that are drawn; `instance` ascending
-  TracedEffects effects;             // that all of these passes call for
+  // One for each light of the scene that may cast shadows, if these are looked up; a map's index is its place in the
+  // target.
+  std::vector<ShadowMap> shadowMaps;
+  TracedEffects effects;  // that all of these passes call for
 };
 
 // The mirror pass with that path; null if the plan has none.

@@ -88,8 +88,8 @@ void addLights(const ImageSurroundings& around, Numbers& numbers) {
 
 void addEffects(const ImageSurroundings& around, const View& main, Numbers& numbers) {
   const TracedEffects& effects = around.effects;
-  numbers.addAll(effects.any(), effects.traces(), effects.shadows.has_value(), effects.castsLight.has_value(),
-                 static_cast<double>(effects.mirroredLights.size()));
+  numbers.addAll(effects.any(), effects.traces(), effects.shadows.has_value(), effects.shadowMaps,
+                 effects.castsLight.has_value(), static_cast<double>(effects.mirroredLights.size()));
   if (!effects.any()) {
     return;
   }
@@ -122,7 +122,7 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
   numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near, around.projection.offset);
   addEffects(around, main, numbers);
   const bool all = around.effects.any() || !around.maps.empty();
-  numbers.add(all);
+  numbers.addAll(all, around.shadowSerial);
   for (const auto& [instance, serial] : around.maps) {
     numbers.addAll(instance, serial);
   }
@@ -142,6 +142,19 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
     addMirror(around, mirror, numbers);
   }
   addLights(around, numbers);
+  return numbers.take();
+}
+
+std::vector<uint64_t> shadowContent(const SceneState& state, const ShadowFace& face) {
+  Numbers numbers;
+  numbers.addAll(face.pass.view, face.low, face.high, face.projection.near, face.pass.instances);
+  for (const int i : face.pass.instances) {
+    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    numbers.addAll(instance.mesh, instance.worldFromMesh.linear, instance.worldFromMesh.translation);
+  }
+  for (const MirrorDraw& draw : face.pass.mirrors) {
+    numbers.addAll(draw.mirror, draw.polygon);
+  }
   return numbers.take();
 }
 

@@ -17,6 +17,7 @@ struct ImageSurroundings {
   const Projection& projection;
   const TracedEffects& effects;           // of all passes
   std::vector<std::pair<int, int>> maps;  // environment maps that may be looked up: instance, EnvironmentMap::serial
+  int shadowSerial = 0;                   // largest ShadowMap::serial
 };
 
 // Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on. Images with
@@ -25,5 +26,8 @@ struct ImageSurroundings {
 // depends on the whole scene, and on the time if rays may meet ripples.
 std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
                                    std::span<const PlannedPass* const> passes);
+
+// Returns, as numbers, everything that the texels of a shadow map's face depend on.
+std::vector<uint64_t> shadowContent(const SceneState& state, const ShadowFace& face);
 
 }  // namespace speculum

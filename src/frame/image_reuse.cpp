@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frame/shadow_map.hpp"
+
 namespace speculum {
 
 namespace {
@@ -127,7 +129,7 @@ void reuseMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap
 
 void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around) {
   const bool renders =
-      !plan.passes.empty() ||
+      !plan.passes.empty() || rendersShadows(plan.shadowMaps) ||
       std::any_of(plan.maps.begin(), plan.maps.end(), [](const EnvironmentMap& map) { return map.cacheIndex < 0; });
   const bool reprojects = std::any_of(plan.main.mirrors.begin(), plan.main.mirrors.end(),
                                       [](const MirrorDraw& draw) { return draw.cached && draw.cached->moved; });

@@ -7,6 +7,7 @@
 #include "frame/image_reuse.hpp"
 #include "frame/pass_range.hpp"
 #include "frame/picture_offset.hpp"
+#include "frame/shadow_map.hpp"
 
 namespace speculum {
 
@@ -16,7 +17,9 @@ constexpr uint64_t colorBytes = 8;     // RGBA16F
 constexpr uint64_t depthBytes = 4;     // D32F
 constexpr uint64_t sumBytes = 2 * 16;  // two images of RGBA32F
 constexpr double smallestScale = 0.125;
-constexpr int smallestMap = 16;  // texels
+constexpr uint64_t disparityBytes = 4;  // R32F
+constexpr int smallestMap = 16;         // texels
+constexpr int smallestShadowMap = 64;
 
 uint64_t pixels(const PixelRect& rect) {
   return static_cast<uint64_t>(rect.area());
@@ -62,7 +65,7 @@ uint64_t depthPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   return std::accumulate(largest.begin(), largest.end(), uint64_t{0});
 }
 
-bool lower(Settings& settings, bool hasMaps, std::string& what) {
+bool lower(Settings& settings, const FramePlan& plan, std::string& what) {
   ReflectionSettings& reflection = settings.reflection;
   if (reflection.samples > 1) {
     reflection.samples /= 2;
@@ -73,9 +76,12 @@ bool lower(Settings& settings, bool hasMaps, std::string& what) {
   } else if (reflection.scale > smallestScale) {
     reflection.scale = std::max(smallestScale, reflection.scale / 2.0);
     what = "reflection.scale to " + settingValue(settings, "reflection.scale");
-  } else if (hasMaps && settings.effects.environmentSize > smallestMap) {
+  } else if (!plan.maps.empty() && settings.effects.environmentSize > smallestMap) {
     settings.effects.environmentSize /= 2;
     what = "effects.environment_size to " + std::to_string(settings.effects.environmentSize);
+  } else if (!plan.shadowMaps.empty() && settings.effects.shadowMapSize > smallestShadowMap) {
+    settings.effects.shadowMapSize /= 2;
+    what = "effects.shadow_map_size to " + std::to_string(settings.effects.shadowMapSize);
   } else {
     return false;
   }
@@ -99,6 +105,11 @@ uint64_t environmentBytes(const FramePlan& plan) {
   return color + largest * depthBytes;
 }
 
+uint64_t shadowBytes(const FramePlan& plan) {
+  const glm::ivec2 extent = shadowExtent(plan.shadowMaps);
+  return static_cast<uint64_t>(extent.x) * static_cast<uint64_t>(extent.y) * (disparityBytes + depthBytes);
+}
+
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
   const auto viewSamples = static_cast<uint64_t>(settings.view.samples);
   const auto imageSamples = static_cast<uint64_t>(settings.reflection.samples);
@@ -107,7 +118,7 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
   const uint64_t sums = settings.view.accumulate > 1 ? sumBytes : 0;
   return pixels(plan.main.view.rect) * (colorBytes + multisampled + viewSamples * depthBytes + sums) +
          peakPixels(plan, ranges) * imageSamples * colorBytes + depthPixels(plan, ranges) * imageSamples * depthBytes +
-         environmentBytes(plan);
+         environmentBytes(plan) + shadowBytes(plan);
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
@@ -126,12 +137,23 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   plan();
   if (!limits.tracesRays && fitted.plan.effects.any()) {
     EffectSettings& effects = fitted.settings.effects;
-    effects.shadows = effects.roughness = effects.ripple = effects.castsLight = false;
+    effects.shadows =
+        effects.shadows && effects.shadowLookup == ShadowLookup::map && shadowLights(scene).size() <= mostShadowMaps;
+    effects.roughness = effects.ripple = effects.castsLight = false;
     effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
     fitted.message +=
         (fitted.message.empty() ? "" : "; ") + std::string(
                                                    "effects.* that trace rays are left out: the device lacks "
                                                    "geometryShader, storage buffers, or room in them for the scene");
+    plan();
+  }
+  for (glm::ivec2 extent = shadowExtent(fitted.plan.shadowMaps); std::max(extent.x, extent.y) > limits.largestSide;
+       extent /= 2) {
+    fitted.settings.effects.shadowMapSize /= 2;
+    fitted.message += (fitted.message.empty() ? "" : "; ") +
+                      ("shadow maps exceed the device's " + std::to_string(limits.largestSide)) +
+                      " pixels: lowered effects.shadow_map_size to " +
+                      std::to_string(fitted.settings.effects.shadowMapSize);
     plan();
   }
   if (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && reflection.updateInterval == 1) {
@@ -141,8 +163,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
   std::string what;
   std::string lowered;
-  while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes &&
-         lower(fitted.settings, !fitted.plan.maps.empty(), what)) {
+  while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && lower(fitted.settings, fitted.plan, what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
     plan();
   }

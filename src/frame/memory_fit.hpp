@@ -33,5 +33,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
 
 // Device memory of the environment maps' targets and of the depth that they share.
 uint64_t environmentBytes(const FramePlan& plan);
+// Bytes of the shadow maps and their depth.
+uint64_t shadowBytes(const FramePlan& plan);
 
 }  // namespace speculum

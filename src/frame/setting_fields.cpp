@@ -61,7 +61,9 @@ constexpr std::array<std::string_view, 2> toneMaps{"clamp", "aces"};
 constexpr std::array<std::string_view, 2> textureFilters{"bilinear", "trilinear"};
 constexpr std::array<std::string_view, 2> roughLookups{"traced", "image"};
 constexpr std::array<std::string_view, 2> curvedLookups{"traced", "environment"};
+constexpr std::array<std::string_view, 2> shadowLookups{"traced", "map"};
 constexpr SettingNeed environmentMaps{"effects.curved_lookup", "environment"};
+constexpr SettingNeed shadowMaps{"effects.shadow_lookup", "map"};
 
 constexpr SettingField fields[] = {
     {.key = "reflection.scale",
@@ -196,6 +198,18 @@ constexpr SettingField fields[] = {
      .label = "Shadows",
      .text = "shadows of lights that cast them",
      .cost = "Traces rays wherever lights reach."},
+    {.key = "effects.shadow_lookup",
+     .kind = choice<&E::shadowLookup>(shadowLookups),
+     .label = "Shadow look-up",
+     .text = "shadows trace rays, or look up six depth images about the light",
+     .cost = "map takes no rays; images are rendered only where they change."},
+    {.key = "effects.shadow_map_size",
+     .kind = IntegerSetting{at<&E::shadowMapSize>, 64, 4096, true},
+     .label = "Shadow map size",
+     .text = "side of a shadow map's six images",
+     .cost = "Memory grows with its square; edges get sharper.",
+     .unit = "texels",
+     .needs = shadowMaps},
     {.key = "effects.roughness",
      .kind = BooleanSetting{at<&E::roughness>},
      .label = "Roughness",

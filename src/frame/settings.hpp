@@ -51,6 +51,9 @@ enum class RoughLookup { traced, image };
 // Source of a curved mirror's reflection: traced rays, or an environment map.
 enum class CurvedLookup { traced, environment };
 
+// Source of the shadows of lights: traced rays, or shadow maps.
+enum class ShadowLookup { traced, map };
+
 // Effects are drawn where the scene calls for them, unless they are switched off here.
 struct EffectSettings {
   bool shadows = true;
@@ -61,7 +64,9 @@ struct EffectSettings {
   bool fresnel = true;
   bool textures = true;
   bool glyphs = true;
-  int roughSamples = 16;  // rays a pixel of rough mirrors
+  ShadowLookup shadowLookup = ShadowLookup::traced;
+  int shadowMapSize = 1024;  // texels of each side of a shadow map's faces
+  int roughSamples = 16;     // rays a pixel of rough mirrors
   RoughLookup roughLookup = RoughLookup::traced;
   bool perSample = false;  // rays at each sample of a pixel, not once a pixel
   CurvedLookup curvedLookup = CurvedLookup::traced;

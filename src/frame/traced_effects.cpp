@@ -53,8 +53,8 @@ class Collector {
   }
 
   TracedEffects finish() {
-    addShadows();
     addMirroredLights();
+    addShadows();
     return std::move(effects_);
   }
 
@@ -78,13 +78,15 @@ class Collector {
   bool anythingLit() const { return lit_.mirrors || lit_.anyInstance || reflectsRays(); }
 
   void addShadows() {
-    for (size_t i = 0; settings_.shadows && anythingLit() && i < scene_.lights.size(); ++i) {
-      const PointLight& light = scene_.lights[i];
-      if (light.castsShadow && !isBlack(light.color * light.intensity)) {
-        effects_.shadows = nameOf("light", light.name, static_cast<int>(i));
-        return;
-      }
+    const std::vector<int> lights = settings_.shadows && anythingLit() ? shadowLights(scene_) : std::vector<int>();
+    if (lights.empty()) {
+      return;
     }
+    effects_.shadows = nameOf("light", scene_.lights[static_cast<size_t>(lights.front())].name, lights.front());
+    // A light that mirrors bounce has shadows on both legs of its way, which no map of the light shows.
+    effects_.shadowMaps =
+        settings_.shadowLookup == ShadowLookup::map && lights.size() <= mostShadowMaps && !effects_.castsLight;
+    effects_.shadowRays = !effects_.shadowMaps || reflectsRays();
   }
 
   void addMirroredLights() {
@@ -152,6 +154,17 @@ class Collector {
 };
 
 }  // namespace
+
+std::vector<int> shadowLights(const Scene& scene) {
+  std::vector<int> lights;
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const PointLight& light = scene.lights[i];
+    if (light.castsShadow && !isBlack(light.color * light.intensity)) {
+      lights.push_back(static_cast<int>(i));
+    }
+  }
+  return lights;
+}
 
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
                             std::span<const PlannedPass* const> passes) {

@@ -21,6 +21,8 @@ struct MirroredLight {
 // The effects that images of planes cannot show. Each names the first node that calls for it, if anything drawn does.
 struct TracedEffects {
   std::optional<std::string> shadows;
+  bool shadowMaps = false;  // what is drawn looks shadows up in maps
+  bool shadowRays = false;  // what is drawn, or what reflected rays meet, traces them
   std::optional<std::string> roughness;
   bool roughRays = false;  // roughness is traced, not looked up in images
   std::optional<std::string> ripple;
@@ -30,9 +32,14 @@ struct TracedEffects {
   std::vector<MirroredLight> mirroredLights;
 
   // Says whether any ray is traced through the scene's triangles.
-  bool traces() const { return roughRays || curvedRays || shadows || ripple; }
+  bool traces() const { return roughRays || curvedRays || shadowRays || ripple; }
   bool any() const { return traces() || castsLight; }
 };
+
+// Most lights whose shadows are looked up; a scene with more traces them.
+inline constexpr size_t mostShadowMaps = 16;
+// Lights that cast shadows and are not black, indices into Scene::lights, ascending.
+std::vector<int> shadowLights(const Scene& scene);
 
 // Finds the effects that these passes call for, under settings.effects. Pure.
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,

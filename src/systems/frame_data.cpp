@@ -7,6 +7,7 @@
 #include "frame/draw_order.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/pass_mask.hpp"
+#include "frame/shadow_map.hpp"
 #include "systems/gpu_conversion.hpp"
 
 namespace speculum {
@@ -186,6 +187,14 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
     }
   }
 
+  for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
+    for (size_t i = 0; i < plan.shadowMaps[map].faces.size(); ++i) {
+      if (const ShadowFace& face = plan.shadowMaps[map].faces[i]; face.rendered) {
+        addPass(source, face.pass, face.projection, shadowCorner(plan.shadowMaps, map, i));
+      }
+    }
+  }
+
   mirrors_.resize(std::max<size_t>(mirrors_.size(), 1));  // bound in every draw
   buffers_.write(frame, passBlocks, passBlocks_);
   buffers_.write(frame, mirrors, mirrors_);
@@ -234,7 +243,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   view.minThroughput = static_cast<float>(settings.reflection.minThroughput);
   view.depth = static_cast<uint32_t>(pass.view.path.size());
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
-  addLights(source, pass, passBlocks_.back());
+  addLights(source, pass, passBlocks_.back(), data);
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(source, pass, projection, data);
   addMirrors(pass, projection, plan, scene, settings.effects, data);
@@ -242,7 +251,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
 }
 
 // Lights whose glyphs are visible come first, so that one instanced draw covers them.
-void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlock& block) {
+void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlock& block, PassData& data) {
   const Scene& scene = source.scene;
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
   block.view.lightCount = static_cast<uint32_t>(scene.lights.size());
@@ -252,12 +261,19 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
                         [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); });
   for (const int i : order) {
     const PointLight& light = scene.lights[i];
+    const std::vector<ShadowMap>& maps = source.plan.shadowMaps;
+    const auto map = std::find_if(maps.begin(), maps.end(), [&](const ShadowMap& m) { return m.light == i; });
+    const size_t index = lights_.size() - block.view.firstLight;
+    if (map != maps.end() && index < gpu::fixedLights) {
+      data.shadowedLights |= 1u << index;
+    }
     lights_.push_back({.position = glm::vec3(source.state.lights[i].position - pass.view.eye),
                        .radius = static_cast<float>(light.radius),
                        .irradiance = radiance(light.color * light.intensity),
                        .castsShadow = light.castsShadow,
                        .glow = radiance(light.color * light.glow),
-                       .hasGlyph = hasGlyph(light, source.settings.effects)});
+                       .hasGlyph = hasGlyph(light, source.settings.effects),
+                       .shadowMap = map == maps.end() ? gpu::noShadowMap : static_cast<uint32_t>(map - maps.begin())});
   }
   std::copy_n(lights_.end() - static_cast<std::ptrdiff_t>(order.size()),
               std::min<size_t>(order.size(), gpu::fixedLights), block.lights);

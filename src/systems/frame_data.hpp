@@ -61,6 +61,7 @@ struct PassData {
   uint32_t pass = 0;  // index into the passes of the frame
   std::vector<Batch> batches;
   uint32_t glyphCount = 0;
+  uint32_t shadowedLights = 0;  // bits of the lights that have a shadow map, if the scene's are at most fixedLights
   std::vector<MirrorRange> mirrors;
   uint32_t maskFirstVertex = 0;
   uint32_t maskVertexCount = 0;  // 0: the whole rectangle is drawn
@@ -74,8 +75,8 @@ class FrameData {
 
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   // Fills the buffers of this frame in flight. Afterwards passes()[i] belongs to plan.passes[i], the next to the main
-  // view, those after it to the faces of the maps that this frame renders, and set() is valid until the frame has
-  // finished.
+  // view, those after it to the faces of the environment maps and then of the shadow maps that this frame renders, and
+  // set() is valid until the frame has finished.
   void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
@@ -111,7 +112,7 @@ class FrameData {
   };
   // Adds a pass that is drawn from pixel `corner` of its target on.
   void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
-  void addLights(const Source& source, const PlannedPass& pass, PassBlock& block);
+  void addLights(const Source& source, const PlannedPass& pass, PassBlock& block, PassData& data);
   void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
   // Makes the instance's batch look up its environment map.
   void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);

@@ -9,6 +9,8 @@
 
 namespace speculum {
 
+class ShadowSystem;
+
 // Inputs of the systems for one frame.
 struct FrameInfo {
   Frame& frame;
@@ -19,6 +21,7 @@ struct FrameInfo {
   const SceneResources& resources;
   const FrameData& data;
   const TraceFrame& trace;
+  const ShadowSystem& shadows;
   EffectLedger& ledger;                 // systems enter their draws
   std::span<const MirrorImage> images;  // of plan.passes, by index; valid while their parent is recorded
   std::span<const MirrorImage> cached;  // parallel to FramePlan::cached; set where an earlier frame rendered the image

@@ -1,5 +1,7 @@
 #include "systems/mirror_system.hpp"
 
+#include "systems/shadow_system.hpp"
+
 namespace speculum {
 
 namespace {
@@ -37,7 +39,7 @@ bool MirrorSystem::tracesRays(Shading shading, const TraceVariant& trace) {
   return trace.traced;
 }
 
-GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, VkDescriptorSetLayout traceLayout) const {
+GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameInfo& info) const {
   const Shading shading = variant.shading;
   GraphicsPipelineDesc desc{.name = "mirror",
                             .vert = "mirror.vert",
@@ -64,29 +66,33 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, VkDescriptor
                                               : "mirror_traced.frag";
     desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT &&
                          (shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered));
-    desc.setLayouts.push_back(traceLayout);
+    desc.setLayouts.push_back(info.trace.layout());
     addConstants(variant.trace, desc.fragConstants);
+  }
+  if (variant.shadowed) {
+    desc.frag = shading == Shading::average ? "mirror_average_shadowed.frag" : "mirror_shadowed.frag";
+    desc.setLayouts.push_back(info.shadows.layout());
   }
   desc.fragConstants.resize(6, 0);
   desc.fragConstants.insert(desc.fragConstants.end(),
                             {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows),
-                             static_cast<uint32_t>(variant.lookup), variant.painted});
+                             static_cast<uint32_t>(variant.lookup), variant.painted, variant.shadowedLights});
   return desc;
 }
 
 void MirrorSystem::countPipelines(EffectLedger& ledger) const {
   pipelines_.forEach([&](const Variant& variant) {
-    ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
+    ledger.pipeline(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::ripple, variant.shading == Shading::scatteredBySample);
     ledger.pipeline(EffectKind::roughness, variant.shading == Shading::scattered || variant.blurs);
   });
 }
 
-void MirrorSystem::endFrame(const TraceVariant& trace, bool imagesShown) {
+void MirrorSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown) {
   pipelines_.endFrame([&](const Variant& variant) {
     const bool stays = imagesShown && variant.trace == trace;
-    return !stays && tracesRays(variant.shading, variant.trace);
+    return (!stays && tracesRays(variant.shading, variant.trace)) || (!shadowMaps && variant.shadowed);
   });
 }
 
@@ -149,8 +155,10 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
       variant.clampDepth = !oblique;
       const bool traces = tracesRays(shading, info.trace.variant());
       variant.trace = traces ? info.trace.variant() : TraceVariant{};
+      variant.shadowed = variant.painted && !traces && info.shadows.set() != VK_NULL_HANDLE;
+      variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
       variant.lightCount = variant.painted && !traces ? fixedLightCount(info.scene) : gpu::manyLights;
-      const Pipeline& drawn = pipelines_.get(variant, [&] { return describe(variant, info.trace.layout()); });
+      const Pipeline& drawn = pipelines_.get(variant, [&] { return describe(variant, info); });
       const bool reads = image && shading != Shading::base;
       const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
       DescriptorWriter().image(0, reads ? image->descriptor : noImage).update(device_, set);
@@ -159,6 +167,8 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
       drawn.bindSet(scope.commands(), 1, set);
       if (traces) {
         drawn.bindSet(scope.commands(), 2, info.trace.set());
+      } else if (variant.shadowed) {
+        drawn.bindSet(scope.commands(), 2, info.shadows.set());
       }
       scope.beginLabel(mirror.scatters ? "traced mirror" : "mirror");
       vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
@@ -167,7 +177,7 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
       info.ledger.draw(EffectKind::ripple, mirror.rippled);
       info.ledger.draw(EffectKind::roughness, mirror.rough);
       info.ledger.draw(EffectKind::fresnel, mirror.fresnel);
-      info.ledger.draw(EffectKind::shadows, variant.trace.shadows);
+      info.ledger.draw(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
       info.ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
     }
   }

@@ -18,7 +18,7 @@ class MirrorSystem {
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines as RenderSystem::endFrame does.
-  void endFrame(const TraceVariant& trace, bool imagesShown);
+  void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown);
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
@@ -34,11 +34,13 @@ class MirrorSystem {
     bool painted = false;
     uint32_t lightCount = gpu::manyLights;
     TraceVariant trace;
+    bool shadowed = false;        // looks shadows up in maps
+    uint32_t shadowedLights = 0;  // constant of shadow_map.glsl
     auto operator<=>(const Variant&) const = default;
   };
   static Variant variantOf(const MirrorRange& mirror, Shading shading);
   static bool tracesRays(Shading shading, const TraceVariant& trace);
-  GraphicsPipelineDesc describe(const Variant& variant, VkDescriptorSetLayout traceLayout) const;
+  GraphicsPipelineDesc describe(const Variant& variant, const FrameInfo& info) const;
   // The draws of a mirror, in order.
   std::vector<Shading> shadings(const MirrorRange& mirror, const MirrorImage* image, const PassFormat& format) const;
 

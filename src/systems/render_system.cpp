@@ -5,6 +5,7 @@
 
 #include "geometry/mesh_levels.hpp"
 #include "systems/gpu_conversion.hpp"
+#include "systems/shadow_system.hpp"
 
 namespace speculum {
 
@@ -16,9 +17,6 @@ bool RenderSystem::tracesRays(const Variant& variant) {
   return variant.trace.traced || (variant.curved && !variant.environment);
 }
 
-namespace {
-
-// Adds the inputs of scene.vert.
 void addVertexInput(GraphicsPipelineDesc& desc) {
   desc.vertexBindings = {{0, sizeof(GpuVertex), VK_VERTEX_INPUT_RATE_VERTEX},
                          {1, sizeof(gpu::InstanceData), VK_VERTEX_INPUT_RATE_INSTANCE}};
@@ -36,9 +34,14 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
   add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipPlane), 1);
 }
 
-}  // namespace
+void bindBuffers(VkCommandBuffer commands, const Buffer& vertices, const Buffer& indices, const FrameData& data) {
+  const std::array buffers{vertices.get(), data.instanceBuffer()};
+  constexpr std::array<VkDeviceSize, 2> offsets{};
+  vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
+  vkCmdBindIndexBuffer(commands, indices.get(), 0, VK_INDEX_TYPE_UINT32);
+}
 
-GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, VkDescriptorSetLayout traceLayout) const {
+GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameInfo& info) const {
   GraphicsPipelineDesc desc{.name = "scene",
                             .vert = "scene.vert",
                             .frag = "scene.frag",
@@ -54,13 +57,19 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, VkDescriptorS
   } else if (tracesRays(variant)) {
     desc.frag = variant.curved ? "scene_curved.frag" : "scene_traced.frag";
   }
+  if (variant.shadowed) {
+    desc.frag = variant.environment ? "scene_environment_shadowed.frag" : "scene_shadowed.frag";
+    desc.setLayouts.push_back(info.shadows.layout());
+  }
   if (tracesRays(variant)) {
-    desc.setLayouts.push_back(traceLayout);
+    desc.setLayouts.push_back(info.trace.layout());
     addConstants(variant.trace, desc.fragConstants);
     desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
   }
   desc.fragConstants.resize(6, 0);
   desc.fragConstants.push_back(variant.lightCount);
+  desc.fragConstants.resize(11, 0);
+  desc.fragConstants.push_back(variant.shadowedLights);
   addVertexInput(desc);
   return desc;
 }
@@ -98,7 +107,7 @@ uint32_t lookupOf(bool textured, TextureFilter filter) {
 }  // namespace
 
 void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
-  ledger.draw(EffectKind::shadows, variant.trace.shadows);
+  ledger.draw(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
   ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
   ledger.draw(EffectKind::curved, variant.curved);
   ledger.draw(EffectKind::wireframe, variant.wireframe);
@@ -114,13 +123,13 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     variant.trace = info.trace.variant();
     const bool traces = tracesRays(variant);
     variant.trace = traces ? variant.trace : TraceVariant{};
+    variant.shadowed = !traces && info.shadows.set() != VK_NULL_HANDLE;
+    variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
     variant.lightCount = traces ? gpu::manyLights : fixedLightCount(info.scene);
     const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
     const bool whole = batch.level < 0;
-    const std::array buffers{(whole ? mesh.vertices : mesh.levelVertices).get(), info.data.instanceBuffer()};
-    constexpr std::array<VkDeviceSize, 2> offsets{};
-    vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
-    vkCmdBindIndexBuffer(commands, (whole ? mesh.indices : mesh.levelIndices).get(), 0, VK_INDEX_TYPE_UINT32);
+    bindBuffers(commands, whole ? mesh.vertices : mesh.levelVertices, whole ? mesh.indices : mesh.levelIndices,
+                info.data);
     scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
     for (size_t p = 0; p < mesh.parts.size(); ++p) {
       const SceneResources::Part& part = mesh.parts[p];
@@ -129,12 +138,14 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
                                                    info.scene.objects[batch.object], batch.handedness);
       variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
       variant.glossy = constants.specular != glm::vec3(0.0f);
-      const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info.trace.layout()); });
+      const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info); });
       pipeline.bind(commands);
       info.data.bind(pipeline, commands, data);
       pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
       if (traces) {
         pipeline.bindSet(commands, 2, info.trace.set());
+      } else if (variant.shadowed) {
+        pipeline.bindSet(commands, 2, info.shadows.set());
       }
       for (const IndexRange& range : drawnRanges(partRange(info.scene, mesh, p, batch), batch)) {
         constants.firstTriangle = range.first / 3;
@@ -152,7 +163,7 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
 
 void RenderSystem::countPipelines(EffectLedger& ledger) const {
   objects_.forEach([&](const Variant& variant) {
-    ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
+    ledger.pipeline(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::curved, variant.curved);
     ledger.pipeline(EffectKind::wireframe, variant.wireframe);
@@ -160,10 +171,10 @@ void RenderSystem::countPipelines(EffectLedger& ledger) const {
   });
 }
 
-void RenderSystem::endFrame(const TraceVariant& trace, bool imagesShown, bool curved, bool textured) {
+void RenderSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured) {
   objects_.endFrame([&](const Variant& variant) {
     const bool stays = imagesShown && variant.trace == trace && (curved || !variant.curved);
-    return (!stays && (variant.curved || variant.trace.traced)) ||
+    return (!stays && (variant.curved || variant.trace.traced)) || (!shadowMaps && variant.shadowed) ||
            (!textured && variant.diffuseLookup != gpu::textureNone);
   });
 }

@@ -5,6 +5,11 @@
 
 namespace speculum {
 
+// Adds the inputs of scene.vert.
+void addVertexInput(GraphicsPipelineDesc& desc);
+// Binds a mesh and the frame's instances as these inputs.
+void bindBuffers(VkCommandBuffer commands, const Buffer& vertices, const Buffer& indices, const FrameData& data);
+
 // Draws the scene's objects and, where nothing was drawn, its sky.
 class RenderSystem {
  public:
@@ -15,7 +20,7 @@ class RenderSystem {
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines that trace rays or look up textures and have not been used for some frames. While cached images are
   // shown, the pipelines that rendered them stay. `textured` is drawsTextures().
-  void endFrame(const TraceVariant& trace, bool imagesShown, bool curved, bool textured);
+  void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured);
   size_t pipelineCount() const { return objects_.size() + skies_.size(); }
 
  private:
@@ -30,10 +35,12 @@ class RenderSystem {
     bool glossy;
     uint32_t lightCount;
     TraceVariant trace;
+    bool shadowed = false;        // looks shadows up in maps
+    uint32_t shadowedLights = 0;  // constant of shadow_map.glsl
     auto operator<=>(const Variant&) const = default;
   };
   static bool tracesRays(const Variant& variant);
-  GraphicsPipelineDesc objects(const Variant& variant, VkDescriptorSetLayout traceLayout) const;
+  GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info) const;
   static void countDraw(EffectLedger& ledger, const Variant& variant);
   uint32_t recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data, Variant variant);
   uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const PassData& data);

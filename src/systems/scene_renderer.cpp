@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "frame/environment_map.hpp"
+#include "frame/cube_face.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
+#include "frame/shadow_map.hpp"
 #include "image/enlarge.hpp"
 
 namespace speculum {
@@ -60,6 +61,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       renderSystem_(renderer.pipelines(), data_.layout(), resources_.textureLayout()),
       pointLightSystem_(renderer.pipelines(), data_.layout()),
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
+      shadowSystem_(device_, renderer.pipelines(), data_.layout()),
       watch_(renderer),
       display_(renderer),
       accumulation_(renderer),
@@ -73,8 +75,9 @@ SceneRenderer::~SceneRenderer() = default;
 
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
-         mirrorSystem_.pipelineCount() + display_.pipelineCount() + accumulation_.pipelineCount() +
-         watch_.pipelineCount() + watchedDepth_->pipelineCount() + probe_.pipelineCount();
+         mirrorSystem_.pipelineCount() + shadowSystem_.pipelineCount() + display_.pipelineCount() +
+         accumulation_.pipelineCount() + watch_.pipelineCount() + watchedDepth_->pipelineCount() +
+         probe_.pipelineCount();
 }
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
@@ -106,6 +109,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                        .resources = resources_,
                        .data = data_,
                        .trace = trace_,
+                       .shadows = shadowSystem_,
                        .ledger = ledger_,
                        .images = mirrorTargets_.images(),
                        .cached = mirrorTargets_.cached(),
@@ -114,6 +118,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (!plan.mainReused) {
     ledger_ = {};
   }
+  recordShadows(info);
   recordMaps(info);
   recordMirrors(info);
   recordMain(info);
@@ -145,6 +150,7 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
                        showsMirror ? std::optional(debug->pass) : std::nullopt, *frame.retired);
   prepareMain(settings, plan, *frame.retired);
   environmentTargets_.prepare(plan, *frame.retired);
+  shadowSystem_.prepare(frame, plan);
   mapSets_.clear();
   for (size_t i = 0; i < plan.maps.size(); ++i) {
     mapSets_.push_back(frame.descriptors->allocate(resources_.textureLayout()));
@@ -207,6 +213,42 @@ void SceneRenderer::recordMap(const FrameInfo& info, size_t map, size_t firstFac
     ledger_[EffectKind::curved].draws = drawsBefore + recorded_.back().draws;
   }
   checkTarget(info, recorded_.back(), target, {3 * size.width, 2 * size.height});
+}
+
+void SceneRenderer::recordShadows(const FrameInfo& info) {
+  const std::vector<ShadowMap>& maps = info.plan.shadowMaps;
+  size_t index = info.plan.passes.size() + 1;  // in info.data, after the main view and the environment maps
+  for (const EnvironmentMap& map : info.plan.maps) {
+    index += map.cacheIndex < 0 ? map.faces.size() : 0;
+  }
+  for (size_t map = 0; map < maps.size(); ++map) {
+    for (size_t i = 0; i < maps[map].faces.size(); ++i) {
+      const ShadowFace& face = maps[map].faces[i];
+      if (!face.rendered) {
+        continue;
+      }
+      const glm::ivec2 corner = shadowCorner(maps, map, i);
+      const VkRect2D area{{corner.x, corner.y}, extentOf(maps[map].size, maps[map].size)};
+      RecordedPass pass;
+      pass.kind = PassKind::shadow;
+      pass.light = maps[map].light;
+      pass.face = static_cast<int>(i);
+      pass.name = shadowFaceName(maps[map], i);
+      pass.areaPx = face.pass.areaPx;
+      const PassDesc desc{.name = pass.name,
+                          .targets = shadowSystem_.target().targets(),
+                          .renderArea = area,
+                          .viewport = {static_cast<float>(corner.x), static_cast<float>(corner.y),
+                                       static_cast<float>(maps[map].size), static_cast<float>(maps[map].size)},
+                          .scissor = area,
+                          .collectStatistics = true};
+      PassScope scope = renderer_.beginPass(info.frame, desc);
+      scope.countSamples();
+      pass.draws = shadowSystem_.record(scope, info, index++);
+      ledger_[EffectKind::shadows].draws += pass.draws;
+      recorded_.push_back(std::move(pass));
+    }
+  }
 }
 
 void SceneRenderer::recordMirrors(const FrameInfo& info) {
@@ -304,8 +346,9 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const FramePlan& plan = info.plan;
   RetireQueue& retired = *info.frame.retired;
   const bool imagesShown = !plan.reused.empty() || plan.mainReused;
-  renderSystem_.endFrame(trace_.variant(), imagesShown, plan.effects.curved.has_value(), textured);
-  mirrorSystem_.endFrame(trace_.variant(), imagesShown);
+  const bool shadowMaps = !plan.shadowMaps.empty();
+  renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured);
+  mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown);
   pointLightSystem_.endFrame(
       (plan.mainReused && !plan.main.lights.empty()) ||
       std::any_of(plan.reused.begin(), plan.reused.end(), [](const auto& p) { return !p.lights.empty(); }));
@@ -316,6 +359,7 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   mirrorTargets_.end(plan, retired);
   cacheRevision_ = renderer_.pipelines().revision();
   environmentTargets_.endFrame(plan, retired);
+  shadowSystem_.endFrame(plan, retired);
   recordedFrames_[info.frame.number % recordedFrames_.size()] = {info.frame.number, recorded_};
 }
 
@@ -374,13 +418,15 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
   ledger_[EffectKind::textures].bytes = ledger_[EffectKind::textures].draws > 0 ? resources_.textureBytes() : 0;
   ledger_[EffectKind::toneMap].draws = settings.view.toneMap == ToneMap::aces ? 1 : 0;
   for (const auto& [kind, traces] :
-       {std::pair(EffectKind::shadows, effects.shadows.has_value()),
-        std::pair(EffectKind::roughness, effects.roughRays), std::pair(EffectKind::ripple, effects.ripple.has_value()),
+       {std::pair(EffectKind::shadows, effects.shadowRays), std::pair(EffectKind::roughness, effects.roughRays),
+        std::pair(EffectKind::ripple, effects.ripple.has_value()),
         std::pair(EffectKind::castsLight, effects.castsLight.has_value()),
         std::pair(EffectKind::curved, effects.curvedRays)}) {
     ledger_[kind].bytes = traces ? trace_.bytes() : 0;
   }
   ledger_[EffectKind::curved].bytes += environmentTargets_.bytes();
+  ledger_[EffectKind::shadows].bytes += shadowSystem_.bytes();
+  ledger_[EffectKind::shadows].pipelines += static_cast<uint32_t>(shadowSystem_.pipelineCount());
   ledger_[EffectKind::glyphs].pipelines = static_cast<uint32_t>(pointLightSystem_.pipelineCount());
   display_.countPipelines(ledger_);
   renderSystem_.countPipelines(ledger_);
@@ -393,12 +439,14 @@ FrameCache SceneRenderer::cache() const {
   }
   return {.images = mirrorTargets_.cachedImages(),
           .maps = environmentTargets_.cached(),
+          .shadowMaps = shadowSystem_.cached(),
           .main = mainImage_.content.empty() ? nullptr : &mainImage_};
 }
 
 void SceneRenderer::restart() {
   mainImage_ = {};
   environmentTargets_.restart();
+  shadowSystem_.restart();
   mirrorTargets_.restart();
 }
 

@@ -17,6 +17,7 @@
 #include "systems/point_light_system.hpp"
 #include "systems/recorded_pass.hpp"
 #include "systems/render_system.hpp"
+#include "systems/shadow_system.hpp"
 #include "systems/texel_probe.hpp"
 #include "systems/watched_depth.hpp"
 
@@ -71,6 +72,7 @@ class SceneRenderer {
   void prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void recordMaps(const FrameInfo& info);
   void recordMap(const FrameInfo& info, size_t map, size_t firstFace);
+  void recordShadows(const FrameInfo& info);
   void recordMirrors(const FrameInfo& info);
   void recordMirrorRange(const FrameInfo& info, const PassRange& range);
   void recordMain(const FrameInfo& info);
@@ -98,6 +100,7 @@ class SceneRenderer {
   RenderSystem renderSystem_;
   PointLightSystem pointLightSystem_;
   MirrorSystem mirrorSystem_;
+  ShadowSystem shadowSystem_;
   FiniteWatch watch_;
   DisplaySystem display_;
   Accumulation accumulation_;

@@ -121,8 +121,8 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
     create();
   }
   prepareScene(frame, effects.traces());
-  variant_ = {.traced = effects.shadows || effects.castsLight,
-              .shadows = effects.shadows.has_value(),
+  variant_ = {.traced = (effects.shadowRays && !effects.shadowMaps) || effects.castsLight,
+              .shadows = effects.shadowRays,
               .castsLight = effects.castsLight.has_value(),
               .perSample = settings.effects.perSample && effects.traces()};
   addMirrors(state, settings);

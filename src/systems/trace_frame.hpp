@@ -13,7 +13,7 @@ namespace speculum {
 
 // Traced effects of a frame, as specialisation constants of pipelines.
 struct TraceVariant {
-  bool traced = false;  // shadow rays, or light that mirrors bounce
+  bool traced = false;  // what is drawn traces shadow rays, or shows light that mirrors bounce
   bool shadows = false;
   bool castsLight = false;
   bool perSample = false;

@@ -34,7 +34,8 @@ std::vector<std::pair<std::string, std::string>> truthSettings(int maxDepth) {
           {"reflection.samples", "1"},
           {"reflection.max_depth", std::to_string(maxDepth)},
           {"reflection.max_passes", "100000"},
-          {"reflection.min_pixels", "0"}};
+          {"reflection.min_pixels", "0"},
+          {"effects.shadow_lookup", "traced"}};
 }
 
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth) {

@@ -1,0 +1,57 @@
+// Shadows looked up in the images about a light: ShadowMap in src/frame/frame_plan.hpp. docs/numerics.md derives the
+// bias. Needs interface.glsl.
+#include "cube_face.glsl"
+
+layout(constant_id = 11) const uint shadowedLights = 0;  // bits of the pass's lights that have a map, if these are fixed
+
+layout(set = 2, binding = 0) uniform sampler2D shadowTexels;  // disparities from the light, 1/m; 0: nothing is there
+layout(set = 2, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMaps[mostShadowMaps]; };
+
+const float leastShadowCosine = 0.05;  // steeper slopes count as this one
+const float shadowBias = 0.5;          // texels
+
+// The point that shadows are looked up for, relative, and the normal of its triangle. Set before surfaceRadiance().
+vec3 receiver;
+vec3 receiverNormal;
+
+// Sets the receiver of a triangle from the interpolated position, which some drivers put off the triangle's plane where
+// it covers a pixel in part: the plane follows from the pixel's centre. Needs uniform control flow.
+void setReceiver(vec3 position, vec3 shadingNormal) {
+  vec3 center = rayThrough(gl_FragCoord.xy) / max(gl_FragCoord.w, 1e-30);
+  vec3 facet = cross(dFdx(center), dFdy(center));
+  float along = dot(facet, center) / dot(facet, position);  // not a number for a triangle without a plane
+  bool found = along > 0.5 && along < 2.0;
+  receiver = found ? along * position : position;
+  receiverNormal = found ? safeNormalize(facet * inversesqrt(max(dot(facet, facet), 1e-30))) : shadingNormal;
+  receiverNormal = dot(receiverNormal, shadingNormal) < 0.0 ? -receiverNormal : receiverNormal;
+}
+
+// Returns the share of the light that reaches the receiver, interpolated bilinearly between four texels. Each is
+// compared with the disparity of the receiver's plane at that texel, which is linear on the face, so that no plane
+// shadows itself whatever its slope.
+float shadowShare(LightData light) {
+  vec3 p = receiver - light.position;
+  CubeFace face = cubeFace(p);
+  vec4 window = shadowMaps[light.shadowMap].faces[face.index];
+  float disparity = 1.0 / max(face.along, 1e-30);
+  vec2 at = vec2(dot(p, face.right), dot(p, face.down)) * disparity * window.xy + window.zw;
+  float away = length(p);
+  float height = min(dot(receiverNormal, p), -leastShadowCosine * away);  // of the light below the surface's plane
+  vec2 gradient = vec2(dot(receiverNormal, face.right), dot(receiverNormal, face.down)) / (min(height, -1e-30) * window.xy);
+  disparity += disparity * shadowBias / min(window.x, window.y);
+
+  vec2 corner = floor(at + 0.5);  // shared by the four texels
+  vec2 low = corner - 0.5 - at;
+  // In the order of textureGather: lower left, lower right, upper right, upper left, with y downwards.
+  vec4 x = low.x + vec4(0.0, 1.0, 1.0, 0.0);
+  vec4 y = low.y + vec4(1.0, 1.0, 0.0, 0.0);
+  vec4 texels = textureGather(shadowTexels, corner / vec2(textureSize(shadowTexels, 0)));
+  vec4 lit = vec4(lessThanEqual(texels, disparity + gradient.x * x + gradient.y * y));
+  return dot(lit, (1.0 - abs(x)) * (1.0 - abs(y)));
+}
+
+// Returns the share of light `index` of the pass that reaches the receiver.
+float litShare(uint index, LightData light) {
+  bool shadowed = lightCount == manyLights ? light.shadowMap != noShadowMap : (shadowedLights >> index & 1u) != 0;
+  return shadowed ? shadowShare(light) : 1.0;
+}

@@ -1,0 +1,101 @@
+#include "frame/cube_face.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace speculum {
+
+namespace {
+
+// Adds a mirror without an image, as at reflection.max_depth.
+void addMirror(const Mirror& material, const MirrorState& mirror, int index, const View& drawn, PlannedPass& face) {
+  const double height = glm::dot(mirror.normal, face.view.eye - mirror.origin);
+  MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
+  draw.back = height < 0.0 && !material.twoSided;
+  draw.polygon = visiblePart(drawn, mirror.polygon);
+  if (height == 0.0 || draw.polygon.empty()) {
+    return;
+  }
+  if (height < 0.0) {
+    draw.plane.normal = -draw.plane.normal;
+    std::reverse(draw.polygon.begin(), draw.polygon.end());
+  }
+  face.mirrors.push_back(std::move(draw));
+}
+
+}  // namespace
+
+std::span<const FaceAxes> faceAxes() {
+  static const std::array<FaceAxes, 6> axes = {{{"+x", {1, 0, 0}, {0, 1, 0}},
+                                                {"-x", {-1, 0, 0}, {0, 1, 0}},
+                                                {"+y", {0, 1, 0}, {0, 0, 1}},
+                                                {"-y", {0, -1, 0}, {0, 0, 1}},
+                                                {"+z", {0, 0, 1}, {0, 1, 0}},
+                                                {"-z", {0, 0, -1}, {0, 1, 0}}}};
+  return axes;
+}
+
+std::vector<Box> boxesOf(const Scene& scene, const SceneState& state) {
+  std::vector<Box> boxes;
+  for (const InstanceState& instance : state.instances) {
+    const glm::dvec3& half = scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent;
+    glm::dvec3 reach(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      reach += glm::abs(instance.worldFromMesh.linear[axis]) * half[axis];
+    }
+    Box& box = boxes.emplace_back();
+    box.add(instance.worldFromMesh.translation - reach);
+    box.add(instance.worldFromMesh.translation + reach);
+  }
+  for (const MirrorState& mirror : state.mirrors) {
+    Box& box = boxes.emplace_back();
+    std::for_each(mirror.polygon.begin(), mirror.polygon.end(), [&](const glm::dvec3& p) { box.add(p); });
+  }
+  return boxes;
+}
+
+void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
+                         PlannedPass& pass) {
+  for (int i = 0; i < static_cast<int>(state.instances.size()); ++i) {
+    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    if (i == without || !sphereVisible(view, instance.center, instance.radius) ||
+        !boxVisible(view, instance.worldFromMesh, mesh.halfExtent)) {
+      continue;
+    }
+    const std::vector<IndexRange> ranges =
+        cullClusters ? visibleRanges(view, instance, mesh) : std::vector<IndexRange>{allOf(mesh)};
+    if (ranges.empty()) {
+      continue;
+    }
+    pass.instances.push_back(i);
+    if (ranges.front() != allOf(mesh)) {
+      pass.partial.push_back({i, ranges});
+    }
+  }
+}
+
+View viewOf(const CubeFace& face) {
+  const glm::dvec3& forward = face.axes.forward;
+  const glm::dvec3& up = face.axes.up;
+  CameraPose pose;
+  pose.eye = face.center;
+  pose.worldToView = glm::transpose(glm::dmat3(glm::cross(forward, up), up, -forward));  // the axes are its rows
+  return mainView(pose, face.projection, face.size, face.size);
+}
+
+PlannedPass planFace(const CubeFace& face, const Scene& scene, const SceneState& state, bool cullClusters,
+                     int without) {
+  PlannedPass pass;
+  pass.view = viewOf(face);
+  pass.areaPx = pass.view.rect.area();
+  addVisibleInstances(pass.view, scene, state, cullClusters, without, pass);
+  View drawn = pass.view;
+  widen(drawn, face.projection, 1);
+  for (size_t i = 0; i < scene.mirrors.size(); ++i) {
+    addMirror(scene.mirrors[i], state.mirrors[i], static_cast<int>(i), drawn, pass);
+  }
+  return pass;
+}
+
+}  // namespace speculum

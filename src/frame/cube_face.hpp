@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "frame/frame_plan.hpp"
+
+namespace speculum {
+
+// Directions in which the six images about a point look: +x, -x, +y, -y, +z, -z.
+struct FaceAxes {
+  const char* name;
+  glm::dvec3 forward;  // world
+  glm::dvec3 up;
+};
+std::span<const FaceAxes> faceAxes();
+
+// A box in world space.
+struct Box {
+  glm::dvec3 low{1e300};
+  glm::dvec3 high{-1e300};
+
+  void add(const glm::dvec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+};
+
+// One box per instance, then one per mirror, in scene order.
+std::vector<Box> boxesOf(const Scene& scene, const SceneState& state);
+
+// Adds the instances that the view may see, but for `without`, with only their visible clusters if `cullClusters`.
+void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
+                         PlannedPass& pass);
+
+// Where a face is seen from, and how.
+struct CubeFace {
+  glm::dvec3 center;  // world
+  FaceAxes axes;
+  Projection projection;
+  int size = 0;  // texels of each side
+};
+
+View viewOf(const CubeFace& face);
+
+// Plans a face with the instances in it, but for `without`, and mirrors without an image, as at reflection.max_depth.
+PlannedPass planFace(const CubeFace& face, const Scene& scene, const SceneState& state, bool cullClusters,
+                     int without = -1);
+
+}  // namespace speculum

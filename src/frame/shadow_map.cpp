@@ -1,0 +1,251 @@
+#include "frame/shadow_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "frame/cube_face.hpp"
+#include "frame/image_content.hpp"
+#include "frame/scene_names.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Width of the smallest window, metres in the plane one metre before the light: smaller ones would show the rounding
+// of directions.
+constexpr double smallestWindow = 1e-3;
+
+struct Window {
+  glm::dvec2 low{1.0};
+  glm::dvec2 high{-1.0};
+
+  bool empty() const { return low.x >= high.x || low.y >= high.y; }
+  void add(const Window& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
+};
+
+// Part of the face in which the box is seen: all of it if the box reaches behind the light.
+Window windowOf(const Box& box, const glm::dvec3& center, const FaceAxes& axes) {
+  const glm::dvec3 right = glm::cross(axes.forward, axes.up);
+  Window seen{glm::dvec2(1e300), glm::dvec2(-1e300)};
+  bool before = false;
+  bool behind = false;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p =
+        glm::mix(box.low, box.high, glm::bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0)) - center;
+    const double w = glm::dot(p, axes.forward);
+    before = before || w > 0.0;
+    behind = behind || !(w > 1e-6 * glm::length(p));
+    const glm::dvec2 at(glm::dot(p, right) / w, -glm::dot(p, axes.up) / w);
+    seen.low = glm::min(seen.low, at);
+    seen.high = glm::max(seen.high, at);
+  }
+  if (!before) {
+    return {};
+  }
+  if (behind) {
+    return {glm::dvec2(-1.0), glm::dvec2(1.0)};
+  }
+  return {glm::max(seen.low, -1.0), glm::min(seen.high, 1.0)};
+}
+
+// Moves the sides outwards to a grid, so that a window stays the same while something in it moves a little.
+Window onGrid(Window window) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const double width = std::max(window.high[axis] - window.low[axis], smallestWindow);
+    const double step = std::exp2(std::floor(std::log2(width))) / 8.0;
+    window.low[axis] = std::max(std::floor(window.low[axis] / step) * step, -1.0);
+    window.high[axis] = std::min(std::ceil(window.high[axis] / step) * step, 1.0);
+    if (window.high[axis] - window.low[axis] < smallestWindow) {
+      const double middle =
+          std::clamp(0.5 * (window.low[axis] + window.high[axis]), smallestWindow - 1.0, 1.0 - smallestWindow);
+      window.low[axis] = middle - 0.5 * smallestWindow;
+      window.high[axis] = middle + 0.5 * smallestWindow;
+    }
+  }
+  return window;
+}
+
+// The window is the image without its border.
+Projection projectionOf(const Window& window, int size, double near) {
+  const glm::dvec2 scale =
+      2.0 / (window.high - window.low) * static_cast<double>(size - 2 * shadowBorder) / static_cast<double>(size);
+  Projection projection;
+  projection.focal = scale.y;
+  projection.aspect = scale.y / scale.x;
+  projection.near = near;
+  projection.offset = -0.5 * scale * (window.low + window.high);
+  return projection;
+}
+
+// Directions, in world space, to the corners of the view's rectangle.
+std::array<glm::dvec3, 4> cornerRays(const View& view, const Projection& projection) {
+  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
+  std::array<glm::dvec3, 4> rays;
+  for (int corner = 0; corner < 4; ++corner) {
+    const glm::dvec2 pixel(view.rect.x + (corner & 1) * view.rect.width,
+                           view.rect.y + (corner >> 1) * view.rect.height);
+    const glm::dvec2 device = 2.0 * pixel / view.pictureSize - 1.0 - projection.offset;
+    rays[static_cast<size_t>(corner)] =
+        viewToWorld * glm::dvec3(device.x * projection.aspect / projection.focal, -device.y / projection.focal, -1.0);
+  }
+  return rays;
+}
+
+// Says whether all rays from `eye` stay on the plane's negative side.
+bool liesBehind(const glm::dvec3& normal, double height, std::span<const glm::dvec3> rays) {
+  return height < 0.0 &&
+         std::all_of(rays.begin(), rays.end(), [&](const glm::dvec3& ray) { return glm::dot(normal, ray) <= 0.0; });
+}
+
+// Says whether the pyramids of two views may meet; false only if a side of one of them separates them.
+bool mayMeet(const View& a, std::span<const glm::dvec3> raysOfA, const View& b, std::span<const glm::dvec3> raysOfB) {
+  const auto separates = [](const View& sides, const View& other, std::span<const glm::dvec3> rays) {
+    return (sides.clip && liesBehind(sides.clip->normal, sides.clip->distance(other.eye), rays)) ||
+           std::any_of(sides.cone.begin(), sides.cone.end(), [&](const glm::dvec3& normal) {
+             return liesBehind(normal, glm::dot(normal, other.eye - sides.eye), rays);
+           });
+  };
+  return !separates(a, b, raysOfB) && !separates(b, a, raysOfA);
+}
+
+// Columns and rows of maps in their target, which is about a square.
+glm::ivec2 gridOf(size_t maps) {
+  const int count = static_cast<int>(maps);
+  const int columns = static_cast<int>(std::ceil(std::sqrt(2.0 * count / 3.0)));
+  return {columns, (count + columns - 1) / columns};
+}
+
+class FacePlanner {
+ public:
+  FacePlanner(const Scene& scene, const SceneState& state, const Settings& settings,
+              std::span<const ShadowReader> readers)
+      : scene_(scene), state_(state), settings_(settings), readers_(readers), boxes_(boxesOf(scene, state)) {
+    for (const ShadowReader& reader : readers) {
+      rays_.push_back(cornerRays(reader.readable, *reader.projection));
+    }
+  }
+
+  ShadowFace plan(const glm::dvec3& center, const FaceAxes& axes) const {
+    ShadowFace face;
+    Window window;
+    for (const Box& box : boxes_) {
+      if (const Window seen = windowOf(box, center, axes); !seen.empty()) {
+        window.add(seen);
+      }
+    }
+    if (window.empty()) {
+      return face;
+    }
+    window = onGrid(window);
+    face.low = window.low;
+    face.high = window.high;
+    const int size = settings_.effects.shadowMapSize;
+    face.projection = projectionOf(window, size, std::min(state_.camera.near, Projection().near));
+    const CubeFace cube{center, axes, face.projection, size};
+    face.pass.view = viewOf(cube);
+    const std::array<glm::dvec3, 4> rays = cornerRays(face.pass.view, face.projection);
+    std::vector<const PlannedPass*> near;
+    for (size_t i = 0; i < readers_.size(); ++i) {
+      if (mayMeet(face.pass.view, rays, readers_[i].readable, rays_[i])) {
+        near.push_back(readers_[i].pass);
+      }
+    }
+    if (!near.empty()) {
+      face.pass = planFace(cube, scene_, state_, settings_.debug.cullClusters);
+      face.read =
+          std::any_of(near.begin(), near.end(), [&](const PlannedPass* pass) { return hasReceiver(face, *pass); });
+    }
+    return face;
+  }
+
+ private:
+  // Says whether something that the pass draws, and that light falls on, is in the face.
+  bool hasReceiver(const ShadowFace& face, const PlannedPass& pass) const {
+    const std::vector<int>& drawn = face.pass.instances;
+    return std::any_of(pass.instances.begin(), pass.instances.end(),
+                       [&](int i) { return std::binary_search(drawn.begin(), drawn.end(), i); }) ||
+           std::any_of(pass.mirrors.begin(), pass.mirrors.end(), [&](const MirrorDraw& draw) {
+             const Mirror& mirror = scene_.mirrors[static_cast<size_t>(draw.mirror)];
+             return (draw.back ? mirror.backColor : mirror.baseColor) != glm::dvec3(0.0) &&
+                    std::any_of(face.pass.mirrors.begin(), face.pass.mirrors.end(),
+                                [&](const MirrorDraw& in) { return in.mirror == draw.mirror; });
+           });
+  }
+
+  const Scene& scene_;
+  const SceneState& state_;
+  const Settings& settings_;
+  std::span<const ShadowReader> readers_;
+  std::vector<std::array<glm::dvec3, 4>> rays_;  // of the readers
+  std::vector<Box> boxes_;
+};
+
+}  // namespace
+
+std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                                  std::span<const ShadowReader> readers) {
+  const FacePlanner planner(scene, state, settings, readers);
+  std::vector<ShadowMap> maps;
+  for (const int light : shadowLights(scene)) {
+    ShadowMap& map = maps.emplace_back();
+    map.light = light;
+    map.name = nameOf("light", scene.lights[static_cast<size_t>(light)].name, light);
+    map.size = settings.effects.shadowMapSize;
+    for (const FaceAxes& axes : faceAxes()) {
+      map.faces.push_back(planner.plan(state.lights[static_cast<size_t>(light)].position, axes));
+    }
+  }
+  return maps;
+}
+
+void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
+                     const SceneState& state) {
+  const bool reuses = std::equal(maps.begin(), maps.end(), before.begin(), before.end(),
+                                 [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
+  int serial = 0;
+  for (const ShadowMap& map : before) {
+    serial = std::max(serial, map.serial);
+  }
+  const int next = serial + 1;
+  for (size_t i = 0; i < maps.size(); ++i) {
+    maps[i].serial = reuses ? before[i].serial : next;
+    for (size_t f = 0; f < maps[i].faces.size(); ++f) {
+      ShadowFace& face = maps[i].faces[f];
+      const std::vector<uint64_t>* old = reuses ? &before[i].faces[f].content : nullptr;
+      if (face.read) {
+        face.content = shadowContent(state, face);
+        face.rendered = !settings.reflection.skipUnchanged || !old || *old != face.content;
+        maps[i].serial = face.rendered ? next : maps[i].serial;
+      } else if (old) {
+        face.content = *old;
+      }
+    }
+  }
+}
+
+std::string shadowFaceName(const ShadowMap& map, size_t face) {
+  return "shadow map of " + map.name + " " + faceAxes()[face].name;
+}
+
+bool rendersShadows(std::span<const ShadowMap> maps) {
+  return std::any_of(maps.begin(), maps.end(), [](const ShadowMap& map) {
+    return std::any_of(map.faces.begin(), map.faces.end(), [](const ShadowFace& face) { return face.rendered; });
+  });
+}
+
+glm::ivec2 shadowExtent(std::span<const ShadowMap> maps) {
+  return maps.empty() ? glm::ivec2(0) : glm::ivec2(3, 2) * gridOf(maps.size()) * maps[0].size;
+}
+
+glm::ivec2 shadowCorner(std::span<const ShadowMap> maps, size_t map, size_t face) {
+  const int columns = gridOf(maps.size()).x;
+  const glm::ivec2 place(static_cast<int>(map) % columns, static_cast<int>(map) / columns);
+  const glm::ivec2 within(static_cast<int>(face) % 3, static_cast<int>(face) / 3);
+  return maps[map].size * (glm::ivec2(3, 2) * place + within);
+}
+
+}  // namespace speculum

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "frame/frame_plan.hpp"
+
+namespace speculum {
+
+// Texels on each side of a face's window: a look-up reads one beyond its own, and rounding may move it.
+inline constexpr int shadowBorder = 2;
+
+// A pass whose surfaces look shadows up, and all that is read of its image.
+struct ShadowReader {
+  const PlannedPass* pass = nullptr;
+  View readable;
+  const Projection* projection = nullptr;
+};
+
+// Plans maps for the lights of shadowLights(), all of whose faces that a reader looks up are to be rendered. The window
+// of a face is as small as the scene allows.
+std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                                  std::span<const ShadowReader> readers);
+
+// Finds the faces that must be rendered: those that are read, and that differ from what the frame before left, or all
+// of them without reflection.skip_unchanged.
+void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
+                     const SceneState& state);
+
+// Name of a face's pass.
+std::string shadowFaceName(const ShadowMap& map, size_t face);
+
+bool rendersShadows(std::span<const ShadowMap> maps);
+
+// Texels of the target of all maps; zero without any.
+glm::ivec2 shadowExtent(std::span<const ShadowMap> maps);
+// Corner of a map's face in the target, in texels.
+glm::ivec2 shadowCorner(std::span<const ShadowMap> maps, size_t map, size_t face);
+
+}  // namespace speculum

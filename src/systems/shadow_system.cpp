@@ -1,0 +1,144 @@
+#include "systems/shadow_system.hpp"
+
+#include <array>
+#include <utility>
+
+#include "frame/shadow_map.hpp"
+#include "systems/image_pool.hpp"
+#include "systems/render_system.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr VkFormat disparityFormat = VK_FORMAT_R32_SFLOAT;
+constexpr std::array bufferNames = {"shadow maps"};
+
+std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(std::span<const ShadowMap> maps) {
+  static_assert(gpu::mostShadowMaps == mostShadowMaps);
+  std::array<gpu::ShadowMapData, gpu::mostShadowMaps> data{};
+  for (size_t map = 0; map < maps.size(); ++map) {
+    for (size_t i = 0; i < maps[map].faces.size(); ++i) {
+      const ShadowFace& face = maps[map].faces[i];
+      if (!face.read) {
+        continue;
+      }
+      const glm::dvec2 scale = static_cast<double>(maps[map].size - 2 * shadowBorder) / (face.high - face.low);
+      const glm::dvec2 corner = glm::dvec2(shadowCorner(maps, map, i) + shadowBorder) - face.low * scale;
+      data[map].faces[i] = glm::vec4(glm::dvec4(scale, corner));
+    }
+  }
+  return data;
+}
+
+}  // namespace
+
+ShadowSystem::ShadowSystem(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
+    : device_(device), frameLayout_(frameLayout), buffers_(device, bufferNames, "fewer lights"), pipelines_(factory) {}
+
+void ShadowSystem::create() {
+  if (layout_) {
+    return;
+  }
+  const std::array bindings{
+      DescriptorBinding{
+          .binding = 0, .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .stages = VK_SHADER_STAGE_FRAGMENT_BIT},
+      DescriptorBinding{.binding = 1, .stages = VK_SHADER_STAGE_FRAGMENT_BIT}};
+  layout_ = createDescriptorSetLayout(device_, bindings, "shadow maps");
+  // Devices need not filter this format linearly; texels are gathered.
+  sampler_ = createSampler(device_,
+                           {.filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f},
+                           "shadow maps");
+}
+
+void ShadowSystem::prepare(Frame& frame, const FramePlan& plan) {
+  set_ = VK_NULL_HANDLE;
+  if (plan.shadowMaps.empty()) {
+    return;
+  }
+  create();
+  const glm::ivec2 size = shadowExtent(plan.shadowMaps);
+  const VkExtent2D extent{static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y)};
+  if (!target_) {
+    target_ = std::make_unique<OffScreen>(
+        device_, OffScreenDesc{.name = "shadow maps", .extent = extent, .format = disparityFormat}, *frame.retired);
+  }
+  target_->resize(extent, *frame.retired);
+  if (target_->color().layout() == VK_IMAGE_LAYOUT_UNDEFINED && !rendersShadows(plan.shadowMaps)) {
+    device_.barriers().record(frame.commands, BarrierKind::offscreenToSample, target_->color());
+  }
+  const auto data = mapData(plan.shadowMaps);
+  buffers_.write(frame, 0, std::as_bytes(std::span(data)));
+  set_ = frame.descriptors->allocate(layout_.get());
+  VkDescriptorBufferInfo buffer = buffers_.buffer(frame, 0).descriptor();
+  buffer.range = sizeof data;
+  DescriptorWriter()
+      .image(0, target_->color().descriptor(sampler_.get()))
+      .buffer(1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, buffer)
+      .update(device_, set_);
+}
+
+const Pipeline& ShadowSystem::pipelineFor(Caster caster) {
+  return pipelines_.get(caster, [&] {
+    GraphicsPipelineDesc desc{.name = "shadow map",
+                              .vert = "mirror.vert",
+                              .frag = "shadow_map.frag",
+                              .setLayouts = {frameLayout_},
+                              .color = disparityFormat};
+    if (caster == Caster::objects) {
+      desc.vert = "scene.vert";
+      desc.vertConstants = {false};
+      addVertexInput(desc);
+    }
+    return desc;
+  });
+}
+
+uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass) {
+  const VkCommandBuffer commands = scope.commands();
+  const PassData& data = info.data.passes()[pass];
+  uint32_t draws = 0;
+  if (!data.batches.empty()) {
+    const Pipeline& pipeline = pipelineFor(Caster::objects);
+    pipeline.bind(commands);
+    info.data.bind(pipeline, commands, data);
+  }
+  for (const Batch& batch : data.batches) {
+    const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
+    bindBuffers(commands, mesh.vertices, mesh.indices, info.data);
+    const std::vector<IndexRange> all{allOf(info.scene.meshes[batch.mesh])};
+    for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
+      vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
+      ++draws;
+    }
+  }
+  for (const MirrorRange& mirror : data.mirrors) {
+    const Pipeline& pipeline = pipelineFor(Caster::mirrors);
+    pipeline.bind(commands);
+    info.data.bind(pipeline, commands, data, mirror.mirror);
+    vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
+    ++draws;
+  }
+  return draws;
+}
+
+void ShadowSystem::release(RetireQueue& retired) {
+  target_->retire(retired);
+  target_.reset();
+  buffers_.retire(retired);
+  pipelines_.clear();
+}
+
+void ShadowSystem::endFrame(const FramePlan& plan, RetireQueue& retired) {
+  cached_ = plan.shadowMaps;
+  idleFrames_ = plan.shadowMaps.empty() ? idleFrames_ + 1 : 0;
+  if (target_ && idleFrames_ > ImagePool::framesKept) {
+    release(retired);
+  }
+}
+
+uint64_t ShadowSystem::bytes() const {
+  return target_ ? target_->bytes() + buffers_.bytes() : 0;
+}
+
+}  // namespace speculum

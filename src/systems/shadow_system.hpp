@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+
+#include "core/off_screen.hpp"
+#include "systems/frame_info.hpp"
+#include "systems/pipeline_variants.hpp"
+
+namespace speculum {
+
+// Renders shadow maps, all in one target, and binds them for shaders that look them up (shadow_map.glsl). Nothing
+// exists before a frame has a map, and all is released some frames after the last one.
+class ShadowSystem {
+ public:
+  ShadowSystem(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
+
+  // Maps that the next plan may reuse.
+  std::span<const ShadowMap> cached() const { return cached_; }
+  void restart() { cached_.clear(); }
+
+  // Makes the target of the plan's maps; call it before anything of the frame is recorded.
+  void prepare(Frame& frame, const FramePlan& plan);
+  OffScreen& target() { return *target_; }
+  // Records pass `pass` of info.data, a face; returns the number of draws.
+  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass);
+  void endFrame(const FramePlan& plan, RetireQueue& retired);
+
+  // Of the set to bind as number 2 in pipelines that look maps up; null without a map.
+  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSet set() const { return set_; }
+  uint64_t bytes() const;
+  size_t pipelineCount() const { return pipelines_.size(); }
+
+ private:
+  enum class Caster { objects, mirrors };
+  const Pipeline& pipelineFor(Caster caster);
+  void create();
+  void release(RetireQueue& retired);
+
+  Device& device_;
+  VkDescriptorSetLayout frameLayout_;
+  DescriptorSetLayoutHandle layout_;
+  SamplerHandle sampler_;
+  FrameBuffers buffers_;
+  PipelineVariants<Caster> pipelines_;
+  std::unique_ptr<OffScreen> target_;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  std::vector<ShadowMap> cached_;
+  int idleFrames_ = 0;
+};
+
+}  // namespace speculum

@@ -1,0 +1,198 @@
+// Shadow maps: which lights have one, which faces are rendered and when, what their windows show. Without a GPU.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "frame/cube_face.hpp"
+#include "frame/memory_fit.hpp"
+#include "frame/shadow_map.hpp"
+#include "frame_support.hpp"
+
+namespace speculum {
+namespace {
+
+Object boxAt(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1.0)) {
+  Object object;
+  object.mesh = 0;
+  object.position = position;
+  object.scale = scale;
+  return object;
+}
+
+PointLight lightAt(const glm::dvec3& position) {
+  PointLight light;
+  light.position = position;
+  light.castsShadow = true;
+  light.glow = 0.0;
+  return light;
+}
+
+// A floor before the camera with a box on it, and a lamp above.
+Scene room() {
+  Scene scene = testing_support::sceneWith({});
+  scene.meshes = {
+      {.halfExtent = glm::dvec3(0.5), .radius = 0.9, .vertices = {Vertex{}}, .indices = {0, 0, 0}, .parts = {{}}}};
+  scene.objects = {boxAt({0, -1, -5}, {8, 0.1, 8}), boxAt({0, -0.5, -5})};
+  scene.lights = {lightAt({1, 2, -5})};
+  return scene;
+}
+
+class Frames : public testing_support::PlanSequence {
+ public:
+  explicit Frames(Scene s) : PlanSequence(std::move(s)) { settings.effects.shadowLookup = ShadowLookup::map; }
+  // Faces that the next frame renders.
+  std::vector<int> rendered() {
+    next();
+    std::vector<int> faces;
+    for (const ShadowMap& map : plan.shadowMaps) {
+      for (int i = 0; i < 6; ++i) {
+        if (map.faces[static_cast<size_t>(i)].rendered) {
+          faces.push_back(i);
+        }
+      }
+    }
+    return faces;
+  }
+};
+
+TEST(ShadowMap, ExistsWhereShadowsAreLookedUp) {
+  Frames frames(room());
+  ASSERT_EQ(frames.next().shadowMaps.size(), 1u);
+  EXPECT_EQ(frames.plan.shadowMaps[0].name, "light 0");
+  EXPECT_FALSE(frames.plan.effects.any()) << "no rays";
+  frames.settings.effects.shadowLookup = ShadowLookup::traced;
+  EXPECT_TRUE(frames.next().shadowMaps.empty());
+  EXPECT_TRUE(frames.plan.effects.traces());
+  frames.settings.effects.shadowLookup = ShadowLookup::map;
+  frames.settings.effects.shadows = false;
+  EXPECT_TRUE(frames.next().shadowMaps.empty());
+  frames.settings.effects.shadows = true;
+  frames.scene.camera.target = {0, 0, 1};
+  EXPECT_TRUE(frames.next().shadowMaps.empty()) << "nothing in view";
+}
+
+TEST(ShadowMap, BouncedLightAndManyLightsTrace) {
+  Frames frames(room());
+  frames.scene.mirrors = {testing_support::wall({0, 0, -8}, 0, {6, 6})};
+  frames.scene.mirrors[0].castsLight = true;
+  EXPECT_TRUE(frames.next().shadowMaps.empty());
+  EXPECT_TRUE(frames.plan.effects.shadowRays);
+  frames.scene.mirrors.clear();
+  frames.scene.lights.assign(mostShadowMaps, lightAt({1, 2, -5}));
+  EXPECT_EQ(frames.next().shadowMaps.size(), mostShadowMaps);
+  frames.scene.lights.push_back(lightAt({1, 2, -5}));
+  EXPECT_TRUE(frames.next().shadowMaps.empty());
+  EXPECT_TRUE(frames.plan.effects.shadowRays);
+}
+
+TEST(ShadowMap, OnlyChangedFacesAreRendered) {
+  Frames frames(room());
+  const std::vector<int> all = frames.rendered();
+  EXPECT_TRUE(std::binary_search(all.begin(), all.end(), 3)) << "down to the floor";
+  EXPECT_FALSE(std::binary_search(all.begin(), all.end(), 2)) << "nothing above";
+  EXPECT_TRUE(frames.rendered().empty());
+  frames.scene.camera.position.x += 0.01;
+  frames.scene.camera.target.x += 0.01;
+  EXPECT_TRUE(frames.rendered().empty()) << "a map does not depend on who looks";
+  frames.scene.objects[1].color = glm::dvec3(0.5);
+  EXPECT_TRUE(frames.rendered().empty()) << "nor on colors";
+  frames.scene.objects[1].rotation.y += 1.0;
+  EXPECT_EQ(frames.rendered(), std::vector<int>{3}) << "the box stands below the light";
+  frames.scene.lights[0].position.y += 0.1;
+  const std::vector<int> moved = frames.rendered();
+  EXPECT_GE(moved.size(), 4u) << "all that are read";
+  frames.settings.effects.shadowMapSize = 256;
+  const std::vector<int> resized = frames.rendered();
+  EXPECT_GE(resized.size(), moved.size());
+  EXPECT_TRUE(frames.rendered().empty());
+  frames.settings.reflection.skipUnchanged = false;
+  EXPECT_EQ(frames.rendered(), resized);
+  EXPECT_EQ(frames.rendered(), resized);
+}
+
+// Whatever is drawn looks up a face that is rendered, within its window: random boxes, mirrors, lights and cameras.
+TEST(ShadowMap, VisiblePointsLieInReadFaces) {
+  std::mt19937 random(7);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto point = [&](double reach) {
+    return glm::dvec3(uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach));
+  };
+  int looked = 0;
+  int unread = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Scene scene = room();
+    scene.objects.clear();
+    for (int i = 0; i < 8; ++i) {
+      scene.objects.push_back(boxAt(point(6), {uniform(0.1, 3), uniform(0.1, 3), uniform(0.1, 3)}));
+      scene.objects.back().rotation = 60.0 * point(1);
+    }
+    scene.lights = {lightAt(point(4)), lightAt(point(40))};
+    scene.mirrors = {testing_support::wall(point(5), uniform(-180, 180), {3, 3})};
+    scene.camera.position = point(8);
+    scene.camera.target = point(3);
+    Frames frames(scene);
+    frames.settings.debug.skipHidden = false;
+    frames.next();
+    const SceneState state = evaluate(scene, 0.0);
+    std::vector<const PlannedPass*> passes{&frames.plan.main};
+    for (const PlannedPass& pass : frames.plan.passes) {
+      passes.push_back(&pass);
+    }
+    for (const ShadowMap& map : frames.plan.shadowMaps) {
+      unread += static_cast<int>(
+          std::count_if(map.faces.begin(), map.faces.end(), [](const ShadowFace& face) { return !face.read; }));
+    }
+    for (int sample = 0; sample < 400; ++sample) {
+      const PlannedPass& pass = *passes[random() % passes.size()];
+      if (pass.instances.empty()) {
+        continue;
+      }
+      const int instance = pass.instances[random() % pass.instances.size()];
+      const glm::dvec3 p = state.instances[static_cast<size_t>(instance)].worldFromMesh.point(point(0.5));
+      if (!sphereVisible(pass.view, p, 0.0)) {
+        continue;
+      }
+      for (const ShadowMap& map : frames.plan.shadowMaps) {
+        const glm::dvec3 d = p - state.lights[static_cast<size_t>(map.light)].position;
+        size_t in = 0;
+        for (size_t f = 1; f < 6; ++f) {
+          in = glm::dot(d, faceAxes()[f].forward) > glm::dot(d, faceAxes()[in].forward) ? f : in;
+        }
+        const ShadowFace& face = map.faces[in];
+        ASSERT_TRUE(face.read) << "trial " << trial;
+        const glm::dvec4 clip = face.projection.clip(face.pass.view.worldToView * d);
+        const double inner = 1.0 - 2.0 * shadowBorder / map.size + 1e-9;
+        EXPECT_LE(std::abs(clip.x / clip.w), inner);
+        EXPECT_LE(std::abs(clip.y / clip.w), inner);
+        ++looked;
+      }
+    }
+  }
+  EXPECT_GT(looked, 1000);
+  EXPECT_GT(unread, 500);
+}
+
+TEST(ShadowMap, MemoryIncludesItAndLowersIt) {
+  Frames frames(room());
+  frames.next();
+  FramePlan without = frames.plan;
+  without.shadowMaps.clear();
+  const uint64_t bytes = 6ull * 1024 * 1024 * (4 + 4);
+  EXPECT_EQ(shadowBytes(frames.plan), bytes);
+  EXPECT_EQ(targetBytes(frames.plan, frames.settings), targetBytes(without, frames.settings) + bytes);
+  const SceneState state = evaluate(frames.scene, 0.0);
+  const FittedPlan fitted = planWithin({.budgetBytes = 10'000'000, .largestSide = 4096}, frames.scene, state,
+                                       frames.settings, testing_support::width, testing_support::height);
+  EXPECT_LT(fitted.settings.effects.shadowMapSize, 1024);
+  EXPECT_NE(fitted.message.find("effects.shadow_map_size to 512"), std::string::npos) << fitted.message;
+  const FittedPlan narrow = planWithin({.budgetBytes = 1ull << 40, .largestSide = 2048}, frames.scene, state,
+                                       frames.settings, testing_support::width, testing_support::height);
+  EXPECT_EQ(narrow.settings.effects.shadowMapSize, 512);
+}
+
+}  // namespace
+}  // namespace speculum

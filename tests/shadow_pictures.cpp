@@ -1,0 +1,222 @@
+// Shadows that are looked up in maps, against traced ones. Which faces are rendered is in frame_shadow_maps.cpp, what
+// they cost and give back in effects_ledger.cpp.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/stats.hpp"
+#include "picture_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+// Pieces on a floor between two lamps, before a wall with a mirror; one lamp is far away.
+std::filesystem::path room(const std::string& name, const std::string& rest = "") {
+  return writeScene("shadow_maps_" + name, R"(
+[environment]
+background = [0.2, 0.3, 0.4]
+ambient = [0.15, 0.15, 0.15]
+[camera]
+position = [0.4, 1.8, 3.2]
+target = [0, 0.5, 0]
+vertical_fov = 46
+[settings]
+"view.samples" = 1
+"reflection.samples" = 1
+[[object]]
+model = "MODELS/block.obj"
+position = [0, -0.2, 0]
+scale = [8, 0.2, 8]
+color = [0.8, 0.75, 0.7]
+specular = [0, 0, 0]
+[[object]]
+model = "MODELS/king.obj"
+position = [-0.6, 0, 0]
+[[object]]
+model = "MODELS/block.obj"
+position = [0.6, 0, -0.3]
+scale = [0.4, 0.9, 0.4]
+rotation = [0, 30, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.1, 0.45, 0.7]
+scale = 0.6
+[[mirror]]
+name = "wall"
+position = [0, 1.1, -1.5]
+size = [3, 1.8]
+base_color = [0.1, 0.1, 0.12]
+[[light]]
+name = "lamp"
+position = [1.2, 2.2, 0.8]
+intensity = 9
+glow = 0
+casts_shadow = true
+[[light]]
+name = "sun"
+position = [-60, 30, 20]
+intensity = 9000
+glow = 0
+casts_shadow = true
+[[light]]
+name = "fill"
+position = [0, 3, 2]
+intensity = 3
+glow = 0
+)" + rest);
+}
+
+Options mapped(const std::filesystem::path& file, std::vector<std::pair<std::string, std::string>> more = {}) {
+  Options options = headless(file, {320, 240});
+  set(options, {{"effects.shadow_lookup", "map"}});
+  set(options, more);
+  return options;
+}
+
+// Maps differ from traced shadows along the edges of shadows, the less the more texels they have.
+TEST(ShadowMaps, LargerFacesReduceError) {
+  const std::filesystem::path file = room("error");
+  Options options = mapped(file, {{"effects.shadow_lookup", "traced"}});
+  const Image8 traced = draw(options);
+  set(options, {{"effects.shadows", "false"}});
+  const int without = difference(draw(options), traced, 4).over;
+  EXPECT_GT(without, 5000);
+  int before = without;
+  for (const char* size : {"128", "512", "2048"}) {
+    const Image8 picture = draw(mapped(file, {{"effects.shadow_map_size", size}}));
+    const PictureAgreement agreement = difference(picture, traced, 4);
+    std::printf("faces of %4s texels: %d of %d pixels over, of %d without shadows\n", size, agreement.over,
+                agreement.counted, without);
+    EXPECT_LT(agreement.over, 0.7 * before);
+    before = agreement.over;
+  }
+  EXPECT_LT(before, 0.05 * without);
+}
+
+// No surface shadows itself where no other stands between it and the light, whatever its slope.
+TEST(ShadowMaps, LitSurfacesAreNotShadowed) {
+  const std::filesystem::path file = writeScene("shadow_maps_slopes", R"(
+[environment]
+ambient = [0.1, 0.1, 0.1]
+[camera]
+position = [0, 3, 4]
+target = [0, 0, 0]
+[settings]
+"view.samples" = 1
+[[object]]
+model = "MODELS/block.obj"
+position = [0, -0.2, 0]
+scale = [20, 0.2, 20]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0, 20, 0]
+[[light]]
+position = [0.3, 0.4, 0.2]
+intensity = 6
+glow = 0
+casts_shadow = true
+)");
+  for (const char* samples : {"1", "4"}) {
+    Options lit = headless(file, {320, 240});
+    set(lit, {{"effects.shadows", "false"}, {"view.samples", samples}});
+    const Image8 expected = draw(lit);
+    for (const char* size : {"64", "256", "1024"}) {
+      const Image8 picture = draw(mapped(file, {{"effects.shadow_map_size", size}, {"view.samples", samples}}));
+      EXPECT_EQ(difference(picture, expected, 1).over, 0) << size << " texels, " << samples << " samples";
+    }
+  }
+}
+
+std::vector<std::string> shadowPasses(Session& session, double time = 0.0) {
+  session.draw(time, true);
+  session.finish();
+  std::vector<std::string> names;
+  const nlohmann::ordered_json stats = frameStats(session);
+  for (const auto& pass : stats["passes"]) {
+    const std::string name = pass["name"];
+    if (name.rfind("shadow map of ", 0) == 0) {
+      EXPECT_TRUE(pass["mirror"].is_null() && pass["depth"].is_null() && pass["parent"].is_null());
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+TEST(ShadowMaps, ListTheirFacesWhenRendered) {
+  QuietSession session(mapped(room("faces")));
+  const std::vector<std::string> names = shadowPasses(session);
+  EXPECT_TRUE(std::count(names.begin(), names.end(), "shadow map of light 'lamp' -y"));
+  EXPECT_TRUE(std::count(names.begin(), names.end(), "shadow map of light 'sun' +x"));
+  EXPECT_FALSE(std::count(names.begin(), names.end(), "shadow map of light 'lamp' +y"));
+  const Image8 first = session.picture();
+  EXPECT_TRUE(shadowPasses(session).empty()) << "nothing changed";
+  EXPECT_EQ(session.picture().rgba, first.rgba);
+}
+
+// Draws a moving scene with and without reuse, and both render paths: the bytes are the same.
+TEST(ShadowMaps, ReuseChangesNoByte) {
+  const std::filesystem::path file =
+      room("reuse", "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [0, 0, -0.6]\nspin = [0, 90, 0]\n");
+  Options options = mapped(file, {{"effects.shadow_map_size", "256"}});
+  options.size = {160, 120};
+  QuietSession reusing(options);
+  set(options, {{"reflection.skip_unchanged", "false"}});
+  options.renderPath = RenderPath::renderPass;
+  QuietSession rendering(options);
+  size_t least = 99;
+  for (const double time : {0.0, 0.0, 0.1, 0.2, 0.2, 0.0}) {
+    const size_t reused = shadowPasses(reusing, time).size();
+    const size_t all = shadowPasses(rendering, time).size();
+    least = std::min(least, reused);
+    EXPECT_LE(reused, all);
+    EXPECT_GT(all, 4u);
+    EXPECT_EQ(reusing.picture().rgba, rendering.picture().rgba) << time;
+  }
+  EXPECT_EQ(least, 0u);
+}
+
+// The picture is the same wherever the scene lies.
+TEST(ShadowMaps, HoldFarFromTheOrigin) {
+  const auto scene = [](const std::string& name, double x) {
+    const auto at = [&](double dx, const char* yz) { return "[" + std::to_string(x + dx) + ", " + yz + "]\n"; };
+    return writeScene("shadow_maps_" + name,
+                      "[environment]\nambient = [0.1, 0.1, 0.1]\n[camera]\nposition = " + at(0.5, "2, 3") +
+                          "target = " + at(0, "0, 0") +
+                          "[[object]]\nmodel = \"MODELS/block.obj\"\nscale = [6, 0.2, 6]\n"
+                          "position = " +
+                          at(0, "-0.2, 0") + "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = " + at(0, "0, 0") +
+                          "[[light]]\nintensity = 9\ncasts_shadow = true\nglow = 0\n"
+                          "position = " +
+                          at(1, "2, 0.5"));
+  };
+  expectAlike(draw(mapped(scene("far", 1e7))), draw(mapped(scene("near", 0.0))), 2, "shadow_maps_far");
+}
+
+// Rough mirrors are followed by rays, which trace their shadows; what is drawn looks maps up.
+TEST(ShadowMaps, StandBesideTracedEffects) {
+  const std::filesystem::path file = room("rough", R"(
+[[mirror]]
+position = [-1.8, 1, 0]
+rotation = [0, 90, 0]
+size = [2, 1.8]
+roughness = 0.2
+base_color = [0.2, 0.1, 0.1]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [1.4, 0.4, 0.2]
+scale = 0.8
+mirror = { base_color = [0.1, 0, 0] }
+)");
+  Options options = mapped(file, {{"effects.rough_samples", "4"}});
+  options.size = {160, 120};
+  draw(options);
+  set(options, {{"effects.curved_lookup", "environment"}, {"effects.environment_size", "64"}});
+  draw(options);
+}
+
+}  // namespace
+}  // namespace speculum
