@@ -181,7 +181,7 @@ void Planner::fill(int node) {
     }
   }
   // Each mirror that is seen is kept with its polygon, and tested against the others.
-  work_ += 64 + 2 * sights.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
+  work_ += 64 + 2 * scene_.mirrors.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
            (state_.instances.size() + nodes_[node].pass.instances.size()) / 16 + state_.lights.size() / 8;
   occlusion_->setView(view, nodes_[node].pass.instances, std::move(seen));
   size_t next = 0;

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -90,27 +89,9 @@ struct SimpleUI::Backend {
     if (std::exchange(vulkan, false)) {
       ImGui_ImplVulkan_Shutdown();
     }
-    drawn.clear();
-  }
-  // Drops all vertex and index buffers if the next ones would be replaced by larger ones: the backend destroys the old
-  // ones first, and once more at its end if there is no memory for the new.
-  void makeRoom(const ImDrawData& data) {
-    next = (next + 1) % buffers;
-    const std::pair<int, int> size(data.TotalVtxCount, data.TotalIdxCount);
-    const auto old = drawn.find(next);
-    if (old != drawn.end() && (size.first > old->second.first || size.second > old->second.second)) {
-      minImages = minImages == 2 ? 3 : 2;
-      ImGui_ImplVulkan_SetMinImageCount(minImages);  // waits for the GPU and drops them if the count is another
-      drawn.clear();
-    }
-    drawn.try_emplace(next, size);
   }
   std::optional<GlfwInput> input;
   bool vulkan = false;
-  uint32_t minImages = 2;
-  uint32_t buffers = 1;  // that take turns
-  uint32_t next = 0;
-  std::map<uint32_t, std::pair<int, int>> drawn;  // vertices and indices that each was made for
 };
 
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
@@ -156,8 +137,8 @@ void SimpleUI::initVulkan() {
   info.QueueFamily = device.queueFamily();
   info.Queue = device.queue();
   info.DescriptorPool = pool_.get();
-  info.MinImageCount = backend_->minImages;
-  info.ImageCount = backend_->buffers = std::max(renderer_.displayImageCount(), 3u);
+  info.MinImageCount = 2;
+  info.ImageCount = std::max(renderer_.displayImageCount(), 3u);
   info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
   info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
   const VkRenderPass renderPass = renderer_.overlayRenderPass();
@@ -183,8 +164,12 @@ UiOutput SimpleUI::build(const UiView& view) {
 }
 
 void SimpleUI::record(const PassScope& scope) {
-  backend_->makeRoom(*ImGui::GetDrawData());
-  ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), scope.commands());
+  ImDrawData& data = *ImGui::GetDrawData();
+  // The backend sizes its buffers by these totals. It destroys a buffer that is too small before it makes a larger one,
+  // and once more at its end if there was no memory for that; buffers of this size are never replaced.
+  data.TotalVtxCount = std::max(data.TotalVtxCount, 100'000);
+  data.TotalIdxCount = std::max(data.TotalIdxCount, 200'000);
+  ImGui_ImplVulkan_RenderDrawData(&data, scope.commands());
 }
 
 // Uses the windows of the last frame, because the pointer may have moved since.
