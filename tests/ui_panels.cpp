@@ -328,6 +328,16 @@ TEST_F(Inspector, ClickAfterItOpenedIsThePictures) {
   EXPECT_TRUE(sent<SelectNode>()) << "the pointer has moved";
 }
 
+TEST_F(Inspector, PlacesThatItWouldCoverAreKnown) {
+  const PixelRect node = widget("edit.node.1");
+  const glm::vec2 over(node.x + 20, node.y + 5);
+  EXPECT_FALSE(windows_->inspectorCovers(over)) << "it is open";
+  windows_->toggleInspector();
+  run(2);
+  EXPECT_TRUE(windows_->inspectorCovers(over));
+  EXPECT_FALSE(windows_->inspectorCovers({node.x - 40, node.y}));
+}
+
 TEST_F(Inspector, NodesAreAddedOfTheChosenModel) {
   clickFor<AddMirror>("edit.add_mirror");
   clickFor<AddLight>("edit.add_light");

@@ -41,6 +41,16 @@ TEST_F(Editing, ClickSelectsDirectlyAndInMirrors) {
   EXPECT_FALSE(edit().selected) << "the background";
 }
 
+TEST_F(Editing, InspectorNeverCoversWhatWasClicked) {
+  host_.inspectorFrom = ballAt_.x - 20.0;
+  clickBall();
+  EXPECT_EQ(edit().selected, ball);
+  EXPECT_FALSE(host_.inspector);
+  EXPECT_EQ(status(), "Selected object 'ball'. F2 opens the inspector.");
+  click(lampAt_);
+  EXPECT_TRUE(host_.inspector);
+}
+
 TEST_F(Editing, FurtherClicksGoOutwards) {
   const glm::dvec2 at = pixel({0.3, 1.0, -7.5}) - glm::dvec2(4.0, 0.0);
   click(at);

@@ -52,6 +52,7 @@ class FakeHost : public WorkspaceHost {
   void toggleHelp() override {}
   void toggleInspector() override { inspector = !inspector; }
   void openInspector() override { inspector = true; }
+  bool inspectorCovers(const glm::dvec2& place) const override { return place.x > inspectorFrom; }
   bool closeTopWindow() override { return std::exchange(inspector, false); }
 
   int scenesUsed = 0;
@@ -65,6 +66,7 @@ class FakeHost : public WorkspaceHost {
   bool panels = true;
   bool closed = false;
   bool inspector = false;
+  double inspectorFrom = width;  // place of its left edge
 };
 
 // A workspace driven by commands, with folders of its own for what it writes.

@@ -63,6 +63,7 @@ class Demo : private WorkspaceHost {
   void toggleHelp() override { ui_->windows().toggleHelp(); }
   void toggleInspector() override { ui_->windows().toggleInspector(); }
   void openInspector() override { ui_->windows().openInspector(); }
+  bool inspectorCovers(const glm::dvec2& place) const override { return ui_->windows().inspectorCovers(place); }
   bool closeTopWindow() override { return ui_->holdsEscape() || ui_->windows().closeTop(); }
 
   void installInput();

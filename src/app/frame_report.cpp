@@ -183,7 +183,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     if (row == rows.end()) {
       PassView fresh{pass, pass.name};
       const auto before = std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == pass; });
-      fresh.gpuMs = before == view_.passes.end() ? 0.0 : before->gpuMs;  // few frames have their passes timed
+      fresh.gpuMs = before == view_.passes.end() ? std::nan("") : before->gpuMs;  // few frames have passes timed
       row = rows.insert(rows.begin() + index, std::move(fresh));
     }
     row->areaPx = pass.areaPx;

@@ -178,7 +178,12 @@ void Workspace::apply(const Command& command) {
 
 void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
   const bool clicked = pointer_.button(event, overPanels, editor(), [this] { return sceneView(time()); });
-  if (clicked && editor().document().selection()) {
+  if (!clicked || !editor().document().selection()) {
+    return;
+  }
+  if (host_.inspectorCovers(pointer_.position())) {
+    status_.set("Selected " + describe(scene(), editor().document().selection()) + ". F2 opens the inspector.");
+  } else {
     host_.openInspector();
   }
 }

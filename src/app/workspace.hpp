@@ -38,6 +38,8 @@ class WorkspaceHost {
   virtual void toggleHelp() = 0;
   virtual void toggleInspector() = 0;
   virtual void openInspector() = 0;
+  // Says whether the inspector is closed and would open over that place, in screen coordinates of the window.
+  virtual bool inspectorCovers(const glm::dvec2& place) const = 0;
   virtual bool closeTopWindow() = 0;  // false if there is none
 };
 

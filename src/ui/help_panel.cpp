@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "ui/input_map.hpp"
 #include "ui/panels.hpp"
@@ -47,17 +48,21 @@ void help(PanelContext& ui) {
   ImGui::SetNextWindowBgAlpha(1.0f);  // opaque, because it lies over other text
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, ImGui::GetIO().DisplaySize);
   if (ImGui::Begin(helpTitle, &ui.state.help, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-    ImGui::BeginGroup();
-    for (const ShortcutGroup& group : shortcutGroups()) {
-      if (&group == &shortcutGroups()[3]) {  // the second of two columns
-        helpTable("Gamepad", gamepadHelp());
-        ImGui::EndGroup();
+    for (const bool right : {false, true}) {
+      if (right) {
         ImGui::SameLine(0.0f, 2.0f * ImGui::GetFontSize());
-        ImGui::BeginGroup();
       }
-      helpTable(group.name, group.shortcuts);
+      ImGui::BeginGroup();
+      for (const ShortcutGroup& group : shortcutGroups()) {
+        if ((std::string_view(group.name) == "Edit") == right) {
+          helpTable(group.name, group.shortcuts);
+        }
+      }
+      if (right) {
+        helpTable("Gamepad", gamepadHelp());
+      }
+      ImGui::EndGroup();
     }
-    ImGui::EndGroup();
     ImGui::TextDisabled("%s", layoutHelp);
   }
   ImGui::End();

@@ -122,7 +122,7 @@ void inspector(PanelContext& ui, PanelDock& dock) {
     ImGui::SetNextWindowFocus();
   }
   ImGui::SetNextWindowBgAlpha(1.0f);
-  if (dock.begin(inspectorTitle, &ui.state.inspector, PanelDock::Edge::right, {25.0f, 46.0f},
+  if (dock.begin(inspectorTitle, &ui.state.inspector, PanelDock::Edge::right, inspectorEms,
                  ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0)) {
     nodeList(ui);
     addButtons(ui);

@@ -93,6 +93,17 @@ std::string PanelDock::saved() const {
   return text;
 }
 
+bool PanelDock::wouldCover(const char* name, Edge edge, const glm::vec2& ems, const glm::vec2& place) const {
+  const auto panel = panels_.find(name);
+  const WindowRect wish = panel != panels_.end() ? panel->second.wish : WindowRect();
+  const glm::vec2 size = wish.size.x > 0.0f ? wish.size : ems * ImGui::GetFontSize();
+  if (panel != panels_.end() && !panel->second.docked) {
+    return glm::all(glm::greaterThanEqual(place, wish.corner)) && glm::all(glm::lessThan(place, wish.corner + size));
+  }
+  const float inward = edge == Edge::left ? place.x : displaySize().x - place.x;
+  return inward < size.x + margin();
+}
+
 WindowRect PanelDock::freeRect() const {
   const glm::vec2 display = displaySize();
   float left = 0.0f;

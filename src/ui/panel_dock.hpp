@@ -24,6 +24,8 @@ class PanelDock {
   // Calls ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. Call
   // ImGui::End whatever it returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
+  // Says whether a window that is closed would cover the place when it opens.
+  bool wouldCover(const char* name, Edge edge, const glm::vec2& ems, const glm::vec2& place) const;
   // Display without the docked windows.
   WindowRect freeRect() const;
   // All windows go back to their original places.

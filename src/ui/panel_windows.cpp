@@ -49,7 +49,9 @@ UiOutput PanelWindows::build(const UiView& view) {
     ui.send(EndEdit{});
   }
   if (visible_ || !view.status.withPanelOnly) {
-    panels::statusLine(view.status, visible_ ? std::max(statusWidth_, 20.0f * ImGui::GetFontSize()) : 0.0f);
+    const WindowRect free = freeRect();
+    panels::statusLine(view.status, visible_ ? std::max(statusWidth_, 20.0f * ImGui::GetFontSize()) : 0.0f,
+                       free.corner.x + free.size.x);
   }
   const bool difference = state_.choices.accuracy && state_.showDifference;
   if (difference != view.accuracy.showsDifference) {
@@ -210,6 +212,11 @@ void PanelWindows::openInspector() {
     const ImVec2 pointer = ImGui::GetIO().MousePos;
     state_.openedAt = glm::vec2(pointer.x, pointer.y);
   }
+}
+
+bool PanelWindows::inspectorCovers(const glm::vec2& place) const {
+  return visible_ && !state_.inspector &&
+         dock_.wouldCover(panels::inspectorTitle, PanelDock::Edge::right, panels::inspectorEms, place);
 }
 
 WindowRect PanelWindows::freeRect() const {

@@ -23,6 +23,7 @@ class PanelWindows {
   void toggleHelp();
   void toggleInspector();
   void openInspector();
+  bool inspectorCovers(const glm::vec2& place) const;  // closed, it would open there
   // Display without panels, in screen coordinates.
   WindowRect freeRect() const;
   bool closeTop();  // closes the top window except the main panel; false if there is none

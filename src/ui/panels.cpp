@@ -77,6 +77,10 @@ void cameraMode(PanelContext& ui) {
 
 // What the passes that a setting acts on took, if they were timed.
 std::string measuredHere(const FrameView& frame, std::string_view key) {
+  const SettingField& field = *findSettingField(key);
+  if (field.changes >= FramePart::display || std::holds_alternative<ColorSetting>(field.kind)) {
+    return "";
+  }
   const bool mirrors = key.starts_with("reflection.");
   double ms = 0.0;
   for (const PassView& pass : frame.passes) {
@@ -208,9 +212,6 @@ void scene(PanelContext& ui) {
 void settings(PanelContext& ui) {
   if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingRows(ui, "view.");
-    if (ui.view.settings.sky && !ui.settings.view.clearColor) {
-      ImGui::TextDisabled("The scene's sky is shown in its place.");
-    }
     settingRows(ui, "quality.motion_ms");
     settingRows(ui, "quality.still_pictures");
   }

@@ -73,6 +73,7 @@ namespace panels {
 
 inline constexpr const char* helpTitle = "Keys";
 inline constexpr const char* inspectorTitle = "Inspector";
+inline constexpr glm::vec2 inspectorEms{25.0f, 46.0f};  // its size, in sizes of the font
 
 // The main menu bar.
 void menus(PanelContext& ui);            // File, Edit and View
@@ -106,10 +107,11 @@ void prompts(PanelContext& ui);                             // over all others, 
 void passOutline(const PanelContext& ui);  // around the mirror of the pass or skipped row under the pointer
 void editOverlay(const OverlayView& overlay);
 
-// Draws the status line at the lower left edge of the display, which PanelDock keeps free. `width` is the panel's, in
-// pixels; 0 while the panel is hidden, and the line is then as wide as its text.
+// Draws the status line at the lower left edge of the display, which PanelDock keeps free, up to `right`, where windows
+// of the right edge begin. `width` is the panel's, in pixels; 0 while the panel is hidden, and the line is then as wide
+// as its text.
 float statusHeight();  // pixels
-void statusLine(const StatusView& status, float width);
+void statusLine(const StatusView& status, float width, float right);
 
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
 // it to the scene's value if it differs. The button is recorded as "reset." and the key.

@@ -106,7 +106,8 @@ void openFile(PanelContext& ui) {
   }
   recordWidget(ui, "open.typed");
   ImGui::TextDisabled("%s", files.folder.c_str());
-  ImGui::BeginChild("files", {34.0f * em, 20.0f * em}, true);
+  const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // what stands above and below, and the menus
+  ImGui::BeginChild("files", {34.0f * em, std::min(20.0f * em, ImGui::GetIO().DisplaySize.y - others)}, true);
   if (ImGui::Selectable("..")) {
     chosen = files.folder.parent_path();
   }

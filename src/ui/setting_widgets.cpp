@@ -158,6 +158,9 @@ void settingRows(PanelContext& ui, std::string_view prefix) {
     if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {
       settingWidget(field, ui.settings, glm::dvec3(ui.view.settings.background), ui.view.device.samples);
       describe(ui, field.key);
+      if (field.key == "view.clear_color" && ui.view.settings.sky && !ui.settings.view.clearColor) {
+        ImGui::TextDisabled("The scene's sky is shown in its place.");
+      }
     }
   }
 }

@@ -24,7 +24,7 @@ float statusHeight() {
   return std::floor(lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().FramePadding.y);
 }
 
-void statusLine(const StatusView& status, float width) {
+void statusLine(const StatusView& status, float width, float right) {
   const std::string picture = width > 0.0f ? status.picture : "";
   const float alpha = picture.empty() ? statusAlpha(status.age) : 1.0f;
   if ((status.text.empty() && picture.empty()) || alpha <= 0.0f) {
@@ -35,7 +35,7 @@ void statusLine(const StatusView& status, float width) {
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
   // Paths cannot wrap, so the line may be wider than the panel.
   const float text = ImGui::CalcTextSize(shown.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
-  const float most = std::max(width, mostWidth * display.x);
+  const float most = std::max(width, std::min(mostWidth * display.x, right - 2.0f * margin));
   const bool oneLine = width == 0.0f && text <= most;
   const float height = statusHeight() - (oneLine ? ImGui::GetTextLineHeightWithSpacing() : 0.0f);
   ImGui::SetNextWindowPos({margin, std::max(display.y - height - 0.5f * margin, 0.0f)});

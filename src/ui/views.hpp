@@ -15,8 +15,8 @@ namespace speculum {
 
 struct PassView : PassId {
   std::string name;
-  int framesAgo = 0;  // since it ran
-  double gpuMs = 0.0;
+  int framesAgo = 0;   // since it ran
+  double gpuMs = 0.0;  // NaN until it was timed
   double areaPx = 0.0;
   uint32_t draws = 0;
   std::optional<DepthReadout> resolution;  // a mirror's, if it sees anything but the background
