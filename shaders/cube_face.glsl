@@ -4,20 +4,22 @@
 
 // The face that shows a direction.
 struct CubeFace {
-  int index;
-  vec3 forward;
-  vec3 right;
-  vec3 down;
-  float along;  // component of the direction along `forward`
+  int axis;
+  float side;   // 1 towards the positive axis, else -1
+  float along;  // component of the direction along the face's axis
 };
 
 CubeFace cubeFace(vec3 d) {
   vec3 a = abs(d);
   int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  float side = d[axis] < 0.0 ? -1.0 : 1.0;
-  vec3 forward = vec3(0.0);
-  forward[axis] = side;
-  vec3 up = axis == 1 ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0);
-  return CubeFace(2 * axis + (side < 0.0 ? 1 : 0), forward, cross(forward, up), -up, a[axis]);
+  float component = axis == 0 ? d.x : axis == 1 ? d.y : d.z;
+  return CubeFace(axis, component < 0.0 ? -1.0 : 1.0, abs(component));
+}
+
+int indexOf(CubeFace face) { return 2 * face.axis + (face.side < 0.0 ? 1 : 0); }
+
+// Components of a vector to the right and down in the face. FaceAxes has the axes.
+vec2 inFace(CubeFace face, vec3 v) {
+  return vec2(face.side * (face.axis == 0 ? v.z : face.axis == 1 ? v.x : -v.x), face.axis == 1 ? -v.z : -v.y);
 }
 #endif

@@ -12,9 +12,10 @@ struct MapTexel {
 
 MapTexel mapTexel(vec3 d, int size) {
   CubeFace face = cubeFace(d);
-  vec2 p = vec2(dot(d, face.right), dot(d, face.down)) / max(face.along, 1e-30);
+  vec2 p = inFace(face, d) / max(face.along, 1e-30);
+  int index = indexOf(face);
   float within = float(size) - 2.0 * environmentBorder;
-  return MapTexel(size * ivec2(face.index % 3, face.index / 3), environmentBorder + (0.5 * clamp(p, -1.0, 1.0) + 0.5) * within);
+  return MapTexel(size * ivec2(index % 3, index / 3), environmentBorder + (0.5 * clamp(p, -1.0, 1.0) + 0.5) * within);
 }
 
 // Returns the map's radiance, interpolated bilinearly. The background is infinitely far, in direction d from

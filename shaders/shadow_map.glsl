@@ -26,18 +26,28 @@ void setReceiver(vec3 position, vec3 shadingNormal) {
   receiverNormal = dot(receiverNormal, shadingNormal) < 0.0 ? -receiverNormal : receiverNormal;
 }
 
+// Chooses among loads at uniform addresses, because lavapipe reads any other address once for each pixel.
+vec4 windowOf(uint map, CubeFace face) {
+  ShadowMapData data = shadowMaps[map];
+  bool positive = face.side > 0.0;
+  vec4 x = positive ? data.faces[0] : data.faces[1];
+  vec4 y = positive ? data.faces[2] : data.faces[3];
+  vec4 z = positive ? data.faces[4] : data.faces[5];
+  return face.axis == 0 ? x : face.axis == 1 ? y : z;
+}
+
 // Returns the share of the light that reaches the receiver, interpolated bilinearly between four texels. Each is
 // compared with the disparity of the receiver's plane at that texel, which is linear on the face, so that no plane
 // shadows itself whatever its slope.
 float shadowShare(LightData light) {
   vec3 p = receiver - light.position;
   CubeFace face = cubeFace(p);
-  vec4 window = shadowMaps[light.shadowMap].faces[face.index];
+  vec4 window = windowOf(light.shadowMap, face);
   float disparity = 1.0 / max(face.along, 1e-30);
-  vec2 at = vec2(dot(p, face.right), dot(p, face.down)) * disparity * window.xy + window.zw;
-  float away = length(p);
-  float height = min(dot(receiverNormal, p), -leastShadowCosine * away);  // of the light below the surface's plane
-  vec2 gradient = vec2(dot(receiverNormal, face.right), dot(receiverNormal, face.down)) / (min(height, -1e-30) * window.xy);
+  vec2 at = inFace(face, p) * disparity * window.xy + window.zw;
+  // Height of the light below the receiver's plane.
+  float height = min(dot(receiverNormal, p), -leastShadowCosine * length(p) - 1e-30);
+  vec2 gradient = inFace(face, receiverNormal) / (height * window.xy);
   disparity += disparity * shadowBias / min(window.x, window.y);
 
   vec2 corner = floor(at + 0.5);  // shared by the four texels
