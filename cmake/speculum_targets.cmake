@@ -64,6 +64,24 @@ function(speculum_library name)
   endif()
 endfunction()
 
+# speculum_page(TARGET FUNCTION name HEADER header PAGE html STYLES css... SCRIPTS js...): one page with its style sheets
+# and scripts in it becomes a string of the target, which the function that the header declares returns.
+function(speculum_page target)
+  cmake_parse_arguments(ARG "" "FUNCTION;HEADER;PAGE" "STYLES;SCRIPTS" ${ARGN})
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${ARG_FUNCTION}.cpp)
+  set(inline_page ${PROJECT_SOURCE_DIR}/src/accuracy/page/inline_page.cmake)
+  list(JOIN ARG_STYLES "," styles)
+  list(JOIN ARG_SCRIPTS "," scripts)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DPAGE=${ARG_PAGE} -DSTYLES=${styles} -DSCRIPTS=${scripts}
+            -DHEADER=${ARG_HEADER} -DFUNCTION=${ARG_FUNCTION} -P ${inline_page}
+    DEPENDS ${inline_page} ${ARG_PAGE} ${ARG_STYLES} ${ARG_SCRIPTS}
+    COMMENT "Page ${ARG_FUNCTION}"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+endfunction()
+
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 

@@ -11,7 +11,7 @@ _speculum_settings() {
 
 _speculum() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
-  local commands="demo render reference compare accuracy bench info scenes" command="" scenes
+  local commands="demo render reference compare accuracy regress bench info scenes" command="" scenes
   [[ " $commands " == *" ${COMP_WORDS[1]} "* ]] && [ "$COMP_CWORD" -gt 1 ] && command=${COMP_WORDS[1]}
   COMPREPLY=()
   case $before in
@@ -31,8 +31,8 @@ _speculum() {
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$word") && return ;;
     --sweep) mapfile -t COMPREPLY < <(compgen -W "quick full" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
     --shader-dir) mapfile -t COMPREPLY < <(compgen -d -- "$word") && return ;;
-    --size | --time | --camera | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff) return ;;
-    --out | --stats | --json | --mask | --heatmap | --sweep-results)
+    --size | --time | --camera | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff | --filter | --jobs | --repeat | --update) return ;;
+    --out | --stats | --json | --mask | --heatmap | --sweep-results | --junit)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
       ;;
@@ -43,6 +43,8 @@ _speculum() {
     mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$word")
   elif [ "$command" = compare ]; then
     mapfile -t COMPREPLY < <(compgen -f -- "$word")
+  elif [ "$command" = regress ]; then
+    mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word")
   fi
 }
 

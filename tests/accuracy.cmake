@@ -3,9 +3,9 @@ speculum_test(test_accuracy
   LIBRARIES accuracy ext::tbb)
 speculum_test(sweep_tests SOURCES accuracy_sweep.cpp LIBRARIES accuracy)
 
-# The report in a headless browser. Debian's python3-selenium belongs to Debian's own Python.
+# The reports in a headless browser. Debian's python3-selenium belongs to Debian's own Python.
 add_executable(report_pages report_pages.cpp report_example.cpp)
-target_link_libraries(report_pages PRIVATE accuracy speculum_flags)
+target_link_libraries(report_pages PRIVATE regress speculum_flags)
 set_target_properties(report_pages PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
 add_test(NAME report_page COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/report_page.py $<TARGET_FILE:report_pages>)
 set_tests_properties(report_page PROPERTIES LABELS page TIMEOUT 60)

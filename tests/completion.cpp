@@ -62,7 +62,7 @@ Words commands() {
 TEST(Completion, OffersTheCommands) {
   EXPECT_TRUE(commands().contains("render"));
   EXPECT_EQ(completions({program, ""}), commands());
-  EXPECT_EQ(completions({program, "re"}), (Words{"render", "reference"}));
+  EXPECT_EQ(completions({program, "re"}), (Words{"render", "reference", "regress"}));
 }
 
 TEST(Completion, OffersTheOptionsOfEachCommand) {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Opens pages of the accuracy report in a headless Chromium: report_page.py PROGRAM, which writes them into a folder."""
+"""Opens pages of the reports in a headless Chromium: report_page.py PROGRAM, which writes them into a folder."""
 
 import math
 import pathlib
@@ -16,7 +16,7 @@ from headless_browser import HeadlessBrowser  # noqa: E402
 ARROW_RIGHT, ENTER = "\ue014", "\ue007"
 
 
-class ReportPage(unittest.TestCase):
+class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -44,6 +44,91 @@ class ReportPage(unittest.TestCase):
     def text(self, selector):
         return self.find(selector)[0].get_attribute("textContent")
 
+
+class RegressPage(Page):
+    def setUp(self):
+        self.open("regress")
+
+    def pane(self, kind):
+        return self.find(f"[data-case=seam] .frame.{kind}")[0]
+
+    def shows(self):
+        return self.js("""return [...document.querySelectorAll('[data-case=seam] .frame.actual img')]
+                          .filter(image => !image.hidden).at(-1).className.split(' ')[0]""")
+
+    def mode(self, name):
+        self.find(f"[data-case=seam] [data-mode={name}]")[0].click()
+
+    def test_failures_come_first(self):
+        self.assertEqual(self.text("h1"), "3 of 5 cases failed")
+        self.assertEqual([c.get_attribute("data-case") for c in self.find(".case")], ["seam", "crash", "new"])
+        self.assertEqual(self.js("return [...document.querySelectorAll('#table tbody .verdict')].map(v => v.textContent)"),
+                         ["failed", "error", "failed", "passed", "skipped"])
+        self.assertEqual(len(self.find("[data-case=seam] .pane img:not(.other)")), 6, "four, and two under the slider")
+        self.assertEqual(len(self.find("[data-case=crash] img")), 0)
+        self.assertEqual(len(self.find("[data-case=new] img")), 1)
+
+    def test_numbers_stand_beside_limits(self):
+        self.assertEqual([e.text for e in self.find("[data-case=seam] .numbers .over")], ["pixels over 3/255 1.56 % 0.1 %"])
+
+    def test_fault_is_marked_in_every_picture(self):
+        style = self.js("return document.querySelector('[data-case=seam] .frame.expected .region').getAttribute('style')")
+        self.assertEqual(style, "left:50%;top:0%;width:1.5625%;height:100%")
+        self.assertEqual(len(self.find("[data-case=seam] .region")), 5)
+        self.find("[data-case=seam] .mark")[0].click()
+        self.assertFalse(self.find("[data-case=seam] .region")[0].is_displayed())
+
+    def test_pointer_swaps_the_pictures(self):
+        self.assertEqual(self.shows(), "actual")
+        self.js("arguments[0].dispatchEvent(new PointerEvent('pointerenter'))", self.pane("actual"))
+        self.assertEqual(self.shows(), "expected")
+        self.js("arguments[0].dispatchEvent(new PointerEvent('pointerleave'))", self.pane("actual"))
+        self.assertEqual(self.shows(), "actual")
+
+    def test_pictures_blink(self):
+        self.mode("blink")
+        for expected in ("expected", "actual"):
+            self.browser.wait(f"return document.querySelector('[data-case=seam] .frame.actual').dataset.shows === '{expected}'")
+        self.mode("swap")
+
+    def test_slider_divides_the_pictures(self):
+        split = self.find("[data-case=seam] .split")[0]
+        self.assertFalse(split.is_displayed())
+        self.mode("slider")
+        self.assertTrue(split.is_displayed())
+        self.assertFalse(self.pane("actual").is_displayed())
+
+    def test_zoom_is_linked_and_starts_at_the_fault(self):
+        self.find("[data-case=seam] .zoom button")[2].click()
+        style = self.js("return document.querySelector('[data-case=seam] .panes').getAttribute('style').replaceAll(' ', '')")
+        self.assertIn("--zoom:4", style)
+        self.assertIn("--at-x:50.78125%", style)
+        scale = lambda kind: self.js("return getComputedStyle(arguments[0].querySelector('img')).transform", self.pane(kind))
+        self.assertEqual({scale(kind) for kind in ("expected", "actual", "difference", "FLIP")}, {"matrix(4, 0, 0, 4, 0, 0)"})
+        self.js("arguments[0].focus()", self.pane("FLIP"))
+        self.browser.press(ARROW_RIGHT)
+        self.assertEqual(self.js("return document.querySelector('[data-case=seam] .panes').style.getPropertyValue('--at-x')"),
+                         "54.78125%")
+
+    def test_commands_can_be_copied(self):
+        self.assertEqual([e.text for e in self.find("[data-case=seam] .commands code")],
+                         ["speculum render --set 'a b=1'", "speculum regress cases.toml --update seam"])
+        button = self.find("[data-case=seam] .commands .copy")[1]
+        button.click()
+        self.browser.wait("return document.querySelectorAll('[data-case=seam] .copy')[1].textContent === 'copied'")
+        self.assertEqual(len(self.find("[data-case=crash] .commands code")), 1, "nothing to accept")
+
+    def test_table_leads_to_the_case(self):
+        self.js("document.querySelector('tr[data-key=new] .name').click()")
+        self.browser.wait("return Math.abs(document.querySelector('[data-case=new]').getBoundingClientRect().top) < 400")
+
+    def test_a_run_without_failures_is_short(self):
+        self.open("regress_passed")
+        self.assertEqual(self.text("h1"), "1 case, none failed")
+        self.assertEqual(len(self.find("img")), 0)
+
+
+class ReportPage(Page):
     def keys(self, selector):
         return [element.get_attribute("data-key") for element in self.find(selector)]
 

@@ -1,7 +1,10 @@
-// Writes pages of accuracy reports into a folder, for report_page.py to open in a browser.
+// Writes pages of reports into a folder, for report_page.py to open in a browser.
 #include <fstream>
 
 #include "accuracy/report.hpp"
+#include "image/picture_files.hpp"
+#include "regress/picture_check.hpp"
+#include "regress/report_page.hpp"
 #include "report_example.hpp"
 
 namespace fs = std::filesystem;
@@ -10,14 +13,52 @@ using namespace speculum::testing_support;
 
 namespace {
 
+void writeFile(const fs::path& file, const std::string& text) {
+  std::ofstream(file) << text;
+}
+
 void writePage(const fs::path& folder, const char* name, const SweepResults& results) {
-  std::ofstream(folder / name) << reportHtml(results, folder);
+  writeFile(folder / name, reportHtml(results, folder));
+}
+
+// A seam of one pixel, a crash, a picture that nothing is expected of yet, and cases that need no attention.
+void writeRegressPages(const fs::path& folder) {
+  Image8 expected(64, 36);
+  for (size_t i = 0; i < expected.rgba.size(); ++i) {
+    expected.rgba[i] = i % 4 == 3 ? 255 : static_cast<uint8_t>(i / 64);
+  }
+  Image8 actual = expected;
+  for (int y = 0; y < actual.height; ++y) {
+    actual.at(32, y)[0] ^= 0x80;
+  }
+  RegressRun run{.file = "cases.toml",
+                 .command = {"speculum", "regress", "cases.toml"},
+                 .accept = {"speculum", "regress", "cases.toml", "--update", "NAME"},
+                 .version = "1",
+                 .date = "now"};
+  const auto add = [&](const std::string& name, Outcome outcome) -> Outcome& {
+    run.cases.push_back({.name = name, .size = {64, 36}, .tolerance = {.maxDiff = 3, .share = 0.001, .block = true}});
+    run.outcomes.push_back(std::move(outcome));
+    return run.outcomes.back();
+  };
+  add("fine", {});
+  writeFile(folder / "regress_passed.html", regressHtml(run, folder));
+  Outcome& seam = add("seam", {.driver = "a driver", .command = {"speculum", "render", "--set", "a b=1"}});
+  judge(expected, actual, run.cases.back(), CaseFiles(folder, "seam"), seam);
+  add("left out", {.verdict = Verdict::skipped, .message = "too slow"});
+  add("crash",
+      {.verdict = Verdict::error, .message = "signal 11", .command = {"speculum"}, .log = {"</script>", "ouch"}});
+  add("new",
+      {.verdict = Verdict::failed, .message = "there is no expected picture", .replaceable = true, .drawn = true});
+  writePng(CaseFiles(folder, "new").actual, actual);
+  writeFile(folder / "regress.html", regressHtml(run, folder));
 }
 
 }  // namespace
 
 int main(int, char** arguments) {
   const fs::path folder = arguments[1];
+  writeRegressPages(folder);
   SweepResults example = exampleResults();
   writePictures(example, folder);
   writePage(folder, "example.html", example);

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,9 +25,6 @@ nlohmann::ordered_json reportJson(const SweepResults& results, const std::filesy
 // Points whose pictures go into the report, most important first, at most `most`: the base, the ends of the front, the
 // worst, the rest of the front, evenly, then the best, the cheapest and the dearest. Only points with pictures.
 std::vector<int> shownPoints(const SweepResults& results, int most);
-
-// RFC 4648, with padding, without line breaks.
-std::string base64(std::span<const uint8_t> bytes);
 
 // The page with its style sheet and scripts, and "@DATA@" where its JSON belongs. Written at build time.
 std::string_view reportPage();

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "accuracy/setting_values.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/toml_file.hpp"
@@ -15,38 +15,6 @@ namespace {
 
 using Key = std::string_view;
 using Changes = SweepPlanner::Changes;
-
-constexpr Key valueKinds = "a number, true, false, a string or an array of those is needed";
-
-std::string valueText(const TableReader& table, Key key, const toml::node& node) {
-  if (const toml::value<std::string>* text = node.as_string()) {
-    return text->get();
-  }
-  if (!node.is_number() && !node.is_boolean()) {
-    table.failAt(node, key, "is " + std::string(typeName(node)), valueKinds);
-  }
-  if (const toml::value<bool>* flag = node.as_boolean()) {
-    return flag->get() ? "true" : "false";
-  }
-  return node.is_integer() ? std::to_string(node.as_integer()->get())
-                           : nlohmann::json(node.as_floating_point()->get()).dump();
-}
-
-// Values of a key; a plain value counts as a list of one.
-std::vector<std::string> valueTexts(const TableReader& table, Key key, const toml::node& node) {
-  std::vector<std::string> texts;
-  if (const toml::array* array = node.as_array()) {
-    for (const toml::node& element : *array) {
-      texts.push_back(valueText(table, key, element));
-    }
-  } else {
-    texts.push_back(valueText(table, key, node));
-  }
-  if (texts.empty()) {
-    table.failAt(node, key, "is empty", "at least one value is needed");
-  }
-  return texts;
-}
 
 using Axes = std::vector<std::pair<std::string, std::vector<std::string>>>;
 

@@ -61,6 +61,7 @@ int runCommand(const Options& options) {
       {"reference", runReference},
       {"compare", runCompare},
       {"accuracy", runAccuracy},
+      {"regress", runRegress},
       {"info", [](const Options&) { return runInfo(); }},
       {"scenes", [](const Options&) { return runScenes(); }},
   };

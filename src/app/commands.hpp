@@ -13,6 +13,7 @@ int runBench(const Options& options);
 int runReference(const Options& options);
 int runCompare(const Options& options);
 int runAccuracy(const Options& options);
+int runRegress(const Options& options);
 int runInfo();
 int runScenes();
 

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -11,78 +10,19 @@
 #include "app/usage.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
+#include "scene/camera_text.hpp"
 #include "scene/value_range.hpp"
 
 namespace speculum {
 
 namespace {
 
-constexpr int largestSide = 16384;  // pixels
-
 PictureSize parseSize(const std::string& text) {
-  PictureSize size;
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-  const auto height = cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
-  if (!cross || height.ec != std::errc() || height.ptr != end || size.width < 1 || size.height < 1 ||
-      size.width > largestSide || size.height > largestSide) {
-    throw UsageError("--size: '" + text + "' is not a size (WIDTHxHEIGHT in pixels, 1x1 to 16384x16384)");
+  const std::optional<PictureSize> size = pictureSize(text);
+  if (!size) {
+    throw UsageError("--size: '" + text + "' is not a size (" + std::string(pictureSizes) + ")");
   }
-  return size;
-}
-
-// Parses lists of numbers separated by commas, the lists by colons; nothing for any other text.
-std::optional<std::vector<std::vector<double>>> parseLists(std::string_view text) {
-  std::vector<std::vector<double>> lists(1);
-  const char* end = text.data() + text.size();
-  for (const char* at = text.data();;) {
-    double value = 0.0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || !std::isfinite(value) || (next != end && *next != ',' && *next != ':')) {
-      return std::nullopt;
-    }
-    lists.back().push_back(value);
-    if (next == end) {
-      return lists;
-    }
-    if (*next == ':') {
-      lists.emplace_back();
-    }
-    at = next + 1;
-  }
-}
-
-// Says whether the text is two points; anything else is the name of a bookmark.
-bool meansPoints(const std::string& text) {
-  return std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos &&
-         text.find(',') != std::string::npos;
-}
-
-Bookmark parseCamera(const std::string& text) {
-  const auto lists = parseLists(text).value_or(std::vector<std::vector<double>>());
-  const size_t count = lists.size();
-  const bool points =
-      std::all_of(lists.begin(), lists.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(count, 3)),
-                  [](const auto& list) { return list.size() == 3; });
-  const bool angle = count < 4 || (lists[3].size() == 1 && kFieldOfView.contains(lists[3][0]));
-  if (count < 2 || count > 4 || !points || !angle) {
-    throw UsageError("--camera: '" + text +
-                     "' is not a camera (position:target, position:target:up or position:target:up:FOV with a vertical "
-                     "field of view of 1 .. 170 degrees, such as 0,1,4:0,1,0)");
-  }
-  for (size_t i = 0; i < std::min<size_t>(count, 3); ++i) {
-    for (const double value : lists[i]) {
-      if (!kCoordinate.contains(value)) {
-        throw UsageError(fmt::format("--camera: {} is out of range ({})", value, kCoordinate.text()));
-      }
-    }
-  }
-  const auto point = [&](size_t i) { return glm::dvec3(lists[i][0], lists[i][1], lists[i][2]); };
-  return {.position = point(0),
-          .target = point(1),
-          .up = count > 2 ? std::optional(point(2)) : std::nullopt,
-          .verticalFov = count > 3 ? std::optional(lists[3][0]) : std::nullopt};
+  return *size;
 }
 
 // Arguments as text; they are checked after parsing, where messages can say what would be right.
@@ -191,6 +131,26 @@ void addCompare(CLI::App& app, Options& options) {
       ->check(CLI::NonNegativeNumber);
 }
 
+void addRegress(CLI::App& app, Options& options) {
+  app.add_option("cases", options.cases, "TOML: scenes, times, cameras, settings, tolerances")->required();
+  app.add_option("--out", options.out, "folder of the report, regress-report unless given");
+  app.add_option("--filter", options.filter, "only cases with a name like this, such as 'gallery*'");
+  app.add_option("--jobs", options.jobs, "worker processes, up to 4 by the processor unless given")
+      ->check(CLI::Range(1, 256));
+  app.add_option_function<std::vector<std::string>>(
+         "--update",
+         [&](const std::vector<std::string>& glob) {
+           options.update = glob.empty() || glob.front().empty() ? "*" : glob.front();
+         },
+         "take over the pictures of failed cases, all or those with a name like this")
+      ->expected(0, 1)
+      ->type_name("[GLOB]");
+  app.add_option("--junit", options.junit, "write the results to F as JUnit XML");
+  app.add_option("--repeat", options.repeat, "draw each case so often; the pictures must be equal")
+      ->check(CLI::Range(1, 1000000));
+  app.add_flag("--worker", options.worker)->group("");
+}
+
 std::vector<std::pair<std::string, std::string>> parseSettings(const std::string& option,
                                                                const std::vector<std::string>& texts) {
   std::vector<std::pair<std::string, std::string>> settings;
@@ -229,10 +189,8 @@ void applyRaw(const Raw& raw, Options& options) {
   } else if (options.command == "accuracy") {
     options.size = {640, 360};
   }
-  if (!raw.camera.empty() && meansPoints(raw.camera)) {
-    options.camera = parseCamera(raw.camera);
-  } else {
-    options.bookmark = raw.camera;
+  if (!raw.camera.empty()) {
+    setCamera(options, raw.camera);
   }
   if (!kTime.contains(options.time)) {
     throw UsageError(fmt::format("--time: {} is out of range ({} seconds of animation, such as 2.5)", options.time,
@@ -277,6 +235,20 @@ std::string oneLine(std::string text) {
 
 }  // namespace
 
+void setCamera(Options& options, const std::string& text) {
+  options.camera.reset();
+  options.bookmark.clear();
+  if (!meansPoints(text)) {
+    options.bookmark = text;
+    return;
+  }
+  try {
+    options.camera = parseCamera(text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError("--camera: " + std::string(error.what()));
+  }
+}
+
 std::optional<Options> parseOptions(int argc, const char* const* argv) {
   Options options;
   Raw raw;
@@ -296,6 +268,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
   addReference(*command("reference", "trace the picture in double precision"), options, raw);
   addCompare(*command("compare", "error figures of a picture against a reference"), options);
   addAccuracy(*command("accuracy", "error and time of many settings, as a report"), options, raw);
+  addRegress(*command("regress", "draw cases and compare them with expected pictures"), options);
   addBench(*command("bench", "measure frames"), options, raw);
   command("info", "GPUs, drivers, features");
   command("scenes", "scenes that come with the program");
@@ -315,6 +288,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.command = app.get_subcommands().front()->get_name();
   }
   applyRaw(raw, options);
+  if (options.command == "regress" && options.out.empty()) {
+    options.out = "regress-report";
+  }
+  options.arguments.assign(argv + 1, argv + argc);
   if (options.command == "bench") {
     options.benchArguments = benchArguments(argc, argv);
   }

@@ -8,20 +8,16 @@
 #include <vector>
 
 #include "core/renderer.hpp"
+#include "image/picture_size.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {
-
-struct PictureSize {
-  int width = 1280;
-  int height = 720;
-};
 
 // The command line, parsed and checked. The scene's [settings] are added when the scene is loaded.
 struct Options {
   std::string command = "demo";
   std::string scene;  // empty: the default scene
-  PictureSize size;
+  PictureSize size{1280, 720};
   std::vector<std::pair<std::string, std::string>> settings;  // --set key=value, in order
   std::filesystem::path out;
   std::filesystem::path stats;
@@ -53,6 +49,14 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> againstSettings;  // bench: settings to measure in turn; may be none
   int benchRounds = 7;                                               // bench: runs of each of the two
   std::vector<std::string> benchArguments;  // those of bench without what it is measured against, and without --json
+  std::filesystem::path cases;              // regress
+  std::string filter = "*";                 // of the cases' names
+  int jobs = 0;                             // worker processes; 0: by the processor
+  int repeat = 1;                           // pictures of each case, which must be equal
+  std::optional<std::string> update;        // names of the cases whose expected pictures are replaced
+  std::filesystem::path junit;              // empty: none
+  bool worker = false;                      // draws the cases whose indices come on standard input
+  std::vector<std::string> arguments;       // of the command line, without the program
 };
 
 // Bad usage; what() is one line.
@@ -60,6 +64,9 @@ class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+// Takes the text of --camera: points, or the name of a bookmark. Throws UsageError.
+void setCamera(Options& options, const std::string& text);
 
 // Parses the command line. Returns nothing when help or the version was printed. Throws UsageError.
 std::optional<Options> parseOptions(int argc, const char* const* argv);

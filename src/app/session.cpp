@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "platform/folders.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
+#include "scene/shipped_scene.hpp"
 
 namespace speculum {
 
@@ -46,14 +46,8 @@ std::filesystem::path findScene(const std::string& wanted) {
   if (!wanted.empty() && fs::exists(path) && !fs::is_directory(path)) {
     return path;
   }
-  if (path.is_relative()) {
-    const fs::path scenes = dataDirectory("scenes");
-    for (const fs::path& candidate : {scenes / path, scenes.parent_path() / path, scenes / (path.string() + ".toml"),
-                                      scenes.parent_path() / "models" / path}) {
-      if (fs::is_regular_file(candidate)) {
-        return candidate;
-      }
-    }
+  if (const std::optional<fs::path> shipped = shippedScene(path)) {
+    return *shipped;
   }
   throw UsageError("--scene: there is no file '" + wanted +
                    "' (a scene file, a model, or a name from speculum scenes)");
@@ -163,11 +157,12 @@ FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, cons
   return fitted;
 }
 
-Session::Session(const Options& options)
+Session::Session(const Options& options, Device* device)
     : size_(options.size),
       loaded_(loadSceneWithSettings(options)),
       camera_(cameraOf(options, loaded_.scene)),
-      device_(deviceOptions(options, nullptr)),
+      ownDevice_(device ? nullptr : std::make_unique<Device>(deviceOptions(options, nullptr))),
+      device_(device ? *device : *ownDevice_),
       renderer_(device_, rendererOptions(options, nullptr)),
       sceneRenderer_(renderer_, loaded_.scene),
       planner_(device_) {

@@ -76,7 +76,8 @@ struct DrawnFrame {
 // A scene drawn without a window.
 class Session {
  public:
-  explicit Session(const Options& options);
+  // Draws with `device`, which must outlive it, or with one of its own.
+  explicit Session(const Options& options, Device* device = nullptr);
 
   // Replaces the scene's camera.
   void setCamera(const std::optional<CameraPose>& camera) { camera_ = camera; }
@@ -111,7 +112,8 @@ class Session {
   PictureSize size_;
   LoadedScene loaded_;
   std::optional<CameraPose> camera_;
-  Device device_;
+  std::unique_ptr<Device> ownDevice_;  // null: another's is used
+  Device& device_;
   Renderer renderer_;
   SceneRenderer sceneRenderer_;
   BudgetPlanner planner_;

@@ -59,14 +59,14 @@ std::vector<std::string> effectsAskedFor(const Scene& scene) {
   return wanted;
 }
 
+}  // namespace
+
 std::string utcNow() {
   const std::time_t now = std::time(nullptr);
   char text[32];
   std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
   return text;
 }
-
-}  // namespace
 
 SweepContext sweepContext(Session& session) {
   return {.base = session.settings(),

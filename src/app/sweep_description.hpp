@@ -15,4 +15,6 @@ SweepResults describeSweep(Session& session, const SweepPlan& plan, double time)
 // scene, device, machine, size, time, validation.
 std::string sweepIdentity(Session& session, const Options& options);
 
+std::string utcNow();  // ISO 8601, with seconds
+
 }  // namespace speculum

@@ -4,12 +4,14 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
@@ -33,7 +35,7 @@ int waitFor(pid_t child) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input input) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) {
     argv.push_back(const_cast<char*>(argument.c_str()));
@@ -43,8 +45,16 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   if (::pipe2(ends, O_CLOEXEC) != 0) {
     throw std::runtime_error("no pipe could be made for " + arguments.front());
   }
+  // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
+  int inputEnds[2] = {-1, -1};
+  if (input == Input::pipe && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, inputEnds) != 0) {
+    throw std::runtime_error("no pipe could be made for " + arguments.front());
+  }
   posix_spawn_file_actions_t actions;
   ::posix_spawn_file_actions_init(&actions);
+  if (input == Input::pipe) {
+    ::posix_spawn_file_actions_adddup2(&actions, inputEnds[0], STDIN_FILENO);
+  }
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   if (::posix_spawnp(&child_, argv[0], &actions, nullptr, argv.data(), environ) != 0) {
@@ -54,6 +64,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
   descriptor_ = ends[0];
+  if (input == Input::pipe) {
+    ::close(inputEnds[0]);
+    input_ = inputEnds[1];
+  }
 }
 
 ChildProcess::~ChildProcess() {
@@ -61,6 +75,7 @@ ChildProcess::~ChildProcess() {
     ::kill(child_, SIGTERM);
     waitFor(child_);
   }
+  closeInput();
   ::close(descriptor_);
 }
 
@@ -91,6 +106,50 @@ std::optional<ProcessResult> ChildProcess::poll() {
     }
   }
   return child_ == 0 ? std::optional(result_) : std::nullopt;
+}
+
+std::optional<std::string> ChildProcess::readLine(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::max(0.0, seconds)));
+  for (;;) {
+    const size_t length = result_.output.find('\n');
+    if (length != std::string::npos) {
+      std::string line = result_.output.substr(0, length);
+      result_.output.erase(0, length + 1);
+      return line;
+    }
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    pollfd output{.fd = descriptor_, .events = POLLIN};
+    if (child_ == 0 || left.count() < 0 || ::poll(&output, 1, static_cast<int>(left.count())) == 0) {
+      return std::nullopt;
+    }
+    if (output.revents != 0 && !read()) {
+      result_.exitCode = waitFor(std::exchange(child_, 0));
+    }
+  }
+}
+
+void ChildProcess::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::send(input_, text.data(), text.size(), MSG_NOSIGNAL);
+    if (count < 0 && errno != EINTR) {
+      return;
+    }
+    text.remove_prefix(static_cast<size_t>(std::max<ssize_t>(count, 0)));
+  }
+}
+
+void ChildProcess::closeInput() {
+  if (input_ >= 0) {
+    ::close(std::exchange(input_, -1));
+  }
+}
+
+void ChildProcess::kill() {
+  if (child_ != 0) {
+    ::kill(child_, SIGKILL);
+  }
 }
 
 ProcessResult runProcess(const std::vector<std::string>& arguments) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace speculum {
@@ -19,7 +20,9 @@ std::filesystem::path findProgram(const std::string& name);  // in PATH; empty i
 // A program that runs beside this one. Destruction ends it.
 class ChildProcess {
  public:
-  explicit ChildProcess(const std::vector<std::string>& arguments);
+  enum class Input { inherited, pipe };
+
+  explicit ChildProcess(const std::vector<std::string>& arguments, Input input = Input::inherited);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -28,11 +31,21 @@ class ChildProcess {
   // wait() without waiting: nothing while the program runs. Call neither afterwards.
   std::optional<ProcessResult> poll();
 
+  // Takes a line from the output. Nothing if none comes within `seconds`, or if the program has ended: then running()
+  // is false, and wait() has its exit code and the rest of its output.
+  std::optional<std::string> readLine(double seconds);
+  bool running() const { return child_ != 0; }
+  // Writes to its Input::pipe. A program that has ended gets nothing.
+  void write(std::string_view text);
+  void closeInput();
+  void kill();  // at once, whatever the program does
+
  private:
   bool read();  // false at the end of the output
 
   int child_ = 0;       // 0: there is none
   int descriptor_ = 0;  // of its output
+  int input_ = -1;      // -1: none that is written to
   ProcessResult result_;
 };
 

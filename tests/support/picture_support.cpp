@@ -18,55 +18,17 @@ namespace speculum::testing_support {
 
 namespace {
 
-void writeEvidence(const Image8& actual, const Image8& expected, const std::string& name) {
+void writeEvidence(const Image8& actual, const Image8& expected, const PictureAgreement& agreement,
+                   const std::string& name) {
   const std::filesystem::path directory = binaryDir() / "tests" / "failed";
   std::filesystem::create_directories(directory);
-  Image8 shown(actual.width, actual.height);
-  for (size_t i = 0; i < shown.rgba.size(); ++i) {
-    shown.rgba[i] =
-        i % 4 == 3 ? 255 : static_cast<uint8_t>(std::min(255, 20 * std::abs(actual.rgba[i] - expected.rgba[i])));
-  }
   writePng(directory / (name + "-actual.png"), actual);
   writePng(directory / (name + "-expected.png"), expected);
-  writePng(directory / (name + "-difference.png"), shown);
+  writePng(directory / (name + "-difference.png"), differencePicture(actual, expected, agreement, 20.0));
   std::printf("see %s/%s-{actual,expected,difference}.png\n", directory.c_str(), name.c_str());
 }
 
 }  // namespace
-
-PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts) {
-  if (a.width != b.width || a.height != b.height) {
-    throw std::runtime_error("pictures of different sizes cannot be compared");
-  }
-  PictureAgreement result;
-  std::vector<bool> over;
-  for (size_t i = 0; i < a.rgba.size() / 4; ++i) {
-    int difference = -1;
-    for (size_t k = 4 * i; k < 4 * i + 3 && (counts.empty() || counts[i]); ++k) {
-      difference = std::max(difference, std::abs(a.rgba[k] - b.rgba[k]));
-    }
-    over.push_back(difference > tolerance);
-    result.counted += difference >= 0;
-    result.over += over.back();
-    result.largest = std::max(result.largest, difference);
-  }
-  const auto blockAt = [&](int left, int top) {
-    for (int i = 0; i < 9; ++i) {
-      if (!over[static_cast<size_t>(top + i / 3) * a.width + left + i % 3]) {
-        return false;
-      }
-    }
-    return true;
-  };
-  for (int y = 0; y + 2 < a.height && !result.block; ++y) {
-    for (int x = 0; x + 2 < a.width && !result.block; ++x) {
-      if (blockAt(x, y)) {
-        result.block = glm::ivec2(x, y);
-      }
-    }
-  }
-  return result;
-}
 
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts) {
@@ -74,7 +36,7 @@ void expectAlike(const Image8& actual, const Image8& expected, int tolerance, co
   EXPECT_GE(d.within(), 0.999) << name << ": largest difference " << d.largest << "/255";
   EXPECT_FALSE(d.block) << name << ": wholly over " << tolerance << "/255 at " << d.block->x << ", " << d.block->y;
   if (!d.holds()) {
-    writeEvidence(actual, expected, name);
+    writeEvidence(actual, expected, d, name);
   }
 }
 

@@ -6,26 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/picture_agreement.hpp"
 #include "app/session.hpp"
 #include "image/image.hpp"
 
 namespace speculum::testing_support {
 
-// Distinguishes pictures that agree except for stray pixels along edges from those that differ in a patch.
-struct PictureAgreement {
-  int counted = 0;
-  int over = 0;                     // pixels that differ by more than the tolerance in red, green or blue
-  int largest = 0;                  // difference, 1/255
-  std::optional<glm::ivec2> block;  // top left pixel of the first 3x3 block that lies wholly over: a patch, no edge
-
-  double within() const { return counted == 0 ? 1.0 : 1.0 - static_cast<double>(over) / counted; }
-  bool holds() const { return within() >= 0.999 && !block; }
-};
-
-// Compares the pixels whose `counts` is set, all of them if it is empty. Throws std::runtime_error when sizes differ.
-PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
-
-// Expects Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes
+// Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over. On failure writes
 // NAME-actual.png, NAME-expected.png and NAME-difference.png below the build tree and says where.
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts = {});

@@ -1,20 +1,20 @@
-# Writes the report's page with its style sheet and scripts in it as a C++ string:
-# cmake -DOUTPUT=file.cpp -DPAGE=report.html -DSTYLE=report.css -DSCRIPTS=a.js,b.js -P inline_page.cmake
+# Writes a page with its style sheets and scripts in it as a C++ string: cmake -DOUTPUT=file.cpp -DPAGE=page.html
+# -DSTYLES=a.css,b.css -DSCRIPTS=a.js,b.js -DHEADER=folder/declares.hpp -DFUNCTION=name -P inline_page.cmake
 cmake_minimum_required(VERSION 3.25)
 file(READ "${PAGE}" page)
-file(READ "${STYLE}" style)
-string(REPLACE "," ";" scripts "${SCRIPTS}")
-set(script "")
-foreach(file IN LISTS scripts)
-  file(READ "${file}" text)
-  string(APPEND script "${text}")
+foreach(kind STYLE SCRIPT)
+  string(REPLACE "," ";" files "${${kind}S}")
+  set(joined "")
+  foreach(file IN LISTS files)
+    file(READ "${file}" text)
+    string(APPEND joined "${text}")
+  endforeach()
+  string(REPLACE "@${kind}@" "${joined}" page "${page}")
 endforeach()
-string(REPLACE "@STYLE@" "${style}" page "${page}")
-string(REPLACE "@SCRIPT@" "${script}" page "${page}")
 file(WRITE "${OUTPUT}" "// Written by inline_page.cmake.
-#include \"accuracy/report.hpp\"
+#include \"${HEADER}\"
 
-std::string_view speculum::reportPage() {
+std::string_view speculum::${FUNCTION}() {
   return R\"page(${page})page\";
 }
 ")

@@ -34,29 +34,33 @@ function makeSplitFrame({ size, reference, left, right }) {
   return { frame, show: content => test.replaceChildren(content) };
 }
 
-// The zoomed view of all panes follows the pointer on the map, or its arrow keys.
-function makeMapFrame(size, panes) {
-  const map = make('div', { class: 'frame map', style: `aspect-ratio:${size}`, tabindex: 0, role: 'group',
-                            'aria-label': 'Error map; arrow keys move a zoomed view' });
-  const at = [50, 50];
+// The zoomed view of all panes follows the pointer on this frame, or its arrow keys.
+function followPointer(frame, panes) {
+  const now = () => ['--at-x', '--at-y'].map(name => Number.parseFloat(panes.style.getPropertyValue(name) || '50%'));
   const move = (x, y) => {
-    [at[0], at[1]] = [clampPercent(x), clampPercent(y)];
-    panes.style.setProperty('--at-x', `${at[0]}%`);
-    panes.style.setProperty('--at-y', `${at[1]}%`);
+    panes.style.setProperty('--at-x', `${clampPercent(x)}%`);
+    panes.style.setProperty('--at-y', `${clampPercent(y)}%`);
   };
   const follow = event => {
-    const box = map.getBoundingClientRect();
+    const box = frame.getBoundingClientRect();
     move(100 * (event.clientX - box.left) / box.width, 100 * (event.clientY - box.top) / box.height);
   };
-  map.addEventListener('pointermove', follow);
-  map.addEventListener('pointerdown', follow);
-  map.addEventListener('keydown', event => {
+  frame.addEventListener('pointermove', follow);
+  frame.addEventListener('pointerdown', follow);
+  frame.addEventListener('keydown', event => {
     const step = { ArrowLeft: [-4, 0], ArrowRight: [4, 0], ArrowUp: [0, -4], ArrowDown: [0, 4] }[event.key];
     if (step) {
-      move(at[0] + step[0], at[1] + step[1]);
+      const [x, y] = now();
+      move(x + step[0], y + step[1]);
       event.preventDefault();
     }
   });
+}
+
+function makeMapFrame(size, panes) {
+  const map = make('div', { class: 'frame map', style: `aspect-ratio:${size}`, tabindex: 0, role: 'group',
+                            'aria-label': 'Error map; arrow keys move a zoomed view' });
+  followPointer(map, panes);
   return map;
 }
 

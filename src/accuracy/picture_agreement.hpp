@@ -1,0 +1,41 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "image/image.hpp"
+
+namespace speculum {
+
+// Distinguishes pictures that agree except for stray pixels along edges from those that differ in a patch.
+struct PictureAgreement {
+  int counted = 0;
+  int over = 0;                     // pixels that differ by more than the tolerance in red, green or blue
+  int largest = 0;                  // difference, 1/255
+  std::vector<bool> isOver;         // of each pixel
+  std::optional<glm::ivec2> block;  // top left pixel of the first 3x3 block that lies wholly over: a patch, no edge
+
+  double within() const { return counted == 0 ? 1.0 : 1.0 - static_cast<double>(over) / counted; }
+  bool holds() const { return within() >= 0.999 && !block; }
+};
+
+// Compares the pixels whose `counts` is set, all of them if it is empty; the tolerance is in 1/255. Throws
+// std::runtime_error when sizes differ.
+PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
+
+// Returns red, green and blue of the difference times `gain`. Pixels over the tolerance also fill their neighbours, so
+// that single ones are seen.
+Image8 differencePicture(const Image8& a, const Image8& b, const PictureAgreement& agreement, double gain);
+
+// A rectangle of pixels.
+struct PixelRectangle {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+};
+// Bounds the largest group of near pixels over the tolerance. Nothing if there are none.
+std::optional<PixelRectangle> largestGroup(const PictureAgreement& agreement, int width);
+
+}  // namespace speculum

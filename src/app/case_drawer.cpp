@@ -1,0 +1,144 @@
+#include "app/case_drawer.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "image/picture_files.hpp"
+#include "regress/picture_check.hpp"
+
+namespace speculum {
+
+namespace {
+
+// The command that draws the case again; the page puts quotes where the shell needs them.
+std::vector<std::string> renderCommand(const RegressCase& subject, const Options& options) {
+  std::vector<std::string> command{"speculum", "render",
+                                   "--scene",  subject.scene.string(),
+                                   "--size",   fmt::format("{}x{}", subject.size.width, subject.size.height)};
+  const auto add = [&](const std::string& option, const std::string& value) {
+    command.insert(command.end(), {option, value});
+  };
+  if (subject.time != 0.0) {
+    add("--time", fmt::format("{}", subject.time));
+  }
+  if (subject.camera) {
+    add("--camera", *subject.camera);
+  }
+  for (const auto& settings : {subject.settings, options.settings}) {
+    for (const auto& [key, value] : settings) {
+      add("--set", key + "=" + value);
+    }
+  }
+  if (!options.gpu.empty()) {
+    add("--gpu", options.gpu);
+  }
+  add("--out", subject.name + ".png");
+  return command;
+}
+
+// A check that the program makes of itself. The first that fails is the outcome's message.
+void addCheck(Outcome& outcome, const std::string& label, uint64_t count, const std::string& detail = {}) {
+  if (count > 0) {
+    outcome.figures.push_back({label, std::to_string(count), "0", true});
+    if (outcome.verdict == Verdict::passed) {
+      outcome.verdict = Verdict::failed;
+      outcome.message = std::to_string(count) + " " + label + (detail.empty() ? "" : ", first " + detail);
+    }
+  }
+}
+
+}  // namespace
+
+Options caseOptions(const RegressCase& subject, const Options& common) {
+  Options options = common;
+  options.scene = subject.scene.string();
+  options.size = subject.size;
+  options.settings = subject.settings;
+  options.settings.insert(options.settings.end(), common.settings.begin(), common.settings.end());
+  if (subject.camera) {
+    setCamera(options, *subject.camera);
+  }
+  return options;
+}
+
+Outcome CaseDrawer::outcomeOf(const RegressCase& subject) {
+  Outcome outcome{.command = renderCommand(subject, options_)};
+  try {
+    if (!device_) {
+      device_.emplace(deviceOptions(options_, nullptr));
+    }
+    outcome.device = device_->info().name;
+    outcome.driver = device_->info().driver;
+    const ExpectedCase expected = expectedOf(subject, outcome.driver);
+    outcome.picture = expected.drawn.picture.string();
+    if (expected.result == ExpectedResult::skip) {
+      outcome.verdict = Verdict::skipped;
+      outcome.message = expected.reason;
+    } else {
+      drawAndJudge(expected, outcome);
+      applyExpectation(expected, outcome);
+    }
+  } catch (const std::exception& error) {
+    outcome.verdict = Verdict::error;
+    outcome.message = error.what();
+    outcome.replaceable = false;
+    session_.reset();
+    device_.reset();
+  }
+  return outcome;
+}
+
+void CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
+  RegressCase subject = expected.drawn;
+  const CaseFiles files(options_.out, subject.name);
+  const Image8 actual = draw(subject, outcome);
+  for (int i = 1; i < options_.repeat; ++i) {
+    const Image8 again = draw(subject, outcome);
+    if (again.rgba != actual.rgba) {
+      // Shows the two pictures of this driver, whatever is expected.
+      subject.tolerance = {.maxDiff = 0, .share = 0.0, .block = false};
+      judge(actual, again, subject, files, outcome);
+      outcome.message = fmt::format("not deterministic: picture {} differs from the first", i + 1);
+      outcome.replaceable = false;
+      return;
+    }
+  }
+  if (!std::filesystem::exists(subject.picture)) {
+    outcome.verdict = Verdict::failed;
+    outcome.message = "there is no expected picture " + subject.picture.string() + " (--update writes it)";
+    outcome.replaceable = outcome.figures.empty();
+    outcome.drawn = true;
+    writePng(files.actual, actual);
+    return;
+  }
+  judge(readImage8(subject.picture), actual, subject, files, outcome);
+}
+
+Image8 CaseDrawer::draw(const RegressCase& subject, Outcome& outcome) {
+  const Options options = caseOptions(subject, options_);
+  if (!session_ || session_->scene().file != subject.scene || session_->size() != subject.size) {
+    session_.reset();
+    session_ = std::make_unique<Session>(options, &*device_);
+  }
+  Session& session = *session_;
+  Settings settings = settingsOf(session.scene());
+  for (const auto& [key, value] : options.settings) {
+    if (const auto problem = setSetting(settings, key, value)) {
+      throw UsageError(*problem);
+    }
+  }
+  const int messages = device_->validationMessages();
+  const uint64_t nonFinite = session.sceneRenderer().finiteWatch().count();
+  session.setCamera(cameraOf(options, session.scene()));
+  session.setSettings(settings);
+  session.restart();
+  session.draw(subject.time, true);
+  session.finish();
+  Image8 picture = session.picture();
+  const FiniteWatch& watch = session.sceneRenderer().finiteWatch();
+  const uint64_t found = watch.count() - nonFinite;
+  addCheck(outcome, "values that are not finite", found, found > 0 ? describe(watch.findings().front()) : "");
+  addCheck(outcome, "validation messages", static_cast<uint64_t>(device_->validationMessages() - messages));
+  return picture;
+}
+
+}  // namespace speculum

@@ -1,0 +1,164 @@
+#include <fnmatch.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <thread>
+
+#include "app/case_drawer.hpp"
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/stats.hpp"
+#include "app/sweep_description.hpp"
+#include "app/version.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
+#include "platform/process.hpp"
+#include "regress/picture_check.hpp"
+#include "regress/report_page.hpp"
+#include "regress/worker_pool.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr int usualWorkers = 4;
+
+bool matches(const std::string& glob, const std::string& name) {
+  return ::fnmatch(glob.c_str(), name.c_str(), 0) == 0;
+}
+
+std::vector<RegressCase> selectedCases(const Options& options) {
+  std::vector<RegressCase> cases = readCases(options.cases);
+  std::erase_if(cases, [&](const RegressCase& subject) { return !matches(options.filter, subject.name); });
+  if (cases.empty()) {
+    throw UsageError("--filter: no case of " + options.cases.string() + " has a name like '" + options.filter +
+                     "' (* stands for any text)");
+  }
+  return cases;
+}
+
+// Draws the cases whose indices come on standard input, and answers each with its outcome.
+int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
+  CaseDrawer drawer(options);
+  for (std::string line; std::getline(std::cin, line);) {
+    const nlohmann::json outcome = drawer.outcomeOf(cases.at(std::stoul(line)));
+    std::printf("%s%s\n", std::string(workerReplyMark).c_str(),
+                outcome.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject) {
+  Outcome outcome;
+  if (reply.end == JobEnd::answered) {
+    outcome = nlohmann::json::parse(reply.text).get<Outcome>();
+  } else {
+    outcome.verdict = Verdict::error;
+    outcome.message = reply.end == JobEnd::crashed
+                          ? reply.text
+                          : fmt::format("no picture within its timeout of {} s", subject.timeout);
+  }
+  outcome.seconds = reply.seconds;
+  outcome.log = reply.log;
+  return outcome;
+}
+
+// Takes the picture that was drawn over as the expected one.
+void accept(const CaseFiles& files, Outcome& outcome) {
+  const std::filesystem::path picture = outcome.picture;
+  if (picture.has_parent_path()) {
+    std::filesystem::create_directories(picture.parent_path());
+  }
+  replaceFile(picture, readFile(files.actual));
+  outcome.verdict = Verdict::updated;
+  outcome.message = "wrote " + picture.string();
+}
+
+void writeReports(const Options& options, const RegressRun& run) {
+  writeText(options.out / "index.html", regressHtml(run, options.out));
+  if (!options.junit.empty()) {
+    writeText(options.junit, junitXml(run));
+  }
+  if (environment("GITHUB_ACTIONS") == "true") {
+    std::fputs(githubErrors(run).c_str(), stdout);
+  }
+  if (const std::string file = environment("GITHUB_STEP_SUMMARY"); !file.empty()) {
+    std::ofstream(file, std::ios::app) << githubSummary(run);
+  }
+}
+
+void printOutcomes(const RegressRun& run, const std::filesystem::path& page) {
+  for (size_t i = 0; i < run.cases.size(); ++i) {
+    const Outcome& outcome = run.outcomes[i];
+    if (!outcome.message.empty()) {
+      std::printf("%-7s %s: %s\n", verdictName(outcome.verdict).c_str(), run.cases[i].name.c_str(),
+                  outcome.message.c_str());
+    }
+  }
+  std::printf("%s; %s\n", summary(run).c_str(), page.c_str());
+}
+
+}  // namespace
+
+int runRegress(const Options& options) {
+  RegressRun run{.file = options.cases,
+                 .cases = selectedCases(options),
+                 .command = {"speculum"},
+                 .accept = {"speculum", "regress", options.cases.string(), "--update", "NAME"},
+                 .version = versionString,
+                 .date = utcNow()};
+  if (options.worker) {
+    return runWorker(options, run.cases);
+  }
+  run.command.insert(run.command.end(), options.arguments.begin(), options.arguments.end());
+  if (!options.gpu.empty()) {
+    run.accept.insert(run.accept.end(), {"--gpu", options.gpu});
+  }
+  std::filesystem::create_directories(options.out);
+  std::vector<WorkerJob> jobs;
+  for (size_t i = 0; i < run.cases.size(); ++i) {
+    const RegressCase& subject = run.cases[i];
+    jobs.push_back({std::to_string(i),
+                    fmt::format("{} {}x{}", subject.scene.string(), subject.size.width, subject.size.height),
+                    subject.timeout * options.repeat});
+    for (const std::filesystem::path& file : CaseFiles(options.out, subject.name).all()) {
+      std::filesystem::remove(file);
+    }
+  }
+  run.outcomes.resize(run.cases.size());
+  std::vector<std::string> worker{executablePath().string()};
+  worker.insert(worker.end(), options.arguments.begin(), options.arguments.end());
+  worker.push_back("--worker");
+  const int workers =
+      options.jobs > 0 ? options.jobs : std::min(usualWorkers, static_cast<int>(std::thread::hardware_concurrency()));
+  installInterruptHandler();
+  {
+    Progress progress("regress", static_cast<double>(jobs.size()));
+    const bool finished = runWorkers(worker, workers, jobs, [&](size_t i, const WorkerReply& reply) {
+      const RegressCase& subject = run.cases[i];
+      Outcome& outcome = run.outcomes[i];
+      try {
+        outcome = outcomeOf(reply, subject);
+        if (outcome.replaceable && options.update && matches(*options.update, subject.name)) {
+          accept(CaseFiles(options.out, subject.name), outcome);
+        }
+      } catch (const std::exception& error) {
+        outcome.verdict = Verdict::error;
+        outcome.message = error.what();
+      }
+      progress.advance();
+    });
+    if (!finished) {
+      return 1;
+    }
+  }
+  writeReports(options, run);
+  printOutcomes(run, options.out / "index.html");
+  return run.passed() ? 0 : 1;
+}
+
+}  // namespace speculum

@@ -1,0 +1,300 @@
+#include "regress/case_file.hpp"
+
+#include <array>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "accuracy/setting_values.hpp"
+#include "frame/settings.hpp"
+#include "regress/driver.hpp"
+#include "scene/camera_text.hpp"
+#include "scene/scene_sections.hpp"
+#include "scene/shipped_scene.hpp"
+#include "scene/table_reader.hpp"
+#include "scene/toml_file.hpp"
+
+namespace speculum {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Key = std::string_view;
+
+constexpr size_t mostCases = 10000;
+constexpr Range share{.low = 0.0, .high = 1.0};
+constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
+
+// A table of a case, over those of [defaults].
+struct Draft {
+  RegressCase drawn;
+  std::optional<std::string> name;
+  std::optional<std::string> scene;
+  std::string picture = "{name}.png";
+  std::map<std::string, std::string> settings;
+  std::map<std::string, std::vector<std::string>> grid;
+};
+
+// Reads cases of one file.
+class CaseReader {
+ public:
+  explicit CaseReader(const fs::path& file) : file_(file) {}
+
+  void read(const TableReader& table, Draft& draft) const;
+  void expand(const TableReader& table, const Draft& draft, std::vector<RegressCase>& cases);
+
+ private:
+  fs::path beside(const std::string& path) const { return (file_.parent_path() / path).lexically_normal(); }
+  std::optional<std::string> text(const TableReader& table, Key key) const;
+  void apply(const TableReader& table, Draft& draft, const std::string& key, const std::string& value) const;
+  Tolerance readTolerance(const TableReader& table) const;
+  std::vector<Expectation> readExpectations(const TableReader& table) const;
+  void add(const TableReader& table, const Draft& draft, const std::string& suffix, std::vector<RegressCase>& cases);
+
+  const fs::path& file_;
+  std::set<std::string> names_;
+};
+
+std::optional<std::string> CaseReader::text(const TableReader& table, Key key) const {
+  if (!table.has(key)) {
+    return std::nullopt;
+  }
+  std::string value = table.text(key);
+  if (value.empty()) {
+    table.fail(key, "is empty", "a text is needed");
+  }
+  return value;
+}
+
+// Sets what a grid may vary: a key of the case that is a text or a number, or else a setting.
+void CaseReader::apply(const TableReader& table, Draft& draft, const std::string& key, const std::string& value) const {
+  if (key == "scene") {
+    draft.scene = value;
+    const std::optional<fs::path> shipped = fs::is_regular_file(beside(value)) ? std::nullopt : shippedScene(value);
+    draft.drawn.scene = shipped.value_or(beside(value));
+    if (!fs::is_regular_file(draft.drawn.scene)) {
+      table.fail(key, "is '" + value + "'", "a file beside this one, or a name of speculum scenes, is needed");
+    }
+  } else if (key == "camera") {
+    try {
+      if (meansPoints(value)) {
+        parseCamera(value);
+      }
+    } catch (const std::invalid_argument& error) {
+      table.fail(key, error.what(), "as --camera takes it");
+    }
+    draft.drawn.camera = value;
+  } else if (key == "size") {
+    const std::optional<PictureSize> size = pictureSize(value);
+    if (!size) {
+      table.fail(key, "is '" + value + "'", std::string(pictureSizes) + " is needed");
+    }
+    draft.drawn.size = *size;
+  } else if (key == "time") {
+    const char* start = value.c_str();
+    char* end = nullptr;
+    draft.drawn.time = std::strtod(start, &end);
+    if (end == start || *end != '\0' || !kTime.contains(draft.drawn.time)) {
+      table.fail(key, "is '" + value + "'", kTime.text());
+    }
+  } else {
+    Settings scratch;
+    if (const auto problem = setSetting(scratch, key, value)) {
+      table.fail(key, *problem, "keys and values as --set takes them are needed");
+    }
+    draft.settings[key] = value;
+  }
+}
+
+Tolerance CaseReader::readTolerance(const TableReader& table) const {
+  static constexpr std::array<Key, 5> keys{"max_diff", "share", "block", "flip", "flip_p99"};
+  Tolerance tolerance;
+  if (const std::optional<TableReader> bounds = table.subtable("tolerance", keys)) {
+    const auto fraction = [&](Key key) {
+      return bounds->has(key) ? std::optional(bounds->number(key, 0.0, share)) : std::nullopt;
+    };
+    if (bounds->has("max_diff")) {
+      tolerance.maxDiff = static_cast<int>(bounds->integer("max_diff", 0, 0, 255));
+    }
+    if (bounds->has("block")) {
+      tolerance.block = bounds->boolean("block", true);
+    }
+    tolerance.share = fraction("share");
+    tolerance.flip = fraction("flip");
+    tolerance.flipP99 = fraction("flip_p99");
+  }
+  return tolerance;
+}
+
+std::vector<Expectation> CaseReader::readExpectations(const TableReader& table) const {
+  static constexpr std::array<Key, 6> keys{"driver", "version", "result", "reason", "picture", "tolerance"};
+  static constexpr std::array<Key, 3> results{"pass", "fail", "skip"};
+  std::vector<Expectation> expectations;
+  for (const TableReader& entry : table.tables("expect", keys)) {
+    Expectation expectation{.driver = entry.text("driver"), .version = text(entry, "version")};
+    if (expectation.version) {
+      try {
+        isInVersions("", *expectation.version);
+      } catch (const std::invalid_argument& error) {
+        entry.fail("version", error.what(), "comparisons such as \">=25,<26\" are needed");
+      }
+    }
+    expectation.result = static_cast<ExpectedResult>(entry.choice("result", 0, results));
+    expectation.reason = entry.text("reason", "");
+    if (expectation.result != ExpectedResult::pass && expectation.reason.empty()) {
+      entry.fail("reason", "is missing", "a sentence that says why is needed");
+    }
+    if (const auto picture = text(entry, "picture")) {
+      expectation.picture = *picture;
+    }
+    expectation.tolerance = readTolerance(entry);
+    expectations.push_back(std::move(expectation));
+  }
+  return expectations;
+}
+
+void CaseReader::read(const TableReader& table, Draft& draft) const {
+  draft.drawn.line = table.line();
+  if (const auto name = text(table, "name")) {
+    draft.name = name;
+  }
+  for (const char* key : {"scene", "camera", "size"}) {
+    if (const auto value = text(table, key)) {
+      apply(table, draft, key, *value);
+    }
+  }
+  draft.drawn.time = table.number("time", draft.drawn.time, kTime);
+  draft.drawn.timeout = table.number("timeout", draft.drawn.timeout, seconds);
+  if (const auto mask = text(table, "mask")) {
+    draft.drawn.mask = beside(*mask);
+    if (!fs::is_regular_file(*draft.drawn.mask)) {
+      table.fail("mask", "is '" + *mask + "'", "a PNG file is needed");
+    }
+  }
+  draft.picture = text(table, "picture").value_or(draft.picture);
+  // settingsOf() knows what each setting takes, and names file and line of one that does not.
+  Scene settings;
+  settings.file = file_;
+  settings.settings = readSettings(table);
+  const Settings checked = settingsOf(settings);
+  for (const SettingEntry& entry : settings.settings) {
+    draft.settings[entry.key] = settingValue(checked, entry.key);
+  }
+  if (const std::optional<TableReader> grid = table.subtable("grid")) {
+    for (const auto& [key, node] : grid->table()) {
+      const std::string name(key.str());
+      draft.grid[name] = valueTexts(*grid, name, node);
+      for (const std::string& value : draft.grid[name]) {
+        Draft scratch;
+        apply(*grid, scratch, name, value);
+      }
+    }
+  }
+  draft.drawn.tolerance = merged(draft.drawn.tolerance, readTolerance(table));
+  if (table.has("expect")) {
+    draft.drawn.expect = readExpectations(table);
+  }
+}
+
+void CaseReader::expand(const TableReader& table, const Draft& draft, std::vector<RegressCase>& cases) {
+  std::vector<std::pair<Draft, std::string>> drafts{{draft, ""}};
+  for (const auto& [key, values] : draft.grid) {
+    std::vector<std::pair<Draft, std::string>> more;
+    for (const auto& [base, suffix] : drafts) {
+      for (const std::string& value : values) {
+        more.emplace_back(base, suffix + (key == "scene" ? "" : "_" + key + "=" + value));
+        apply(table, more.back().first, key, value);
+      }
+    }
+    if (cases.size() + more.size() > mostCases) {
+      table.fail("grid", "makes more than " + std::to_string(mostCases) + " cases", "fewer are needed");
+    }
+    drafts = std::move(more);
+  }
+  for (const auto& [one, suffix] : drafts) {
+    add(table, one, suffix, cases);
+  }
+}
+
+void CaseReader::add(const TableReader& table, const Draft& draft, const std::string& suffix,
+                     std::vector<RegressCase>& cases) {
+  RegressCase made = draft.drawn;
+  if (!draft.scene) {
+    table.fail("scene", "is missing", "a scene file, or a name of speculum scenes, is needed");
+  }
+  made.name = draft.name.value_or(fs::path(*draft.scene).stem().string()) + suffix;
+  for (char& c : made.name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    c = plain || std::string_view("._=+-,").find(c) != std::string_view::npos ? c : '_';
+  }
+  if (!names_.insert(made.name).second) {
+    table.fail("name", "'" + made.name + "' is that of an earlier case", "a name of its own is needed");
+  }
+  made.settings.assign(draft.settings.begin(), draft.settings.end());
+  const auto pictureFile = [&](std::string path) {
+    constexpr std::string_view place = "{name}";
+    if (const size_t at = path.find(place); at != std::string::npos) {
+      path.replace(at, place.size(), made.name);
+    }
+    return beside(path);
+  };
+  made.picture = pictureFile(draft.picture);
+  for (Expectation& expectation : made.expect) {
+    if (expectation.picture) {
+      expectation.picture = pictureFile(expectation.picture->string());
+    }
+  }
+  cases.push_back(std::move(made));
+}
+
+}  // namespace
+
+Tolerance merged(const Tolerance& base, const Tolerance& changes) {
+  return {.maxDiff = changes.maxDiff ? changes.maxDiff : base.maxDiff,
+          .share = changes.share ? changes.share : base.share,
+          .block = changes.block ? changes.block : base.block,
+          .flip = changes.flip ? changes.flip : base.flip,
+          .flipP99 = changes.flipP99 ? changes.flipP99 : base.flipP99};
+}
+
+ExpectedCase expectedOf(const RegressCase& subject, const std::string& driver) {
+  ExpectedCase expected{.drawn = subject};
+  for (const Expectation& entry : subject.expect) {
+    if (isOfFamily(driver, entry.driver) && (!entry.version || isInVersions(driver, *entry.version))) {
+      expected.result = entry.result;
+      expected.reason = entry.reason;
+      expected.drawn.picture = entry.picture.value_or(subject.picture);
+      expected.drawn.tolerance = merged(subject.tolerance, entry.tolerance);
+      break;
+    }
+  }
+  return expected;
+}
+
+std::vector<RegressCase> readCases(const fs::path& file) {
+  static constexpr std::array<Key, 2> rootKeys{"defaults", "case"};
+  static constexpr std::array<Key, 12> keys{"scene", "name", "time",    "camera",  "size",      "settings",
+                                            "grid",  "mask", "timeout", "picture", "tolerance", "expect"};
+  const toml::table root = readToml(file, "file of cases");
+  const TableReader reader(file, "", root, 1, rootKeys);
+  CaseReader cases(file);
+  Draft defaults;
+  defaults.drawn.size = {640, 360};
+  defaults.drawn.timeout = 60.0;
+  defaults.drawn.tolerance = {.maxDiff = 3, .share = 0.001, .block = true};
+  if (const std::optional<TableReader> table = reader.subtable("defaults", keys)) {
+    cases.read(*table, defaults);
+  }
+  std::vector<RegressCase> read;
+  for (const TableReader& table : reader.tables("case", keys)) {
+    Draft draft = defaults;
+    cases.read(table, draft);
+    cases.expand(table, draft, read);
+  }
+  if (read.empty()) {
+    reader.fail("case", "is missing", "write [[case]] above each case");
+  }
+  return read;
+}
+
+}  // namespace speculum

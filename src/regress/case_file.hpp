@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "image/picture_size.hpp"
+
+namespace speculum {
+
+// Bounds on how far a picture may be from the expected one. Nothing: not given here, or for FLIP no bound.
+struct Tolerance {
+  std::optional<int> maxDiff;     // 1/255, of the channel that differs most
+  std::optional<double> share;    // of the pixels that may be over maxDiff
+  std::optional<bool> block;      // true: no 3x3 block may be wholly over maxDiff
+  std::optional<double> flip;     // mean
+  std::optional<double> flipP99;  // 99th percentile over pixels
+
+  bool operator==(const Tolerance&) const = default;
+};
+// `changes` over `base`.
+Tolerance merged(const Tolerance& base, const Tolerance& changes);
+
+enum class ExpectedResult { pass, fail, skip };
+
+// What is expected of the drivers that match.
+struct Expectation {
+  std::string driver;                  // family
+  std::optional<std::string> version;  // range; nothing: every version
+  ExpectedResult result = ExpectedResult::pass;
+  std::string reason;                            // of fail and skip
+  std::optional<std::filesystem::path> picture;  // of its own
+  Tolerance tolerance;                           // over the case's
+};
+
+struct RegressCase {
+  std::string name;  // unique; also the name of its files
+  int line = 0;      // of its table
+  std::filesystem::path scene;
+  double time = 0.0;                  // seconds
+  std::optional<std::string> camera;  // as --camera takes it
+  PictureSize size;
+  std::vector<std::pair<std::string, std::string>> settings;  // as --set takes them
+  std::optional<std::filesystem::path> mask;
+  double timeout = 0.0;           // seconds
+  std::filesystem::path picture;  // expected
+  Tolerance tolerance;            // complete but for FLIP
+  std::vector<Expectation> expect;
+};
+
+// The case as a driver is expected to draw it: with picture and tolerance of the first expectation that matches.
+struct ExpectedCase {
+  RegressCase drawn;
+  ExpectedResult result = ExpectedResult::pass;
+  std::string reason;
+};
+ExpectedCase expectedOf(const RegressCase& subject, const std::string& driver);
+
+// Cases of a TOML file, as docs/regression.md describes it. Paths are relative to the file; a scene that is not there
+// may be one that comes with the program. Throws InputError.
+std::vector<RegressCase> readCases(const std::filesystem::path& file);
+
+}  // namespace speculum

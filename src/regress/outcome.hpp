@@ -1,0 +1,48 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace speculum {
+
+enum class Verdict { passed, failed, error, skipped, updated };
+
+// A figure beside its limit, as the report shows it.
+struct OutcomeFigure {
+  std::string label;
+  std::string value;
+  std::string limit;  // "–" where there is none
+  bool over = false;
+};
+
+// What became of a case. Workers write it as a line of JSON.
+struct Outcome {
+  Verdict verdict = Verdict::passed;
+  std::string message;  // one line: why it did not simply pass
+  std::string device;
+  std::string driver;
+  std::string picture;               // file of the expected picture
+  std::vector<std::string> command;  // words of the one that draws it again
+  bool replaceable = false;          // --update may write the expected picture
+  bool drawn = false;                // its pictures are beside the report
+  double gain = 1.0;                 // of the difference picture
+  double seconds = 0.0;
+  std::vector<int> region;  // left, top, width, height of the largest difference in pixels; none: no entries
+  std::vector<OutcomeFigure> figures;
+  std::vector<std::string> log;  // last lines of the worker
+};
+
+NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::passed, "passed"},
+                                       {Verdict::failed, "failed"},
+                                       {Verdict::error, "error"},
+                                       {Verdict::skipped, "skipped"},
+                                       {Verdict::updated, "updated"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutcomeFigure, label, value, limit, over)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, verdict, message, device, driver, picture, command, replaceable, drawn,
+                                   gain, seconds, region, figures, log)
+
+// "passed" and so on.
+std::string verdictName(Verdict verdict);
+
+}  // namespace speculum

@@ -1,0 +1,226 @@
+#include "regress/report_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "accuracy/html_page.hpp"
+#include "image/picture_files.hpp"
+#include "platform/files.hpp"
+#include "regress/picture_check.hpp"
+
+namespace speculum {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+bool needsAttention(const Outcome& outcome) {
+  return outcome.verdict == Verdict::failed || outcome.verdict == Verdict::error;
+}
+
+// The four pictures at a JPEG quality, or as they are; null for one that is not there.
+ordered_json embedded(const CaseFiles& files, std::optional<int> quality) {
+  ordered_json pictures = ordered_json::array();
+  for (const std::filesystem::path& file : files.all()) {
+    const auto png = readFileIfAny(file);
+    pictures.push_back(nullptr);
+    if (png) {
+      pictures.back() = quality ? "data:image/jpeg;base64," + base64(encodeJpeg(readImage8(file), *quality))
+                                : "data:image/png;base64," + base64(*png);
+    }
+  }
+  return pictures;
+}
+
+size_t sizeOf(const ordered_json& pictures) {
+  size_t size = 0;
+  for (const ordered_json& picture : pictures) {
+    size += picture.is_string() ? picture.get_ref<const std::string&>().size() : 0;
+  }
+  return size;
+}
+
+// The best pictures that keep to the room.
+ordered_json picturesOf(const CaseFiles& files, double room) {
+  for (const std::optional<int> quality : {std::optional<int>(), std::optional(90), std::optional(70)}) {
+    ordered_json pictures = embedded(files, quality);
+    if (static_cast<double>(sizeOf(pictures)) <= room) {
+      return pictures;
+    }
+  }
+  return nullptr;
+}
+
+std::string escapedXml(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        // XML 1.0 has no other control characters.
+        escaped += static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t' ? c : '?';
+    }
+  }
+  return escaped;
+}
+
+// A message of a workflow command is one line; a property of one has no comma and no colon besides.
+std::string escapedCommand(const std::string& text, bool property) {
+  std::string escaped;
+  for (const char c : text) {
+    const bool special = c == '%' || c == '\r' || c == '\n' || (property && (c == ',' || c == ':'));
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    escaped += special ? std::string{'%', digits[c >> 4 & 15], digits[c & 15]} : std::string(1, c);
+  }
+  return escaped;
+}
+
+std::string escapedCell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    escaped += c == '|' || c == '<' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  }
+  return escaped;
+}
+
+// Errors and failures first, in the order of the file.
+std::vector<size_t> reportOrder(const RegressRun& run) {
+  std::vector<size_t> order(run.outcomes.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+  }
+  std::stable_partition(order.begin(), order.end(), [&](size_t i) { return needsAttention(run.outcomes[i]); });
+  return order;
+}
+
+}  // namespace
+
+std::string verdictName(Verdict verdict) {
+  return nlohmann::json(verdict).get<std::string>();
+}
+
+int RegressRun::count(Verdict verdict) const {
+  return static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(),
+                                        [&](const Outcome& outcome) { return outcome.verdict == verdict; }));
+}
+
+std::string summary(const RegressRun& run) {
+  std::string text = std::to_string(run.cases.size()) + (run.cases.size() == 1 ? " case" : " cases");
+  const char* separator = ": ";
+  for (const Verdict verdict : {Verdict::passed, Verdict::failed, Verdict::error, Verdict::skipped, Verdict::updated}) {
+    if (const int count = run.count(verdict)) {
+      text += separator + std::to_string(count) + " " + verdictName(verdict);
+      separator = ", ";
+    }
+  }
+  return text;
+}
+
+std::string regressHtml(const RegressRun& run, const std::filesystem::path& folder, double budget) {
+  ordered_json cases = ordered_json::array();
+  double left = budget;
+  int waiting = static_cast<int>(std::count_if(run.outcomes.begin(), run.outcomes.end(), needsAttention));
+  for (const size_t i : reportOrder(run)) {
+    const Outcome& outcome = run.outcomes[i];
+    const RegressCase& subject = run.cases[i];
+    ordered_json entry = nlohmann::json(outcome);
+    entry["name"] = subject.name;
+    entry["line"] = subject.line;
+    entry["size"] = {subject.size.width, subject.size.height};
+    entry["accept"] = nullptr;
+    if (outcome.replaceable) {
+      std::vector<std::string> accept = run.accept;
+      std::replace(accept.begin(), accept.end(), std::string("NAME"), subject.name);
+      entry["accept"] = accept;
+    }
+    entry["pictures"] = nullptr;
+    if (needsAttention(outcome)) {
+      if (outcome.drawn) {
+        entry["pictures"] = picturesOf(CaseFiles(folder, subject.name), left / waiting);
+        left -= static_cast<double>(entry["pictures"].is_null() ? 0 : sizeOf(entry["pictures"]));
+      }
+      --waiting;
+    }
+    cases.push_back(std::move(entry));
+  }
+  return pageWithData(regressPage(), {{"file", run.file.string()},
+                                      {"summary", summary(run)},
+                                      {"command", run.command},
+                                      {"version", run.version},
+                                      {"date", run.date},
+                                      {"cases", std::move(cases)}});
+}
+
+std::string junitXml(const RegressRun& run) {
+  double seconds = 0.0;
+  std::string cases;
+  for (size_t i = 0; i < run.cases.size(); ++i) {
+    const Outcome& outcome = run.outcomes[i];
+    seconds += outcome.seconds;
+    cases += "  <testcase classname=\"" + escapedXml(run.file.stem().string()) + "\" name=\"" +
+             escapedXml(run.cases[i].name) + "\" time=\"" + std::to_string(outcome.seconds) + "\"";
+    const std::string message = " message=\"" + escapedXml(outcome.message) + "\"";
+    std::string text;
+    for (const OutcomeFigure& figure : outcome.figures) {
+      text += figure.label + ": " + figure.value + " (limit " + figure.limit + ")\n";
+    }
+    for (const std::string& line : outcome.log) {
+      text += line + "\n";
+    }
+    if (outcome.verdict == Verdict::skipped) {
+      cases += "><skipped" + message + "/></testcase>\n";
+    } else if (needsAttention(outcome)) {
+      const std::string element = outcome.verdict == Verdict::failed ? "failure" : "error";
+      cases += ">\n    <" + element + message + ">" + escapedXml(text) + "</" + element + ">\n  </testcase>\n";
+    } else {
+      cases += "/>\n";
+    }
+  }
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"speculum regress\" tests=\"" +
+         std::to_string(run.cases.size()) + "\" failures=\"" + std::to_string(run.count(Verdict::failed)) +
+         "\" errors=\"" + std::to_string(run.count(Verdict::error)) + "\" skipped=\"" +
+         std::to_string(run.count(Verdict::skipped)) + "\" time=\"" + std::to_string(seconds) + "\">\n" + cases +
+         "</testsuite>\n</testsuites>\n";
+}
+
+std::string githubErrors(const RegressRun& run) {
+  std::string text;
+  for (size_t i = 0; i < run.cases.size(); ++i) {
+    if (needsAttention(run.outcomes[i])) {
+      text += "::error file=" + escapedCommand(run.file.string(), true) + ",line=" + std::to_string(run.cases[i].line) +
+              ",title=" + escapedCommand(run.cases[i].name, true) +
+              "::" + escapedCommand(run.outcomes[i].message, false) + "\n";
+    }
+  }
+  return text;
+}
+
+std::string githubSummary(const RegressRun& run) {
+  std::string text = "### speculum regress: " + summary(run) + "\n\n";
+  if (run.passed()) {
+    return text;
+  }
+  text += "| Case | Result | Why |\n| --- | --- | --- |\n";
+  for (size_t i = 0; i < run.cases.size(); ++i) {
+    if (needsAttention(run.outcomes[i])) {
+      text += "| " + escapedCell(run.cases[i].name) + " | " + verdictName(run.outcomes[i].verdict) + " | " +
+              escapedCell(run.outcomes[i].message) + " |\n";
+    }
+  }
+  return text + "\n";
+}
+
+}  // namespace speculum

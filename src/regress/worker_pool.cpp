@@ -1,0 +1,149 @@
+#include "regress/worker_pool.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "platform/process.hpp"
+
+namespace speculum {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr size_t keptLines = 20;
+constexpr double lookUp = 0.1;     // seconds between looks at whether the run was interrupted
+constexpr double patience = 10.0;  // seconds for a worker to end by itself
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Jobs that are left. A worker keeps to one group, because another scene takes it time.
+class JobQueue {
+ public:
+  explicit JobQueue(const std::vector<WorkerJob>& jobs) : jobs_(jobs) {
+    for (size_t i = 0; i < jobs.size(); ++i) {
+      left_.insert(i);
+    }
+  }
+
+  std::optional<size_t> take(std::string& group) {
+    const std::lock_guard lock(mutex_);
+    const auto first = [&](const auto& suits) { return std::find_if(left_.begin(), left_.end(), suits); };
+    auto job = first([&](size_t i) { return jobs_[i].group == group; });
+    if (job == left_.end()) {
+      job = first([&](size_t i) { return !taken_.contains(jobs_[i].group); });
+    }
+    if (job == left_.end()) {
+      job = left_.begin();
+    }
+    if (job == left_.end()) {
+      return std::nullopt;
+    }
+    const size_t index = *job;
+    left_.erase(job);
+    group = jobs_[index].group;
+    taken_.insert(group);
+    return index;
+  }
+
+ private:
+  const std::vector<WorkerJob>& jobs_;
+  std::set<size_t> left_;
+  std::set<std::string> taken_;  // groups that a worker has begun
+  std::mutex mutex_;
+};
+
+// Nothing when interrupted.
+std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
+  const Clock::time_point start = Clock::now();
+  worker.write(job.request + "\n");
+  WorkerReply reply;
+  const auto keep = [&](std::string line) {
+    if (reply.log.size() == keptLines) {
+      reply.log.erase(reply.log.begin());
+    }
+    reply.log.push_back(std::move(line));
+  };
+  while (!interruptRequested()) {
+    const std::optional<std::string> line = worker.readLine(std::min(lookUp, job.timeout));
+    reply.seconds = secondsSince(start);
+    if (line && line->starts_with(workerReplyMark)) {
+      reply.text = line->substr(workerReplyMark.size());
+      return reply;
+    }
+    if (line) {
+      keep(*line);
+    } else if (!worker.running()) {
+      const ProcessResult result = worker.wait();
+      if (!result.output.empty()) {
+        keep(result.output);
+      }
+      reply.end = JobEnd::crashed;
+      reply.text = result.exitCode > 128 ? "the worker was ended by signal " + std::to_string(result.exitCode - 128)
+                                         : "the worker ended with exit code " + std::to_string(result.exitCode);
+      return interruptRequested() ? std::nullopt : std::optional(reply);
+    }
+    if (reply.seconds > job.timeout) {
+      worker.kill();
+      reply.end = JobEnd::timedOut;
+      reply.text = "no picture within the timeout";
+      return reply;
+    }
+  }
+  return std::nullopt;
+}
+
+// Lets the worker write its caches.
+void finish(ChildProcess& worker) {
+  const Clock::time_point start = Clock::now();
+  worker.closeInput();
+  while (worker.running() && secondsSince(start) < patience) {
+    worker.readLine(patience);
+  }
+  worker.kill();
+}
+
+}  // namespace
+
+bool runWorkers(const std::vector<std::string>& command, int workers, const std::vector<WorkerJob>& jobs,
+                const std::function<void(size_t job, const WorkerReply& reply)>& done) {
+  JobQueue queue(jobs);
+  std::mutex mutex;
+  const auto work = [&] {
+    std::unique_ptr<ChildProcess> worker;
+    std::string group;
+    while (const std::optional<size_t> index = queue.take(group)) {
+      if (!worker) {
+        worker = std::make_unique<ChildProcess>(command, ChildProcess::Input::pipe);
+      }
+      const std::optional<WorkerReply> reply = ask(*worker, jobs[*index]);
+      if (!reply) {
+        return;
+      }
+      if (reply->end != JobEnd::answered) {
+        worker.reset();
+      }
+      const std::lock_guard lock(mutex);
+      done(*index, *reply);
+    }
+    if (worker) {
+      finish(*worker);
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < std::clamp(workers, 1, static_cast<int>(std::max<size_t>(1, jobs.size()))); ++i) {
+      threads.emplace_back(work);
+    }
+  }
+  return !interruptRequested();
+}
+
+}  // namespace speculum

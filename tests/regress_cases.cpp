@@ -1,0 +1,273 @@
+// Cases of `regress`: the file, expectations of drivers, limits, worker processes.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "image/picture_files.hpp"
+#include "regress/driver.hpp"
+#include "regress/picture_check.hpp"
+#include "regress/worker_pool.hpp"
+#include "scene/input_error.hpp"
+#include "temporary_folder.hpp"
+
+namespace speculum {
+namespace {
+
+constexpr const char* mesa22 = "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)";
+constexpr const char* nvidia = "NVIDIA 550.54.15";
+
+class CaseFile : public testing::Test {
+ protected:
+  std::vector<RegressCase> read(const std::string& text) {
+    folder_.write("room.toml", "");
+    folder_.write("hall.toml", "");
+    return readCases(folder_.write("cases.toml", text));
+  }
+  // What is wrong with the file, without its folder.
+  std::string mistake(const std::string& text) {
+    try {
+      read(text);
+      return "none";
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(folder_.path().string().size() + 1);
+    }
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(CaseFile, GivesDefaultsToEveryCase) {
+  const auto cases = read(R"(
+[defaults]
+size = "320x180"
+settings = { "view.samples" = 1, reflection.scale = 0.5 }
+tolerance = { share = 0.01, flip = 0.02 }
+timeout = 5
+[[case]]
+scene = "room.toml"
+[[case]]
+name = "far"
+scene = "gallery"
+time = 2.5
+camera = "0,1,4:0,1,0"
+picture = "old/{name}.png"
+settings = { "reflection.scale" = 2 }
+tolerance = { share = 0.5 }
+)");
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].name, "room");
+  EXPECT_EQ(cases[0].line, 7);
+  EXPECT_EQ(cases[0].scene, folder_ / "room.toml");
+  EXPECT_EQ(cases[0].picture, folder_ / "room.png");
+  EXPECT_EQ(cases[0].size, (PictureSize{320, 180}));
+  EXPECT_EQ(cases[0].timeout, 5.0);
+  EXPECT_EQ(cases[0].tolerance, (Tolerance{.maxDiff = 3, .share = 0.01, .block = true, .flip = 0.02}));
+  EXPECT_EQ(cases[0].settings, (decltype(cases[0].settings){{"reflection.scale", "0.5"}, {"view.samples", "1"}}));
+  EXPECT_EQ(cases[1].name, "far");
+  EXPECT_EQ(cases[1].scene.filename(), "gallery.toml");
+  EXPECT_EQ(cases[1].time, 2.5);
+  EXPECT_EQ(cases[1].camera, "0,1,4:0,1,0");
+  EXPECT_EQ(cases[1].picture, folder_ / "old/far.png");
+  EXPECT_EQ(cases[1].tolerance.share, 0.5);
+  EXPECT_EQ(cases[1].settings, (decltype(cases[0].settings){{"reflection.scale", "2.0"}, {"view.samples", "1"}}));
+}
+
+TEST_F(CaseFile, GridsMultiply) {
+  const auto cases = read(R"(
+[[case]]
+grid = { scene = ["room.toml", "hall.toml"], time = [0, 2.5], "reflection.max_depth" = [1, 4] }
+)");
+  ASSERT_EQ(cases.size(), 8u);
+  EXPECT_EQ(cases[0].name, "room_reflection.max_depth=1_time=0");
+  EXPECT_EQ(cases[7].name, "hall_reflection.max_depth=4_time=2.5");
+  EXPECT_EQ(cases[7].time, 2.5);
+  EXPECT_EQ(cases[7].settings, (decltype(cases[0].settings){{"reflection.max_depth", "4"}}));
+}
+
+TEST_F(CaseFile, MistakesNameLineAndKey) {
+  EXPECT_EQ(mistake(""), "cases.toml:1: case: is missing (write [[case]] above each case)");
+  EXPECT_EQ(mistake("[[case]]\nscen = 'room.toml'"),
+            "cases.toml:2: case[0].scen: is not a known key (did you mean 'scene'?)");
+  EXPECT_EQ(mistake("[[case]]\ntime = 1"),
+            "cases.toml:1: case[0].scene: is missing (a scene file, or a name of speculum scenes, is needed)");
+  EXPECT_EQ(mistake("[[case]]\nscene = 'attic.toml'"),
+            "cases.toml:2: case[0].scene: is 'attic.toml' (a file beside this one, or a name of speculum scenes, is "
+            "needed)");
+  const std::string room = "[[case]]\nscene = 'room.toml'\n";
+  EXPECT_EQ(mistake(room + room),
+            "cases.toml:3: case[1].name: 'room' is that of an earlier case (a name of its own is needed)");
+  EXPECT_EQ(mistake(room + "size = '640'").rfind("cases.toml:3: case[0].size: is '640' (", 0), 0u);
+  EXPECT_EQ(mistake(room + "camera = '1,2'").rfind("cases.toml:3: case[0].camera: ", 0), 0u);
+  EXPECT_EQ(mistake(room + "settings = { view.samples = 3 }").rfind("cases.toml:3: view.samples: ", 0), 0u);
+  EXPECT_EQ(mistake(room + "grid = { 'view.sample' = [1] }").rfind("cases.toml:3: case[0].grid.view.sample: ", 0), 0u);
+  EXPECT_EQ(mistake(room + "tolerance = { share = 2 }"),
+            "cases.toml:3: case[0].tolerance.share: is 2 (a number 0 .. 1 is needed)");
+  EXPECT_EQ(mistake(room + "expect = [{ driver = 'nvidia', result = 'skip' }]"),
+            "cases.toml:3: case[0].expect[0].reason: is missing (a sentence that says why is needed)");
+  EXPECT_EQ(mistake(room + "expect = [{ driver = 'nvidia', version = '25' }]"),
+            "cases.toml:3: case[0].expect[0].version: '25' is no range (comparisons such as \">=25,<26\" are needed)");
+  EXPECT_EQ(mistake(room + "mask = 'mask.png'"), "cases.toml:3: case[0].mask: is 'mask.png' (a PNG file is needed)");
+}
+
+TEST(Driver, FamiliesAreWordsOfItsText) {
+  EXPECT_TRUE(isOfFamily(mesa22, "lavapipe"));
+  EXPECT_TRUE(isOfFamily(mesa22, "Mesa"));
+  EXPECT_FALSE(isOfFamily(mesa22, "nvidia"));
+  EXPECT_TRUE(isOfFamily(nvidia, "nvidia"));
+}
+
+TEST(Driver, RangesCompareThePartsTheyName) {
+  for (const char* range : {"=22", "=22.3", ">=22", "<=22", "<22.4", ">22.3.5", ">=22,<23", " >= 22.3 , < 25 "}) {
+    EXPECT_TRUE(isInVersions(mesa22, range)) << range;
+  }
+  for (const char* range : {"=23", ">22", "<22.3.6", ">=23,<26", ">22.3.6"}) {
+    EXPECT_FALSE(isInVersions(mesa22, range)) << range;
+  }
+  EXPECT_FALSE(isInVersions("a driver without one", ">=0"));
+  EXPECT_THROW(isInVersions(mesa22, ">=twenty"), std::invalid_argument);
+  EXPECT_THROW(isInVersions(mesa22, ""), std::invalid_argument);
+}
+
+TEST_F(CaseFile, FirstExpectationThatMatchesWins) {
+  const auto cases = read(R"(
+[defaults]
+expect = [{ driver = "lavapipe", version = ">=25", result = "skip", reason = "hangs" },
+          { driver = "lavapipe", picture = "soft/{name}.png", tolerance = { max_diff = 9 } },
+          { driver = "mesa", result = "fail", reason = "never reached" }]
+[[case]]
+scene = "room.toml"
+)");
+  EXPECT_EQ(expectedOf(cases[0], "llvmpipe Mesa 25.0.7").result, ExpectedResult::skip);
+  const ExpectedCase old = expectedOf(cases[0], mesa22);
+  EXPECT_EQ(old.result, ExpectedResult::pass);
+  EXPECT_EQ(old.drawn.picture, folder_ / "soft/room.png");
+  EXPECT_EQ(old.drawn.tolerance, (Tolerance{.maxDiff = 9, .share = 0.001, .block = true}));
+  EXPECT_EQ(expectedOf(cases[0], nvidia).drawn.picture, folder_ / "room.png");
+}
+
+class Limits : public testing::Test {
+ protected:
+  static Image8 grey() {
+    Image8 picture(100, 100);
+    for (size_t i = 0; i < picture.rgba.size(); ++i) {
+      picture.rgba[i] = i % 4 == 3 ? 255 : 100;
+    }
+    return picture;
+  }
+  // The picture with a rectangle raised by `by`.
+  static Image8 raised(int left, int top, int width, int height, int by) {
+    Image8 picture = grey();
+    for (int i = 0; i < width * height; ++i) {
+      picture.at(left + i % width, top + i / width)[1] += static_cast<uint8_t>(by);
+    }
+    return picture;
+  }
+  std::string problem(const Image8& actual) const { return checkPicture(grey(), actual, subject_).problem; }
+  RegressCase subject_{.tolerance = {.maxDiff = 3, .share = 0.001, .block = true}};
+};
+
+TEST_F(Limits, AreKeptUpToTheirValue) {
+  EXPECT_EQ(problem(raised(0, 0, 100, 100, 3)), "");
+  EXPECT_EQ(problem(raised(20, 20, 10, 1, 4)), "");
+  EXPECT_EQ(problem(raised(20, 20, 11, 1, 4)), "0.11 % of the pixels differ by more than 3/255, 0.1 % may");
+  EXPECT_EQ(problem(raised(20, 20, 3, 3, 4)), "a 3x3 block at 20, 20 differs wholly by more than 3/255");
+  subject_.tolerance.block = false;
+  EXPECT_EQ(problem(raised(20, 20, 3, 3, 4)), "");
+}
+
+TEST_F(Limits, FlipFindsWhatNoPixelShows) {
+  const Image8 tinted = raised(0, 0, 100, 100, 2);
+  EXPECT_EQ(problem(tinted), "");
+  subject_.tolerance.flip = 0.005;
+  EXPECT_EQ(problem(tinted).rfind("mean FLIP is 0.0", 0), 0u) << problem(tinted);
+  subject_.tolerance.flip = 1.0;
+  subject_.tolerance.flipP99 = 0.005;
+  EXPECT_EQ(problem(tinted).rfind("FLIP, 99th percentile is 0.0", 0), 0u) << problem(tinted);
+  EXPECT_EQ(problem(grey()), "");
+}
+
+TEST_F(Limits, CountOnlyPixelsOfTheMask) {
+  const TemporaryFolder folder;
+  Image8 mask = grey();
+  mask.at(0, 0)[0] = 255;
+  writePng(folder / "mask.png", mask);
+  subject_.mask = folder / "mask.png";
+  EXPECT_EQ(problem(raised(20, 20, 50, 50, 100)), "");
+  EXPECT_NE(problem(raised(0, 0, 1, 1, 100)), "");
+  writePng(folder / "mask.png", Image8(5, 5));
+  EXPECT_THROW(problem(grey()), std::runtime_error);
+}
+
+TEST_F(Limits, FaultsAreBounded) {
+  const TemporaryFolder folder;
+  Image8 actual = raised(40, 10, 1, 60, 90);
+  actual.at(90, 90)[0] = 0;
+  Outcome outcome;
+  judge(grey(), actual, subject_, CaseFiles(folder.path(), "seam"), outcome);
+  EXPECT_EQ(outcome.verdict, Verdict::failed);
+  EXPECT_TRUE(outcome.replaceable);
+  EXPECT_EQ(outcome.region, (std::vector<int>{40, 10, 1, 60}));
+  const Image8 shown = readImage8(folder / "seam.difference.png");
+  EXPECT_EQ(shown.at(41, 30)[1], 255) << "as wide as three pixels";
+  EXPECT_EQ(shown.at(43, 30)[1], 0);
+  EXPECT_EQ(readImage8(folder / "seam.actual.png").rgba, actual.rgba);
+}
+
+TEST(ExpectedFailure, TurnsTheVerdict) {
+  ExpectedCase expected{.result = ExpectedResult::fail, .reason = "bug 7"};
+  Outcome outcome{.verdict = Verdict::failed, .replaceable = true};
+  applyExpectation(expected, outcome);
+  EXPECT_EQ(outcome.verdict, Verdict::passed);
+  EXPECT_FALSE(outcome.replaceable);
+  EXPECT_EQ(outcome.message, "fails as expected: bug 7");
+  outcome = {};
+  applyExpectation(expected, outcome);
+  EXPECT_EQ(outcome.verdict, Verdict::failed);
+  outcome = {.verdict = Verdict::error};
+  applyExpectation(expected, outcome);
+  EXPECT_EQ(outcome.verdict, Verdict::error);
+}
+
+// Workers that are shell scripts.
+std::vector<WorkerReply> replies(const std::string& script, int workers, const std::vector<WorkerJob>& jobs) {
+  std::vector<WorkerReply> all(jobs.size());
+  EXPECT_TRUE(
+      runWorkers({"sh", "-c", script}, workers, jobs, [&](size_t i, const WorkerReply& reply) { all[i] = reply; }));
+  return all;
+}
+
+TEST(Workers, AnswerAndStay) {
+  std::vector<WorkerJob> jobs;
+  for (int i = 0; i < 20; ++i) {
+    jobs.push_back({std::to_string(i), i % 2 ? "odd" : "even", 10.0});
+  }
+  const auto all = replies("n=0; while read x; do n=$((n+1)); echo hello; echo reply $x $n; done", 2, jobs);
+  int most = 0;
+  for (size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].end, JobEnd::answered);
+    EXPECT_EQ(all[i].text.substr(0, all[i].text.find(' ')), std::to_string(i));
+    EXPECT_EQ(all[i].log, std::vector<std::string>{"hello"});
+    most = std::max(most, std::stoi(all[i].text.substr(all[i].text.find(' '))));
+  }
+  EXPECT_GE(most, 10) << "one of two workers draws at least half";
+}
+
+TEST(Workers, AreReplacedWhenTheyCrashOrHang) {
+  const auto all = replies(
+      "while read x; do case $x in crash) echo ouch; kill -SEGV $$;; hang) while :; do sleep 0.1; done;; quit) exit "
+      "3;; "
+      "*) echo reply $x;; esac; done",
+      1,
+      {{"a", "", 10.0}, {"crash", "", 10.0}, {"b", "", 10.0}, {"hang", "", 0.3}, {"quit", "", 10.0}, {"c", "", 10.0}});
+  EXPECT_EQ(all[0].text, "a");
+  EXPECT_EQ(all[1].end, JobEnd::crashed);
+  EXPECT_EQ(all[1].text, "the worker was ended by signal 11");
+  EXPECT_EQ(all[1].log, std::vector<std::string>{"ouch"});
+  EXPECT_EQ(all[2].text, "b");
+  EXPECT_EQ(all[3].end, JobEnd::timedOut);
+  EXPECT_GE(all[3].seconds, 0.3);
+  EXPECT_EQ(all[4].text, "the worker ended with exit code 3");
+  EXPECT_EQ(all[5].text, "c");
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,206 @@
+// `speculum regress` as scripts call it.
+#include <gtest/gtest.h>
+
+#include "command_support.hpp"
+#include "image/picture_files.hpp"
+#include "picture_support.hpp"
+#include "temporary_folder.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr const char* room = R"([environment]
+background = [0.2, 0.3, 0.4]
+[camera]
+position = [0, 1, 4]
+target = [0, 1, 0]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.5, 1, 0]
+[[light]]
+position = [0, 3, 3]
+intensity = 10
+[[light]]
+position = [-2, 1, 2]
+intensity = 3
+[[mirror]]
+name = "wall"
+position = [0, 1, -2]
+size = [5, 3]
+[[mirror]]
+name = "side"
+position = [2.5, 1, 0]
+rotation = [0, -60, 0]
+size = [2, 2]
+)";
+
+class RegressCommand : public testing::Test {
+ protected:
+  ProcessResult regress(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"regress", (folder_ / "cases.toml").string(), "--out",
+                                         (folder_ / "out").string(), "--jobs", "1"});
+    return speculum(std::move(arguments));
+  }
+  void writeCases(const std::string& text) {
+    folder_.write("cases.toml",
+                  "[defaults]\nsize = '320x180'\nsettings = { debug.check_finite = true }\n"
+                  "tolerance = { flip = 0.005 }\n" +
+                      text);
+  }
+  void writeRoom(const std::string& name, const std::string& from = "", const std::string& to = "") {
+    std::string text = room;
+    for (const auto& [what, by] :
+         {std::pair<std::string, std::string>{"MODELS", sourceFile("models").string()}, {from, to}}) {
+      const size_t at = text.find(what);
+      ASSERT_NE(at, std::string::npos) << what;
+      text.replace(at, what.size(), by);
+    }
+    folder_.write(name, text);
+  }
+  // Says what became of a case, as the command prints it.
+  static std::string lineOf(const std::string& name, const std::string& output) {
+    const size_t at = output.find(" " + name + ": ");
+    return at == std::string::npos
+               ? ""
+               : output.substr(output.rfind('\n', at) + 1, output.find('\n', at) - output.rfind('\n', at) - 1);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(RegressCommand, GoesFromRedToGreen) {
+  writeRoom("room.toml");
+  writeCases("[[case]]\nscene = 'room.toml'\n[[case]]\nname = 'later'\nscene = 'room.toml'\ntime = 1\n");
+  ProcessResult result = regress({});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(lineOf("room", result.output).find("there is no expected picture"), std::string::npos) << result.output;
+  result = regress({"--update", "room"});
+  EXPECT_EQ(result.exitCode, 1) << "the other one is still missing: " << result.output;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "room.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "later.png"));
+  result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  EXPECT_NE(result.output.find("2 cases: 1 passed, 1 updated"), std::string::npos) << result.output;
+  result = regress({"--repeat", "3", "--junit", (folder_ / "junit.xml").string()});
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  EXPECT_NE(readText(folder_ / "junit.xml").find("tests=\"2\" failures=\"0\""), std::string::npos);
+  EXPECT_EQ(readText(folder_ / "out/index.html").find("data:image/png"), std::string::npos);
+}
+
+TEST_F(RegressCommand, FindsSeededFaults) {
+  writeRoom("room.toml");
+  writeRoom("dark.toml", "[[light]]\nposition = [-2, 1, 2]\nintensity = 3\n");
+  writeRoom("swapped.toml", "position = [2.5, 1, 0]\nrotation = [0, -60, 0]",
+            "position = [-2.5, 1, 0]\nrotation = [0, 60, 0]");
+  writeCases("[[case]]\nscene = 'room.toml'\n");
+  ASSERT_EQ(regress({"--update"}).exitCode, 0);
+  const Image8 right = readImage8(folder_ / "room.png");
+  Image8 shifted = right;
+  Image8 tinted = right;
+  Image8 seam = right;
+  for (int y = 0; y < right.height; ++y) {
+    for (int x = 0; x < right.width; ++x) {
+      std::copy_n(right.at(std::max(0, x - 1), y), 4, shifted.at(x, y));
+      tinted.at(x, y)[0] = static_cast<uint8_t>(std::min(255, right.at(x, y)[0] + 2));
+      if (x == 200 && y > 40 && y < 140) {
+        seam.at(x, y)[2] = static_cast<uint8_t>(255 - seam.at(x, y)[2]);
+      }
+    }
+  }
+  writePng(folder_ / "shifted.png", shifted);
+  writePng(folder_ / "tinted.png", tinted);
+  writePng(folder_ / "seam.png", seam);
+  std::string cases = "[[case]]\nscene = 'room.toml'\n";
+  for (const std::string name : {"shifted", "tinted", "seam"}) {
+    cases += "[[case]]\nname = '" + name + "'\nscene = 'room.toml'\n";
+  }
+  for (const std::string name : {"dark", "swapped"}) {
+    cases += "[[case]]\nscene = '" + name + ".toml'\npicture = 'room.png'\n";
+  }
+  writeCases(cases);
+  const ProcessResult result = regress({});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.output.find("6 cases: 1 passed, 5 failed;"), std::string::npos) << result.output;
+  EXPECT_NE(lineOf("tinted", result.output).find("mean FLIP is"), std::string::npos) << result.output;
+  for (const char* name : {"shifted", "seam", "dark", "swapped"}) {
+    EXPECT_NE(lineOf(name, result.output).find("differ"), std::string::npos) << result.output;
+  }
+}
+
+TEST_F(RegressCommand, FindsValuesThatAreNotFinite) {
+  writeRoom("room.toml");
+  writeCases("[[case]]\nscene = 'room.toml'\n");
+  ASSERT_EQ(regress({"--update"}).exitCode, 0);
+  const std::filesystem::path shaders = folder_ / "shaders";
+  std::filesystem::create_directories(shaders);
+  writeShaders(shaders, "scene_shading.glsl", "  color.r = gl_FragCoord.x < 160.0 ? color.r : sqrt(-1.0 - color.r);\n");
+  const ProcessResult result = regress({"--shader-dir", shaders.string()});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(lineOf("room", result.output).find("values that are not finite, first"), std::string::npos)
+      << result.output;
+  const ProcessResult update = regress({"--shader-dir", shaders.string(), "--update"});
+  EXPECT_EQ(update.exitCode, 1) << "such a picture is not taken over: " << update.output;
+}
+
+TEST_F(RegressCommand, KeepsToWhatIsExpectedOfTheDriver) {
+  writeRoom("room.toml");
+  writePng(folder_ / "wrong.png", Image8(320, 180));
+  writeCases(R"([[case]]
+scene = 'room.toml'
+name = 'known'
+picture = 'wrong.png'
+expect = [{ driver = 'nothing like it', result = 'skip', reason = 'other' }, { driver = '', result = 'fail', reason = 'bug 7' }]
+[[case]]
+scene = 'room.toml'
+name = 'skipped'
+expect = [{ driver = '', result = 'skip', reason = 'too slow' }]
+[[case]]
+scene = 'room.toml'
+name = 'surprise'
+picture = 'wrong.png'
+tolerance = { max_diff = 255, flip = 1 }
+expect = [{ driver = '', result = 'fail', reason = 'bug 8' }]
+)");
+  const ProcessResult result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(lineOf("known", result.output), "passed  known: fails as expected: bug 7");
+  EXPECT_EQ(lineOf("skipped", result.output), "skipped skipped: too slow");
+  EXPECT_EQ(lineOf("surprise", result.output), "failed  surprise: passes, but is expected to fail: bug 8");
+  EXPECT_EQ(readImage8(folder_ / "wrong.png").rgba, Image8(320, 180).rgba) << "nothing of this may be updated";
+}
+
+TEST_F(RegressCommand, SceneFaultsAndTimeoutsLeaveTheRest) {
+  writeRoom("room.toml");
+  folder_.write("broken.toml", "[camera]\nposition = 1\n");
+  writeCases(R"([[case]]
+scene = 'broken.toml'
+[[case]]
+scene = 'room.toml'
+name = 'slow'
+size = '1920x1080'
+settings = { view.accumulate = 1024 }
+timeout = 2
+[[case]]
+scene = 'room.toml'
+)");
+  const ProcessResult result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(lineOf("broken", result.output).find("broken.toml:2: camera.position"), std::string::npos) << result.output;
+  EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within its timeout of 2 s");
+  EXPECT_EQ(lineOf("room", result.output), "updated room: wrote " + (folder_ / "room.png").string());
+}
+
+TEST_F(RegressCommand, MistakesExitTwo) {
+  writeRoom("room.toml");
+  writeCases("[[case]]\nscene = 'room.toml'\n");
+  EXPECT_EQ(regress({"--filter", "hall*"}).exitCode, 2);
+  EXPECT_EQ(speculum({"regress"}).exitCode, 2);
+  writeCases("[[case]]\nscene = 'hall.toml'\n");
+  const ProcessResult result = regress({});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+}
+
+}  // namespace
+}  // namespace speculum

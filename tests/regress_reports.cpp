@@ -1,0 +1,88 @@
+// Reports of `regress`: JUnit, GitHub, and the size of the page. tests/regress_page.py opens the page.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "image/picture_files.hpp"
+#include "regress/picture_check.hpp"
+#include "regress/report_page.hpp"
+#include "temporary_folder.hpp"
+
+namespace speculum {
+namespace {
+
+RegressRun exampleRun() {
+  RegressRun run{.file = "tests/cases.toml", .accept = {"speculum", "--update", "NAME"}, .version = "1"};
+  const auto add = [&](const std::string& name, Outcome outcome) {
+    run.cases.push_back({.name = name, .line = 10 * static_cast<int>(run.cases.size() + 1), .size = {64, 36}});
+    run.outcomes.push_back(std::move(outcome));
+  };
+  add("fine", {.seconds = 0.5});
+  add("wrong", {.verdict = Verdict::failed,
+                .message = "50 % differ, \"a\" < 1 & | more",
+                .replaceable = true,
+                .figures = {{"pixels over 3/255", "50 %", "0.1 %", true}}});
+  add("gone", {.verdict = Verdict::error, .message = "ended by signal 11", .log = {"last\x01 words"}});
+  add("left out", {.verdict = Verdict::skipped, .message = "no such driver"});
+  return run;
+}
+
+TEST(Reports, SummaryCountsEachVerdict) {
+  EXPECT_EQ(summary(exampleRun()), "4 cases: 1 passed, 1 failed, 1 error, 1 skipped");
+  EXPECT_FALSE(exampleRun().passed());
+}
+
+TEST(Reports, JUnitIsXml) {
+  const std::string xml = junitXml(exampleRun());
+  EXPECT_NE(xml.find("tests=\"4\" failures=\"1\" errors=\"1\" skipped=\"1\" time=\"0.5"), std::string::npos) << xml;
+  EXPECT_NE(
+      xml.find("<failure message=\"50 % differ, &quot;a&quot; &lt; 1 &amp; | more\">pixels over 3/255: 50 % (limit "
+               "0.1 %)\n</failure>"),
+      std::string::npos)
+      << xml;
+  EXPECT_NE(xml.find("<error message=\"ended by signal 11\">last? words"), std::string::npos) << xml;
+  EXPECT_NE(xml.find("name=\"left out\" time=\"0.000000\"><skipped message=\"no such driver\"/>"), std::string::npos);
+}
+
+TEST(Reports, GithubGetsErrorsAndATable) {
+  EXPECT_EQ(githubErrors(exampleRun()),
+            "::error file=tests/cases.toml,line=20,title=wrong::50 %25 differ, \"a\" < 1 & | more\n"
+            "::error file=tests/cases.toml,line=30,title=gone::ended by signal 11\n");
+  EXPECT_NE(githubSummary(exampleRun()).find("| wrong | failed | 50 % differ, \"a\" \\< 1 & \\| more |\n"),
+            std::string::npos);
+}
+
+TEST(Reports, PageKeepsToItsBudget) {
+  const TemporaryFolder folder;
+  RegressRun run;
+  Image8 noise(64, 36);
+  std::mt19937 random(1);
+  for (uint8_t& value : noise.rgba) {
+    value = static_cast<uint8_t>(random());
+  }
+  for (int i = 0; i < 20; ++i) {
+    const std::string name = "case" + std::to_string(i);
+    run.cases.push_back({.name = name, .size = {64, 36}});
+    run.outcomes.push_back({.verdict = i < 10 ? Verdict::failed : Verdict::passed, .drawn = true});
+    for (const std::filesystem::path& file : CaseFiles(folder.path(), name).all()) {
+      writePng(file, noise);
+    }
+  }
+  const auto count = [](const std::string& page, const std::string& text) {
+    int found = 0;
+    for (size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1)) {
+      ++found;
+    }
+    return found;
+  };
+  const size_t bare = regressHtml(run, folder.path(), 0.0).size();
+  const std::string whole = regressHtml(run, folder.path());
+  EXPECT_EQ(count(whole, "data:image/png"), 40) << "none of cases that passed";
+  for (const double budget : {1e5, 3e5, 5e5}) {
+    EXPECT_LE(regressHtml(run, folder.path(), budget).size(), bare + static_cast<size_t>(budget));
+  }
+  EXPECT_GT(count(regressHtml(run, folder.path(), 2e5), "data:image/jpeg"), 0);
+}
+
+}  // namespace
+}  // namespace speculum
