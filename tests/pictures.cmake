@@ -1,4 +1,7 @@
-speculum_test(golden_tests SOURCES golden_tests.cpp LIBRARIES picture_support LABELS pictures)
+add_test(NAME golden COMMAND speculum regress ${CMAKE_CURRENT_SOURCE_DIR}/golden/cases.toml --validation --jobs 1
+                              --out ${PROJECT_BINARY_DIR}/tests/golden)
+set_tests_properties(golden PROPERTIES COST 1001 LABELS pictures ENVIRONMENT "${SPECULUM_TEST_ENVIRONMENT}")
+speculum_test(render_path_tests SOURCES render_paths.cpp LIBRARIES picture_support LABELS pictures)
 speculum_test(finite_watch_tests SOURCES finite_watch.cpp LIBRARIES picture_support ext::spdlog LABELS pictures)
 speculum_test(mirror_tests SOURCES mirror_image.cpp mirror_pictures.cpp target_views.cpp
               LIBRARIES picture_support LABELS pictures)
