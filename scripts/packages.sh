@@ -13,6 +13,8 @@ test_packages=(
   xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux clang-format-14 python3-minimal
   chromium chromium-driver python3-selenium
 )
+# For the package (cpack -G DEB) and its check.
+package_packages=(dpkg-dev file librsvg2-bin lintian)
 # For scripts/bench-mirrors only.
 bench_packages=(python3)
 # For scripts/fuzz only.
