@@ -6,7 +6,7 @@ speculum_test(hard_cases_transforms SOURCES ${hard}/transforms.cpp ${hard}/plane
 speculum_test(hard_cases_depth SOURCES ${hard}/depth_pictures.cpp LIBRARIES picture_support LABELS hard_cases pictures)
 speculum_test(hard_cases_readout SOURCES ${hard}/depth_readout_pictures.cpp
               LIBRARIES picture_support LABELS hard_cases pictures)
-speculum_test(hard_cases_scenes SOURCES ${hard}/scene_pictures.cpp ${hard}/seam_pictures.cpp
+speculum_test(hard_cases_scenes SOURCES ${hard}/scene_pictures.cpp ${hard}/seam_pictures.cpp ${hard}/bound_pictures.cpp
               LIBRARIES picture_support LABELS hard_cases pictures)
 speculum_test(hard_cases_inputs SOURCES ${hard}/inputs.cpp LIBRARIES picture_support ext::spdlog LABELS hard_cases)
 add_dependencies(hard_cases_inputs speculum)

@@ -257,26 +257,5 @@ TEST(MirrorOutsideTheView, HasNoPassAtAll) {
   std::printf("the naive rectangle has pixels in %d of 3000 views\n", naivePasses);
 }
 
-// Two mirrors in one plane, the smaller one within the outline of the other.
-TEST(CoplanarMirrors, HideNothingOfEachOther) {
-  Random random(7);
-  for (int i = 0; i < 1000; ++i) {
-    const double far = i % 3 == 0 ? 0.0 : std::pow(10.0, random.uniform(0, 6));
-    Scene scene;
-    scene.mirrors.push_back({.position = far * random.direction(), .rotation = random.inBox(170.0), .size = {2, 2}});
-    const glm::dmat3 frame = rotationFromDegrees(scene.mirrors[0].rotation);
-    Mirror within = scene.mirrors[0];
-    within.size = {0.8, 0.8};
-    within.position += frame * glm::dvec3(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), 0.0);
-    scene.mirrors.push_back(within);
-    scene.camera.position = within.position + frame * glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), 2.0);
-    scene.camera.target = within.position;
-    scene.camera.up = frame[1];
-    for (const SkippedMirror& skipped : planOf(scene, 10 * width, 10 * height).skipped) {
-      ASSERT_NE(skipped.reason, SkipReason::hidden) << "case " << i << ", " << far << " m out";
-    }
-  }
-}
-
 }  // namespace
 }  // namespace speculum

@@ -1,0 +1,94 @@
+// What settings leave out costs no more than its share of the light.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "reference/ray_tracer.hpp"
+#include "scene_text.hpp"
+#include "truth_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{160, 90};
+
+double largestDifference(const glm::vec3& a, const glm::vec3& b) {
+  const glm::vec3 d = glm::abs(a - b);
+  return std::max({d.x, d.y, d.z});
+}
+
+// All that is seen, the mirrors' own layers too, has a radiance within 0.1 of the background's. What a mirror at the
+// depth limit shows instead of L is weighted by the reflectances before it, so no pixel is off by more than 0.1 times
+// their product.
+TEST(TailBeyondTheDepthLimit, IsBoundedByTheReflectances) {
+  constexpr double reflectance = 0.8;
+  std::string text =
+      "[environment]\nambient = [1, 1, 1]\nbackground = [0.5, 0.5, 0.5]\n" + cameraText({0.1, 0.2, 1.5}, {0, 0, -2});
+  for (const double side : {-2.0, 2.0}) {
+    text += "[[mirror]]\n" + rectangleText({0, 0, side}, {0, side < 0 ? 0 : 180, 0}, 8, 6) +
+            "reflectance = [0.8, 0.8, 0.8]\nbase_color = [0.5, 0.5, 0.5]\n";
+    text += objectText("MODELS/sphere.obj", {0.4 * side, -0.2 * side, -0.3}, {0, 0, 0}, 0.5, {0, 0, 0}) +
+            "specular = [0, 0, 0]\nemission = " + (side < 0 ? "[0.4, 0.6, 0.5]\n" : "[0.6, 0.4, 0.45]\n");
+  }
+  const auto file = writeScene("tail", text);
+  const LinearImage whole = trace(file, size, 64).traced.image;
+  for (const int depth : {1, 2, 4}) {
+    QuietSession session(truthOptions(file, size, depth));
+    session.draw(0.0, true);
+    const LinearImage cut = session.radiance();
+    const double bound = 0.1 * std::pow(reflectance, depth);
+    int over = 0;
+    double most = 0.0;
+    for (size_t i = 0; i < cut.pixels.size(); ++i) {
+      const double off = largestDifference(cut.pixels[i], whole.pixels[i]);
+      over += off > bound + 1e-3;  // a half float is off by 2^-12 of 0.6
+      most = std::max(most, off);
+    }
+    EXPECT_LE(over, 40) << "of 14 400, at edges; depth " << depth;
+    EXPECT_GT(most, 0.2 * bound) << "nothing is cut off at depth " << depth;
+  }
+}
+
+// A thousand mirrors of 1 to 9 pixels show a bright wall. Each that is left out changes at most reflection.min_pixels
+// pixels by its reflectance times the wall's radiance.
+TEST(MirrorsOfFewPixels, LeaveOutTheirAreaAtMost) {
+  std::ostringstream text;
+  text << "[settings]\nreflection.max_passes = 2000\nreflection.samples = 1\nview.samples = 1\n"
+       << cameraText({0, 0, 10}, {0, 0, 0}) << "vertical_fov = 53.13\n"
+       << objectText("MODELS/box.obj", {0, -50, 30}, {0, 0, 0}, 100, {0, 0, 0})
+       << "specular = [0, 0, 0]\nemission = [1, 1, 1]\n";
+  constexpr double pixel = 10.0 / 90.0;  // at a distance of 10 m
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double side = pixel * random.uniform(1, 3);
+    text << "[[mirror]]\n"
+         << rectangleText({0.4 * (i % 40 - 19.5), 0.36 * (i / 40 - 12), 0}, {0, 0, random.uniform(0, 90)}, side, side)
+         << "reflectance = [0.5, 0.5, 0.5]\n";
+  }
+  Options options = headless(writeScene("few_pixels", text.str()), size);
+  options.validation = false;  // takes seconds for two thousand passes
+  QuietSession session(options);
+  const auto radiance = [&](const char* pixels) {
+    set(session, {{"reflection.min_pixels", pixels}});
+    session.draw(0.0, true);
+    return session.radiance();
+  };
+  const LinearImage whole = radiance("0");
+  const LinearImage cut = radiance("2");
+  const auto& skipped = session.lastFrame().plan.skipped;
+  const auto left = std::count_if(skipped.begin(), skipped.end(),
+                                  [](const SkippedMirror& s) { return s.reason == SkipReason::minPixels; });
+  EXPECT_GT(left, 100);
+  double missing = 0.0;
+  for (size_t i = 0; i < cut.pixels.size(); ++i) {
+    missing += largestDifference(cut.pixels[i], whole.pixels[i]);
+  }
+  EXPECT_LE(missing, 0.5 * 2.0 * static_cast<double>(left));
+  EXPECT_GT(missing, 0.0);
+}
+
+}  // namespace
+}  // namespace speculum
