@@ -93,7 +93,7 @@ void main() {
   // handedness; the sign of the instance's determinant corrects it for mirrored instances.
   bool front = gl_FrontFacing == (draw.handedness > 0.0);
   Surface surface = Surface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), draw.diffuse,
-                            glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess);
+                            glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess, glossy);
 #ifndef ENVIRONMENT
   if (diffuseLookup != textureNone) {
     surface.diffuse *= diffuseFactor();

@@ -15,6 +15,7 @@ struct Surface {
   vec3 specular;
   vec3 emission;
   float shininess;
+  bool glossy;  // the specular color is not black
 };
 
 vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
@@ -44,23 +45,22 @@ BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
 }
 
 // Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light.
+// lavapipe runs both sides of every branch, so there is none for surfaces that face away.
 vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface, vec3 toViewer) {
-  float distance2 = dot(toLight, toLight);
-  vec3 l = safeNormalize(toLight);
-  float cosine = clamp(dot(surface.normal, l), 0.0, 1.0);
-  if (cosine == 0.0) {
-    return vec3(0.0);
-  }
+  float distance2 = max(dot(toLight, toLight), 1e-30);
+  float inverse = inversesqrt(distance2);
+  float cosine = clamp(dot(surface.normal, toLight) * inverse, 0.0, 1.0);
   vec3 brdf = surface.diffuse / pi;
-  if (max(surface.specular.r, max(surface.specular.g, surface.specular.b)) > 0.0) {
-    // The cosine with the half vector is squared, which takes no square root.
-    vec3 halfway = l + toViewer;
-    float along = max(dot(surface.normal, halfway), 0.0);
-    float lobe2 = min(along * along / max(dot(halfway, halfway), 1e-30), 1.0);
-    brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(max(lobe2, 1e-12), 0.5 * surface.shininess));
+  if (surface.glossy) {
+    // The half vector is l + toViewer; its cosine with the normal is squared, which takes no square root. Where the
+    // viewer looks at the light, rounding leaves the half vector no direction.
+    float along = max(cosine + dot(surface.normal, toViewer), 0.0);
+    float length2 = max(2.0 + 2.0 * dot(toLight, toViewer) * inverse, 1e-5);
+    float lobe2 = clamp(along * along / length2, 1e-12, 1.0);
+    brdf += surface.specular * ((surface.shininess + 8.0) / (8.0 * pi) * pow(lobe2, 0.5 * surface.shininess));
   }
   // The bounds keep the falloff finite: infinity times a black channel of the surface would be NaN.
-  float falloff = cosine / max(max(distance2, radius * radius), 1e-30);
+  float falloff = cosine / max(distance2, radius * radius);
   return min(irradiance * falloff, 1e30) * brdf;
 }
 
@@ -120,15 +120,15 @@ vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
 
 // The layer under a mirror's reflection, or its back.
 Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
-  return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0);
+  return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0, false);
 }
 
 // The surface of an object, without its texture.
 Surface objectSurface(vec3 position, vec3 normal, MaterialData material, MaterialChange change, float shininess) {
-  return Surface(position, normal, change.replacesDiffuse != 0 ? change.diffuse : material.diffuse,
-                 change.replacesSpecular != 0 ? change.specular : material.specular,
+  vec3 specular = change.replacesSpecular != 0 ? change.specular : material.specular;
+  return Surface(position, normal, change.replacesDiffuse != 0 ? change.diffuse : material.diffuse, specular,
                  change.replacesEmission != 0 ? change.emission : material.emission,
-                 shininess > 0.0 ? shininess : material.shininess);
+                 shininess > 0.0 ? shininess : material.shininess, any(greaterThan(specular, vec3(0.0))));
 }
 
 vec3 backgroundRadiance(vec3 direction) {
