@@ -51,6 +51,9 @@ enum class RoughLookup { traced, image };
 // Source of a curved mirror's reflection: traced rays, or an environment map.
 enum class CurvedLookup { traced, environment };
 
+// What traces rays: the device's ray queries where they are faster, always where there are any, or shaders.
+enum class RayMethod { automatic, hardware, software };
+
 // Effects are drawn where the scene calls for them, unless they are switched off here.
 struct EffectSettings {
   bool shadows = true;
@@ -63,6 +66,7 @@ struct EffectSettings {
   bool glyphs = true;
   int roughSamples = 16;  // rays a pixel of rough mirrors
   RoughLookup roughLookup = RoughLookup::traced;
+  RayMethod rays = RayMethod::automatic;
   bool perSample = false;  // rays at each sample of a pixel, not once a pixel
   CurvedLookup curvedLookup = CurvedLookup::traced;
   int environmentSize = 256;    // texels of each side of an environment map's faces

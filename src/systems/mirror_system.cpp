@@ -59,9 +59,10 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, VkDescriptor
   }
   if (tracesRays(shading, variant.trace)) {
     const bool scattered = shading == Shading::scattered || shading == Shading::scatteredBySample;
-    desc.frag = scattered                     ? "mirror_scattered.frag"
-                : shading == Shading::average ? "mirror_average_traced.frag"
-                                              : "mirror_traced.frag";
+    desc.frag = tracingShader(scattered                     ? "mirror_scattered"
+                              : shading == Shading::average ? "mirror_average_traced"
+                                                            : "mirror_traced",
+                              variant.trace);
     desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT &&
                          (shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered));
     desc.setLayouts.push_back(traceLayout);
