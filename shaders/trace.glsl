@@ -132,6 +132,9 @@ LocalRay meshRay(uint instance, vec3 origin, vec3 direction) {
   return localRay(timesPoint(rows, origin), timesDirection(rows, direction));
 }
 
+#ifdef RAY_QUERY
+#include "trace_ray_query.glsl"
+#else
 // Finds the first surface that the ray meets before tMax, or with `any` one of them. In trace space.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
@@ -218,3 +221,4 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
     enter = stackDistances[used];
   }
 }
+#endif

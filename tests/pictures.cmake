@@ -13,6 +13,7 @@ speculum_test(accuracy_command_tests SOURCES accuracy_command.cpp
               LIBRARIES picture_support LABELS command_line)
 add_dependencies(accuracy_command_tests speculum)
 speculum_test(effects_tests SOURCES effects_truth.cpp LIBRARIES picture_support LABELS pictures)
+speculum_test(ray_tests SOURCES ray_methods.cpp scarce_memory.cpp LIBRARIES picture_support ext::spdlog LABELS pictures)
 speculum_test(effects_ledger_tests SOURCES effects_ledger.cpp LIBRARIES picture_support LABELS pictures)
 foreach(call CreateBuffer DestroyBuffer CreateImage DestroyImage CreateShaderModule DestroyShaderModule
              CreateDescriptorSetLayout DestroyDescriptorSetLayout CreateGraphicsPipelines DestroyPipeline CmdDraw

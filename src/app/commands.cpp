@@ -28,11 +28,12 @@ void setUpLog(const std::string& level) {
 
 int runInfo() {
   for (const DeviceInfo& info : Device::list()) {
-    std::printf("%d: %s\n   driver %s, Vulkan %s, %.0f MiB, %s\n", info.index, info.name.c_str(), info.driver.c_str(),
+    std::printf("%d: %s\n   driver %s, Vulkan %s, %.0f MiB, %s%s\n", info.index, info.name.c_str(), info.driver.c_str(),
                 vulkanVersion(info.apiVersion).c_str(), static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),
                 info.missing            ? ("not usable: " + *info.missing).c_str()
                 : info.dynamicRendering ? "dynamic rendering"
-                                        : "render passes only");
+                                        : "render passes only",
+                info.rayQueries ? ", ray queries" : "");
   }
   return 0;
 }

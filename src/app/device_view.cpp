@@ -52,6 +52,7 @@ DeviceView deviceView(const Renderer& renderer, const Device& device) {
                    feature("sampleRateShading", caps.sampleRateShading, "samples share a shading"),
                    feature("depthClamp", caps.depthClamp, "the near plane cuts"),
                    feature("fillModeNonSolid", caps.fillModeNonSolid, "no wireframe"),
+                   feature("ray queries", caps.rayQueries, "shaders trace all rays"),
                    feature("memory budget", caps.memoryBudget, "the size of the heaps is used")};
   const std::vector<PresentMode> modes = renderer.presentModes();
   for (const PresentMode mode : modes) {

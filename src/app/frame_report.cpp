@@ -208,6 +208,11 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
 
 void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& ledger) {
   view_.effects.clear();
+  view_.rays.clear();
+  if (const RayUse& rays = ledger.rays; rays.traced) {
+    view_.rays = rays.hardware ? "Rays by ray queries (" : "Rays by shaders (";
+    view_.rays += std::string(rays.why) + ")";
+  }
   for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
     const auto kind = static_cast<EffectKind>(view_.effects.size());
     const EffectCost& cost = ledger[kind];

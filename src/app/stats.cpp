@@ -128,6 +128,13 @@ ordered_json effectsJson(Session& session) {
   return json;
 }
 
+ordered_json raysJson(const RayUse& rays) {
+  return {{"method", !rays.traced ? ordered_json(nullptr) : ordered_json(rays.hardware ? "hardware" : "software")},
+          {"why", rays.traced ? rays.why : "nothing visible calls for rays"},
+          {"structures", rays.structures},
+          {"bytes", rays.structureBytes}};
+}
+
 bool isMilliseconds(const std::string& key) {
   return key.size() > 3 && key.compare(key.size() - 3, 3, "_ms") == 0;
 }
@@ -229,6 +236,7 @@ ordered_json frameStats(Session& session) {
   json["passes"] = passesJson(session);
   json["skipped"] = skippedJson(session.scene(), frame.plan);
   json["effects"] = effectsJson(session);
+  json["rays"] = raysJson(frame.ledger.rays);
   if (const std::optional<QualityChoice>& quality = session.quality()) {
     json["quality"] = {{"point", quality->point.name},
                        {"flip", quality->point.whole.flip},

@@ -44,6 +44,11 @@ constexpr Scope copyWrites{transferStage, VK_ACCESS_TRANSFER_WRITE_BIT};
 constexpr Scope drawReads{VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | sampleStage,
                           VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
                               VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT};
+constexpr Scope hostReads{VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT};
+// Includes what was copied into the buffers that a build reads.
+constexpr Scope builds{VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR | transferStage,
+                       VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR |
+                           VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
 constexpr Scope nothing{VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0};
 
 constexpr VkImageLayout attachment = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
@@ -119,11 +124,10 @@ void recordImages(VkCommandBuffer commands, const Scope& before, const Scope& af
   }
 }
 
-void recordToHost(VkCommandBuffer commands, const Scope& before) {
-  const VkMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                .srcAccessMask = before.access,
-                                .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
-  vkCmdPipelineBarrier(commands, before.stages, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+void recordMemory(VkCommandBuffer commands, const Scope& before, const Scope& after) {
+  const VkMemoryBarrier barrier{
+      .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = before.access, .dstAccessMask = after.access};
+  vkCmdPipelineBarrier(commands, before.stages, after.stages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 }  // namespace
@@ -203,11 +207,19 @@ void Barriers::uploadToCopy(VkCommandBuffer commands, Image& fresh) {
 }
 
 void Barriers::computeToHost(VkCommandBuffer commands) {
-  recordToHost(commands, computeWrites);
+  recordMemory(commands, computeWrites, hostReads);
 }
 
 void Barriers::copyToHost(VkCommandBuffer commands) {
-  recordToHost(commands, copyWrites);
+  recordMemory(commands, copyWrites, hostReads);
+}
+
+void Barriers::buildToBuild(VkCommandBuffer commands) {
+  recordMemory(commands, builds, builds);
+}
+
+void Barriers::buildToTrace(VkCommandBuffer commands) {
+  recordMemory(commands, builds, {sampleStage, VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR});
 }
 
 }  // namespace speculum

@@ -58,11 +58,13 @@ class Barriers {
   // kind's layout.
   void recordLevel(VkCommandBuffer commands, BarrierKind kind, Image& image, uint32_t level) const;
 
-  // Barriers that cannot be omitted, because validation would not report them: nothing has used the image yet, or the
-  // host reads.
+  // Barriers that cannot be omitted, because validation would not report them: nothing has used the image yet, the host
+  // reads, or acceleration structures are built, which the layer 1.3.239 does not follow.
   static void uploadToCopy(VkCommandBuffer commands, Image& fresh);
   static void computeToHost(VkCommandBuffer commands);
   static void copyToHost(VkCommandBuffer commands);
+  static void buildToBuild(VkCommandBuffer commands);  // also to copies and queries of sizes
+  static void buildToTrace(VkCommandBuffer commands);  // ray queries of fragment shaders
 
  private:
   std::optional<BarrierKind> omitted_;

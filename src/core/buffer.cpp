@@ -19,12 +19,17 @@ Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, Buf
   const VkMemoryPropertyFlags properties =
       memory == BufferMemory::host ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
                                    : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-  memory_ = Memory(device, requirements, properties, name);
+  memory_ = Memory(device, requirements, properties, name, (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0);
   check(vkBindBufferMemory(device.get(), buffer_.get(), memory_.get(), 0), "bind the memory of " + name);
   if (memory == BufferMemory::host) {
     void* data = nullptr;
     check(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &data), "map the memory of " + name);
     mapped_ = static_cast<std::byte*>(data);
+  }
+  if (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) {
+    const VkBufferDeviceAddressInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
+                                         .buffer = buffer_.get()};
+    address_ = vkGetBufferDeviceAddress(device.get(), &info);
   }
 }
 

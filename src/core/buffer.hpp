@@ -21,7 +21,8 @@ class Buffer {
   VkBuffer get() const { return buffer_.get(); }
   VkDeviceSize bytes() const { return bytes_; }
   explicit operator bool() const { return static_cast<bool>(buffer_); }
-  std::byte* mapped() const { return mapped_; }  // null in BufferMemory::device
+  std::byte* mapped() const { return mapped_; }         // null in BufferMemory::device
+  VkDeviceAddress address() const { return address_; }  // 0 without VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT
   VkDescriptorBufferInfo descriptor() const { return {buffer_.get(), 0, VK_WHOLE_SIZE}; }
 
   // Writes into a host buffer. Throws std::out_of_range past its end.
@@ -36,6 +37,7 @@ class Buffer {
   BufferHandle buffer_;
   VkDeviceSize bytes_ = 0;
   std::byte* mapped_ = nullptr;
+  VkDeviceAddress address_ = 0;
 };
 
 }  // namespace speculum

@@ -22,17 +22,18 @@ DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<co
 
 DescriptorPoolHandle DescriptorAllocator::createPool() const {
   constexpr uint32_t sets = 64;
-  constexpr std::array<VkDescriptorPoolSize, 5> sizes{{
-      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets},
-      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, sets},
-      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets},
-      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, sets},
+  std::vector<VkDescriptorPoolSize> sizes{
+      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets},          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, sets},
+      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets},          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, sets},
       {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16 * sets},
-  }};
+  };
+  if (device_->caps().rayQueries) {
+    sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, sets});
+  }
   return device_->create(vkCreateDescriptorPool,
                          {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                           .maxSets = sets,
-                          .poolSizeCount = sizes.size(),
+                          .poolSizeCount = static_cast<uint32_t>(sizes.size()),
                           .pPoolSizes = sizes.data()},
                          "descriptor sets");
 }
@@ -87,6 +88,20 @@ DescriptorWriter& DescriptorWriter::image(uint32_t binding, const VkDescriptorIm
                      .descriptorCount = 1,
                      .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                      .pImageInfo = &images_.emplace_back(info)});
+  return *this;
+}
+
+DescriptorWriter& DescriptorWriter::structure(uint32_t binding, VkAccelerationStructureKHR structure) {
+  structures_.push_back(
+      {{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, .accelerationStructureCount = 1},
+       structure});
+  auto& [info, handle] = structures_.back();
+  info.pAccelerationStructures = &handle;
+  writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                     .pNext = &info,
+                     .dstBinding = binding,
+                     .descriptorCount = 1,
+                     .descriptorType = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR});
   return *this;
 }
 

@@ -3,6 +3,7 @@
 #include <deque>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/device.hpp"
@@ -42,11 +43,13 @@ class DescriptorWriter {
  public:
   DescriptorWriter& buffer(uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo& info);
   DescriptorWriter& image(uint32_t binding, const VkDescriptorImageInfo& info, uint32_t element = 0);  // with sampler
+  DescriptorWriter& structure(uint32_t binding, VkAccelerationStructureKHR structure);
   void update(Device& device, VkDescriptorSet set);
 
  private:
   std::deque<VkDescriptorBufferInfo> buffers_;
   std::deque<VkDescriptorImageInfo> images_;
+  std::deque<std::pair<VkWriteDescriptorSetAccelerationStructureKHR, VkAccelerationStructureKHR>> structures_;
   std::vector<VkWriteDescriptorSet> writes_;
 };
 

@@ -106,6 +106,9 @@ std::vector<const char*> Device::deviceExtensions(const PhysicalDevice& chosen) 
   if (caps_.memoryBudget) {
     extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   }
+  if (caps_.rayQueries) {
+    extensions.insert(extensions.end(), rayQueryExtensions.begin(), rayQueryExtensions.end());
+  }
   if (!chosen.core13) {
     extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME);
   }
@@ -134,6 +137,13 @@ void Device::createDevice(const PhysicalDevice& chosen) {
   }
   if (!chosen.core13) {
     state.pNext = std::exchange(next, &state);
+  }
+  RayQueryFeatures rays;
+  rays.addresses.bufferDeviceAddress = VK_TRUE;
+  rays.structures.accelerationStructure = VK_TRUE;
+  rays.queries.rayQuery = VK_TRUE;
+  if (caps_.rayQueries) {
+    next = rays.chain(next);
   }
   const VkPhysicalDeviceFeatures features = usedFeatures(chosen.features);
   const float priority = 1.0f;

@@ -38,6 +38,7 @@ struct DeviceInfo {
   VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
   uint64_t memoryBytes = 0;  // of the largest device-local heap
   bool dynamicRendering = false;
+  bool rayQueries = false;
   std::optional<std::string> missing;  // feature without which the device is not usable
 };
 
@@ -53,6 +54,8 @@ struct DeviceCaps {
   bool primitiveId = false;  // in fragment shaders
   bool dynamicRendering = false;
   bool memoryBudget = false;
+  bool rayQueries = false;        // VK_KHR_ray_query and what it needs
+  uint32_t scratchAlignment = 0;  // bytes, of scratch memory for acceleration structures
 };
 
 struct MemoryBudget {

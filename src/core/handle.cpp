@@ -2,6 +2,13 @@
 
 namespace speculum {
 
+void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
+                                  const VkAllocationCallbacks* allocator) {
+  const auto destroy = reinterpret_cast<PFN_vkDestroyAccelerationStructureKHR>(
+      vkGetDeviceProcAddr(device, "vkDestroyAccelerationStructureKHR"));
+  destroy(device, structure, allocator);
+}
+
 std::map<std::string, int64_t> liveObjects() {
   std::map<std::string, int64_t> all = {{"VkDebugUtilsMessengerEXT", liveHandles<VkDebugUtilsMessengerEXT>}};
 #define SPECULUM_COUNT(HANDLE, TYPE, VALUE, DESTROY) all[#TYPE] = liveHandles<TYPE>;

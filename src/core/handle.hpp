@@ -11,27 +11,33 @@
 
 namespace speculum {
 
+// Calls vkDestroyAccelerationStructureKHR, which the loader does not export.
+void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
+                                  const VkAllocationCallbacks* allocator);
+
 // Every type that a Handle owns: the handle's name, the Vulkan type, its object type and what destroys it.
-#define SPECULUM_HANDLES(X)                                                                          \
-  X(CommandPoolHandle, VkCommandPool, VK_OBJECT_TYPE_COMMAND_POOL, vkDestroyCommandPool)             \
-  X(SemaphoreHandle, VkSemaphore, VK_OBJECT_TYPE_SEMAPHORE, vkDestroySemaphore)                      \
-  X(FenceHandle, VkFence, VK_OBJECT_TYPE_FENCE, vkDestroyFence)                                      \
-  X(MemoryHandle, VkDeviceMemory, VK_OBJECT_TYPE_DEVICE_MEMORY, vkFreeMemory)                        \
-  X(BufferHandle, VkBuffer, VK_OBJECT_TYPE_BUFFER, vkDestroyBuffer)                                  \
-  X(ImageHandle, VkImage, VK_OBJECT_TYPE_IMAGE, vkDestroyImage)                                      \
-  X(ImageViewHandle, VkImageView, VK_OBJECT_TYPE_IMAGE_VIEW, vkDestroyImageView)                     \
-  X(SamplerHandle, VkSampler, VK_OBJECT_TYPE_SAMPLER, vkDestroySampler)                              \
-  X(ShaderModuleHandle, VkShaderModule, VK_OBJECT_TYPE_SHADER_MODULE, vkDestroyShaderModule)         \
-  X(PipelineCacheHandle, VkPipelineCache, VK_OBJECT_TYPE_PIPELINE_CACHE, vkDestroyPipelineCache)     \
-  X(PipelineLayoutHandle, VkPipelineLayout, VK_OBJECT_TYPE_PIPELINE_LAYOUT, vkDestroyPipelineLayout) \
-  X(PipelineHandle, VkPipeline, VK_OBJECT_TYPE_PIPELINE, vkDestroyPipeline)                          \
-  X(RenderPassHandle, VkRenderPass, VK_OBJECT_TYPE_RENDER_PASS, vkDestroyRenderPass)                 \
-  X(FramebufferHandle, VkFramebuffer, VK_OBJECT_TYPE_FRAMEBUFFER, vkDestroyFramebuffer)              \
-  X(DescriptorSetLayoutHandle, VkDescriptorSetLayout, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,          \
-    vkDestroyDescriptorSetLayout)                                                                    \
-  X(DescriptorPoolHandle, VkDescriptorPool, VK_OBJECT_TYPE_DESCRIPTOR_POOL, vkDestroyDescriptorPool) \
-  X(QueryPoolHandle, VkQueryPool, VK_OBJECT_TYPE_QUERY_POOL, vkDestroyQueryPool)                     \
-  X(SurfaceHandle, VkSurfaceKHR, VK_OBJECT_TYPE_SURFACE_KHR, vkDestroySurfaceKHR)                    \
+#define SPECULUM_HANDLES(X)                                                                             \
+  X(CommandPoolHandle, VkCommandPool, VK_OBJECT_TYPE_COMMAND_POOL, vkDestroyCommandPool)                \
+  X(SemaphoreHandle, VkSemaphore, VK_OBJECT_TYPE_SEMAPHORE, vkDestroySemaphore)                         \
+  X(FenceHandle, VkFence, VK_OBJECT_TYPE_FENCE, vkDestroyFence)                                         \
+  X(MemoryHandle, VkDeviceMemory, VK_OBJECT_TYPE_DEVICE_MEMORY, vkFreeMemory)                           \
+  X(BufferHandle, VkBuffer, VK_OBJECT_TYPE_BUFFER, vkDestroyBuffer)                                     \
+  X(ImageHandle, VkImage, VK_OBJECT_TYPE_IMAGE, vkDestroyImage)                                         \
+  X(ImageViewHandle, VkImageView, VK_OBJECT_TYPE_IMAGE_VIEW, vkDestroyImageView)                        \
+  X(SamplerHandle, VkSampler, VK_OBJECT_TYPE_SAMPLER, vkDestroySampler)                                 \
+  X(ShaderModuleHandle, VkShaderModule, VK_OBJECT_TYPE_SHADER_MODULE, vkDestroyShaderModule)            \
+  X(PipelineCacheHandle, VkPipelineCache, VK_OBJECT_TYPE_PIPELINE_CACHE, vkDestroyPipelineCache)        \
+  X(PipelineLayoutHandle, VkPipelineLayout, VK_OBJECT_TYPE_PIPELINE_LAYOUT, vkDestroyPipelineLayout)    \
+  X(PipelineHandle, VkPipeline, VK_OBJECT_TYPE_PIPELINE, vkDestroyPipeline)                             \
+  X(RenderPassHandle, VkRenderPass, VK_OBJECT_TYPE_RENDER_PASS, vkDestroyRenderPass)                    \
+  X(FramebufferHandle, VkFramebuffer, VK_OBJECT_TYPE_FRAMEBUFFER, vkDestroyFramebuffer)                 \
+  X(DescriptorSetLayoutHandle, VkDescriptorSetLayout, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,             \
+    vkDestroyDescriptorSetLayout)                                                                       \
+  X(DescriptorPoolHandle, VkDescriptorPool, VK_OBJECT_TYPE_DESCRIPTOR_POOL, vkDestroyDescriptorPool)    \
+  X(QueryPoolHandle, VkQueryPool, VK_OBJECT_TYPE_QUERY_POOL, vkDestroyQueryPool)                        \
+  X(AccelerationStructureHandle, VkAccelerationStructureKHR, VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, \
+    destroyAccelerationStructure)                                                                       \
+  X(SurfaceHandle, VkSurfaceKHR, VK_OBJECT_TYPE_SURFACE_KHR, vkDestroySurfaceKHR)                       \
   X(SwapchainHandle, VkSwapchainKHR, VK_OBJECT_TYPE_SWAPCHAIN_KHR, vkDestroySwapchainKHR)
 
 // VkObjectType of a Vulkan type, for debug names.

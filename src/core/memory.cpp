@@ -3,7 +3,7 @@
 namespace speculum {
 
 Memory::Memory(Device& device, const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted,
-               const std::string& name) {
+               const std::string& name, bool addressed) {
   VkPhysicalDeviceMemoryProperties types{};
   vkGetPhysicalDeviceMemoryProperties(device.physical(), &types);
   uint32_t type = 0;
@@ -20,8 +20,12 @@ Memory::Memory(Device& device, const VkMemoryRequirements& requirements, VkMemor
     throw OutOfMemoryError("allocate memory for " + name + ": the device takes " + std::to_string(most) +
                            " allocations (fewer textures, or a lower reflection.max_passes)");
   }
-  const VkMemoryAllocateInfo info{
-      .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = requirements.size, .memoryTypeIndex = type};
+  const VkMemoryAllocateFlagsInfo flags{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
+                                        .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
+  const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                  .pNext = addressed ? &flags : nullptr,
+                                  .allocationSize = requirements.size,
+                                  .memoryTypeIndex = type};
   VkDeviceMemory memory = VK_NULL_HANDLE;
   check(vkAllocateMemory(device.get(), &info, nullptr, &memory),
         "allocate " + std::to_string(requirements.size) + " bytes for " + name);

@@ -10,9 +10,10 @@ namespace speculum {
 class Memory {
  public:
   Memory() = default;
-  // Throws OutOfMemoryError, or std::runtime_error if the GPU has no memory with the wanted properties.
+  // With `addressed`, buffers in it have device addresses. Throws OutOfMemoryError, or std::runtime_error if the GPU
+  // has no memory with the wanted properties.
   Memory(Device& device, const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted,
-         const std::string& name);
+         const std::string& name, bool addressed = false);
 
   VkDeviceMemory get() const { return memory_.get(); }
   uint64_t bytes() const { return counted_ ? counted_.get_deleter().bytes : 0; }

@@ -34,6 +34,26 @@ VkSampleCountFlags sampleCounts(VkPhysicalDevice device, VkFormat format, VkImag
   return result == VK_SUCCESS ? properties.sampleCounts : 0;
 }
 
+// Reads whether fragment shaders can query acceleration structures. Needs Vulkan 1.2 for addresses of buffers.
+void readRayQueries(PhysicalDevice& device, uint32_t instanceVersion) {
+  if (std::min(device.properties.apiVersion, instanceVersion) < VK_API_VERSION_1_2 ||
+      !std::all_of(rayQueryExtensions.begin(), rayQueryExtensions.end(),
+                   [&](const char* name) { return device.hasExtension(name); })) {
+    return;
+  }
+  RayQueryFeatures found;
+  VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                     .pNext = found.chain(nullptr)};
+  vkGetPhysicalDeviceFeatures2(device.handle, &features);
+  VkPhysicalDeviceAccelerationStructurePropertiesKHR limits{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+  VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &limits};
+  vkGetPhysicalDeviceProperties2(device.handle, &properties);
+  device.caps.rayQueries =
+      found.addresses.bufferDeviceAddress && found.structures.accelerationStructure && found.queries.rayQuery;
+  device.caps.scratchAlignment = limits.minAccelerationStructureScratchOffsetAlignment;
+}
+
 void readFeatures(PhysicalDevice& device) {
   VkPhysicalDeviceDynamicRenderingFeatures dynamic{.sType =
                                                        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES};
@@ -128,6 +148,7 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index, uint32_t instanceVers
   device.extensions = extensionsOf(handle);
   device.core13 = std::min(device.properties.apiVersion, instanceVersion) >= VK_API_VERSION_1_3;
   readFeatures(device);
+  readRayQueries(device, instanceVersion);
   DeviceCaps& caps = device.caps;
   caps.sampleCounts =
       sampleCounts(handle, colorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
@@ -147,7 +168,8 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index, uint32_t instanceVers
                  .apiVersion = device.properties.apiVersion,
                  .type = device.properties.deviceType,
                  .memoryBytes = largestLocalHeap(handle),
-                 .dynamicRendering = caps.dynamicRendering};
+                 .dynamicRendering = caps.dynamicRendering,
+                 .rayQueries = caps.rayQueries};
   device.info.missing = missing(device);
   const std::optional<std::string> missingQueue = chooseQueueFamilies(device, surface);
   device.info.missing = device.info.missing ? device.info.missing : missingQueue;

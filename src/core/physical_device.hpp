@@ -1,11 +1,32 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "core/device.hpp"
 
 namespace speculum {
+
+// Extensions and features that ray queries need, to be asked about and to be enabled.
+inline constexpr std::array rayQueryExtensions = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                                  VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                                  VK_KHR_RAY_QUERY_EXTENSION_NAME};
+struct RayQueryFeatures {
+  VkPhysicalDeviceBufferDeviceAddressFeatures addresses{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES};
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+  VkPhysicalDeviceRayQueryFeaturesKHR queries{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+
+  // Links the structures before `next` and returns the first.
+  void* chain(void* next) {
+    queries.pNext = next;
+    structures.pNext = &queries;
+    addresses.pNext = &structures;
+    return &addresses;
+  }
+};
 
 // Properties of one GPU, read before a device is created.
 struct PhysicalDevice {

@@ -60,6 +60,7 @@ constexpr std::array<std::string_view, 3> clipMethods{"clip_distance", "oblique"
 constexpr std::array<std::string_view, 2> toneMaps{"clamp", "aces"};
 constexpr std::array<std::string_view, 2> textureFilters{"bilinear", "trilinear"};
 constexpr std::array<std::string_view, 2> roughLookups{"traced", "image"};
+constexpr std::array<std::string_view, 3> rayMethods{"auto", "hardware", "software"};
 constexpr std::array<std::string_view, 2> curvedLookups{"traced", "environment"};
 constexpr std::array<std::string_view, 2> shadowLookups{"traced", "map"};
 constexpr SettingNeed environmentMaps{"effects.curved_lookup", "environment"};
@@ -226,6 +227,11 @@ constexpr SettingField fields[] = {
      .label = "Rough look-up",
      .text = "rough mirrors trace rays, or look up their image as if smooth",
      .cost = "image takes a fraction of the time."},
+    {.key = "effects.rays",
+     .kind = choice<&E::rays>(rayMethods),
+     .label = "Rays",
+     .text = "rays are traced by ray queries of the GPU or by shaders; auto: by what is faster",
+     .cost = "The picture is the same within 2/255."},
     {.key = "effects.per_sample",
      .kind = BooleanSetting{at<&E::perSample>},
      .label = "Rays at every sample",

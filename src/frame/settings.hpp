@@ -54,6 +54,9 @@ enum class CurvedLookup { traced, environment };
 // Source of the shadows of lights: traced rays, or shadow maps.
 enum class ShadowLookup { traced, map };
 
+// What traces rays: the device's ray queries where they are faster, always where there are any, or shaders.
+enum class RayMethod { automatic, hardware, software };
+
 // Effects are drawn where the scene calls for them, unless they are switched off here.
 struct EffectSettings {
   bool shadows = true;
@@ -68,6 +71,7 @@ struct EffectSettings {
   int shadowMapSize = 1024;  // texels of each side of a shadow map's faces
   int roughSamples = 16;     // rays a pixel of rough mirrors
   RoughLookup roughLookup = RoughLookup::traced;
+  RayMethod rays = RayMethod::automatic;
   bool perSample = false;  // rays at each sample of a pixel, not once a pixel
   CurvedLookup curvedLookup = CurvedLookup::traced;
   int environmentSize = 256;    // texels of each side of an environment map's faces

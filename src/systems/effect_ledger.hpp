@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "frame/effects.hpp"
 
@@ -16,8 +17,19 @@ struct EffectCost {
   uint32_t pipelines = 0;  // alive
 };
 
+// How the rays of the last recorded frame were traced.
+struct RayUse {
+  bool traced = false;
+  bool hardware = false;    // by ray queries
+  std::string_view why;     // with static lifetime
+  uint32_t structures = 0;  // acceleration structures, alive
+  uint64_t structureBytes = 0;
+};
+
 class EffectLedger {
  public:
+  RayUse rays;
+
   EffectCost& operator[](EffectKind kind) { return costs_[static_cast<size_t>(kind)]; }
   const EffectCost& operator[](EffectKind kind) const { return costs_[static_cast<size_t>(kind)]; }
   void draw(EffectKind kind, bool takesPart = true) { (*this)[kind].draws += takesPart; }
@@ -28,6 +40,7 @@ class EffectLedger {
       costs_[i] = later.costs_[i];
       costs_[i].draws += before;
     }
+    rays = later.rays;
   }
   void pipeline(EffectKind kind, bool takesPart = true) { (*this)[kind].pipelines += takesPart; }
 

@@ -61,9 +61,10 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
   }
   if (tracesRays(shading, variant.trace)) {
     const bool scattered = shading == Shading::scattered || shading == Shading::scatteredBySample;
-    desc.frag = scattered                     ? "mirror_scattered.frag"
-                : shading == Shading::average ? "mirror_average_traced.frag"
-                                              : "mirror_traced.frag";
+    desc.frag = tracingShader(scattered                     ? "mirror_scattered"
+                              : shading == Shading::average ? "mirror_average_traced"
+                                                            : "mirror_traced",
+                              variant.trace);
     desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT &&
                          (shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered));
     desc.setLayouts.push_back(info.trace.layout());

@@ -53,9 +53,10 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                             .depthClamp = variant.clampDepth,
                             .lines = variant.wireframe};
   if (variant.environment) {
-    desc.frag = variant.trace.traced ? "scene_environment_traced.frag" : "scene_environment.frag";
+    desc.frag =
+        variant.trace.traced ? tracingShader("scene_environment_traced", variant.trace) : "scene_environment.frag";
   } else if (tracesRays(variant)) {
-    desc.frag = variant.curved ? "scene_curved.frag" : "scene_traced.frag";
+    desc.frag = tracingShader(variant.curved ? "scene_curved" : "scene_traced", variant.trace);
   }
   if (variant.shadowed) {
     desc.frag = variant.environment ? "scene_environment_shadowed.frag" : "scene_shadowed.frag";

@@ -431,6 +431,7 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
   display_.countPipelines(ledger_);
   renderSystem_.countPipelines(ledger_);
   mirrorSystem_.countPipelines(ledger_);
+  ledger_.rays = trace_.rays();
 }
 
 FrameCache SceneRenderer::cache() const {

@@ -1,5 +1,7 @@
 #include "systems/trace_frame.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +21,7 @@ constexpr std::array bufferNames = {"trace boxes",   "trace items",           "t
                                     "trace mirrors", "trace mirror vertices", "light paths"};
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
 constexpr uint32_t frameDataBindings = 4;
+constexpr uint32_t structureBinding = 12;  // in trace_ray_query.glsl
 
 void setMirror(const std::optional<ObjectMirror>& mirror, const EffectSettings& effects, gpu::TraceInstance& data) {
   if (mirror && effects.curved) {
@@ -64,6 +67,14 @@ Bounds boundsOf(const MirrorState& mirror, const glm::dvec3& eye) {
   return bounds;
 }
 
+template <typename T>
+void retireIfAny(std::optional<T>& object, RetireQueue& retired) {
+  if (object) {
+    retired.retire(std::move(*object));
+    object.reset();
+  }
+}
+
 void setRipple(const Ripple& ripple, double time, gpu::TraceMirror& data) {
   const double k = 2.0 * std::numbers::pi / ripple.wavelength;
   constexpr double steepest = 1e15;  // its square is a float, and steeper slopes look the same
@@ -81,6 +92,10 @@ void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants)
   constants.insert(constants.end(), {variant.stackSize, variant.shadows, variant.castsLight, variant.perSample});
 }
 
+std::string tracingShader(const std::string& name, const TraceVariant& variant) {
+  return name + (variant.hardware ? "_ray_query.frag" : ".frag");
+}
+
 TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
     : device_(device), uploader_(uploader), scene_(scene), buffers_(device, bufferNames, "fewer copies of objects") {}
 
@@ -90,18 +105,23 @@ void TraceFrame::create() {
   if (layout_) {
     return;
   }
-  std::array<DescriptorBinding, sceneBindings + kindCount> bindings{};
-  for (uint32_t i = 0; i < bindings.size(); ++i) {
-    bindings[i] = {.binding = i, .type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
+  static_assert(structureBinding == sceneBindings + kindCount);
+  std::vector<DescriptorBinding> bindings;
+  for (uint32_t i = 0; i < structureBinding; ++i) {
+    bindings.push_back(
+        {.binding = i, .type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, .stages = VK_SHADER_STAGE_FRAGMENT_BIT});
+  }
+  if (device_.caps().rayQueries) {
+    bindings.push_back({.binding = structureBinding,
+                        .type = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
+                        .stages = VK_SHADER_STAGE_FRAGMENT_BIT});
   }
   layout_ = createDescriptorSetLayout(device_, bindings, "trace");
 }
 
 void TraceFrame::release(RetireQueue& retired) {
-  if (traceScene_) {
-    retired.retire(std::move(*traceScene_));
-    traceScene_.reset();
-  }
+  retireIfAny(structures_, retired);
+  retireIfAny(traceScene_, retired);
   stackSize_ = 1;
   retired.retire(std::exchange(nothing_, {}));
   buffers_.retire(retired);
@@ -110,6 +130,7 @@ void TraceFrame::release(RetireQueue& retired) {
 void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects) {
   set_ = VK_NULL_HANDLE;
   variant_ = {};
+  rays_ = {};
   if (!effects.any()) {
     if (nothing_ && ++idleFrames_ > idleFramesKept) {
       release(*frame.retired);
@@ -126,7 +147,17 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
               .castsLight = effects.castsLight.has_value(),
               .perSample = settings.effects.perSample && effects.traces()};
   addMirrors(state, settings);
-  addInstances(state, settings, effects.traces());
+  prepareStructures(frame, state, settings.effects.rays, effects.traces());
+  variant_.hardware = rays_.hardware;
+  instances_.clear();
+  topNodes_.clear();
+  items_.clear();
+  if (effects.traces()) {
+    addInstances(state, settings);
+  }
+  if (effects.traces() && !rays_.hardware) {
+    addHierarchy(state);
+  }
   buffers_.write(frame, topNodes, topNodes_);
   buffers_.write(frame, items, items_);
   buffers_.write(frame, instances, instances_);
@@ -145,8 +176,51 @@ void TraceFrame::prepareScene(Frame& frame, bool traces) {
       traceScene_.emplace(device_, uploader_, scene_);
     }
   } else if (traceScene_ && ++sceneIdleFrames_ > idleFramesKept) {
-    frame.retired->retire(std::move(*traceScene_));
-    traceScene_.reset();
+    retireIfAny(traceScene_, *frame.retired);
+  }
+}
+
+RayUse TraceFrame::chooseRays(const SceneState& state, RayMethod method) {
+  const bool cpu = device_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  RayUse use{.traced = true};
+  if (method == RayMethod::software) {
+    use.why = "effects.rays = software";
+  } else if (!device_.caps().rayQueries) {
+    use.why = "the device has no ray queries";
+  } else if (method == RayMethod::automatic && cpu) {
+    use.why = "the driver runs on the CPU";
+  } else if (!RayStructures::canHold(state)) {
+    use.why = "an object's scale is beyond single precision";
+  } else if (refused_) {
+    use.why = "there is no memory for acceleration structures";
+  } else {
+    use.hardware = true;
+    use.why = method == RayMethod::hardware ? "effects.rays = hardware" : "the device has ray queries";
+  }
+  if (method == RayMethod::hardware && !use.hardware && !std::exchange(warned_, true)) {
+    spdlog::warn("effects.rays = hardware: shaders trace the rays, because {}", use.why);
+  }
+  return use;
+}
+
+void TraceFrame::prepareStructures(Frame& frame, const SceneState& state, RayMethod method, bool traces) {
+  rays_ = traces ? chooseRays(state, method) : RayUse{};
+  if (!traceScene_ || (traces && !rays_.hardware)) {
+    retireIfAny(structures_, *frame.retired);
+  }
+  if (!rays_.hardware) {
+    return;
+  }
+  try {
+    if (!structures_) {
+      check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
+      structures_.emplace(device_, uploader_, *traceScene_);
+    }
+    structures_->build(frame, state);
+  } catch (const OutOfMemoryError&) {
+    refused_ = true;
+    retireIfAny(structures_, *frame.retired);
+    rays_ = chooseRays(state, method);
   }
 }
 
@@ -161,36 +235,48 @@ void TraceFrame::allocateSet(Frame& frame) {
   for (uint32_t i = 0; i < kindCount; ++i) {
     writer.buffer(sceneBindings + i, storage, buffers_.buffer(frame, i).descriptor());
   }
+  if (rays_.hardware) {
+    writer.structure(structureBinding, structures_->top(frame));
+  }
   writer.update(device_, set_);
 }
 
 uint64_t TraceFrame::bytes() const {
-  return buffers_.bytes() + (traceScene_ ? traceScene_->bytes() : 0);
+  return buffers_.bytes() + (traceScene_ ? traceScene_->bytes() : 0) + (structures_ ? structures_->bytes() : 0);
 }
 
-void TraceFrame::addInstances(const SceneState& state, const Settings& settings, bool meetsObjects) {
-  std::vector<Bounds> boxes;
-  std::vector<uint32_t> found;
-  instances_.clear();
-  topNodes_.clear();
-  items_.clear();
-  const glm::dvec3& eye = state.camera.eye;
-  for (size_t i = 0; meetsObjects && i < state.instances.size(); ++i) {
-    const InstanceState& instance = state.instances[i];
+RayUse TraceFrame::rays() const {
+  RayUse use = rays_;
+  use.structures = structures_ ? structures_->count() : 0;
+  use.structureBytes = structures_ ? structures_->bytes() : 0;
+  return use;
+}
+
+void TraceFrame::addInstances(const SceneState& state, const Settings& settings) {
+  for (const InstanceState& instance : state.instances) {
     const Object& object = scene_.objects[instance.object];
     const TraceScene::MeshRange& mesh = traceScene_->meshes()[instance.mesh];
-    gpu::TraceInstance data = instanceData(instance, object, eye);
+    gpu::TraceInstance data = instanceData(instance, object, state.camera.eye);
     data.root = mesh.root;
     data.firstTriangle = mesh.firstTriangle;
     data.firstVertex = mesh.firstVertex;
     setMirror(object.mirror, settings.effects, data);
     instances_.push_back(data);
+  }
+}
+
+void TraceFrame::addHierarchy(const SceneState& state) {
+  std::vector<Bounds> boxes;
+  std::vector<uint32_t> found;
+  const glm::dvec3& eye = state.camera.eye;
+  for (size_t i = 0; i < state.instances.size(); ++i) {
+    const InstanceState& instance = state.instances[i];
     if (!scene_.meshes[instance.mesh].indices.empty()) {
       boxes.push_back(boundsOf(instance, scene_.meshes[instance.mesh], eye));
       found.push_back(static_cast<uint32_t>(i));
     }
   }
-  for (size_t i = 0; meetsObjects && i < state.mirrors.size(); ++i) {
+  for (size_t i = 0; i < state.mirrors.size(); ++i) {
     boxes.push_back(boundsOf(state.mirrors[i], eye));
     found.push_back(static_cast<uint32_t>(i) | gpu::itemMirror);
   }
@@ -200,7 +286,7 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings,
     items_.push_back(found[i]);
   }
   // One entry for each level, of the top and of the deepest mesh; rounded up, for fewer pipelines.
-  const int depth = top.depth() + (traceScene_ ? traceScene_->depth() : 0);
+  const int depth = top.depth() + traceScene_->depth();
   stackSize_ = std::max(stackSize_, static_cast<uint32_t>(depth + 8) / 8 * 8);
   variant_.stackSize = stackSize_;
 }

@@ -7,6 +7,7 @@
 #include "frame/traced_effects.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_buffers.hpp"
+#include "systems/ray_structures.hpp"
 #include "systems/trace_scene.hpp"
 
 namespace speculum {
@@ -17,13 +18,16 @@ struct TraceVariant {
   bool shadows = false;
   bool castsLight = false;
   bool perSample = false;
-  uint32_t stackSize = 1;  // entries
+  bool hardware = false;   // rays are ray queries
+  uint32_t stackSize = 1;  // entries; only without ray queries
 
   auto operator<=>(const TraceVariant&) const = default;
 };
 
 // Appends `variant` to a fragment shader's constants, of which there are at most two.
 void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants);
+// Returns the file of a fragment shader that traces rays: NAME.frag, or NAME_ray_query.frag.
+std::string tracingShader(const std::string& name, const TraceVariant& variant);
 
 // Buffers of the scene that rays meet, with the positions of the present frame. Nothing exists before a frame calls for
 // them, and all are released after some frames without a call.
@@ -41,7 +45,8 @@ class TraceFrame {
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   VkDescriptorSet set() const { return set_; }
   const TraceVariant& variant() const { return variant_; }
-  uint64_t bytes() const;  // of all its buffers
+  uint64_t bytes() const;  // of all its buffers, and of acceleration structures
+  RayUse rays() const;     // of the present frame
 
  private:
   enum Kind { topNodes, items, instances, mirrors, mirrorVertices, lightPaths, kindCount };
@@ -49,8 +54,11 @@ class TraceFrame {
   void create();
   void release(RetireQueue& retired);
   void prepareScene(Frame& frame, bool traces);
+  RayUse chooseRays(const SceneState& state, RayMethod method);
+  void prepareStructures(Frame& frame, const SceneState& state, RayMethod method, bool traces);
   void allocateSet(Frame& frame);
-  void addInstances(const SceneState& state, const Settings& settings, bool meetsObjects);
+  void addInstances(const SceneState& state, const Settings& settings);
+  void addHierarchy(const SceneState& state);
   void addMirrors(const SceneState& state, const Settings& settings);
   std::vector<std::byte> lightPathBytes(const SceneState& state, const Settings& settings,
                                         const TracedEffects& effects) const;
@@ -60,6 +68,8 @@ class TraceFrame {
   const Scene& scene_;
   DescriptorSetLayoutHandle layout_;
   std::optional<TraceScene> traceScene_;
+  std::optional<RayStructures> structures_;
+  RayUse rays_;
   Buffer nothing_;  // bound instead of a scene whose triangles no ray meets
   FrameBuffers buffers_;
   std::vector<gpu::TraceNode> topNodes_;
@@ -72,6 +82,8 @@ class TraceFrame {
   uint32_t stackSize_ = 1;   // only grows, so that pipelines stay
   int idleFrames_ = 0;       // without any effect
   int sceneIdleFrames_ = 0;  // without one that traces rays
+  bool refused_ = false;     // there was no memory for acceleration structures
+  bool warned_ = false;      // that effects.rays = hardware does not hold
 };
 
 }  // namespace speculum

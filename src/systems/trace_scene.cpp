@@ -4,6 +4,7 @@
 #include <glm/gtc/packing.hpp>
 #include <stdexcept>
 
+#include "core/acceleration_structure.hpp"
 #include "geometry/bvh.hpp"
 #include "systems/gpu_conversion.hpp"
 
@@ -79,7 +80,9 @@ TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
                                ", the device takes " + std::to_string(device.limits().maxStorageBufferRange >> 20) +
                                " (smaller models, or effects.* = false for what needs rays)");
     }
-    buffers_[kind] = uploader.buffer(data, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name);
+    const bool built = kind == triangles && device.caps().rayQueries;
+    buffers_[kind] =
+        uploader.buffer(data, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | (built ? structureInputUsage : 0), name);
   };
   upload(nodes, content.nodes, "trace nodes");
   upload(triangles, content.triangles, "trace triangles");
@@ -101,8 +104,10 @@ void TraceScene::add(const Mesh& mesh, Content& content) {
   const Bvh hierarchy = hierarchyOf(mesh);
   depth_ = std::max(depth_, hierarchy.depth());
   const auto firstSlot = static_cast<uint32_t>(content.triangles.size());
-  meshes_.push_back({static_cast<uint32_t>(content.nodes.size()), static_cast<uint32_t>(content.indices.size() / 3),
-                     static_cast<uint32_t>(content.vertices.size())});
+  meshes_.push_back({.root = static_cast<uint32_t>(content.nodes.size()),
+                     .firstTriangle = firstSlot,
+                     .triangles = static_cast<uint32_t>(mesh.indices.size() / 3),
+                     .firstVertex = static_cast<uint32_t>(content.vertices.size())});
   appendNodes(hierarchy, firstSlot, content.nodes);
   const std::vector<uint32_t> materials = materialsOf(mesh, content.materials);
   for (const uint32_t triangle : hierarchy.order()) {

@@ -16,7 +16,8 @@ class TraceScene {
   // Offsets of a mesh in the buffers.
   struct MeshRange {
     uint32_t root = 0;           // node
-    uint32_t firstTriangle = 0;  // a third of its first index
+    uint32_t firstTriangle = 0;  // a third of its first index; also its first slot in `triangles`
+    uint32_t triangles = 0;
     uint32_t firstVertex = 0;
   };
   enum Kind { nodes, triangles, indices, vertices, textures, texels, kindCount };

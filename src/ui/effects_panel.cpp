@@ -15,6 +15,9 @@ void effects(PanelContext& ui) {
     return;
   }
   settingRows(ui, "effects.");
+  if (!ui.view.frame.rays.empty()) {
+    ImGui::TextWrapped("%s", ui.view.frame.rays.c_str());
+  }
   if (!ImGui::BeginTable("effects", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
     return;
   }

@@ -69,6 +69,7 @@ struct FrameView {
   std::vector<PassView> passes;  // in the order of recording; with reflection.update_interval, of that many frames
   std::vector<SkippedView> skipped;
   std::vector<EffectView> effects;  // all, in a fixed order
+  std::string rays;                 // how they are traced and why; empty: none are
   TargetView target;
   std::vector<int> outlinedSkipped;       // path of the skipped mirror that is outlined; empty: none
   std::vector<PixelLine> skippedOutline;  // where it would be seen, on the picture

@@ -46,6 +46,10 @@ Options headless(const std::filesystem::path& scene, PictureSize size) {
   options.size = size;
   options.validation = true;
   options.settings = {{"debug.check_finite", "true"}};
+  // The same tests run with each way to trace rays.
+  if (const char* rays = std::getenv("SPECULUM_RAYS")) {
+    set(options, {{"effects.rays", rays}});
+  }
   return options;
 }
 

@@ -1,0 +1,53 @@
+// traceRay() by ray queries. The hierarchies are the device's; what a ray ignores and how it meets a mirror is as in
+// trace.glsl.
+
+layout(set = 2, binding = 12) uniform accelerationStructureEXT traceStructure;
+
+bool ignores(Skip skip, uint instance, uint slot, float t, float near) {
+  return instance == skip.instance && (traceTriangles[slot].triangle == skip.triangle || t < near);
+}
+
+// Finds the first surface that the ray meets before tMax, or with `any` one of them. In trace space.
+Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
+  Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
+  vec3 size = abs(direction);
+  float largest = max(size.x, max(size.y, size.z));
+  if (!(largest > 0.0 && largest < infinity && tMax > 0.0)) {
+    return hit;  // what a query would be undefined for
+  }
+  float near = skip.near / max(length(direction), 1e-30);
+  // Only the object that the ray starts on needs its candidates looked at.
+  uint flags = (any ? gl_RayFlagsTerminateOnFirstHitEXT : 0) | (skip.instance == none ? gl_RayFlagsOpaqueEXT : 0);
+  rayQueryEXT query;
+  rayQueryInitializeEXT(query, traceStructure, flags, 0xff, origin, 0.0, direction, tMax);
+  while (rayQueryProceedEXT(query)) {
+    uint index = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
+    if (rayQueryGetIntersectionTypeEXT(query, false) == gl_RayQueryCandidateIntersectionTriangleEXT) {
+      uint slot = traceInstances[index].firstTriangle + rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
+      if (!ignores(skip, index, slot, rayQueryGetIntersectionTEXT(query, false), near)) {
+        rayQueryConfirmIntersectionEXT(query);
+      }
+    } else if (index != skip.mirror && index != skip.secondMirror) {
+      float t = meetMirror(index, origin, direction);
+      bool first = rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+      if (t > 0.0 && t < (first ? tMax : rayQueryGetIntersectionTEXT(query, true))) {
+        rayQueryGenerateIntersectionEXT(query, t);
+      }
+    }
+  }
+  uint found = rayQueryGetIntersectionTypeEXT(query, true);
+  if (found == gl_RayQueryCommittedIntersectionNoneEXT) {
+    return hit;
+  }
+  hit.t = rayQueryGetIntersectionTEXT(query, true);
+  uint index = rayQueryGetIntersectionInstanceCustomIndexEXT(query, true);
+  if (found == gl_RayQueryCommittedIntersectionGeneratedEXT) {
+    hit.mirror = index;
+    return hit;
+  }
+  vec2 weights = rayQueryGetIntersectionBarycentricsEXT(query, true);
+  hit.instance = index;
+  hit.slot = traceInstances[index].firstTriangle + rayQueryGetIntersectionPrimitiveIndexEXT(query, true);
+  hit.weights = vec3(1.0 - weights.x - weights.y, weights);
+  return hit;
+}

@@ -1,0 +1,270 @@
+// Rays by ray queries and by shaders: which are used and why, what they need, and that both draw the same picture.
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "app/stats.hpp"
+#include "picture_support.hpp"
+#include "scarce_memory.hpp"
+#include "scene_text.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{160, 90};
+constexpr PictureSize small{48, 27};
+
+const std::string room = R"(
+[environment]
+background = [0.25, 0.3, 0.4]
+ambient = [0.05, 0.05, 0.06]
+[camera]
+position = [0.3, 1.7, 3.6]
+target = [0, 0.6, 0]
+[[object]]
+model = "MODELS/block.obj"
+position = [0, -0.1, 0]
+scale = [7, 0.1, 7]
+[[object]]
+name = "pot"
+model = "MODELS/teapot.obj"
+position = [0.6, 0, 0.4]
+scale = [0.6, 0.6, -0.6]
+spin = [0, 40, 0]
+)";
+const std::string shadowLight = "[[light]]\nposition = [1.2, 2.6, 1.9]\nintensity = 14\ncasts_shadow = true\n";
+const std::string wall = "[[mirror]]\nposition = [0, 1, -1.6]\nsize = [4, 2]\ncasts_light = true\n";
+const std::string side =
+    "[[mirror]]\nposition = [-1.9, 1, 0]\nrotation = [0, 78, 0]\nsize = [2.4, 1.8]\ncasts_light = true\n";
+const std::string pool =
+    "[[mirror]]\nposition = [0, 0.05, 1.2]\nrotation = [-90, 0, 0]\nsize = [3, 2]\n"
+    "ripple = { amplitude = 0.006, wavelength = 0.35, speed = 0.2 }\n";
+const std::string ball =
+    "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [-0.4, 0.6, 0.9]\nscale = 0.4\n"
+    "mirror = { reflectance = [0.9, 0.8, 0.6] }\n";
+
+Options with(const std::filesystem::path& file, const std::string& rays, PictureSize drawn = size) {
+  Options options = headless(file, drawn);
+  set(options, {{"effects.rays", rays}});
+  return options;
+}
+
+constexpr const char* withoutRayQueries = "the device has no ray queries (scripts/newer-mesa has a driver with them)";
+
+bool hasRayQueries() {
+  static const bool has = Device({}).caps().rayQueries;
+  return has;
+}
+
+int64_t structuresAlive() {
+  const std::map<std::string, int64_t> alive = liveObjects();
+  const auto found = alive.find("VkAccelerationStructureKHR");
+  return found == alive.end() ? 0 : found->second;
+}
+
+// Collects what is logged.
+class Log {
+ public:
+  Log() {
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_st>(text_)));
+  }
+  ~Log() { spdlog::set_default_logger(before_); }
+  int count(const std::string& part) const {
+    const std::string text = text_.str();
+    int found = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+      ++found;
+    }
+    return found;
+  }
+
+ private:
+  std::ostringstream text_;
+  std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
+};
+
+class RayMethods : public testing::TestWithParam<const char*> {};
+
+TEST_P(RayMethods, FollowSettingAndDevice) {
+  const std::string rays = GetParam();
+  const std::filesystem::path file = writeScene("methods", room + shadowLight);
+  const Log log;
+  QuietSession session(with(file, rays, small));
+  runFrames(session, 3);
+  const bool cpu = session.device().info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  const bool hardware = hasRayQueries() && (rays == "hardware" || (rays == "auto" && !cpu));
+  const nlohmann::ordered_json stats = frameStats(session)["rays"];
+  EXPECT_EQ(stats["method"], hardware ? "hardware" : "software") << stats;
+  EXPECT_EQ(stats["structures"] > 0, hardware) << stats;
+  EXPECT_EQ(stats["bytes"] > 0, hardware) << stats;
+  EXPECT_EQ(stats["structures"], structuresAlive());
+  EXPECT_NE(stats["why"], "");
+  EXPECT_EQ(log.count("effects.rays = hardware: shaders trace the rays"), rays == "hardware" && !hardware ? 1 : 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Values, RayMethods, testing::Values("auto", "hardware", "software"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(RayStructures, ExistOnlyWhileCalledFor) {
+  const std::filesystem::path file = writeScene("called", room + shadowLight);
+  QuietSession session(with(file, "hardware", small));
+  set(session, {{"effects.shadows", "false"}});
+  runFrames(session);
+  EXPECT_EQ(structuresAlive(), 0);
+  EXPECT_EQ(frameStats(session)["rays"]["method"], nullptr);
+  set(session, {{"effects.shadows", "true"}});
+  runFrames(session, 3);
+  // Two meshes, the box of mirrors, and one for each frame in flight.
+  EXPECT_EQ(structuresAlive(), hasRayQueries() ? 5 : 0);
+  set(session, {{"effects.shadows", "false"}});
+  runFrames(session, idleFramesKept + 3);
+  EXPECT_EQ(structuresAlive(), 0);
+  set(session, {{"effects.shadows", "true"}, {"effects.rays", "software"}});
+  runFrames(session, 3);
+  EXPECT_EQ(structuresAlive(), 0);
+}
+
+// What single precision cannot invert is traced by shaders.
+TEST(RayStructures, ScaleBeyondSinglePrecisionNeedsShaders) {
+  EXPECT_TRUE(RayStructures::canHold(evaluate(loadScene(writeScene("ordinary", room)), 0.0)));
+  EXPECT_FALSE(RayStructures::canHold(evaluate(
+      loadScene(writeScene("tiny", room + "[[object]]\nmodel = \"MODELS/sphere.obj\"\nscale = 1e-12\n")), 0.0)));
+}
+
+// Refuses all device memory while it lives.
+struct NoMemory {
+  NoMemory() { refuseMemory(1, UINT64_MAX); }
+  ~NoMemory() { giveMemory(); }
+};
+
+// Without memory for structures shaders trace the rays, as if that was asked for.
+TEST(RayStructures, MissingMemoryLeavesShaders) {
+  if (!hasRayQueries()) {
+    GTEST_SKIP() << withoutRayQueries;
+  }
+  const Log log;
+  QuietSession session(with(writeScene("scarce", room + shadowLight), "software", small));
+  for (uint32_t i = 0; i < framesInFlight; ++i) {
+    session.draw(0.0, true);
+    session.finish();
+  }
+  const Image8 software = session.picture();
+  set(session, {{"effects.rays", "hardware"}});
+  const int before = refusedAllocations();
+  {
+    const NoMemory none;
+    session.draw(0.0, true);
+    session.finish();
+  }
+  EXPECT_GT(refusedAllocations(), before);
+  EXPECT_EQ(frameStats(session)["rays"]["method"], "software");
+  EXPECT_EQ(session.picture().rgba, software.rgba);
+  EXPECT_EQ(log.count("there is no memory for acceleration structures"), 1);
+  EXPECT_EQ(structuresAlive(), 0);
+}
+
+struct Case {
+  const char* name;
+  std::string scene;
+  double time = 1.7;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
+
+class BothMethods : public testing::TestWithParam<Case> {};
+
+// Objects that stand on each other, in the light of a lamp at the height of their common plane.
+std::string standing() {
+  return room + "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = [-1, 0.3, 0.6]\nscale = [0.5, 0.3, 0.5]\n" +
+         "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [-1, 0.9, 0.6]\nscale = 0.3\n" +
+         "[[light]]\nposition = [2.5, 0.02, 1]\nintensity = 9\ncasts_shadow = true\n" + shadowLight;
+}
+
+// Writes a wavy disc of 720 triangles 1 m long and 9 mm wide.
+void writeSlivers() {
+  std::ostringstream obj;
+  obj << "v 0 0 0\n";
+  constexpr int corners = 720;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * 3.14159265358979 * i / corners;
+    obj << "v " << text(std::cos(angle)) << " " << text(0.05 * std::cos(5 * angle)) << " " << text(std::sin(angle))
+        << "\n";
+  }
+  for (int i = 0; i < corners; ++i) {
+    obj << "f 1 " << (i + 1) % corners + 2 << " " << i + 2 << "\n";
+  }
+  writeModel("slivers.obj", obj.str());
+}
+const std::string slivers =
+    "[[object]]\nmodel = \"slivers.obj\"\nposition = [-0.6, 0.7, 0.6]\nrotation = [20, 0, 10]\nscale = 0.8\n";
+
+// The room at 1e7 m from the origin.
+std::string far() {
+  const auto at = [](double x, double y, double z) { return text(glm::dvec3(1e7 + x, -3e6 + y, 2e6 + z)); };
+  return "[environment]\nambient = [0.1, 0.1, 0.1]\nbackground = [0.2, 0.3, 0.4]\n[camera]\nposition = " +
+         at(0.5, 1.5, 3.5) + "\ntarget = " + at(0, 0.5, 0) +
+         "\n[[object]]\nmodel = \"MODELS/block.obj\"\nposition = " + at(0, -0.1, 0) +
+         "\nscale = [7, 0.1, 7]\n[[object]]\nmodel = \"MODELS/teapot.obj\"\nposition = " + at(0.3, 0.1, 0.3) +
+         "\n[[light]]\nposition = " + at(1.5, 2.5, 2) +
+         "\nintensity = 12\ncasts_shadow = true\n[[mirror]]\nposition = " + at(0, 1, -1.5) +
+         "\nsize = [4, 2]\ncasts_light = true\n[[mirror]]\nposition = " + at(-1, 0.03, 1) +
+         "\nrotation = [-90, 0, 0]\nsize = [1.5, 1.5]\nripple = { amplitude = 0.006, wavelength = 0.35 }\n";
+}
+
+TEST_P(BothMethods, DrawTheSamePicture) {
+  if (!hasRayQueries()) {
+    GTEST_SKIP() << withoutRayQueries;
+  }
+  const std::filesystem::path file = writeScene(GetParam().name, GetParam().scene);
+  writeSlivers();
+  const Image8 software = draw(with(file, "software"), GetParam().time);
+  QuietSession session(with(file, "hardware"));
+  session.draw(GetParam().time, true);
+  ASSERT_EQ(frameStats(session)["rays"]["method"], "hardware");
+  expectAlike(session.picture(), software, 2, std::string("rays_") + GetParam().name);
+}
+
+// Each frame in flight updates its own structure, builds it again after 60 updates, and keeps it while nothing moves.
+TEST(BothMethods, AgreeWhileThingsMove) {
+  if (!hasRayQueries()) {
+    GTEST_SKIP() << withoutRayQueries;
+  }
+  const std::filesystem::path file = writeScene("moving", room + shadowLight + wall);
+  QuietSession hardware(with(file, "hardware"));
+  QuietSession software(with(file, "software"));
+  constexpr int frames = 140;
+  for (int i = 0; i <= frames; ++i) {
+    const double time = i < 70 ? 0.05 * i : 3.5 + 0.02 * (i / 4);
+    const bool compared = i % 35 == 0;
+    hardware.draw(time, compared);
+    hardware.finish();
+    if (compared) {
+      software.draw(time, true);
+      software.finish();
+      expectAlike(hardware.picture(), software.picture(), 2, "rays_moving_" + std::to_string(i));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, BothMethods,
+    testing::Values(
+        Case{"shadows", room + shadowLight}, Case{"mirrors_in_mirrors", room + shadowLight + wall + side + pool},
+        Case{"curved", room + shadowLight + wall + ball + pool},
+        Case{"rough", room + shadowLight + wall + side + "roughness = 0.3\n"}, Case{"surfaces_that_touch", standing()},
+        Case{"slivers", room + shadowLight + wall + slivers}, Case{"far", far()},
+        Case{"grazing", room + "[[light]]\nposition = [60, 0.35, -20]\nintensity = 9000\ncasts_shadow = true\n" + wall},
+        Case{"eye_at_a_surface", "[camera]\nposition = [0, 0.001, 0]\ntarget = [1, 0.0008, -1]\n" +
+                                     room.substr(room.find("[[object]]")) + shadowLight + wall}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace speculum
