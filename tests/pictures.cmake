@@ -1,5 +1,6 @@
 add_test(NAME golden COMMAND speculum regress ${CMAKE_CURRENT_SOURCE_DIR}/golden/cases.toml --validation --jobs 1
-                              --out ${PROJECT_BINARY_DIR}/tests/golden)
+                              --out ${PROJECT_BINARY_DIR}/tests/golden
+                              --junit ${PROJECT_BINARY_DIR}/tests/results/golden.xml)
 set_tests_properties(golden PROPERTIES COST 1001 LABELS pictures ENVIRONMENT "${SPECULUM_TEST_ENVIRONMENT}")
 speculum_test(render_path_tests SOURCES render_paths.cpp LIBRARIES picture_support LABELS pictures)
 speculum_test(finite_watch_tests SOURCES finite_watch.cpp LIBRARIES picture_support ext::spdlog LABELS pictures)

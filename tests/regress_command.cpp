@@ -40,7 +40,7 @@ class RegressCommand : public testing::Test {
  protected:
   ProcessResult regress(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"regress", (folder_ / "cases.toml").string(), "--out",
-                                         (folder_ / "out").string(), "--jobs", "1"});
+                                         (folder_ / "out").string(), "--jobs", "1", "--validation"});
     return speculum(std::move(arguments));
   }
   void writeCases(const std::string& text) {

@@ -189,11 +189,12 @@ std::string junitXml(const RegressRun& run) {
       cases += "/>\n";
     }
   }
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"speculum regress\" tests=\"" +
-         std::to_string(run.cases.size()) + "\" failures=\"" + std::to_string(run.count(Verdict::failed)) +
-         "\" errors=\"" + std::to_string(run.count(Verdict::error)) + "\" skipped=\"" +
-         std::to_string(run.count(Verdict::skipped)) + "\" time=\"" + std::to_string(seconds) + "\">\n" + cases +
-         "</testsuite>\n</testsuites>\n";
+  const auto count = [&](Verdict verdict) { return "\"" + std::to_string(run.count(verdict)) + "\""; };
+  const std::string tests = "tests=\"" + std::to_string(run.cases.size()) + "\" failures=" + count(Verdict::failed);
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + tests + " disabled=" + count(Verdict::skipped) +
+         " errors=" + count(Verdict::error) + ">\n<testsuite name=\"speculum regress\" " + tests +
+         " errors=" + count(Verdict::error) + " skipped=" + count(Verdict::skipped) + " time=\"" +
+         std::to_string(seconds) + "\">\n" + cases + "</testsuite>\n</testsuites>\n";
 }
 
 std::string githubErrors(const RegressRun& run) {
