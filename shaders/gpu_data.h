@@ -113,6 +113,12 @@ struct MirrorData {
   float alpha;      // of GGX, where the image is blurred
   int blurSamples;  // lookups of a blurred image
   vec4 texelFromPixel[3];  // reprojection: rows of the matrix from (pixel of the pass, 1, disparity) to a homogeneous texel
+  vec3 axisX;         // of its ripples
+  float waveNumber;   // 1/m
+  vec3 axisY;
+  float rippleSlope;  // of waves that rise towards `normal`
+  vec3 rippleOrigin;  // relative
+  float ripplePhase;  // radians
 };
 
 // A curved mirror in one view, with the environment map that it looks up.
@@ -294,7 +300,7 @@ static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(Instance
               sizeof(InstanceData) == 192);
 static_assert(offsetof(DrawConstants, handedness) == 28 && sizeof(DrawConstants) == 48);
 static_assert(offsetof(MirrorData, lookupScale) == 48 && offsetof(MirrorData, texelFromPixel) == 80 &&
-              sizeof(MirrorData) == 128);
+              offsetof(MirrorData, rippleOrigin) == 160 && sizeof(MirrorData) == 176);
 static_assert(offsetof(EnvironmentData, high) == 32 && sizeof(EnvironmentData) == 80);
 static_assert(offsetof(TraceNode, high) == 16 && sizeof(TraceNode) == 32);
 static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48);

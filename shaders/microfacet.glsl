@@ -1,4 +1,4 @@
-// Random directions of rough mirrors, the same on every run. Needs shading.glsl.
+// Normals of rippled mirrors, and random directions of rough ones, the same on every run. Needs shading.glsl.
 
 uint mixedBits(uint x) {
   x ^= x >> 16;
@@ -39,4 +39,13 @@ vec3 microfacet(vec3 n, float alpha, vec2 u) {
 // Says whether m faces the viewer along `direction` and mirrors it to the plane's own side.
 bool staysAbove(vec3 direction, vec3 m, vec3 planeNormal) {
   return dot(m, direction) < 0.0 && dot(direction - 2.0 * dot(direction, m) * m, planeNormal) > 0.0;
+}
+
+// Returns the normal of a mirror whose ripples rise along `normal`. `local` is relative to the mirror's origin.
+vec3 rippledNormal(vec3 normal, vec3 axisX, vec3 axisY, vec3 local, float waveNumber, float slope, float phase) {
+  float x = dot(local, axisX);
+  float y = dot(local, axisY);
+  vec3 first = slope * cos(waveNumber * x + phase) * axisX;
+  vec3 second = slope * cos(waveNumber * (0.6 * x + 0.8 * y) - phase) * (0.6 * axisX + 0.8 * axisY);
+  return safeNormalize(normal - first - second);
 }

@@ -18,6 +18,7 @@ layout(constant_id = 7) const bool blurs = false;      // the mirror is rough, i
 layout(constant_id = 8) const uint shows = showsImage;
 layout(constant_id = 9) const uint lookup = lookupFetch;
 layout(constant_id = 10) const bool painted = true;    // its back, or its layer under the reflection, is not black
+layout(constant_id = 12) const bool ripples = false;   // the mirror is rippled, its image is that of a smooth one
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 
@@ -175,51 +176,71 @@ vec2 pixelOf(vec3 point) {
   return vec2(dot(onPlane, x) / dot(x, x), dot(onPlane, y) / dot(y, y));
 }
 
-// Returns the mean over the microfacets of a rough mirror, looked up in the image of the smooth mirror. The distance in
-// each direction is first guessed from what the smooth mirror shows here, then taken from the image. Beyond the image
-// the background is seen.
-vec4 blurred(vec3 ray, vec3 position) {
-  vec3 normal = mirror.normal;
+// Where the image of the smooth mirror is looked up from: a point of the mirror, and what is seen there.
+struct Origin {
+  vec3 position;
+  float guess;     // distance of what the smooth mirror shows here
+  float farthest;  // distance beyond which nothing changes
+};
+
+// Returns what the image shows along the direction. The distance is first guessed, then taken from the image. Beyond the
+// image the background is seen.
+vec3 imageAlong(vec3 direction, Origin origin) {
+  vec3 behind = direction - 2.0 * dot(direction, mirror.normal) * mirror.normal;
+  float far = origin.guess;
+  vec3 found = vec3(0.0);
+  for (int i = 0; i < 3; ++i) {
+    vec2 pixel = pixelOf(origin.position + far * behind);
+    vec2 texel = pixel * mirror.lookupScale + mirror.lookupOffset;
+    if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize)))) {
+      return backgroundRadiance(direction);
+    }
+    vec4 value = texelMean(reflection, ivec2(texel));
+    found = value.rgb;
+    far = clamp(dot(rayThrough(pixel) / max(value.a, 1e-30) - origin.position, behind), 0.0, origin.farthest);
+  }
+  return found;
+}
+
+// Returns what a rippled or rough mirror reflects, looked up in the image of the smooth mirror: along the ray that its
+// ripples reflect, or the mean over microfacets.
+vec4 lookedUpBeside(vec3 ray, vec3 position, vec3 normal) {
   vec3 incoming = safeNormalize(ray);
   vec4 sharp = reflected();
   float farthest = 1e4 * (length(position) + 1.0);
   float guess = clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, farthest);
+  Origin origin = Origin(position, guess, farthest);
+  if (!blurs) {
+    return vec4(imageAlong(mirrored(incoming, normal, mirror.normal), origin), sharp.a);
+  }
   uint seed = pixelSeed();
   vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));
   vec3 sum = vec3(0.0);
   int taken = 0;
   for (int drawn = 1; drawn <= mirror.blurSamples; ++drawn) {
     vec3 m = microfacet(normal, mirror.alpha, latticePoint(shift, drawn));
-    if (!staysAbove(incoming, m, normal)) {
-      continue;
+    if (staysAbove(incoming, m, mirror.normal)) {
+      sum += imageAlong(incoming - 2.0 * dot(incoming, m) * m, origin);
+      ++taken;
     }
-    vec3 direction = incoming - 2.0 * dot(incoming, m) * m;
-    vec3 behind = direction - 2.0 * dot(direction, normal) * normal;
-    float far = guess;
-    vec3 found = vec3(0.0);
-    for (int i = 0; i < 3; ++i) {
-      vec2 pixel = pixelOf(position + far * behind);
-      vec2 texel = pixel * mirror.lookupScale + mirror.lookupOffset;
-      if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize)))) {
-        found = backgroundRadiance(direction);
-        break;
-      }
-      vec4 value = texelMean(reflection, ivec2(texel));
-      found = value.rgb;
-      far = clamp(dot(rayThrough(pixel) / max(value.a, 1e-30) - position, behind), 0.0, farthest);
-    }
-    sum += found;
-    ++taken;
   }
   return taken > 0 ? vec4(sum / float(taken), sharp.a) : sharp;
 }
+
+vec3 mirrorNormal(vec3 position) {
+  if (!ripples) {
+    return mirror.normal;
+  }
+  return rippledNormal(mirror.normal, mirror.axisX, mirror.axisY, position - mirror.rippleOrigin, mirror.waveNumber,
+                       mirror.rippleSlope, mirror.ripplePhase);
+}
 #endif
 
-vec3 baseRadiance(vec3 position) {
+vec3 baseRadiance(vec3 position, vec3 normal) {
   if (!painted) {
     return vec3(0.0);
   }
-  Surface base = mirrorLayer(position, mirror.normal, mirror.baseColor);
+  Surface base = mirrorLayer(position, normal, mirror.baseColor);
 #ifdef TRACED
   return tracedSurfaceRadiance(base, safeNormalize(-position), Skip(none, none, mirror.traceMirror, none, 0.0));
 #else
@@ -235,13 +256,16 @@ vec3 baseRadiance(vec3 position) {
 // the mirror's image and in its parent's, because views share one projection and reflection keeps lengths.
 void main() {
   PlaneHit hit = planeHit();
+#ifdef MIRROR_OWN_SAMPLE
   float cosine = -hit.inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));
   vec3 f = reflectanceAt(mirror.reflectance, mirror.schlick, cosine);
-#ifdef MIRROR_OWN_SAMPLE
   vec4 image = reprojects ? reprojected(hit.disparity) : reflected();
   color = storable(f * min(image.rgb, shareMax), image.a);
 #else
-  vec3 base = baseRadiance(hit.position);
+  vec3 normal = mirrorNormal(hit.position);
+  float inward = ripples ? dot(normal, hit.ray) : hit.inward;
+  vec3 f = reflectanceAt(mirror.reflectance, mirror.schlick, -inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30)));
+  vec3 base = baseRadiance(hit.position, normal);
   if (shows == showsBack) {
     color = storable(base, hit.disparity);
     return;
@@ -252,8 +276,8 @@ void main() {
   }
   vec4 image = vec4(0.0);
   if (shows == showsImage) {
-    if (blurs) {
-      image = blurred(hit.ray, hit.position);
+    if (blurs || ripples) {
+      image = lookedUpBeside(hit.ray, hit.position, normal);
     } else {
       image = reprojects ? reprojected(hit.disparity) : reflected();
     }

@@ -16,17 +16,9 @@ vec3 rippled(uint mirror, vec3 tracePosition) {
   if (traceMirrors[mirror].hasRipple == 0) {
     return normal;
   }
-  vec3 axisX = traceMirrors[mirror].axisX;
-  vec3 axisY = traceMirrors[mirror].axisY;
-  vec3 local = tracePosition - traceMirrors[mirror].origin;
-  float x = dot(local, axisX);
-  float y = dot(local, axisY);
-  float k = traceMirrors[mirror].waveNumber;
-  float slope = traceMirrors[mirror].rippleSlope;
-  float phase = traceMirrors[mirror].ripplePhase;
-  vec3 first = slope * cos(k * x + phase) * axisX;
-  vec3 second = slope * cos(k * (0.6 * x + 0.8 * y) - phase) * (0.6 * axisX + 0.8 * axisY);
-  return safeNormalize(normal - first - second);
+  return rippledNormal(normal, traceMirrors[mirror].axisX, traceMirrors[mirror].axisY,
+                       tracePosition - traceMirrors[mirror].origin, traceMirrors[mirror].waveNumber,
+                       traceMirrors[mirror].rippleSlope, traceMirrors[mirror].ripplePhase);
 }
 
 // A mirror seen along `direction`, from its front or its back.

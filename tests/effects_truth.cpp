@@ -352,6 +352,28 @@ TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   EXPECT_LT(traced, image);
 }
 
+// Ripples that displace the smooth mirror's image are far nearer to the truth than a smooth mirror.
+TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
+  const std::filesystem::path file = corner("effects_ripple", plainLight + pool + ripple);
+  const Scene scene = loadScene(file);
+  const RayTracer tracer(scene, evaluate(scene, 0.0));
+  const TraceResult truth = *tracer.render({.width = small.width, .height = small.height, .samples = 16, .maxDepth = 3});
+  const auto error = [&](const std::vector<std::pair<std::string, std::string>>& settings) {
+    Options options = truthOptions(file, small, 3);
+    set(options, settings);
+    QuietSession session(options);
+    runFrames(session);
+    EXPECT_EQ(session.lastFrame().plan.effects.ripple.has_value(), settings[0].first != "effects.ripple");
+    return rootMeanSquare(session.radiance(), truth.image, {truth.mirrorMask.begin(), truth.mirrorMask.end()});
+  };
+  const double smooth = error({{"effects.ripple", "false"}});
+  const double image = error({{"effects.ripple_lookup", "image"}});
+  const double traced = error({{"effects.ripple_lookup", "traced"}});
+  std::printf("RMSE smooth %.5f, image %.5f, traced %.5f\n", smooth, image, traced);
+  EXPECT_LT(image, 0.6 * smooth);
+  EXPECT_LT(traced, image);
+}
+
 // With an effect switched off, the scene is drawn as if it did not have it.
 TEST(Effects, CanBeSwitchedOff) {
   const std::string all = shadowLight + plainLight + wall + "casts_light = true\nroughness = 0.2\n" + pool + ripple;

@@ -27,7 +27,7 @@ TEST(SettingHelp, ResetChangesOneSettingOnly) {
   changed.reflection.maxDepth = 2;
   changed.view.exposure = 0.3;
   changed.view.clearColor = glm::dvec3(0.5);
-  changed.effects.roughLookup = RoughLookup::image;
+  changed.effects.roughLookup = ReflectionSource::image;
   for (const char* key : {"reflection.max_depth", "view.exposure", "view.clear_color", "effects.rough_lookup"}) {
     Settings one = changed;
     ASSERT_FALSE(sameSetting(*findSettingField(key), one, scene)) << key;

@@ -148,6 +148,9 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
         planner.add({{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", size}});
       }
     }
+    if (effect == "effects.ripple") {
+      planner.add({{"effects.ripple_lookup", "image"}});
+    }
     if (effect == "effects.curved") {
       for (const char* size : {"64", "256"}) {
         planner.add({{"effects.curved_lookup", "environment"}, {"effects.environment_size", size}});

@@ -251,6 +251,7 @@ void Planner::propose(int node, Sight sight) {
   const bool reflects = !deep && largest(throughput) >= settings_.minThroughput;
   sight.draw.scatters = scatters(material, allSettings_.effects, reflects);
   sight.draw.blurs = reflects && !sight.draw.scatters && isRough(material, allSettings_.effects);
+  sight.draw.ripples = reflects && !sight.draw.scatters && isRippled(material, allSettings_.effects);
   const bool needsPass = !sight.draw.scatters;
   pass.mirrors.push_back(std::move(sight.draw));
   if (deep) {
@@ -291,16 +292,17 @@ void Planner::expand(const Candidate& candidate) {
   }
   Node node;
   node.pass.view = reflectedView(parent, draw.mirror, draw.plane, candidate.visible, rect, picture);
-  if (draw.blurs) {
-    boundByRectangle(node.pass.view, plan_.projection);  // blurring reads beside the visible region
+  const bool readsBeside = draw.blurs || draw.ripples;
+  if (readsBeside) {
+    boundByRectangle(node.pass.view, plan_.projection);
   }
   node.pass.depth = static_cast<int>(parent.path.size());
   node.pass.areaPx = candidate.areaPx * (picture.x / plan_.width) * (picture.y / plan_.height);
   node.pass.throughput = largest(candidate.throughput);
   node.pass.channels = candidate.throughput;
   node.draw = candidate.draw;
-  // Rough mirrors look up beside their own pixels, where nothing can be reprojected.
-  const int interval = draw.blurs ? 1 : settings_.updateInterval;
+  // Beside its own pixels nothing can be reprojected.
+  const int interval = readsBeside ? 1 : settings_.updateInterval;
   if (node.pass.depth == 0 && (interval > 1 || settings_.skipUnchanged)) {
     const ReuseRequest request{node.pass.view, plan_.projection, candidate.visible,
                                allSettings_,   interval,         candidate.order};

@@ -31,6 +31,7 @@ struct MirrorDraw {
   bool back = false;                   // its painted back is seen
   bool scatters = false;               // rippled or rough: rays are traced, since an image of its plane lacks that
   bool blurs = false;                  // rough: the image of its plane is blurred
+  bool ripples = false;                // rippled: the image of its plane is looked up where ripples reflect to
   int pass = -1;                       // index into FramePlan::passes of the pass that renders its image; -1: none
   std::optional<CachedLookup> cached;  // set if it reuses a cached image; with neither it shows the background
   std::vector<glm::dvec3> polygon;     // world, cut to what the view shows, counter-clockwise for the view's eye

@@ -48,9 +48,14 @@ bool isRough(const Mirror& mirror, const EffectSettings& effects) {
   return effects.roughness && mirror.roughness > 0.0;
 }
 
+bool isRippled(const Mirror& mirror, const EffectSettings& effects) {
+  return effects.ripple && mirror.ripple;
+}
+
 bool scatters(const Mirror& mirror, const EffectSettings& effects, bool reflects) {
-  const bool roughRays = isRough(mirror, effects) && effects.roughLookup == RoughLookup::traced;
-  return (reflects && roughRays) || (effects.ripple && mirror.ripple);
+  const bool roughRays = isRough(mirror, effects) && effects.roughLookup == ReflectionSource::traced;
+  const bool rippleRays = isRippled(mirror, effects) && effects.rippleLookup == ReflectionSource::traced;
+  return (reflects && roughRays) || rippleRays;
 }
 
 }  // namespace speculum

@@ -32,6 +32,7 @@ glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects,
                             const glm::dvec3& eye, std::span<const glm::dvec3> visible);
 
 bool isRough(const Mirror& mirror, const EffectSettings& effects);
+bool isRippled(const Mirror& mirror, const EffectSettings& effects);
 
 // Says whether rays show what an image of the mirror's plane cannot. At a limit of depth or throughput, where nothing
 // is reflected, only ripples count.

@@ -59,7 +59,7 @@ constexpr ChoiceSetting choice(std::span<const std::string_view> names) {
 constexpr std::array<std::string_view, 3> clipMethods{"clip_distance", "oblique", "none"};
 constexpr std::array<std::string_view, 2> toneMaps{"clamp", "aces"};
 constexpr std::array<std::string_view, 2> textureFilters{"bilinear", "trilinear"};
-constexpr std::array<std::string_view, 2> roughLookups{"traced", "image"};
+constexpr std::array<std::string_view, 2> reflectionSources{"traced", "image"};
 constexpr std::array<std::string_view, 3> rayMethods{"auto", "hardware", "software"};
 constexpr std::array<std::string_view, 2> curvedLookups{"traced", "environment"};
 constexpr std::array<std::string_view, 2> shadowLookups{"traced", "map"};
@@ -223,7 +223,7 @@ constexpr SettingField fields[] = {
      .cost = "Time grows with it, noise falls with its square root.",
      .slider = SettingSlider{1, 256, "%d"}},
     {.key = "effects.rough_lookup",
-     .kind = choice<&E::roughLookup>(roughLookups),
+     .kind = choice<&E::roughLookup>(reflectionSources),
      .label = "Rough look-up",
      .text = "rough mirrors trace rays, or look up their image as if smooth",
      .cost = "image takes a fraction of the time."},
@@ -242,6 +242,11 @@ constexpr SettingField fields[] = {
      .label = "Ripples",
      .text = "ripples of mirrors",
      .cost = "Traces rays where water is seen."},
+    {.key = "effects.ripple_lookup",
+     .kind = choice<&E::rippleLookup>(reflectionSources),
+     .label = "Ripple look-up",
+     .text = "rippled mirrors trace rays, or look up their image as if smooth",
+     .cost = "image takes a fraction of the time."},
     {.key = "effects.casts_light",
      .kind = BooleanSetting{at<&E::castsLight>},
      .label = "Bounced light",

@@ -45,8 +45,8 @@ struct ViewSettings {
   bool operator==(const ViewSettings&) const = default;
 };
 
-// Source of a rough mirror's reflection: traced rays, or the image of the mirror as if it were smooth.
-enum class RoughLookup { traced, image };
+// Source of the reflection of a rough or rippled mirror: traced rays, or the image of the mirror as if it were smooth.
+enum class ReflectionSource { traced, image };
 
 // Source of a curved mirror's reflection: traced rays, or an environment map.
 enum class CurvedLookup { traced, environment };
@@ -70,7 +70,8 @@ struct EffectSettings {
   ShadowLookup shadowLookup = ShadowLookup::traced;
   int shadowMapSize = 1024;  // texels of each side of a shadow map's faces
   int roughSamples = 16;     // rays a pixel of rough mirrors
-  RoughLookup roughLookup = RoughLookup::traced;
+  ReflectionSource roughLookup = ReflectionSource::traced;
+  ReflectionSource rippleLookup = ReflectionSource::traced;
   RayMethod rays = RayMethod::automatic;
   bool perSample = false;  // rays at each sample of a pixel, not once a pixel
   CurvedLookup curvedLookup = CurvedLookup::traced;

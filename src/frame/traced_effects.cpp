@@ -68,13 +68,15 @@ class Collector {
     if (rough && !effects_.roughness) {
       effects_.roughness = name;
     }
-    if (draw.scatters && settings_.ripple && mirror.ripple && !effects_.ripple) {
+    const bool rippled = settings_.ripple && mirror.ripple && (draw.scatters || draw.ripples);
+    effects_.rippleRays = effects_.rippleRays || (rippled && draw.scatters);
+    if (rippled && !effects_.ripple) {
       effects_.ripple = name;
     }
   }
 
   // Reflected rays may meet anything in the scene.
-  bool reflectsRays() const { return effects_.roughRays || effects_.curvedRays || effects_.ripple; }
+  bool reflectsRays() const { return effects_.roughRays || effects_.curvedRays || effects_.rippleRays; }
   bool anythingLit() const { return lit_.mirrors || lit_.anyInstance || reflectsRays(); }
 
   void addShadows() {

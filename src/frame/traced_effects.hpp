@@ -26,13 +26,14 @@ struct TracedEffects {
   std::optional<std::string> roughness;
   bool roughRays = false;  // roughness is traced, not looked up in images
   std::optional<std::string> ripple;
+  bool rippleRays = false;  // ripples are traced, not looked up in images
   std::optional<std::string> castsLight;
   std::optional<std::string> curved;
   bool curvedRays = false;  // curved mirrors are traced, not looked up in environment maps
   std::vector<MirroredLight> mirroredLights;
 
   // Says whether any ray is traced through the scene's triangles.
-  bool traces() const { return roughRays || curvedRays || shadowRays || ripple; }
+  bool traces() const { return roughRays || curvedRays || shadowRays || rippleRays; }
   bool any() const { return traces() || castsLight; }
 };
 

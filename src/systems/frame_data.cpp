@@ -95,8 +95,8 @@ const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
   return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.cached ? &plan.cached[draw.cached->image].view : nullptr;
 }
 
-gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const EffectSettings& effects,
-                           const View& view, const View* image) {
+gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const SceneState& state,
+                           const EffectSettings& effects, const View& view, const View* image) {
   gpu::MirrorData data{.normal = glm::vec3(draw.plane.normal),
                        .eyeDistance = static_cast<float>(draw.plane.distance(view.eye)),
                        .reflectance = glm::vec3(mirror.reflectance),
@@ -118,6 +118,17 @@ gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const E
   if (draw.blurs) {
     data.alpha = static_cast<float>(mirror.roughness * mirror.roughness);
     data.blurSamples = effects.roughSamples;
+  }
+  if (draw.ripples) {
+    const MirrorState& placed = state.mirrors[static_cast<size_t>(draw.mirror)];
+    const RippleConstants ripple = rippleConstants(*mirror.ripple, state.time);
+    const bool front = glm::dot(placed.normal, draw.plane.normal) > 0.0;
+    data.axisX = glm::vec3(placed.axisX);
+    data.axisY = glm::vec3(placed.axisY);
+    data.rippleOrigin = glm::vec3(placed.origin - view.eye);
+    data.waveNumber = ripple.waveNumber;
+    data.rippleSlope = front ? ripple.slope : -ripple.slope;
+    data.ripplePhase = ripple.phase;
   }
   return data;
 }
@@ -246,7 +257,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   addLights(source, pass, passBlocks_.back(), data);
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(source, pass, projection, data);
-  addMirrors(pass, projection, plan, scene, settings.effects, data);
+  addMirrors(source, pass, projection, data);
   addMask(pass, plan, settings, data);
 }
 
@@ -388,8 +399,10 @@ void addTriangles(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> 
 
 }  // namespace
 
-void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan,
-                           const Scene& scene, const EffectSettings& effects, PassData& data) {
+void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection,
+                           PassData& data) {
+  const auto& [scene, state, settings, environment, plan] = source;
+  const EffectSettings& effects = settings.effects;
   for (const MirrorDraw& draw : pass.mirrors) {
     const Mirror& mirror = scene.mirrors[draw.mirror];
     MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
@@ -398,8 +411,9 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
                       .cached = draw.cached ? draw.cached->image : -1,
                       .reprojected = draw.cached && draw.cached->moved,
                       .blurs = draw.blurs,
+                      .ripples = draw.ripples,
                       .scatters = draw.scatters,
-                      .rippled = draw.scatters && effects.ripple && mirror.ripple,
+                      .rippled = draw.ripples || (draw.scatters && effects.ripple && mirror.ripple),
                       .rough = draw.blurs || (draw.scatters && effects.roughness && mirror.roughness > 0.0),
                       .fresnel = !draw.back && isSchlick(mirror.fresnel, effects),
                       .base = mirror.baseColor != glm::dvec3(0.0)};
@@ -407,7 +421,7 @@ void FrameData::addMirrors(const PlannedPass& pass, const glm::dmat4& projection
     range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
-    mirrors_.push_back({mirrorData(draw, mirror, effects, pass.view, image)});
+    mirrors_.push_back({mirrorData(draw, mirror, state, effects, pass.view, image)});
     std::vector<glm::dvec4> clip;
     for (const glm::dvec3& p : draw.polygon) {
       clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));

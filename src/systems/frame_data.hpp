@@ -48,6 +48,7 @@ struct MirrorRange {
   MirrorShows shows = MirrorShows::background;
   Lookup lookup = Lookup::fetch;  // of its image
   bool blurs = false;             // a rough mirror blurs its image
+  bool ripples = false;           // a rippled mirror displaces its image
   bool scatters = false;          // its reflection is traced
   bool rippled = false;
   bool rough = false;
@@ -116,8 +117,7 @@ class FrameData {
   void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
   // Makes the instance's batch look up its environment map.
   void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);
-  void addMirrors(const PlannedPass& pass, const glm::dmat4& projection, const FramePlan& plan, const Scene& scene,
-                  const EffectSettings& effects, PassData& data);
+  void addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
   void addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
 
   Device& device_;

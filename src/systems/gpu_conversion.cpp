@@ -1,6 +1,7 @@
 #include "systems/gpu_conversion.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "geometry/affine.hpp"
 #include "scene/value_range.hpp"
@@ -36,6 +37,14 @@ glm::dmat3 unitNormalMatrix(const glm::dmat3& linear) {
   const glm::dmat3 normals = normalMatrix(linear);
   const double size = std::max({glm::length(normals[0]), glm::length(normals[1]), glm::length(normals[2])});
   return size > 0.0 ? normals * (1.0 / size) : normals;
+}
+
+RippleConstants rippleConstants(const Ripple& ripple, double time) {
+  const double k = 2.0 * std::numbers::pi / ripple.wavelength;
+  constexpr double steepest = 1e15;  // its square is a float, and steeper slopes look the same
+  // The phase is reduced in double: a float of it would have lost its fraction after hours.
+  return {static_cast<float>(k), static_cast<float>(std::min(ripple.amplitude * k, steepest)),
+          static_cast<float>(k * productModulo(ripple.speed, time, ripple.wavelength))};
 }
 
 void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<gpu::TraceNode>& nodes) {

@@ -23,6 +23,13 @@ gpu::DrawConstants drawConstants(const Material& material, const Object& object,
 // overflow a float.
 glm::dmat3 unitNormalMatrix(const glm::dmat3& linear);
 
+struct RippleConstants {
+  float waveNumber;  // 1/m
+  float slope;
+  float phase;  // radians
+};
+RippleConstants rippleConstants(const Ripple& ripple, double time);
+
 // Appends a hierarchy's nodes. Its primitives stand in `order()` from `firstPrimitive` on. Boxes grow by a millionth of
 // their coordinates, so that what they hold stays inside when it becomes float.
 void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<gpu::TraceNode>& nodes);

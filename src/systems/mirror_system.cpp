@@ -77,7 +77,8 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
   desc.fragConstants.resize(6, 0);
   desc.fragConstants.insert(desc.fragConstants.end(),
                             {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows),
-                             static_cast<uint32_t>(variant.lookup), variant.painted, variant.shadowedLights});
+                             static_cast<uint32_t>(variant.lookup), variant.painted, variant.shadowedLights,
+                             variant.ripples});
   return desc;
 }
 
@@ -85,7 +86,7 @@ void MirrorSystem::countPipelines(EffectLedger& ledger) const {
   pipelines_.forEach([&](const Variant& variant) {
     ledger.pipeline(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
-    ledger.pipeline(EffectKind::ripple, variant.shading == Shading::scatteredBySample);
+    ledger.pipeline(EffectKind::ripple, variant.shading == Shading::scatteredBySample || variant.ripples);
     ledger.pipeline(EffectKind::roughness, variant.shading == Shading::scattered || variant.blurs);
   });
 }
@@ -105,7 +106,7 @@ std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mir
   if (!image || image->samples == VK_SAMPLE_COUNT_1_BIT) {
     return {Shading::single};
   }
-  if (mirror.blurs || image->samples != format.samples || mirror.lookup != Lookup::fetch ||
+  if (mirror.blurs || mirror.ripples || image->samples != format.samples || mirror.lookup != Lookup::fetch ||
       !device_.caps().sampleRateShading) {
     return {Shading::average};
   }
@@ -125,6 +126,7 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
       variant.painted = mirror.painted;
       if (mirror.shows == MirrorShows::image) {
         variant.blurs = mirror.blurs;
+        variant.ripples = mirror.ripples;
         variant.lookup = mirror.lookup;
         variant.reprojected = mirror.reprojected;
       }

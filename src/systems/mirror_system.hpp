@@ -9,7 +9,7 @@ namespace speculum {
 // show the background, backs show their color. An image with the pass's samples and pixels is read sample by sample;
 // the diffuse layer under the reflection, whose loop over the lights costs much more, is then a draw of its own with
 // one invocation per pixel. Rippled and rough mirrors trace what they reflect, rippled ones at each sample, because
-// their reflections have edges. A cached image is read like a new one as long as nothing moved, otherwise it is
+// their reflections have edges; or they look up their image beside their own pixels. A cached image is read like a new one as long as nothing moved, otherwise it is
 // reprojected.
 class MirrorSystem {
  public:
@@ -29,6 +29,7 @@ class MirrorSystem {
     bool clampDepth = true;
     bool reprojected = false;
     bool blurs = false;
+    bool ripples = false;
     MirrorShows shows = MirrorShows::image;
     Lookup lookup = Lookup::fetch;
     bool painted = false;

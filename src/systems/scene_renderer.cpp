@@ -419,7 +419,7 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
   ledger_[EffectKind::toneMap].draws = settings.view.toneMap == ToneMap::aces ? 1 : 0;
   for (const auto& [kind, traces] :
        {std::pair(EffectKind::shadows, effects.shadowRays), std::pair(EffectKind::roughness, effects.roughRays),
-        std::pair(EffectKind::ripple, effects.ripple.has_value()),
+        std::pair(EffectKind::ripple, effects.rippleRays),
         std::pair(EffectKind::castsLight, effects.castsLight.has_value()),
         std::pair(EffectKind::curved, effects.curvedRays)}) {
     ledger_[kind].bytes = traces ? trace_.bytes() : 0;

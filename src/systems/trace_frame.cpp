@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <utility>
 
 #include "geometry/affine.hpp"
@@ -73,16 +72,6 @@ void retireIfAny(std::optional<T>& object, RetireQueue& retired) {
     retired.retire(std::move(*object));
     object.reset();
   }
-}
-
-void setRipple(const Ripple& ripple, double time, gpu::TraceMirror& data) {
-  const double k = 2.0 * std::numbers::pi / ripple.wavelength;
-  constexpr double steepest = 1e15;  // its square is a float, and steeper slopes look the same
-  data.hasRipple = 1;
-  data.waveNumber = static_cast<float>(k);
-  data.rippleSlope = static_cast<float>(std::min(ripple.amplitude * k, steepest));
-  // Reduced in double: a float of the phase would have lost its fraction after hours.
-  data.ripplePhase = static_cast<float>(k * productModulo(ripple.speed, time, ripple.wavelength));
 }
 
 }  // namespace
@@ -311,7 +300,11 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
                         .backColor = glm::vec3(mirror.backColor),
                         .alpha = static_cast<float>(alpha)});
     if (settings.effects.ripple && mirror.ripple) {
-      setRipple(*mirror.ripple, state.time, mirrors_.back());
+      const RippleConstants ripple = rippleConstants(*mirror.ripple, state.time);
+      mirrors_.back().hasRipple = 1;
+      mirrors_.back().waveNumber = ripple.waveNumber;
+      mirrors_.back().rippleSlope = ripple.slope;
+      mirrors_.back().ripplePhase = ripple.phase;
     }
     for (const glm::dvec3& p : placed.polygon) {
       const glm::dvec3 local = p - placed.origin;
