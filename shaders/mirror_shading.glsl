@@ -184,7 +184,7 @@ struct Origin {
 };
 
 // Returns what the image shows along the direction. The distance is first guessed, then taken from the image. Beyond the
-// image the background is seen.
+// image rough mirrors show the background, which their wide lobes reach more often, and rippled ones its edge.
 vec3 imageAlong(vec3 direction, Origin origin) {
   vec3 behind = direction - 2.0 * dot(direction, mirror.normal) * mirror.normal;
   float far = origin.guess;
@@ -192,10 +192,10 @@ vec3 imageAlong(vec3 direction, Origin origin) {
   for (int i = 0; i < 3; ++i) {
     vec2 pixel = pixelOf(origin.position + far * behind);
     vec2 texel = pixel * mirror.lookupScale + mirror.lookupOffset;
-    if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize)))) {
+    if (blurs && (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize))))) {
       return backgroundRadiance(direction);
     }
-    vec4 value = texelMean(reflection, ivec2(texel));
+    vec4 value = texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), mirror.imageSize - 1));
     found = value.rgb;
     far = clamp(dot(rayThrough(pixel) / max(value.a, 1e-30) - origin.position, behind), 0.0, origin.farthest);
   }

@@ -357,7 +357,8 @@ TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const std::filesystem::path file = corner("effects_ripple", plainLight + pool + ripple);
   const Scene scene = loadScene(file);
   const RayTracer tracer(scene, evaluate(scene, 0.0));
-  const TraceResult truth = *tracer.render({.width = small.width, .height = small.height, .samples = 16, .maxDepth = 3});
+  const TraceResult truth =
+      *tracer.render({.width = small.width, .height = small.height, .samples = 16, .maxDepth = 3});
   const auto error = [&](const std::vector<std::pair<std::string, std::string>>& settings) {
     Options options = truthOptions(file, small, 3);
     set(options, settings);

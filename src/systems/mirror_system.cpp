@@ -75,10 +75,10 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.setLayouts.push_back(info.shadows.layout());
   }
   desc.fragConstants.resize(6, 0);
-  desc.fragConstants.insert(desc.fragConstants.end(),
-                            {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows),
-                             static_cast<uint32_t>(variant.lookup), variant.painted, variant.shadowedLights,
-                             variant.ripples});
+  desc.fragConstants.insert(
+      desc.fragConstants.end(),
+      {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows), static_cast<uint32_t>(variant.lookup),
+       variant.painted, variant.shadowedLights, variant.ripples});
   return desc;
 }
 

@@ -9,8 +9,8 @@ namespace speculum {
 // show the background, backs show their color. An image with the pass's samples and pixels is read sample by sample;
 // the diffuse layer under the reflection, whose loop over the lights costs much more, is then a draw of its own with
 // one invocation per pixel. Rippled and rough mirrors trace what they reflect, rippled ones at each sample, because
-// their reflections have edges; or they look up their image beside their own pixels. A cached image is read like a new one as long as nothing moved, otherwise it is
-// reprojected.
+// their reflections have edges; or they look up their image beside their own pixels. A cached image is read like a new
+// one as long as nothing moved, otherwise it is reprojected.
 class MirrorSystem {
  public:
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);

@@ -21,7 +21,8 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
   std::filesystem::create_directories(directory);
   writePng(directory / (name + "-actual.png"), actual);
   writePng(directory / (name + "-expected.png"), expected);
-  writePng(directory / (name + "-difference.png"), differencePicture(actual, expected, difference(actual, expected, 2), 20.0));
+  writePng(directory / (name + "-difference.png"),
+           differencePicture(actual, expected, difference(actual, expected, 2), 20.0));
   std::printf("see %s/%s-{actual,expected,difference}.png\n", directory.c_str(), name.c_str());
 }
 
