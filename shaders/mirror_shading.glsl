@@ -184,7 +184,7 @@ struct Origin {
 };
 
 // Returns what the image shows along the direction. The distance is first guessed, then taken from the image. Beyond the
-// image rough mirrors show the background, which their wide lobes reach more often, and rippled ones its edge.
+// image the background is seen.
 vec3 imageAlong(vec3 direction, Origin origin) {
   vec3 behind = direction - 2.0 * dot(direction, mirror.normal) * mirror.normal;
   float far = origin.guess;
@@ -192,14 +192,42 @@ vec3 imageAlong(vec3 direction, Origin origin) {
   for (int i = 0; i < 3; ++i) {
     vec2 pixel = pixelOf(origin.position + far * behind);
     vec2 texel = pixel * mirror.lookupScale + mirror.lookupOffset;
-    if (blurs && (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize))))) {
+    if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize)))) {
       return backgroundRadiance(direction);
     }
-    vec4 value = texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), mirror.imageSize - 1));
+    vec4 value = texelMean(reflection, ivec2(texel));
     found = value.rgb;
     far = clamp(dot(rayThrough(pixel) / max(value.a, 1e-30) - origin.position, behind), 0.0, origin.farthest);
   }
   return found;
+}
+
+const int marchSteps = 16;
+
+// Returns the first surface of the image that the ray from a point of the mirror meets: the first between two steps of
+// the way, which are equally long on the screen, from the mirror to infinity. Where there is none, or near things hide
+// it, the farthest value on the way is taken. Beyond the image its edge is seen.
+vec3 imageMetBy(vec3 direction, vec3 position) {
+  vec3 behind = direction - 2.0 * dot(direction, mirror.normal) * mirror.normal;
+  vec3 axis = cross(view.rayX, view.rayY.xyz);
+  axis /= dot(view.rayOrigin.xyz, axis);
+  float start = dot(position, axis);  // depth
+  float slope = max(dot(behind, axis), 1e-4);
+  float before = start;
+  vec4 farthest = vec4(0.0, 0.0, 0.0, halfMax);
+  for (int i = 1; i <= marchSteps; ++i) {
+    float part = min(float(i) / float(marchSteps), 0.9999);
+    float t = part * start / ((1.0 - part) * slope);
+    vec2 texel = pixelOf(position + t * behind) * mirror.lookupScale + mirror.lookupOffset;
+    vec4 value = texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), mirror.imageSize - 1));
+    float depth = start + t * slope;
+    if (value.a * depth >= 1.0 && value.a * before <= 1.0) {
+      return value.rgb;
+    }
+    before = depth;
+    farthest = value.a <= farthest.a ? value : farthest;
+  }
+  return farthest.rgb;
 }
 
 // Returns what a rippled or rough mirror reflects, looked up in the image of the smooth mirror: along the ray that its
@@ -211,7 +239,7 @@ vec4 lookedUpBeside(vec3 ray, vec3 position, vec3 normal) {
   float guess = clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, farthest);
   Origin origin = Origin(position, guess, farthest);
   if (!blurs) {
-    return vec4(imageAlong(mirrored(incoming, normal, mirror.normal), origin), sharp.a);
+    return vec4(imageMetBy(mirrored(incoming, normal, mirror.normal), position), sharp.a);
   }
   uint seed = pixelSeed();
   vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));

@@ -352,7 +352,7 @@ TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   EXPECT_LT(traced, image);
 }
 
-// Ripples that displace the smooth mirror's image are far nearer to the truth than a smooth mirror.
+// Ripples that look up the smooth mirror's image are nearer to the truth than a smooth mirror.
 TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const std::filesystem::path file = corner("effects_ripple", plainLight + pool + ripple);
   const Scene scene = loadScene(file);
@@ -371,7 +371,8 @@ TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const double image = error({{"effects.ripple_lookup", "image"}});
   const double traced = error({{"effects.ripple_lookup", "traced"}});
   std::printf("RMSE smooth %.5f, image %.5f, traced %.5f\n", smooth, image, traced);
-  EXPECT_LT(image, 0.6 * smooth);
+  // Tracing errs by what one sample a pixel misses.
+  EXPECT_LT(image - traced, 0.5 * (smooth - traced));
   EXPECT_LT(traced, image);
 }
 
