@@ -180,7 +180,7 @@ vec2 pixelOf(vec3 point) {
 struct Origin {
   vec3 position;
   float guess;     // distance of what the smooth mirror shows here
-  float farthest;  // distance beyond which nothing changes
+  float limit;     // distance beyond which nothing changes
 };
 
 // Returns what the image shows along the direction. The distance is first guessed, then taken from the image. Beyond the
@@ -192,34 +192,35 @@ vec3 imageAlong(vec3 direction, Origin origin) {
   for (int i = 0; i < 3; ++i) {
     vec2 pixel = pixelOf(origin.position + far * behind);
     vec2 texel = pixel * mirror.lookupScale + mirror.lookupOffset;
-    if (any(lessThan(texel, vec2(0.0))) || any(greaterThanEqual(texel, vec2(mirror.imageSize)))) {
+    if (!(all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(mirror.imageSize))))) {
       return backgroundRadiance(direction);
     }
     vec4 value = texelMean(reflection, ivec2(texel));
     found = value.rgb;
-    far = clamp(dot(rayThrough(pixel) / max(value.a, 1e-30) - origin.position, behind), 0.0, origin.farthest);
+    far = clamp(dot(rayThrough(pixel) / max(value.a, 1e-30) - origin.position, behind), 0.0, origin.limit);
   }
   return found;
 }
 
 const int marchSteps = 16;
 
-// Returns the first surface of the image that the ray from a point of the mirror meets: the first between two steps of
-// the way, which are equally long on the screen, from the mirror to infinity. Where there is none, or near things hide
-// it, the farthest value on the way is taken. Beyond the image its edge is seen.
+// Follows the reflected ray behind the mirror in steps that are equally long on the screen, and returns the first surface
+// of the image that lies between two steps. If there is none, returns the farthest value on the way. Beyond the image
+// its edge is read.
 vec3 imageMetBy(vec3 direction, vec3 position) {
   vec3 behind = direction - 2.0 * dot(direction, mirror.normal) * mirror.normal;
   vec3 axis = cross(view.rayX, view.rayY.xyz);
   axis /= dot(view.rayOrigin.xyz, axis);
   float start = dot(position, axis);  // depth
   float slope = max(dot(behind, axis), 1e-4);
+  behind += (slope - dot(behind, axis)) * axis / dot(axis, axis);  // never towards the eye, as pixelOf() needs
   float before = start;
   vec4 farthest = vec4(0.0, 0.0, 0.0, halfMax);
   for (int i = 1; i <= marchSteps; ++i) {
     float part = min(float(i) / float(marchSteps), 0.9999);
     float t = part * start / ((1.0 - part) * slope);
     vec2 texel = pixelOf(position + t * behind) * mirror.lookupScale + mirror.lookupOffset;
-    vec4 value = texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), mirror.imageSize - 1));
+    vec4 value = texelMean(reflection, ivec2(clamp(floor(texel), vec2(0.0), vec2(mirror.imageSize - 1))));
     float depth = start + t * slope;
     if (value.a * depth >= 1.0 && value.a * before <= 1.0) {
       return value.rgb;
@@ -235,12 +236,11 @@ vec3 imageMetBy(vec3 direction, vec3 position) {
 vec4 lookedUpBeside(vec3 ray, vec3 position, vec3 normal) {
   vec3 incoming = safeNormalize(ray);
   vec4 sharp = reflected();
-  float farthest = 1e4 * (length(position) + 1.0);
-  float guess = clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, farthest);
-  Origin origin = Origin(position, guess, farthest);
   if (!blurs) {
     return vec4(imageMetBy(mirrored(incoming, normal, mirror.normal), position), sharp.a);
   }
+  float limit = 1e4 * (length(position) + 1.0);
+  Origin origin = Origin(position, clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, limit), limit);
   uint seed = pixelSeed();
   vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));
   vec3 sum = vec3(0.0);

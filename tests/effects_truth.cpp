@@ -376,6 +376,18 @@ TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   EXPECT_LT(traced, image);
 }
 
+TEST(RippledMirror, ImageLookupMovesWithTime) {
+  Options options = truthOptions(corner("effects_waves", plainLight + pool + ripple), small, 3);
+  set(options, {{"effects.ripple_lookup", "image"}});
+  QuietSession session(options);
+  session.draw(0.0, true);
+  session.finish();
+  const Image8 first = session.picture();
+  session.draw(0.4, true);
+  session.finish();
+  EXPECT_NE(session.picture().rgba, first.rgba);
+}
+
 // With an effect switched off, the scene is drawn as if it did not have it.
 TEST(Effects, CanBeSwitchedOff) {
   const std::string all = shadowLight + plainLight + wall + "casts_light = true\nroughness = 0.2\n" + pool + ripple;

@@ -94,7 +94,7 @@ TEST_F(CaseFile, MistakesNameLineAndKey) {
             "needed)");
   const std::string room = "[[case]]\nscene = 'room.toml'\n";
   EXPECT_EQ(mistake(room + room),
-            "cases.toml:3: case[1].name: 'room' is that of an earlier case (a name of its own is needed)");
+            "cases.toml:3: case[1].name: 'room' is already the name of an earlier case (names must be unique)");
   EXPECT_EQ(mistake(room + "size = '640'").rfind("cases.toml:3: case[0].size: is '640' (", 0), 0u);
   EXPECT_EQ(mistake(room + "camera = '1,2'").rfind("cases.toml:3: case[0].camera: ", 0), 0u);
   EXPECT_EQ(mistake(room + "settings = { view.samples = 3 }").rfind("cases.toml:3: view.samples: ", 0), 0u);
@@ -169,7 +169,7 @@ TEST_F(Limits, AreKeptUpToTheirValue) {
   EXPECT_EQ(problem(raised(0, 0, 100, 100, 3)), "");
   EXPECT_EQ(problem(raised(20, 20, 10, 1, 4)), "");
   EXPECT_EQ(problem(raised(20, 20, 11, 1, 4)), "0.11 % of the pixels differ by more than 3/255, 0.1 % may");
-  EXPECT_EQ(problem(raised(20, 20, 3, 3, 4)), "a 3x3 block at 20, 20 differs wholly by more than 3/255");
+  EXPECT_EQ(problem(raised(20, 20, 3, 3, 4)), "every pixel of the 3x3 block at 20, 20 differs by more than 3/255");
   subject_.tolerance.block = false;
   EXPECT_EQ(problem(raised(20, 20, 3, 3, 4)), "");
 }

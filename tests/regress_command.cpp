@@ -187,7 +187,7 @@ scene = 'room.toml'
   const ProcessResult result = regress({"--update"});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(lineOf("broken", result.output).find("broken.toml:2: camera.position"), std::string::npos) << result.output;
-  EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within its timeout of 2 s");
+  EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within 2 s");
   EXPECT_EQ(lineOf("room", result.output), "updated room: wrote " + (folder_ / "room.png").string());
 }
 

@@ -21,12 +21,14 @@ class CaseDrawer {
   Outcome outcomeOf(const RegressCase& subject);
 
  private:
-  void drawAndJudge(const ExpectedCase& expected, Outcome& outcome);
+  // Says whether there was an expected picture to compare with.
+  bool drawAndJudge(const ExpectedCase& expected, Outcome& outcome);
   Image8 draw(const RegressCase& subject, Outcome& outcome);
 
   const Options& options_;
   std::optional<Device> device_;
   std::unique_ptr<Session> session_;
+  int countedMessages_ = 0;  // of the validation layer
 };
 
 }  // namespace speculum

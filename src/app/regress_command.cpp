@@ -45,29 +45,29 @@ int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
   CaseDrawer drawer(options);
   for (std::string line; std::getline(std::cin, line);) {
     const nlohmann::json outcome = drawer.outcomeOf(cases.at(std::stoul(line)));
-    std::printf("%s%s\n", std::string(workerReplyMark).c_str(),
+    // Begins a line of its own, since a driver may have printed a part of one.
+    std::printf("\n%s%s\n", std::string(workerReplyMark).c_str(),
                 outcome.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     std::fflush(stdout);
   }
   return 0;
 }
 
-Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject) {
+Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject, int repeat) {
   Outcome outcome;
   if (reply.end == JobEnd::answered) {
     outcome = nlohmann::json::parse(reply.text).get<Outcome>();
   } else {
     outcome.verdict = Verdict::error;
-    outcome.message = reply.end == JobEnd::crashed
-                          ? reply.text
-                          : fmt::format("no picture within its timeout of {} s", subject.timeout);
+    outcome.message =
+        reply.end == JobEnd::crashed ? reply.text : fmt::format("no picture within {} s", subject.timeout * repeat);
   }
   outcome.seconds = reply.seconds;
   outcome.log = reply.log;
   return outcome;
 }
 
-// Takes the picture that was drawn over as the expected one.
+// Replaces the expected picture with the one just drawn.
 void accept(const CaseFiles& files, Outcome& outcome) {
   const std::filesystem::path picture = outcome.picture;
   if (picture.has_parent_path()) {
@@ -130,6 +130,7 @@ int runRegress(const Options& options) {
     }
   }
   run.outcomes.resize(run.cases.size());
+  size_t withoutDevice = 0;
   std::vector<std::string> worker{executablePath().string()};
   worker.insert(worker.end(), options.arguments.begin(), options.arguments.end());
   worker.push_back("--worker");
@@ -142,7 +143,8 @@ int runRegress(const Options& options) {
       const RegressCase& subject = run.cases[i];
       Outcome& outcome = run.outcomes[i];
       try {
-        outcome = outcomeOf(reply, subject);
+        outcome = outcomeOf(reply, subject, options.repeat);
+        withoutDevice += reply.end == JobEnd::answered && outcome.device.empty();
         if (outcome.replaceable && options.update && matches(*options.update, subject.name)) {
           accept(CaseFiles(options.out, subject.name), outcome);
         }
@@ -155,6 +157,9 @@ int runRegress(const Options& options) {
     if (!finished) {
       return 1;
     }
+  }
+  if (withoutDevice > 0 && withoutDevice == run.outcomes.size()) {
+    throw std::runtime_error(run.outcomes.front().message);
   }
   writeReports(options, run);
   printOutcomes(run, options.out / "index.html");

@@ -92,7 +92,7 @@ struct ShadowMap {
   std::string name;               // of the light, for users
   int size = 0;                   // texels of each side of a face
   std::vector<ShadowFace> faces;  // in the order of faceAxes()
-  int serial = 0;                 // changes each time that a face of any map is rendered
+  int serial = 0;                 // grows each time that a face of this map is rendered
 };
 
 // Kinds of recorded passes.

@@ -139,7 +139,9 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
     EffectSettings& effects = fitted.settings.effects;
     effects.shadows =
         effects.shadows && effects.shadowLookup == ShadowLookup::map && shadowLights(scene).size() <= mostShadowMaps;
-    effects.roughness = effects.ripple = effects.castsLight = false;
+    effects.roughness = effects.roughness && effects.roughLookup == ReflectionSource::image;
+    effects.ripple = effects.ripple && effects.rippleLookup == ReflectionSource::image;
+    effects.castsLight = false;
     effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
     fitted.message +=
         (fitted.message.empty() ? "" : "; ") + std::string(
@@ -147,13 +149,16 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                                                    "geometryShader, storage buffers, or room in them for the scene");
     plan();
   }
+  int& shadowMapSize = fitted.settings.effects.shadowMapSize;
+  const int wantedSize = shadowMapSize;
   for (glm::ivec2 extent = shadowExtent(fitted.plan.shadowMaps); std::max(extent.x, extent.y) > limits.largestSide;
        extent /= 2) {
-    fitted.settings.effects.shadowMapSize /= 2;
+    shadowMapSize /= 2;
+  }
+  if (shadowMapSize < wantedSize) {
     fitted.message += (fitted.message.empty() ? "" : "; ") +
                       ("shadow maps exceed the device's " + std::to_string(limits.largestSide)) +
-                      " pixels: lowered effects.shadow_map_size to " +
-                      std::to_string(fitted.settings.effects.shadowMapSize);
+                      " pixels: lowered effects.shadow_map_size to " + std::to_string(shadowMapSize);
     plan();
   }
   if (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && reflection.updateInterval == 1) {

@@ -230,8 +230,9 @@ constexpr SettingField fields[] = {
     {.key = "effects.rays",
      .kind = choice<&E::rays>(rayMethods),
      .label = "Rays",
-     .text = "rays are traced by ray queries of the GPU or by shaders; auto: by what is faster",
-     .cost = "The picture is the same within 2/255."},
+     .text = "rays are traced by ray queries of the GPU or by shaders; auto: by ray queries unless the driver runs on "
+             "the CPU",
+     .cost = "The picture is the same but for rounding."},
     {.key = "effects.per_sample",
      .kind = BooleanSetting{at<&E::perSample>},
      .label = "Rays at every sample",

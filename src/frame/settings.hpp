@@ -54,7 +54,8 @@ enum class CurvedLookup { traced, environment };
 // Source of the shadows of lights: traced rays, or shadow maps.
 enum class ShadowLookup { traced, map };
 
-// What traces rays: the device's ray queries where they are faster, always where there are any, or shaders.
+// What traces rays: ray queries unless the driver runs on the CPU, ray queries wherever the device has them, or
+// shaders.
 enum class RayMethod { automatic, hardware, software };
 
 // Effects are drawn where the scene calls for them, unless they are switched off here.

@@ -199,15 +199,15 @@ void CaseReader::read(const TableReader& table, Draft& draft) const {
 void CaseReader::expand(const TableReader& table, const Draft& draft, std::vector<RegressCase>& cases) {
   std::vector<std::pair<Draft, std::string>> drafts{{draft, ""}};
   for (const auto& [key, values] : draft.grid) {
+    if (cases.size() + drafts.size() * values.size() > mostCases) {
+      table.fail("grid", "makes more than " + std::to_string(mostCases) + " cases", "fewer are needed");
+    }
     std::vector<std::pair<Draft, std::string>> more;
     for (const auto& [base, suffix] : drafts) {
       for (const std::string& value : values) {
-        more.emplace_back(base, suffix + (key == "scene" ? "" : "_" + key + "=" + value));
+        more.emplace_back(base, suffix + (key == "scene" && !base.name ? "" : "_" + key + "=" + value));
         apply(table, more.back().first, key, value);
       }
-    }
-    if (cases.size() + more.size() > mostCases) {
-      table.fail("grid", "makes more than " + std::to_string(mostCases) + " cases", "fewer are needed");
     }
     drafts = std::move(more);
   }
@@ -228,7 +228,7 @@ void CaseReader::add(const TableReader& table, const Draft& draft, const std::st
     c = plain || std::string_view("._=+-,").find(c) != std::string_view::npos ? c : '_';
   }
   if (!names_.insert(made.name).second) {
-    table.fail("name", "'" + made.name + "' is that of an earlier case", "a name of its own is needed");
+    table.fail("name", "'" + made.name + "' is already the name of an earlier case", "names must be unique");
   }
   made.settings.assign(draft.settings.begin(), draft.settings.end());
   const auto pictureFile = [&](std::string path) {

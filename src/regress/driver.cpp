@@ -33,7 +33,7 @@ bool isOfFamily(const std::string& driver, const std::string& family) {
 }
 
 bool isInVersions(const std::string& driver, const std::string& range) {
-  static const std::regex number("[0-9]{1,9}(\\.[0-9]{1,9})*");
+  static const std::regex number("[0-9]{1,9}(\\.[0-9]{1,9})+");
   static const std::regex comparison(" *(>=|<=|>|<|=) *([0-9]{1,9}(\\.[0-9]{1,9})*) *");
   std::smatch found;
   const std::vector<int> version = std::regex_search(driver, found, number) ? parts(found.str()) : std::vector<int>();

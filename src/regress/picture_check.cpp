@@ -75,11 +75,11 @@ PictureCheck checkPicture(const Image8& expected, const Image8& actual, const Re
   const double share = found.counted == 0 ? 0.0 : static_cast<double>(found.over) / found.counted;
   const std::string most = percent(limits.share.value_or(0.0));
   add({fmt::format("pixels over {}/255", maxDiff), percent(share), most, share > limits.share.value_or(0.0)},
-      fmt::format("{} of the pixels differ by more than {}/255, {} may", percent(share), maxDiff, most));
+      fmt::format("{} of the pixels differ by more than {}/255 (limit {})", percent(share), maxDiff, most));
   const bool blocks = limits.block.value_or(true);
   const std::string at = found.block ? fmt::format("at {}, {}", found.block->x, found.block->y) : "none";
   add({"3x3 block wholly over", at, blocks ? "none" : "–", blocks && found.block},
-      fmt::format("a 3x3 block {} differs wholly by more than {}/255", at, maxDiff));
+      fmt::format("every pixel of the 3x3 block {} differs by more than {}/255", at, maxDiff));
   add({"largest difference", fmt::format("{}/255", found.largest), "–", false}, "");
   // FLIP takes longer than everything else.
   if (limits.flip || limits.flipP99) {
@@ -87,8 +87,7 @@ PictureCheck checkPicture(const Image8& expected, const Image8& actual, const Re
     const auto addFlip = [&](const std::string& label, double value, std::optional<double> limit) {
       const std::string text = fmt::format("{:.4f}", value);
       const std::string bound = limit ? fmt::format("{:.4g}", *limit) : "–";
-      add({label, text, bound, limit && value > *limit},
-          fmt::format("{} is {}, at most {} may be", label, text, bound));
+      add({label, text, bound, limit && value > *limit}, fmt::format("{} is {} (limit {})", label, text, bound));
     };
     addFlip("mean FLIP", flip.mean, limits.flip);
     addFlip("FLIP, 99th percentile", flip.p99, limits.flipP99);

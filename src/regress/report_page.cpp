@@ -54,8 +54,11 @@ ordered_json picturesOf(const CaseFiles& files, double room) {
 }
 
 std::string escapedXml(const std::string& text) {
+  // Logs and paths may hold bytes that are not UTF-8, which would make the file unreadable.
+  const std::string valid =
+      json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : valid) {
     switch (c) {
       case '<':
         escaped += "&lt;";
@@ -91,6 +94,10 @@ std::string escapedCommand(const std::string& text, bool property) {
 std::string escapedCell(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
+    if (c == '\n' || c == '\r') {
+      escaped += ' ';
+      continue;
+    }
     escaped += c == '|' || c == '<' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
   }
   return escaped;

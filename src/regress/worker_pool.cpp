@@ -79,7 +79,9 @@ std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
       return reply;
     }
     if (line) {
-      keep(*line);
+      if (!line->empty()) {
+        keep(*line);
+      }
     } else if (!worker.running()) {
       const ProcessResult result = worker.wait();
       if (!result.output.empty()) {

@@ -39,7 +39,7 @@ std::optional<std::vector<std::vector<double>>> parseLists(std::string_view text
 }  // namespace
 
 bool meansPoints(const std::string& text) {
-  return std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos &&
+  return !text.empty() && std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos &&
          text.find(',') != std::string::npos;
 }
 

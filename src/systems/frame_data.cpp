@@ -275,7 +275,7 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
     const std::vector<ShadowMap>& maps = source.plan.shadowMaps;
     const auto map = std::find_if(maps.begin(), maps.end(), [&](const ShadowMap& m) { return m.light == i; });
     const size_t index = lights_.size() - block.view.firstLight;
-    if (map != maps.end() && index < gpu::fixedLights) {
+    if (map != maps.end() && scene.lights.size() <= gpu::fixedLights) {
       data.shadowedLights |= 1u << index;
     }
     lights_.push_back({.position = glm::vec3(source.state.lights[i].position - pass.view.eye),
@@ -405,19 +405,20 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
   const EffectSettings& effects = settings.effects;
   for (const MirrorDraw& draw : pass.mirrors) {
     const Mirror& mirror = scene.mirrors[draw.mirror];
+    const View* image = imageView(draw, plan);
+    const bool ripples = draw.ripples && image;
     MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
                       .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
                       .pass = draw.pass,
                       .cached = draw.cached ? draw.cached->image : -1,
                       .reprojected = draw.cached && draw.cached->moved,
                       .blurs = draw.blurs,
-                      .ripples = draw.ripples,
+                      .ripples = ripples,
                       .scatters = draw.scatters,
-                      .rippled = draw.ripples || (draw.scatters && effects.ripple && mirror.ripple),
+                      .rippled = ripples || (draw.scatters && effects.ripple && mirror.ripple),
                       .rough = draw.blurs || (draw.scatters && effects.roughness && mirror.roughness > 0.0),
                       .fresnel = !draw.back && isSchlick(mirror.fresnel, effects),
                       .base = mirror.baseColor != glm::dvec3(0.0)};
-    const View* image = imageView(draw, plan);
     range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
