@@ -56,7 +56,8 @@ ordered_json picturesOf(const CaseFiles& files, double room) {
 std::string escapedXml(const std::string& text) {
   // Logs and paths may hold bytes that are not UTF-8, which would make the file unreadable.
   const std::string valid =
-      json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+      nlohmann::json::parse(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
+          .get<std::string>();
   std::string escaped;
   for (const char c : valid) {
     switch (c) {
