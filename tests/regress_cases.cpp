@@ -168,7 +168,7 @@ class Limits : public testing::Test {
 TEST_F(Limits, AreKeptUpToTheirValue) {
   EXPECT_EQ(problem(raised(0, 0, 100, 100, 3)), "");
   EXPECT_EQ(problem(raised(20, 20, 10, 1, 4)), "");
-  EXPECT_EQ(problem(raised(20, 20, 11, 1, 4)), "0.11 % of the pixels differ by more than 3/255, 0.1 % may");
+  EXPECT_EQ(problem(raised(20, 20, 11, 1, 4)), "0.11 % of the pixels differ by more than 3/255 (limit 0.1 %)");
   EXPECT_EQ(problem(raised(20, 20, 3, 3, 4)), "every pixel of the 3x3 block at 20, 20 differs by more than 3/255");
   subject_.tolerance.block = false;
   EXPECT_EQ(problem(raised(20, 20, 3, 3, 4)), "");
