@@ -73,10 +73,8 @@ Outcome CaseDrawer::outcomeOf(const RegressCase& subject) {
     if (expected.result == ExpectedResult::skip) {
       outcome.verdict = Verdict::skipped;
       outcome.message = expected.reason;
-    } else {
-      if (drawAndJudge(expected, outcome)) {
-        applyExpectation(expected, outcome);
-      }
+    } else if (drawAndJudge(expected, outcome)) {
+      applyExpectation(expected, outcome);
     }
   } catch (const std::exception& error) {
     outcome.verdict = Verdict::error;
@@ -148,7 +146,7 @@ Image8 CaseDrawer::draw(const RegressCase& subject, Outcome& outcome) {
   const FiniteWatch& watch = session.sceneRenderer().finiteWatch();
   const uint64_t found = watch.count() - nonFinite;
   addCheck(outcome, "values that are not finite", found, found > 0 ? describe(watch.findings().front()) : "");
-  // Those of making the device and of earlier sessions count too.
+  // Counts messages since the last case, or since the device was made.
   const int messages = device_->validationMessages();
   addCheck(outcome, "validation messages", static_cast<uint64_t>(messages - std::exchange(countedMessages_, messages)));
   return picture;

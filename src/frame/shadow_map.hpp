@@ -10,15 +10,15 @@ namespace speculum {
 // Texels on each side of a face's window: a look-up reads one beyond its own, and rounding may move it.
 inline constexpr int shadowBorder = 2;
 
-// A pass whose surfaces look shadows up, and all that is read of its image.
+// A pass whose surfaces look shadows up, and the view of everything that is read of its image.
 struct ShadowReader {
   const PlannedPass* pass = nullptr;
   View readable;
   const Projection* projection = nullptr;
 };
 
-// Plans maps for the lights of shadowLights(), all of whose faces that a reader looks up are to be rendered. The window
-// of a face is as small as the scene allows.
+// Plans a map for each light of shadowLights(), in which the faces that a reader looks up are to be rendered. The
+// window of a face is as small as the scene allows.
 std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
                                   std::span<const ShadowReader> readers);
 

@@ -25,7 +25,7 @@ class ShadowSystem {
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass);
   void endFrame(const FramePlan& plan, RetireQueue& retired);
 
-  // Of the set to bind as number 2 in pipelines that look maps up; null without a map.
+  // Descriptor set 2 of pipelines that look maps up, and its layout. The set is null in a frame without maps.
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   VkDescriptorSet set() const { return set_; }
   uint64_t bytes() const;
