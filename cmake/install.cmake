@@ -44,7 +44,8 @@ endif()
 
 # cpack -G DEB. Shared libraries become dependencies by themselves.
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "The Speculum authors <speculum@speculum.invalid>")
+# The domain is reserved by RFC 2606: the project has no address. Who repackages it gives their own with -D.
+set(CPACK_PACKAGE_CONTACT "The Speculum authors <noreply@example.org>" CACHE STRING "Maintainer of the package")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "planar mirrors in Vulkan that can be trusted")
 set(CPACK_PACKAGE_DESCRIPTION "Renders scenes with planar mirrors in real time and says how far each
 setting is from a ray-traced reference. Compares pictures of scenes with
@@ -67,7 +68,7 @@ configure_file(${package}/copyright.in ${written}/copyright @ONLY)
 install(FILES ${written}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 find_program(GZIP gzip)
 if(GZIP)
-  file(WRITE ${written}/changelog "speculum (${PROJECT_VERSION}) stable; urgency=medium\n\n  * See docs/changelog.md of the sources.\n\n -- The Speculum authors <speculum@speculum.invalid>  Sun, 22 Nov 2026 00:00:00 +0000\n")
+  file(WRITE ${written}/changelog "speculum (${PROJECT_VERSION}) stable; urgency=medium\n\n  * See docs/changelog.md of the sources.\n\n -- ${CPACK_PACKAGE_CONTACT}  Sun, 22 Nov 2026 00:00:00 +0000\n")
   execute_process(COMMAND ${GZIP} -9nf ${written}/changelog)
   install(FILES ${written}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
 endif()

@@ -1,9 +1,11 @@
 // Cases of `regress`: the file, expectations of drivers, limits, worker processes.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "image/picture_files.hpp"
+#include "platform/process.hpp"
 #include "regress/driver.hpp"
 #include "regress/picture_check.hpp"
 #include "regress/worker_pool.hpp"
@@ -139,9 +141,9 @@ scene = "room.toml"
   EXPECT_EQ(expectedOf(cases[0], "llvmpipe Mesa 25.0.7").result, ExpectedResult::skip);
   const ExpectedCase old = expectedOf(cases[0], mesa22);
   EXPECT_EQ(old.result, ExpectedResult::pass);
-  EXPECT_EQ(old.drawn.picture, folder_ / "soft/room.png");
-  EXPECT_EQ(old.drawn.tolerance, (Tolerance{.maxDiff = 9, .share = 0.001, .block = true}));
-  EXPECT_EQ(expectedOf(cases[0], nvidia).drawn.picture, folder_ / "room.png");
+  EXPECT_EQ(old.subject.picture, folder_ / "soft/room.png");
+  EXPECT_EQ(old.subject.tolerance, (Tolerance{.maxDiff = 9, .share = 0.001, .block = true}));
+  EXPECT_EQ(expectedOf(cases[0], nvidia).subject.picture, folder_ / "room.png");
 }
 
 class Limits : public testing::Test {
@@ -161,7 +163,9 @@ class Limits : public testing::Test {
     }
     return picture;
   }
-  std::string problem(const Image8& actual) const { return checkPicture(grey(), actual, subject_).problem; }
+  std::string problem(const Image8& actual) const {
+    return checkPicture(grey(), actual, subject_).problem.value_or("");
+  }
   RegressCase subject_{.tolerance = {.maxDiff = 3, .share = 0.001, .block = true}};
 };
 
@@ -267,6 +271,23 @@ TEST(Workers, AreReplacedWhenTheyCrashOrHang) {
   EXPECT_GE(all[3].seconds, 0.3);
   EXPECT_EQ(all[4].text, "the worker ended with exit code 3");
   EXPECT_EQ(all[5].text, "c");
+}
+
+TEST(Workers, PassOnExceptions) {
+  EXPECT_THROW(runWorkers({"sh", "-c", "while read x; do echo reply $x; done"}, 2, {{"a", "", 10.0}, {"b", "", 10.0}},
+                          [](size_t, const WorkerReply&) { throw std::runtime_error("disk full"); }),
+               std::runtime_error);
+}
+
+TEST(Workers, InterruptAfterTheLastAnswerLosesNothing) {
+  const auto run = [] {
+    installInterruptHandler();
+    std::exit(runWorkers({"sh", "-c", "while read x; do echo reply $x; done"}, 1, {{"a", "", 10.0}},
+                         [](size_t, const WorkerReply&) { std::raise(SIGINT); })
+                  ? 0
+                  : 1);
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -75,6 +75,8 @@ TEST_F(RegressCommand, GoesFromRedToGreen) {
   ProcessResult result = regress({});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(lineOf("room", result.output).find("there is no expected picture"), std::string::npos) << result.output;
+  EXPECT_NE(readText(folder_ / "out/index.html").find(R"("--filter","room","--validation","--update"])"),
+            std::string::npos);
   result = regress({"--update", "room"});
   EXPECT_EQ(result.exitCode, 1) << "the other one is still missing: " << result.output;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "room.png"));
@@ -188,6 +190,9 @@ scene = 'room.toml'
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(lineOf("broken", result.output).find("broken.toml:2: camera.position"), std::string::npos) << result.output;
   EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within 2 s");
+  EXPECT_NE(readText(folder_ / "out/index.html").find(R"("--set","view.accumulate=1024","--validation","--out")"),
+            std::string::npos)
+      << "the command that draws it";
   EXPECT_EQ(lineOf("room", result.output), "updated room: wrote " + (folder_ / "room.png").string());
 }
 
@@ -195,6 +200,7 @@ TEST_F(RegressCommand, MistakesExitTwo) {
   writeRoom("room.toml");
   writeCases("[[case]]\nscene = 'room.toml'\n");
   EXPECT_EQ(regress({"--filter", "hall*"}).exitCode, 2);
+  EXPECT_EQ(regress({"--update", "hall*"}).exitCode, 2);
   EXPECT_EQ(speculum({"regress"}).exitCode, 2);
   writeCases("[[case]]\nscene = 'hall.toml'\n");
   const ProcessResult result = regress({});

@@ -12,7 +12,7 @@ namespace speculum {
 namespace {
 
 RegressRun exampleRun() {
-  RegressRun run{.file = "tests/cases.toml", .accept = {"speculum", "--update", "NAME"}, .version = "1"};
+  RegressRun run{.file = "tests/cases.toml", .version = "1"};
   const auto add = [&](const std::string& name, Outcome outcome) {
     run.cases.push_back({.name = name, .line = 10 * static_cast<int>(run.cases.size() + 1), .size = {64, 36}});
     run.outcomes.push_back(std::move(outcome));
@@ -45,9 +45,9 @@ TEST(Reports, JUnitIsXml) {
 }
 
 TEST(Reports, GithubGetsErrorsAndATable) {
-  EXPECT_EQ(githubErrors(exampleRun()),
-            "::error file=tests/cases.toml,line=20,title=wrong::50 %25 differ, \"a\" < 1 & | more\n"
-            "::error file=tests/cases.toml,line=30,title=gone::ended by signal 11\n");
+  const std::string file = "::error file=" + (std::filesystem::current_path() / "tests/cases.toml").string();
+  EXPECT_EQ(githubErrors(exampleRun()), file + ",line=20,title=wrong::50 %25 differ, \"a\" < 1 & | more\n" + file +
+                                            ",line=30,title=gone::ended by signal 11\n");
   EXPECT_NE(githubSummary(exampleRun()).find("| wrong | failed | 50 % differ, \"a\" \\< 1 & \\| more |\n"),
             std::string::npos);
 }
@@ -63,7 +63,7 @@ TEST(Reports, PageKeepsToItsBudget) {
   for (int i = 0; i < 20; ++i) {
     const std::string name = "case" + std::to_string(i);
     run.cases.push_back({.name = name, .size = {64, 36}});
-    run.outcomes.push_back({.verdict = i < 10 ? Verdict::failed : Verdict::passed, .drawn = true});
+    run.outcomes.push_back({.verdict = i < 10 ? Verdict::failed : Verdict::passed, .hasFiles = true});
     for (const std::filesystem::path& file : CaseFiles(folder.path(), name).all()) {
       writePng(file, noise);
     }

@@ -112,7 +112,7 @@ class RegressPage(Page):
 
     def test_commands_can_be_copied(self):
         self.assertEqual([e.text for e in self.find("[data-case=seam] .commands code")],
-                         ["speculum render --set 'a b=1'", "speculum regress cases.toml --update seam"])
+                         ["speculum render --set 'a b=1'", "speculum regress --filter seam --update"])
         button = self.find("[data-case=seam] .commands .copy")[1]
         button.click()
         self.browser.wait("return document.querySelectorAll('[data-case=seam] .copy')[1].textContent === 'copied'")

@@ -31,11 +31,7 @@ void writeRegressPages(const fs::path& folder) {
   for (int y = 0; y < actual.height; ++y) {
     actual.at(32, y)[0] ^= 0x80;
   }
-  RegressRun run{.file = "cases.toml",
-                 .command = {"speculum", "regress", "cases.toml"},
-                 .accept = {"speculum", "regress", "cases.toml", "--update", "NAME"},
-                 .version = "1",
-                 .date = "now"};
+  RegressRun run{.file = "cases.toml", .command = {"speculum", "regress", "cases.toml"}, .version = "1", .date = "now"};
   const auto add = [&](const std::string& name, Outcome outcome) -> Outcome& {
     run.cases.push_back({.name = name, .size = {64, 36}, .tolerance = {.maxDiff = 3, .share = 0.001, .block = true}});
     run.outcomes.push_back(std::move(outcome));
@@ -43,13 +39,15 @@ void writeRegressPages(const fs::path& folder) {
   };
   add("fine", {});
   writeFile(folder / "regress_passed.html", regressHtml(run, folder));
-  Outcome& seam = add("seam", {.driver = "a driver", .command = {"speculum", "render", "--set", "a b=1"}});
+  Outcome& seam = add("seam", {.driver = "a driver",
+                               .drawCommand = {"speculum", "render", "--set", "a b=1"},
+                               .acceptCommand = {"speculum", "regress", "--filter", "seam", "--update"}});
   judge(expected, actual, run.cases.back(), CaseFiles(folder, "seam"), seam);
   add("left out", {.verdict = Verdict::skipped, .message = "too slow"});
   add("crash",
-      {.verdict = Verdict::error, .message = "signal 11", .command = {"speculum"}, .log = {"</script>", "ouch"}});
+      {.verdict = Verdict::error, .message = "signal 11", .drawCommand = {"speculum"}, .log = {"</script>", "ouch"}});
   add("new",
-      {.verdict = Verdict::failed, .message = "there is no expected picture", .replaceable = true, .drawn = true});
+      {.verdict = Verdict::failed, .message = "there is no expected picture", .replaceable = true, .hasFiles = true});
   writePng(CaseFiles(folder, "new").actual, actual);
   writeFile(folder / "regress.html", regressHtml(run, folder));
 }

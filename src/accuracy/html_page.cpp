@@ -35,9 +35,9 @@ std::string base64(std::span<const uint8_t> bytes) {
 }
 
 std::string pageWithData(std::string_view page, const nlohmann::ordered_json& data) {
-  constexpr std::string_view place = "@DATA@";
-  const size_t at = page.find(place);
-  return std::string(page.substr(0, at)) + escapedForScript(data) + std::string(page.substr(at + place.size()));
+  constexpr std::string_view placeholder = "@DATA@";
+  const size_t at = page.find(placeholder);
+  return std::string(page.substr(0, at)) + escapedForScript(data) + std::string(page.substr(at + placeholder.size()));
 }
 
 }  // namespace speculum

@@ -9,32 +9,6 @@ namespace speculum {
 
 namespace {
 
-// The command that draws the case again; the page puts quotes where the shell needs them.
-std::vector<std::string> renderCommand(const RegressCase& subject, const Options& options) {
-  std::vector<std::string> command{"speculum", "render",
-                                   "--scene",  subject.scene.string(),
-                                   "--size",   fmt::format("{}x{}", subject.size.width, subject.size.height)};
-  const auto add = [&](const std::string& option, const std::string& value) {
-    command.insert(command.end(), {option, value});
-  };
-  if (subject.time != 0.0) {
-    add("--time", fmt::format("{}", subject.time));
-  }
-  if (subject.camera) {
-    add("--camera", *subject.camera);
-  }
-  for (const auto& settings : {subject.settings, options.settings}) {
-    for (const auto& [key, value] : settings) {
-      add("--set", key + "=" + value);
-    }
-  }
-  if (!options.gpu.empty()) {
-    add("--gpu", options.gpu);
-  }
-  add("--out", subject.name + ".png");
-  return command;
-}
-
 // A check that the program makes of itself. The first that fails is the outcome's message.
 void addCheck(Outcome& outcome, const std::string& label, uint64_t count, const std::string& detail = {}) {
   if (count > 0) {
@@ -61,7 +35,7 @@ Options caseOptions(const RegressCase& subject, const Options& common) {
 }
 
 Outcome CaseDrawer::outcomeOf(const RegressCase& subject) {
-  Outcome outcome{.command = renderCommand(subject, options_)};
+  Outcome outcome;
   try {
     if (!device_) {
       device_.emplace(deviceOptions(options_, nullptr));
@@ -69,7 +43,7 @@ Outcome CaseDrawer::outcomeOf(const RegressCase& subject) {
     outcome.device = device_->info().name;
     outcome.driver = device_->info().driver;
     const ExpectedCase expected = expectedOf(subject, outcome.driver);
-    outcome.picture = expected.drawn.picture.string();
+    outcome.picture = expected.subject.picture.string();
     if (expected.result == ExpectedResult::skip) {
       outcome.verdict = Verdict::skipped;
       outcome.message = expected.reason;
@@ -88,7 +62,7 @@ Outcome CaseDrawer::outcomeOf(const RegressCase& subject) {
 }
 
 bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
-  RegressCase subject = expected.drawn;
+  RegressCase subject = expected.subject;
   const CaseFiles files(options_.out, subject.name);
   const Image8 actual = draw(subject, outcome);
   for (int i = 1; i < options_.repeat; ++i) {
@@ -115,7 +89,7 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
                  : fmt::format("{} is {}x{}, the picture {}x{} (--update replaces it)", subject.picture.string(),
                                picture->width, picture->height, actual.width, actual.height);
     outcome.replaceable = outcome.figures.empty();
-    outcome.drawn = true;
+    outcome.hasFiles = true;
     writePng(files.actual, actual);
     return false;
   }

@@ -32,10 +32,16 @@ bool matches(const std::string& glob, const std::string& name) {
 
 std::vector<RegressCase> selectedCases(const Options& options) {
   std::vector<RegressCase> cases = readCases(options.cases);
+  const auto requireMatch = [&](const std::string& option, const std::string& glob) {
+    if (std::none_of(cases.begin(), cases.end(), [&](const RegressCase& one) { return matches(glob, one.name); })) {
+      throw UsageError(fmt::format("{}: no case of {} has a name like '{}' (* stands for any text)", option,
+                                   options.cases.string(), glob));
+    }
+  };
+  requireMatch("--filter", options.filter);
   std::erase_if(cases, [&](const RegressCase& subject) { return !matches(options.filter, subject.name); });
-  if (cases.empty()) {
-    throw UsageError("--filter: no case of " + options.cases.string() + " has a name like '" + options.filter +
-                     "' (* stands for any text)");
+  if (options.update) {
+    requireMatch("--update", *options.update);
   }
   return cases;
 }
@@ -51,6 +57,55 @@ int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
     std::fflush(stdout);
   }
   return 0;
+}
+
+// The page puts quotes around words where the shell needs them.
+using Words = std::vector<std::string>;
+
+// The options of this run that change pictures.
+Words drawOptions(const Options& options) {
+  Words words;
+  for (const auto& [key, value] : options.settings) {
+    words.insert(words.end(), {"--set", key + "=" + value});
+  }
+  if (!options.gpu.empty()) {
+    words.insert(words.end(), {"--gpu", options.gpu});
+  }
+  if (options.renderPath != RenderPath::automatic) {
+    words.insert(words.end(), {"--render-path", std::string(renderPathName(options.renderPath))});
+  }
+  if (!options.shaderDir.empty()) {
+    words.insert(words.end(), {"--shader-dir", options.shaderDir.string()});
+  }
+  if (options.validation) {
+    words.push_back("--validation");
+  }
+  return words;
+}
+
+void addCommands(const RegressCase& subject, const Options& options, Outcome& outcome) {
+  Words& draw = outcome.drawCommand;
+  draw = {"speculum", "render",
+          "--scene",  subject.scene.string(),
+          "--size",   fmt::format("{}x{}", subject.size.width, subject.size.height)};
+  if (subject.time != 0.0) {
+    draw.insert(draw.end(), {"--time", fmt::format("{}", subject.time)});
+  }
+  if (subject.camera) {
+    draw.insert(draw.end(), {"--camera", *subject.camera});
+  }
+  for (const auto& [key, value] : subject.settings) {
+    draw.insert(draw.end(), {"--set", key + "=" + value});
+  }
+  const Words given = drawOptions(options);
+  draw.insert(draw.end(), given.begin(), given.end());
+  draw.insert(draw.end(), {"--out", subject.name + ".png"});
+  if (outcome.replaceable) {
+    Words& accept = outcome.acceptCommand;
+    accept = {"speculum", "regress", options.cases.string(), "--filter", subject.name};
+    accept.insert(accept.end(), given.begin(), given.end());
+    accept.push_back("--update");
+  }
 }
 
 Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject, int repeat) {
@@ -108,16 +163,12 @@ int runRegress(const Options& options) {
   RegressRun run{.file = options.cases,
                  .cases = selectedCases(options),
                  .command = {"speculum"},
-                 .accept = {"speculum", "regress", options.cases.string(), "--update", "NAME"},
                  .version = versionString,
                  .date = utcNow()};
   if (options.worker) {
     return runWorker(options, run.cases);
   }
   run.command.insert(run.command.end(), options.arguments.begin(), options.arguments.end());
-  if (!options.gpu.empty()) {
-    run.accept.insert(run.accept.end(), {"--gpu", options.gpu});
-  }
   std::filesystem::create_directories(options.out);
   std::vector<WorkerJob> jobs;
   for (size_t i = 0; i < run.cases.size(); ++i) {
@@ -152,6 +203,7 @@ int runRegress(const Options& options) {
         outcome.verdict = Verdict::error;
         outcome.message = error.what();
       }
+      addCommands(subject, options, outcome);
       progress.advance();
     });
     if (!finished) {

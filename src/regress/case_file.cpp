@@ -27,7 +27,7 @@ constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
 
 // A table of a case, over those of [defaults].
 struct Draft {
-  RegressCase drawn;
+  RegressCase common;  // to the cases of its grid
   std::optional<std::string> name;
   std::optional<std::string> scene;
   std::string picture = "{name}.png";
@@ -71,8 +71,8 @@ void CaseReader::apply(const TableReader& table, Draft& draft, const std::string
   if (key == "scene") {
     draft.scene = value;
     const std::optional<fs::path> shipped = fs::is_regular_file(beside(value)) ? std::nullopt : shippedScene(value);
-    draft.drawn.scene = shipped.value_or(beside(value));
-    if (!fs::is_regular_file(draft.drawn.scene)) {
+    draft.common.scene = shipped.value_or(beside(value));
+    if (!fs::is_regular_file(draft.common.scene)) {
       table.fail(key, "is '" + value + "'", "a file beside this one, or a name of speculum scenes, is needed");
     }
   } else if (key == "camera") {
@@ -83,18 +83,18 @@ void CaseReader::apply(const TableReader& table, Draft& draft, const std::string
     } catch (const std::invalid_argument& error) {
       table.fail(key, error.what(), "as --camera takes it");
     }
-    draft.drawn.camera = value;
+    draft.common.camera = value;
   } else if (key == "size") {
     const std::optional<PictureSize> size = pictureSize(value);
     if (!size) {
       table.fail(key, "is '" + value + "'", std::string(pictureSizes) + " is needed");
     }
-    draft.drawn.size = *size;
+    draft.common.size = *size;
   } else if (key == "time") {
     const char* start = value.c_str();
     char* end = nullptr;
-    draft.drawn.time = std::strtod(start, &end);
-    if (end == start || *end != '\0' || !kTime.contains(draft.drawn.time)) {
+    draft.common.time = std::strtod(start, &end);
+    if (end == start || *end != '\0' || !kTime.contains(draft.common.time)) {
       table.fail(key, "is '" + value + "'", kTime.text());
     }
   } else {
@@ -154,7 +154,7 @@ std::vector<Expectation> CaseReader::readExpectations(const TableReader& table) 
 }
 
 void CaseReader::read(const TableReader& table, Draft& draft) const {
-  draft.drawn.line = table.line();
+  draft.common.line = table.line();
   if (const auto name = text(table, "name")) {
     draft.name = name;
   }
@@ -163,11 +163,11 @@ void CaseReader::read(const TableReader& table, Draft& draft) const {
       apply(table, draft, key, *value);
     }
   }
-  draft.drawn.time = table.number("time", draft.drawn.time, kTime);
-  draft.drawn.timeout = table.number("timeout", draft.drawn.timeout, seconds);
+  draft.common.time = table.number("time", draft.common.time, kTime);
+  draft.common.timeout = table.number("timeout", draft.common.timeout, seconds);
   if (const auto mask = text(table, "mask")) {
-    draft.drawn.mask = beside(*mask);
-    if (!fs::is_regular_file(*draft.drawn.mask)) {
+    draft.common.mask = beside(*mask);
+    if (!fs::is_regular_file(*draft.common.mask)) {
       table.fail("mask", "is '" + *mask + "'", "a PNG file is needed");
     }
   }
@@ -190,9 +190,9 @@ void CaseReader::read(const TableReader& table, Draft& draft) const {
       }
     }
   }
-  draft.drawn.tolerance = merged(draft.drawn.tolerance, readTolerance(table));
+  draft.common.tolerance = merged(draft.common.tolerance, readTolerance(table));
   if (table.has("expect")) {
-    draft.drawn.expect = readExpectations(table);
+    draft.common.expect = readExpectations(table);
   }
 }
 
@@ -218,7 +218,7 @@ void CaseReader::expand(const TableReader& table, const Draft& draft, std::vecto
 
 void CaseReader::add(const TableReader& table, const Draft& draft, const std::string& suffix,
                      std::vector<RegressCase>& cases) {
-  RegressCase made = draft.drawn;
+  RegressCase made = draft.common;
   if (!draft.scene) {
     table.fail("scene", "is missing", "a scene file, or a name of speculum scenes, is needed");
   }
@@ -232,9 +232,9 @@ void CaseReader::add(const TableReader& table, const Draft& draft, const std::st
   }
   made.settings.assign(draft.settings.begin(), draft.settings.end());
   const auto pictureFile = [&](std::string path) {
-    constexpr std::string_view place = "{name}";
-    if (const size_t at = path.find(place); at != std::string::npos) {
-      path.replace(at, place.size(), made.name);
+    constexpr std::string_view placeholder = "{name}";
+    if (const size_t at = path.find(placeholder); at != std::string::npos) {
+      path.replace(at, placeholder.size(), made.name);
     }
     return beside(path);
   };
@@ -258,13 +258,13 @@ Tolerance merged(const Tolerance& base, const Tolerance& changes) {
 }
 
 ExpectedCase expectedOf(const RegressCase& subject, const std::string& driver) {
-  ExpectedCase expected{.drawn = subject};
+  ExpectedCase expected{.subject = subject};
   for (const Expectation& entry : subject.expect) {
     if (isOfFamily(driver, entry.driver) && (!entry.version || isInVersions(driver, *entry.version))) {
       expected.result = entry.result;
       expected.reason = entry.reason;
-      expected.drawn.picture = entry.picture.value_or(subject.picture);
-      expected.drawn.tolerance = merged(subject.tolerance, entry.tolerance);
+      expected.subject.picture = entry.picture.value_or(subject.picture);
+      expected.subject.tolerance = merged(subject.tolerance, entry.tolerance);
       break;
     }
   }
@@ -279,9 +279,9 @@ std::vector<RegressCase> readCases(const fs::path& file) {
   const TableReader reader(file, "", root, 1, rootKeys);
   CaseReader cases(file);
   Draft defaults;
-  defaults.drawn.size = {640, 360};
-  defaults.drawn.timeout = 60.0;
-  defaults.drawn.tolerance = {.maxDiff = 3, .share = 0.001, .block = true};
+  defaults.common.size = {640, 360};
+  defaults.common.timeout = 60.0;
+  defaults.common.tolerance = {.maxDiff = 3, .share = 0.001, .block = true};
   if (const std::optional<TableReader> table = reader.subtable("defaults", keys)) {
     cases.read(*table, defaults);
   }

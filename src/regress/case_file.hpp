@@ -52,7 +52,7 @@ struct RegressCase {
 
 // The case as a driver is expected to draw it: with picture and tolerance of the first expectation that matches.
 struct ExpectedCase {
-  RegressCase drawn;
+  RegressCase subject;
   ExpectedResult result = ExpectedResult::pass;
   std::string reason;
 };

@@ -16,17 +16,18 @@ struct OutcomeFigure {
   bool over = false;
 };
 
-// What became of a case. Workers write it as a line of JSON.
+// Result of a case. Workers write it as a line of JSON; the commands are added afterwards.
 struct Outcome {
   Verdict verdict = Verdict::passed;
   std::string message;  // one line: why it did not simply pass
   std::string device;
   std::string driver;
-  std::string picture;               // file of the expected picture
-  std::vector<std::string> command;  // words of the one that draws it again
-  bool replaceable = false;          // --update may write the expected picture
-  bool drawn = false;                // its pictures are beside the report
-  double gain = 1.0;                 // of the difference picture
+  std::string picture;                     // file of the expected picture
+  std::vector<std::string> drawCommand;    // words of the one that draws it again
+  std::vector<std::string> acceptCommand;  // words of the one that replaces the expected picture; none: it may not be
+  bool replaceable = false;                // --update may write the expected picture
+  bool hasFiles = false;                   // its pictures are beside the report
+  double gain = 1.0;                       // of the difference picture
   double seconds = 0.0;
   std::vector<int> region;  // left, top, width, height of the largest difference in pixels; none: no entries
   std::vector<OutcomeFigure> figures;
@@ -39,8 +40,8 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::passed, "passed"},
                                        {Verdict::skipped, "skipped"},
                                        {Verdict::updated, "updated"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutcomeFigure, label, value, limit, over)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, verdict, message, device, driver, picture, command, replaceable, drawn,
-                                   gain, seconds, region, figures, log)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, verdict, message, device, driver, picture, drawCommand, acceptCommand,
+                                   replaceable, hasFiles, gain, seconds, region, figures, log)
 
 // "passed" and so on.
 std::string verdictName(Verdict verdict);

@@ -66,7 +66,7 @@ PictureCheck checkPicture(const Image8& expected, const Image8& actual, const Re
   const int maxDiff = limits.maxDiff.value_or(0);
   PictureCheck check{.agreement = difference(expected, actual, maxDiff, counts)};
   const auto add = [&](OutcomeFigure figure, const std::string& sentence) {
-    if (figure.over && check.problem.empty()) {
+    if (figure.over && !check.problem) {
       check.problem = sentence;
     }
     check.figures.push_back(std::move(figure));
@@ -83,7 +83,7 @@ PictureCheck checkPicture(const Image8& expected, const Image8& actual, const Re
   add({"largest difference", fmt::format("{}/255", found.largest), "–", false}, "");
   // FLIP takes longer than everything else.
   if (limits.flip || limits.flipP99) {
-    const FlipFigures flip = flipFigures(expected, actual, counts);
+    FlipFigures flip = flipFigures(expected, actual, counts);
     const auto addFlip = [&](const std::string& label, double value, std::optional<double> limit) {
       const std::string text = fmt::format("{:.4f}", value);
       const std::string bound = limit ? fmt::format("{:.4g}", *limit) : "–";
@@ -91,6 +91,7 @@ PictureCheck checkPicture(const Image8& expected, const Image8& actual, const Re
     };
     addFlip("mean FLIP", flip.mean, limits.flip);
     addFlip("FLIP, 99th percentile", flip.p99, limits.flipP99);
+    check.flip = std::move(flip.map);
   }
   return check;
 }
@@ -105,9 +106,9 @@ void judge(const Image8& expected, const Image8& actual, const RegressCase& subj
            Outcome& outcome) {
   const PictureCheck check = checkPicture(expected, actual, subject);
   outcome.figures.insert(outcome.figures.end(), check.figures.begin(), check.figures.end());
-  if (!check.problem.empty() && outcome.verdict == Verdict::passed) {
+  if (check.problem && outcome.verdict == Verdict::passed) {
     outcome.verdict = Verdict::failed;
-    outcome.message = check.problem;
+    outcome.message = *check.problem;
     outcome.replaceable = true;
   }
   if (outcome.verdict == Verdict::passed) {
@@ -121,8 +122,8 @@ void judge(const Image8& expected, const Image8& actual, const RegressCase& subj
   writePng(files.expected, expected);
   writePng(files.actual, actual);
   writePng(files.difference, differencePicture(expected, actual, check.agreement, outcome.gain));
-  writePng(files.flip, heatColors(flipMap(comparedImage(expected), comparedImage(actual))));
-  outcome.drawn = true;
+  writePng(files.flip, heatColors(check.flip ? *check.flip : flipMap(comparedImage(expected), comparedImage(actual))));
+  outcome.hasFiles = true;
 }
 
 void applyExpectation(const ExpectedCase& expected, Outcome& outcome) {

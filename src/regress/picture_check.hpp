@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "accuracy/picture_agreement.hpp"
+#include "accuracy/plane.hpp"
 #include "regress/case_file.hpp"
 #include "regress/outcome.hpp"
 
@@ -10,7 +13,8 @@ namespace speculum {
 struct PictureCheck {
   PictureAgreement agreement;
   std::vector<OutcomeFigure> figures;
-  std::string problem;  // first limit that is not kept, as a sentence; empty: all are
+  std::optional<Plane2d> flip;         // error of each pixel, if there is a limit on FLIP
+  std::optional<std::string> problem;  // first limit that is exceeded, as a sentence
 };
 
 // Throws std::runtime_error when sizes differ, also that of the mask.

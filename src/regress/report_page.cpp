@@ -148,15 +148,9 @@ std::string regressHtml(const RegressRun& run, const std::filesystem::path& fold
     entry["name"] = subject.name;
     entry["line"] = subject.line;
     entry["size"] = {subject.size.width, subject.size.height};
-    entry["accept"] = nullptr;
-    if (outcome.replaceable) {
-      std::vector<std::string> accept = run.accept;
-      std::replace(accept.begin(), accept.end(), std::string("NAME"), subject.name);
-      entry["accept"] = accept;
-    }
     entry["pictures"] = nullptr;
     if (needsAttention(outcome)) {
-      if (outcome.drawn) {
+      if (outcome.hasFiles) {
         entry["pictures"] = picturesOf(CaseFiles(folder, subject.name), left / waiting);
         left -= static_cast<double>(entry["pictures"].is_null() ? 0 : sizeOf(entry["pictures"]));
       }
@@ -206,10 +200,12 @@ std::string junitXml(const RegressRun& run) {
 }
 
 std::string githubErrors(const RegressRun& run) {
+  // A relative path would be one of the repository, and the command may have been run in a folder of it.
+  const std::string file = escapedCommand(std::filesystem::absolute(run.file).lexically_normal().string(), true);
   std::string text;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     if (needsAttention(run.outcomes[i])) {
-      text += "::error file=" + escapedCommand(run.file.string(), true) + ",line=" + std::to_string(run.cases[i].line) +
+      text += "::error file=" + file + ",line=" + std::to_string(run.cases[i].line) +
               ",title=" + escapedCommand(run.cases[i].name, true) +
               "::" + escapedCommand(run.outcomes[i].message, false) + "\n";
     }

@@ -16,7 +16,6 @@ struct RegressRun {
   std::vector<RegressCase> cases;
   std::vector<Outcome> outcomes;
   std::vector<std::string> command;  // words of the one that ran it
-  std::vector<std::string> accept;   // words of the one that takes over the picture of the case NAME
   std::string version;
   std::string date;
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "platform/process.hpp"
 
@@ -16,9 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t keptLines = 20;
-constexpr double lookUp = 0.1;     // seconds between looks at whether the run was interrupted
-constexpr double patience = 10.0;  // seconds for a worker to end by itself
+constexpr size_t maxLogLines = 20;
+constexpr double pollSeconds = 0.1;   // until the next look at whether the run was interrupted
+constexpr double exitSeconds = 10.0;  // for a worker to end by itself
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -65,14 +65,14 @@ std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
   const Clock::time_point start = Clock::now();
   worker.write(job.request + "\n");
   WorkerReply reply;
-  const auto keep = [&](std::string line) {
-    if (reply.log.size() == keptLines) {
+  const auto addToLog = [&](std::string line) {
+    if (reply.log.size() == maxLogLines) {
       reply.log.erase(reply.log.begin());
     }
     reply.log.push_back(std::move(line));
   };
   while (!interruptRequested()) {
-    const std::optional<std::string> line = worker.readLine(std::min(lookUp, job.timeout));
+    const std::optional<std::string> line = worker.readLine(std::min(pollSeconds, job.timeout));
     reply.seconds = secondsSince(start);
     if (line && line->starts_with(workerReplyMark)) {
       reply.text = line->substr(workerReplyMark.size());
@@ -80,12 +80,12 @@ std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
     }
     if (line) {
       if (!line->empty()) {
-        keep(*line);
+        addToLog(*line);
       }
     } else if (!worker.running()) {
       const ProcessResult result = worker.wait();
       if (!result.output.empty()) {
-        keep(result.output);
+        addToLog(result.output);
       }
       reply.end = JobEnd::crashed;
       reply.text = result.exitCode > 128 ? "the worker was ended by signal " + std::to_string(result.exitCode - 128)
@@ -106,8 +106,8 @@ std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
 void finish(ChildProcess& worker) {
   const Clock::time_point start = Clock::now();
   worker.closeInput();
-  while (worker.running() && secondsSince(start) < patience) {
-    worker.readLine(patience);
+  while (worker.running() && secondsSince(start) < exitSeconds) {
+    worker.readLine(exitSeconds);
   }
   worker.kill();
 }
@@ -118,14 +118,20 @@ bool runWorkers(const std::vector<std::string>& command, int workers, const std:
                 const std::function<void(size_t job, const WorkerReply& reply)>& done) {
   JobQueue queue(jobs);
   std::mutex mutex;
+  size_t ended = 0;
   const auto work = [&] {
     std::unique_ptr<ChildProcess> worker;
     std::string group;
     while (const std::optional<size_t> index = queue.take(group)) {
-      if (!worker) {
-        worker = std::make_unique<ChildProcess>(command, ChildProcess::Input::pipe);
+      std::optional<WorkerReply> reply;
+      try {
+        if (!worker) {
+          worker = std::make_unique<ChildProcess>(command, ChildProcess::Input::pipe);
+        }
+        reply = ask(*worker, jobs[*index]);
+      } catch (const std::exception& error) {
+        reply = {.end = JobEnd::crashed, .text = error.what()};
       }
-      const std::optional<WorkerReply> reply = ask(*worker, jobs[*index]);
       if (!reply) {
         return;
       }
@@ -134,18 +140,20 @@ bool runWorkers(const std::vector<std::string>& command, int workers, const std:
       }
       const std::lock_guard lock(mutex);
       done(*index, *reply);
+      ++ended;
     }
     if (worker) {
       finish(*worker);
     }
   };
-  {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < std::clamp(workers, 1, static_cast<int>(std::max<size_t>(1, jobs.size()))); ++i) {
-      threads.emplace_back(work);
-    }
+  std::vector<std::future<void>> threads;
+  for (int i = 0; i < std::clamp(workers, 1, static_cast<int>(std::max<size_t>(1, jobs.size()))); ++i) {
+    threads.push_back(std::async(std::launch::async, work));
   }
-  return !interruptRequested();
+  for (std::future<void>& thread : threads) {
+    thread.get();
+  }
+  return ended == jobs.size();
 }
 
 }  // namespace speculum

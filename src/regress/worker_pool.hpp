@@ -26,7 +26,7 @@ constexpr std::string_view workerReplyMark = "reply ";
 
 // Hands jobs to `workers` processes, a request at a time on their standard input. A worker that ends, or takes longer
 // than a job's timeout, is killed and replaced for the next job. Calls `done` for each job, from several threads but
-// one at a time. Returns false when interrupted, with jobs left.
+// one at a time. Returns false when interrupted with jobs left. Throws what `done` throws, once all workers have ended.
 bool runWorkers(const std::vector<std::string>& command, int workers, const std::vector<WorkerJob>& jobs,
                 const std::function<void(size_t job, const WorkerReply& reply)>& done);
 

@@ -71,7 +71,7 @@ function makeModes(one, actual, panes) {
 
 function pictures(one) {
   if (!one.pictures) {
-    return make('p', { class: 'missing' }, one.drawn
+    return make('p', { class: 'missing' }, one.hasFiles
       ? `Its pictures would make this file too large: ${one.name}.actual.png and others stand beside it.`
       : 'There is no picture.');
   }
@@ -98,12 +98,12 @@ function numbers({ figures }) {
       make('th', { scope: 'row' }, label), make('td', {}, value), make('td', {}, limit)))));
 }
 
-function commands({ name, command, accept }) {
-  const row = (title, words, label) => words && words.length
+function commands({ name, drawCommand, acceptCommand }) {
+  const row = (title, words, label) => words.length
     ? [make('dt', {}, title), make('dd', {}, make('code', {}, commandLine(words)), makeCopyButton(commandLine(words), label))]
     : [];
-  return make('dl', { class: 'commands' }, row('Draw it again', command, `Copy the command that draws ${name}`),
-              row('Accept the actual picture', accept, `Copy the command that accepts ${name}`));
+  return make('dl', { class: 'commands' }, row('Draw it again', drawCommand, `Copy the command that draws ${name}`),
+              row('Accept the actual picture', acceptCommand, `Copy the command that accepts ${name}`));
 }
 
 const verdictBadge = ({ verdict }) => make('span', { class: `verdict ${verdict}` }, verdict);
@@ -137,22 +137,22 @@ function caseTable(cases, selection) {
 const needsAttention = ({ verdict }) => verdict === 'failed' || verdict === 'error';
 
 function showRun(run) {
-  const place = id => document.getElementById(id);
+  const element = id => document.getElementById(id);
   const bad = run.cases.filter(needsAttention);
-  place('title').textContent = bad.length ? `${bad.length} of ${plural(run.cases.length, 'case')} failed`
+  element('title').textContent = bad.length ? `${bad.length} of ${plural(run.cases.length, 'case')} failed`
                                           : `${plural(run.cases.length, 'case')}, none failed`;
-  document.title = `${place('title').textContent} – ${run.file}`;
+  document.title = `${element('title').textContent} – ${run.file}`;
   const drivers = [...new Set(run.cases.filter(one => one.driver).map(one => `${one.device}, ${one.driver}`))];
   const facts = { Cases: run.file, Results: run.summary, Driver: drivers.join('; ') || '–', Date: run.date,
                   Command: make('span', {}, make('code', {}, commandLine(run.command)), ' ',
                                 makeCopyButton(commandLine(run.command), 'Copy the command of this run')) };
-  place('facts').append(...Object.entries(facts).map(([title, content]) =>
+  element('facts').append(...Object.entries(facts).map(([title, content]) =>
     make('div', {}, make('dt', {}, title), make('dd', {}, content))));
-  place('failures').append(...bad.map(article));
+  element('failures').append(...bad.map(article));
   const selection = makeSelection('');
-  place('table').append(caseTable(run.cases, selection));
+  element('table').append(caseTable(run.cases, selection));
   selection.listen(key => key && document.querySelector(`[data-case="${CSS.escape(key)}"]`)?.scrollIntoView());
-  place('made').textContent = `Made by Speculum ${run.version}.`;
+  element('made').textContent = `Made by Speculum ${run.version}.`;
 }
 
 showRun(JSON.parse(document.getElementById('data').textContent));
