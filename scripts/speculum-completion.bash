@@ -28,11 +28,12 @@ _speculum() {
       ;;
     --render-path) mapfile -t COMPREPLY < <(compgen -W "auto dynamic renderpass" -- "$word") && return ;;
     --present-mode) mapfile -t COMPREPLY < <(compgen -W "fifo mailbox immediate" -- "$word") && return ;;
+    --platform) mapfile -t COMPREPLY < <(compgen -W "x11 wayland" -- "$word") && return ;;
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$word") && return ;;
     --sweep) mapfile -t COMPREPLY < <(compgen -W "quick full" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
     --shader-dir) mapfile -t COMPREPLY < <(compgen -d -- "$word") && return ;;
     --size | --time | --camera | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff | --filter | --jobs | --repeat | --update) return ;;
-    --out | --stats | --json | --mask | --heatmap | --sweep-results | --junit)
+    --out | --stats | --json | --mask | --heatmap | --sweep-results | --junit | --capture)
       mapfile -t COMPREPLY < <(compgen -f -- "$word")
       return
       ;;

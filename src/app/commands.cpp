@@ -10,6 +10,7 @@
 #include "app/device_view.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
+#include "platform/window.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {
@@ -56,7 +57,13 @@ int runScenes() {
 
 int runCommand(const Options& options) {
   static const std::map<std::string, int (*)(const Options&)> commands = {
-      {"demo", runDemo},
+      {"demo",
+       [](const Options& wanted) {
+         if (wanted.platform) {
+           chooseWindowPlatform(*wanted.platform);
+         }
+         return runDemo(wanted);
+       }},
       {"render", runRender},
       {"bench", runBench},
       {"reference", runReference},

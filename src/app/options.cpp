@@ -62,6 +62,8 @@ void addDemo(CLI::App& app, Options& options, Raw& raw) {
   addSweepResults(app, options);
   app.add_option("--present-mode", raw.presentMode, "fifo | mailbox | immediate")
       ->check(CLI::IsMember({"fifo", "mailbox", "immediate"}));
+  app.add_option("--platform", options.platform, "x11 | wayland; GLFW before 3.4 is installed for one of them")
+      ->check(CLI::IsMember({"x11", "wayland"}));
 }
 
 void addTime(CLI::App& app, Options& options) {
@@ -82,6 +84,7 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
   app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
   addSweepResults(app, options);
   app.add_option("--stats", options.stats, "JSON: passes, skipped mirrors, effects, totals");
+  app.add_option("--capture", options.capture, "F.rdc: the first picture for RenderDoc, which must be loaded");
   app.add_option("--frames", options.frames, "a sequence of so many pictures")->check(CLI::Range(1, 1000000));
   app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6));
 }

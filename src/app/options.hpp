@@ -21,6 +21,7 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> settings;  // --set key=value, in order
   std::filesystem::path out;
   std::filesystem::path stats;
+  std::optional<std::filesystem::path> capture;  // render: RenderDoc's, of the first picture
   std::filesystem::path json;
   double time = 0.0;               // seconds
   std::optional<Bookmark> camera;  // replaces the scene's; without a name
@@ -35,7 +36,8 @@ struct Options {
   std::string logLevel = "warn";
   std::filesystem::path shaderDir;
   PresentMode presentMode = PresentMode::fifo;
-  std::filesystem::path reference;  // compare
+  std::optional<std::string> platform;  // of the window: x11 or wayland
+  std::filesystem::path reference;      // compare
   std::filesystem::path test;
   std::filesystem::path mask;
   std::filesystem::path heatmap;

@@ -13,6 +13,7 @@
 #include "app/stats.hpp"
 #include "app/sweep_description.hpp"
 #include "app/version.hpp"
+#include "app/view_command.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
@@ -68,14 +69,8 @@ Words drawOptions(const Options& options) {
   for (const auto& [key, value] : options.settings) {
     words.insert(words.end(), {"--set", key + "=" + value});
   }
-  if (!options.gpu.empty()) {
-    words.insert(words.end(), {"--gpu", options.gpu});
-  }
-  if (options.renderPath != RenderPath::automatic) {
-    words.insert(words.end(), {"--render-path", std::string(renderPathName(options.renderPath))});
-  }
-  if (!options.shaderDir.empty()) {
-    words.insert(words.end(), {"--shader-dir", options.shaderDir.string()});
+  for (std::string& argument : deviceArguments(options)) {
+    words.push_back(std::move(argument));
   }
   if (options.validation) {
     words.push_back("--validation");

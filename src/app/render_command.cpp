@@ -15,6 +15,7 @@
 #include "image/exr.hpp"
 #include "image/picture_files.hpp"
 #include "platform/process.hpp"
+#include "platform/renderdoc_capture.hpp"
 #include "reference/throughput.hpp"
 
 namespace speculum {
@@ -45,8 +46,15 @@ int runRender(const Options& options) {
     return !interruptRequested();
   };
   for (int i = 0; i < count; ++i) {
-    session.draw(options.time + i / options.fps, true, advance);
-    session.finish();
+    const auto draw = [&] {
+      session.draw(options.time + i / options.fps, true, advance);
+      session.finish();
+    };
+    if (options.capture && i == 0) {
+      captureWithRenderDoc(*options.capture, draw);
+    } else {
+      draw();
+    }
     if (session.lastFrame().pictures < session.settings().view.accumulate) {
       return 1;  // interrupted
     }

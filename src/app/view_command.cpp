@@ -59,6 +59,20 @@ std::vector<std::string> settingArguments(const Scene& scene, const Settings& se
 
 }  // namespace
 
+std::vector<std::string> deviceArguments(const Options& options) {
+  std::vector<std::string> arguments;
+  if (!options.gpu.empty()) {
+    arguments.insert(arguments.end(), {"--gpu", options.gpu});
+  }
+  if (options.renderPath != RenderPath::automatic) {
+    arguments.insert(arguments.end(), {"--render-path", std::string(renderPathName(options.renderPath))});
+  }
+  if (!options.shaderDir.empty()) {
+    arguments.insert(arguments.end(), {"--shader-dir", std::filesystem::absolute(options.shaderDir).string()});
+  }
+  return arguments;
+}
+
 std::string viewCommand(const Options& options, const std::filesystem::path& file, const Scene& scene,
                         const Settings& settings) {
   std::vector<std::string> arguments = {
@@ -72,14 +86,8 @@ std::string viewCommand(const Options& options, const std::filesystem::path& fil
   for (std::string& argument : settingArguments(scene, settings)) {
     arguments.push_back(std::move(argument));
   }
-  if (!options.gpu.empty()) {
-    arguments.insert(arguments.end(), {"--gpu", options.gpu});
-  }
-  if (options.renderPath != RenderPath::automatic) {
-    arguments.insert(arguments.end(), {"--render-path", std::string(renderPathName(options.renderPath))});
-  }
-  if (!options.shaderDir.empty()) {
-    arguments.insert(arguments.end(), {"--shader-dir", std::filesystem::absolute(options.shaderDir).string()});
+  for (std::string& argument : deviceArguments(options)) {
+    arguments.push_back(std::move(argument));
   }
   arguments.insert(arguments.end(), {"--out", scene.file.stem().string() + ".png"});
   std::string text;

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/options.hpp"
 #include "frame/settings.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {
+
+// Returns the options that were given about the device and its shaders.
+std::vector<std::string> deviceArguments(const Options& options);
 
 // Returns a shell command of `speculum render` that draws the view of `options` with `settings` to the same bytes: with
 // scene, size, time, camera, device, and every setting that is not the scene's own. quality.* is left out, because it

@@ -83,6 +83,19 @@ GLFWmonitor* monitorAt(int x, int y) {
 
 }  // namespace
 
+void chooseWindowPlatform(const std::string& platform) {
+  const bool wayland = platform == "wayland";
+#if GLFW_VERSION_MAJOR > 3 || GLFW_VERSION_MINOR >= 4
+  glfwInitHint(GLFW_PLATFORM, wayland ? GLFW_PLATFORM_WAYLAND : GLFW_PLATFORM_X11);
+#else
+  const std::string installed = glfwGetVersionString();
+  if (installed.find(wayland ? "Wayland" : "X11") == std::string::npos) {
+    throw std::runtime_error("--platform: GLFW is installed as '" + installed + "' (install " +
+                             (wayland ? "libglfw3-wayland" : "libglfw3") + " for " + platform + ")");
+  }
+#endif
+}
+
 Window::Library::Library() {
   if (!glfwInit()) {
     fail("no window system", "is DISPLAY set? without a display use the render command");

@@ -95,6 +95,10 @@ struct WindowOptions {
   bool visible = true;
 };
 
+// Makes windows be opened by "x11" or "wayland". Call before there is a window. GLFW before 3.4 is built for one of
+// them; throws std::runtime_error if that is the other.
+void chooseWindowPlatform(const std::string& platform);
+
 // A window of the desktop. Use it from the main thread only.
 class Window {
  public:

@@ -1,0 +1,51 @@
+#include "platform/renderdoc_capture.hpp"
+
+#include <dlfcn.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "platform/renderdoc_api.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Null where RenderDoc is not loaded.
+const RenderDocApi* loadedApi() {
+  void* library = ::dlopen("librenderdoc.so", RTLD_NOW | RTLD_NOLOAD);
+  const auto getApi = library ? reinterpret_cast<GetRenderDocApi>(::dlsym(library, "RENDERDOC_GetAPI")) : nullptr;
+  void* api = nullptr;
+  return getApi && getApi(RenderDocApi::version, &api) == 1 ? static_cast<const RenderDocApi*>(api) : nullptr;
+}
+
+std::filesystem::path lastCapture(const RenderDocApi& api) {
+  const uint32_t count = api.getNumCaptures();
+  uint32_t length = 0;
+  if (count == 0 || !api.getCapture(count - 1, nullptr, &length, nullptr)) {
+    return {};
+  }
+  std::string path(length, '\0');
+  api.getCapture(count - 1, path.data(), &length, nullptr);
+  return path.c_str();
+}
+
+}  // namespace
+
+void captureWithRenderDoc(const std::filesystem::path& file, const std::function<void()>& draw) {
+  const RenderDocApi* api = loadedApi();
+  if (!api) {
+    throw std::runtime_error(
+        "--capture: RenderDoc is not loaded (install it and set ENABLE_VULKAN_RENDERDOC_CAPTURE=1 for the command)");
+  }
+  // RenderDoc appends what it likes to the name.
+  api->setCaptureFilePathTemplate(std::filesystem::absolute(file).replace_extension().c_str());
+  api->startFrameCapture(nullptr, nullptr);
+  draw();
+  if (!api->endFrameCapture(nullptr, nullptr)) {
+    throw std::runtime_error("--capture: RenderDoc could not write " + file.string());
+  }
+  std::filesystem::rename(lastCapture(*api), file);
+}
+
+}  // namespace speculum
