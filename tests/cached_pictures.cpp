@@ -13,6 +13,7 @@ using namespace testing_support;
 
 constexpr PictureSize size{320, 180};
 constexpr PictureSize small{160, 90};
+constexpr PictureSize tiny{64, 36};
 constexpr double frameSeconds = 1.0 / 30.0;
 
 // Nothing is seen but a mirror that is larger than the view; what it shows stands behind the camera, which turns about
@@ -52,8 +53,8 @@ reflectance = [0.9, 0.9, 0.9]
 )" + mirror);
 }
 
-Options withInterval(const std::filesystem::path& scene, int interval) {
-  Options options = headless(scene, small);
+Options withInterval(const std::filesystem::path& scene, int interval, PictureSize pictureSize = small) {
+  Options options = headless(scene, pictureSize);
   set(options, {{"reflection.update_interval", std::to_string(interval)}, {"reflection.skip_unchanged", "false"}});
   return options;
 }
@@ -76,8 +77,8 @@ class StillScene : public testing::TestWithParam<std::tuple<std::string, std::st
 
 TEST_P(StillScene, IntervalChangesNoByte) {
   const auto& [name, scale] = GetParam();
-  Options options = withInterval(sourceFile("scenes/" + name + ".toml"), 1);
-  options.settings.emplace_back("reflection.scale", scale);
+  Options options = withInterval(sourceFile("scenes/" + name + ".toml"), 1, tiny);
+  set(options, {{"reflection.scale", scale}, {"view.samples", scale == "1" ? "4" : "1"}});
   QuietSession session(options);
   const Image8 expected = picture(session, 1.0);
   for (const int interval : {2, 5}) {
@@ -172,7 +173,9 @@ int directPasses(Session& session) {
 // What is seen within them may differ by what margins show of it.
 TEST(CachedPictures, IntervalFourRendersAQuarterEachFrame) {
   for (const double step : {0.0, 0.002}) {
-    QuietSession session(withInterval(sourceFile("scenes/many_mirrors.toml"), 4));
+    Options options = withInterval(sourceFile("scenes/many_mirrors.toml"), 4, tiny);
+    set(options, {{"view.samples", "1"}, {"reflection.samples", "1"}});
+    QuietSession session(options);
     session.draw(0.0, false);
     const int all = directPasses(session);
     ASSERT_GE(all, 12);
@@ -206,7 +209,7 @@ void expectSame(const std::vector<Image8>& a, const std::vector<Image8>& b) {
 
 TEST(CachedPictures, RestartedSequencesHaveTheSameBytes) {
   for (const char* scale : {"1", "0.5"}) {
-    Options options = withInterval(roomScene(), 3);
+    Options options = withInterval(roomScene(), 3, tiny);
     options.settings.emplace_back("reflection.scale", scale);
     QuietSession session(options);
     const std::vector<Image8> first = sequence(session);
@@ -226,7 +229,8 @@ TEST(CachedPictures, BothRenderPathsDrawTheSameBytes) {
 }
 
 TEST(CachedPictures, ChangedSettingsShowAtOnce) {
-  QuietSession session(withInterval(roomScene(), 50));
+  QuietSession session(withInterval(roomScene(), 50, tiny));
+  QuietSession other(withInterval(roomScene(), 1, tiny));
   for (int frame = 0; frame < 3; ++frame) {
     session.draw(0.0, false);
   }
@@ -235,7 +239,7 @@ TEST(CachedPictures, ChangedSettingsShowAtOnce) {
     ASSERT_FALSE(setSetting(settings, key, value));
     session.setSettings(settings);
     const Image8 drawn = picture(session, 0.0);
-    QuietSession other(withInterval(roomScene(), 1));
+    other.restart();
     settings.reflection.updateInterval = 1;
     other.setSettings(settings);
     EXPECT_EQ(drawn.rgba, picture(other, 0.0).rgba) << key;

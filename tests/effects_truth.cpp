@@ -6,10 +6,11 @@
 #include <sstream>
 
 #include "accuracy/image_metrics.hpp"
+#include "effect_scenes.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
+#include "reuse_support.hpp"
 #include "sampling.hpp"
-#include "scene_text.hpp"
 #include "truth_support.hpp"
 
 namespace speculum {
@@ -22,18 +23,7 @@ constexpr PictureSize small{160, 90};
 
 // A room corner with two objects on a floor; `rest` adds lights and mirrors.
 std::filesystem::path corner(const std::string& name, const std::string& rest) {
-  return writeScene(name, R"(
-[environment]
-background = [0.25, 0.3, 0.4]
-ambient = [0.05, 0.05, 0.06]
-[camera]
-position = [0.3, 1.7, 3.6]
-target = [0, 0.6, 0]
-[[object]]
-model = "MODELS/block.obj"
-position = [0, -0.1, 0]
-scale = [7, 0.1, 7]
-[[object]]
+  return writeScene(name, effectFloor + R"([[object]]
 model = "MODELS/torus_knot.obj"
 position = [-0.7, 0.9, 0.2]
 scale = 0.55
@@ -48,13 +38,7 @@ scale = [0.6, 0.6, -0.6]
 )" + rest);
 }
 
-const std::string shadowLight = "[[light]]\nposition = [1.2, 2.6, 1.9]\nintensity = 14\ncasts_shadow = true\n";
 const std::string plainLight = "[[light]]\nposition = [-1.6, 2, 1.2]\nintensity = 5\ncolor = [0.6, 0.7, 1]\n";
-const std::string wall = "[[mirror]]\nname = \"wall\"\nposition = [0, 1, -1.6]\nsize = [4, 2]\n";
-const std::string side = "[[mirror]]\nposition = [-1.9, 1, 0]\nrotation = [0, 78, 0]\nsize = [2.4, 1.8]\n";
-const std::string pool =
-    "[[mirror]]\nname = \"pool\"\nposition = [0, 0.05, 1.2]\nrotation = [-90, 0, 0]\nsize = [3, 2]\n";
-const std::string ripple = "ripple = { amplitude = 0.006, wavelength = 0.35, speed = 0.2 }\n";
 
 // Returns the root mean square difference in radiance, over the pixels whose `counts` is set.
 double rootMeanSquare(const LinearImage& drawn, const LinearImage& reference, const std::vector<bool>& counts) {
@@ -137,33 +121,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Far from the origin the same rays are traced.
 TEST(ExactEffects, EqualTheTracerFarFromOrigin) {
-  std::ostringstream out;
-  const auto at = [](double x, double y, double z) {
-    std::ostringstream text;
-    text << std::fixed << "[" << 1e7 + x << ", " << -3e6 + y << ", " << 2e6 + z << "]";
-    return text.str();
-  };
-  out << "[environment]\nambient = [0.1, 0.1, 0.1]\nbackground = [0.2, 0.3, 0.4]\n[camera]\nposition = "
-      << at(0.5, 1.5, 3.5) << "\ntarget = " << at(0, 0.5, 0)
-      << "\n[[object]]\nmodel = \"MODELS/block.obj\"\nposition = " << at(0, -0.1, 0)
-      << "\nscale = [7, 0.1, 7]\n[[object]]\nmodel = \"MODELS/teapot.obj\"\nposition = " << at(0.3, 0.1, 0.3)
-      << "\n[[light]]\nposition = " << at(1.5, 2.5, 2)
-      << "\nintensity = 12\ncasts_shadow = true\n[[mirror]]\nposition = " << at(0, 1, -1.5)
-      << "\nsize = [4, 2]\ncasts_light = true\n[[mirror]]\nposition = " << at(-1, 0.03, 1)
-      << "\nrotation = [-90, 0, 0]\nsize = [1.5, 1.5]\n"
-      << ripple;
-  const std::filesystem::path file = writeScene("effects_far", out.str());
+  const std::filesystem::path file = writeScene("effects_far", effectsFarAway());
   expectTruth(file, size, 3, trace(file, size, 3));
 }
 
 TEST(ExactEffects, BothRenderPathsDrawTheSameBytes) {
   const std::filesystem::path file =
       corner("effects_paths", shadowLight + wall + "casts_light = true\n" + pool + ripple);
-  Options dynamic = headless(file, small);
-  dynamic.renderPath = RenderPath::dynamic;
-  Options passes = dynamic;
-  passes.renderPath = RenderPath::renderPass;
-  EXPECT_EQ(draw(dynamic).rgba, draw(passes).rgba);
+  expectSameOnBothPaths(headless(file, small), {0.0});
 }
 
 // Rays at every sample smooth the edges of shadows and of what curved mirrors show, which lowers the mean error against
@@ -177,10 +142,9 @@ TEST(ExactEffects, RaysAtEverySampleReduceError) {
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   const TraceResult reference =
       *tracer.render({.width = small.width, .height = small.height, .samples = 64, .maxDepth = 3});
+  QuietSession session(headless(file, small));
   const auto error = [&](const char* perSample) {
-    Options options = headless(file, small);
-    set(options, {{"effects.per_sample", perSample}, {"reflection.max_depth", "3"}});
-    QuietSession session(options);
+    set(session, {{"effects.per_sample", perSample}, {"reflection.max_depth", "3"}});
     runFrames(session);
     const LinearImage drawn = session.radiance();
     return rootMeanSquare(drawn, reference.image, std::vector<bool>(drawn.pixels.size(), true));
@@ -303,14 +267,16 @@ class RoughMirror : public testing::Test {
   }
 
   // Root of the mean squared radiance error within the mirror.
-  double error(const std::vector<std::pair<std::string, std::string>>& settings) const {
-    Options options = truthOptions(file_, small, 3);
-    set(options, settings);
-    QuietSession session(options);
-    runFrames(session);
-    const LinearImage drawn = session.radiance();
-    return rootMeanSquare(drawn, reference().image, {reference().mirrorMask.begin(), reference().mirrorMask.end()});
+  double error(const std::vector<std::pair<std::string, std::string>>& settings) {
+    session_.setSettings(usual_);
+    set(session_, settings);
+    runFrames(session_);
+    return rootMeanSquare(session_.radiance(), reference().image,
+                          {reference().mirrorMask.begin(), reference().mirrorMask.end()});
   }
+
+  QuietSession session_{truthOptions(file_, small, 3)};
+  const Settings usual_ = session_.settings();
 };
 
 // The more rays, the smaller the error: a factor of 8 in rays is worth at least 1.8 in RMSE, where 8^0.5 is expected
@@ -344,10 +310,11 @@ TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   const TraceResult truth =
       *tracer.render({.width = small.width, .height = small.height, .samples = 16, .maxDepth = 3});
+  QuietSession session(truthOptions(file, small, 3));
+  const Settings usual = session.settings();
   const auto error = [&](const std::vector<std::pair<std::string, std::string>>& settings) {
-    Options options = truthOptions(file, small, 3);
-    set(options, settings);
-    QuietSession session(options);
+    session.setSettings(usual);
+    set(session, settings);
     runFrames(session);
     EXPECT_EQ(session.lastFrame().plan.effects.ripple.has_value(), settings[0].first != "effects.ripple");
     return rootMeanSquare(session.radiance(), truth.image, {truth.mirrorMask.begin(), truth.mirrorMask.end()});
@@ -401,21 +368,25 @@ TEST(Effects, OthersCanBeSwitchedOff) {
   const std::string none = pot + light + "glow = 0\n" + wall + dim + panel("plain", "") + ball +
                            "mirror = { reflectance = [0.5, 0.6, 0.7] }\n";
   const std::filesystem::path expected = writeScene("switched_none", none);
+  QuietSession session(truthOptions(writeScene("switched_off", all), size, 3));
+  QuietSession plain(truthOptions(expected, size, 3));
+  const auto drawn = [](Session& of, const std::string& key, const std::string& value) {
+    set(of, {{key, value}});
+    of.draw(0.0, true);
+    return of.picture();
+  };
+  const std::vector<std::string> effects = {"effects.fresnel", "effects.textures", "effects.glyphs"};
   for (const char* lookup : {"traced", "environment"}) {
-    const std::pair<std::string, std::string> how{"effects.curved_lookup", lookup};
-    Options options = truthOptions(writeScene("switched_off", all), size, 3);
-    set(options, {how});
-    const Image8 on = draw(options);
-    Image8 last = on;
-    for (const char* key : {"effects.fresnel", "effects.textures", "effects.glyphs"}) {
-      set(options, {{key, "false"}});
-      const Image8 off = draw(options);
+    Image8 last = drawn(session, "effects.curved_lookup", lookup);
+    for (const std::string& key : effects) {
+      const Image8 off = drawn(session, key, "false");
       EXPECT_NE(off.rgba, last.rgba) << key;
       last = off;
     }
-    Options plain = truthOptions(expected, size, 3);
-    set(plain, {how});
-    EXPECT_EQ(last.rgba, draw(plain).rgba) << lookup;
+    EXPECT_EQ(last.rgba, drawn(plain, "effects.curved_lookup", lookup).rgba) << lookup;
+    for (const std::string& key : effects) {
+      set(session, {{key, "true"}});
+    }
   }
   expectTruth(expected, size, 3, trace(expected, size, 3));
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/stats.hpp"
+#include "reuse_support.hpp"
 #include "truth_support.hpp"
 
 namespace speculum {
@@ -103,9 +103,10 @@ class BallError {
 TEST(EnvironmentMaps, LargerFacesAndTheBoxReduceError) {
   const std::filesystem::path file = room("error");
   const BallError error(file);
+  QuietSession session(mapped(file));
   const auto measured = [&](int faces, const char* box) {
-    const double e = error.of(
-        draw(mapped(file, {{"effects.environment_size", std::to_string(faces)}, {"effects.environment_box", box}})));
+    set(session, {{"effects.environment_size", std::to_string(faces)}, {"effects.environment_box", box}});
+    const double e = error.of(picture(session, 0.0));
     std::printf("faces of %4d texels, box %-5s: RMSE %.4f\n", faces, box, e);
     return e;
   };
@@ -166,28 +167,14 @@ casts_light = true
 )";
 
 TEST(EnvironmentMaps, BothRenderPathsDrawTheSameBytes) {
-  Options dynamic = mapped(room("paths", everything),
+  Options options = mapped(room("paths", everything),
                            {{"view.samples", "4"}, {"reflection.samples", "4"}, {"effects.environment_size", "64"}});
-  dynamic.size = {80, 60};
-  Options passes = dynamic;
-  passes.renderPath = RenderPath::renderPass;
-  EXPECT_EQ(draw(dynamic).rgba, draw(passes).rgba);
+  options.size = {80, 60};
+  expectSameOnBothPaths(options, {0.0});
 }
 
 std::vector<std::string> mapPasses(Session& session, double time) {
-  session.draw(time, true);
-  session.finish();
-  std::vector<std::string> names;
-  const nlohmann::ordered_json stats = frameStats(session);
-  for (const auto& pass : stats["passes"]) {
-    const std::string name = pass["name"];
-    if (name.rfind("environment of ", 0) == 0) {
-      EXPECT_TRUE(pass["mirror"].is_null() && pass["depth"].is_null() && pass["parent"].is_null());
-      EXPECT_GT(pass["draws"], 0) << name;
-      names.push_back(name);
-    }
-  }
-  return names;
+  return drawnMaps(session, "environment of ", time);
 }
 
 TEST(EnvironmentMaps, ListTheirFacesWhenRendered) {
@@ -210,6 +197,9 @@ TEST(EnvironmentMaps, AreNoParentsOfMirrorPasses) {
   session.draw(0.0, true);
   session.finish();
   const nlohmann::ordered_json passes = frameStats(session).at("passes");
+  for (const auto& pass : passes) {
+    EXPECT_GT(pass["draws"], 0) << pass["name"];
+  }
   const auto mirror = std::find_if(passes.begin(), passes.end(), [](const auto& p) { return p.at("depth") == 0; });
   ASSERT_NE(mirror, passes.end());
   EXPECT_EQ(passes.at(mirror->at("parent").get<size_t>()).at("name"), "main view");

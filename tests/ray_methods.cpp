@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "app/stats.hpp"
+#include "effect_scenes.hpp"
 #include "picture_support.hpp"
 #include "scarce_memory.hpp"
-#include "scene_text.hpp"
 
 namespace speculum {
 namespace {
@@ -19,31 +19,16 @@ using namespace testing_support;
 constexpr PictureSize size{160, 90};
 constexpr PictureSize small{48, 27};
 
-const std::string room = R"(
-[environment]
-background = [0.25, 0.3, 0.4]
-ambient = [0.05, 0.05, 0.06]
-[camera]
-position = [0.3, 1.7, 3.6]
-target = [0, 0.6, 0]
-[[object]]
-model = "MODELS/block.obj"
-position = [0, -0.1, 0]
-scale = [7, 0.1, 7]
-[[object]]
+const std::string room = effectFloor + R"([[object]]
 name = "pot"
 model = "MODELS/teapot.obj"
 position = [0.6, 0, 0.4]
 scale = [0.6, 0.6, -0.6]
 spin = [0, 40, 0]
 )";
-const std::string shadowLight = "[[light]]\nposition = [1.2, 2.6, 1.9]\nintensity = 14\ncasts_shadow = true\n";
-const std::string wall = "[[mirror]]\nposition = [0, 1, -1.6]\nsize = [4, 2]\ncasts_light = true\n";
-const std::string side =
-    "[[mirror]]\nposition = [-1.9, 1, 0]\nrotation = [0, 78, 0]\nsize = [2.4, 1.8]\ncasts_light = true\n";
-const std::string pool =
-    "[[mirror]]\nposition = [0, 0.05, 1.2]\nrotation = [-90, 0, 0]\nsize = [3, 2]\n"
-    "ripple = { amplitude = 0.006, wavelength = 0.35, speed = 0.2 }\n";
+const std::string brightWall = wall + "casts_light = true\n";
+const std::string brightSide = side + "casts_light = true\n";
+const std::string ripplingPool = pool + ripple;
 const std::string ball =
     "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [-0.4, 0.6, 0.9]\nscale = 0.4\n"
     "mirror = { reflectance = [0.9, 0.8, 0.6] }\n";
@@ -206,19 +191,6 @@ void writeSlivers() {
 const std::string slivers =
     "[[object]]\nmodel = \"slivers.obj\"\nposition = [-0.6, 0.7, 0.6]\nrotation = [20, 0, 10]\nscale = 0.8\n";
 
-// The room at 1e7 m from the origin.
-std::string far() {
-  const auto at = [](double x, double y, double z) { return text(glm::dvec3(1e7 + x, -3e6 + y, 2e6 + z)); };
-  return "[environment]\nambient = [0.1, 0.1, 0.1]\nbackground = [0.2, 0.3, 0.4]\n[camera]\nposition = " +
-         at(0.5, 1.5, 3.5) + "\ntarget = " + at(0, 0.5, 0) +
-         "\n[[object]]\nmodel = \"MODELS/block.obj\"\nposition = " + at(0, -0.1, 0) +
-         "\nscale = [7, 0.1, 7]\n[[object]]\nmodel = \"MODELS/teapot.obj\"\nposition = " + at(0.3, 0.1, 0.3) +
-         "\n[[light]]\nposition = " + at(1.5, 2.5, 2) +
-         "\nintensity = 12\ncasts_shadow = true\n[[mirror]]\nposition = " + at(0, 1, -1.5) +
-         "\nsize = [4, 2]\ncasts_light = true\n[[mirror]]\nposition = " + at(-1, 0.03, 1) +
-         "\nrotation = [-90, 0, 0]\nsize = [1.5, 1.5]\nripple = { amplitude = 0.006, wavelength = 0.35 }\n";
-}
-
 TEST_P(BothMethods, DrawTheSamePicture) {
   if (!hasRayQueries()) {
     GTEST_SKIP() << withoutRayQueries;
@@ -237,7 +209,7 @@ TEST(BothMethods, AgreeWhileThingsMove) {
   if (!hasRayQueries()) {
     GTEST_SKIP() << withoutRayQueries;
   }
-  const std::filesystem::path file = writeScene("moving", room + shadowLight + wall);
+  const std::filesystem::path file = writeScene("moving", room + shadowLight + brightWall);
   QuietSession hardware(with(file, "hardware"));
   QuietSession software(with(file, "software"));
   constexpr int frames = 140;
@@ -256,14 +228,17 @@ TEST(BothMethods, AgreeWhileThingsMove) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, BothMethods,
-    testing::Values(
-        Case{"shadows", room + shadowLight}, Case{"mirrors_in_mirrors", room + shadowLight + wall + side + pool},
-        Case{"curved", room + shadowLight + wall + ball + pool},
-        Case{"rough", room + shadowLight + wall + side + "roughness = 0.3\n"}, Case{"surfaces_that_touch", standing()},
-        Case{"slivers", room + shadowLight + wall + slivers}, Case{"far", far()},
-        Case{"grazing", room + "[[light]]\nposition = [60, 0.35, -20]\nintensity = 9000\ncasts_shadow = true\n" + wall},
-        Case{"eye_at_a_surface", "[camera]\nposition = [0, 0.001, 0]\ntarget = [1, 0.0008, -1]\n" +
-                                     room.substr(room.find("[[object]]")) + shadowLight + wall}),
+    testing::Values(Case{"shadows", room + shadowLight},
+                    Case{"mirrors_in_mirrors", room + shadowLight + brightWall + brightSide + ripplingPool},
+                    Case{"curved", room + shadowLight + brightWall + ball + ripplingPool},
+                    Case{"rough", room + shadowLight + brightWall + brightSide + "roughness = 0.3\n"},
+                    Case{"surfaces_that_touch", standing()}, Case{"slivers", room + shadowLight + brightWall + slivers},
+                    Case{"far", effectsFarAway()},
+                    Case{"grazing",
+                         room + "[[light]]\nposition = [60, 0.35, -20]\nintensity = 9000\ncasts_shadow = true\n" +
+                             brightWall},
+                    Case{"eye_at_a_surface", "[camera]\nposition = [0, 0.001, 0]\ntarget = [1, 0.0008, -1]\n" +
+                                                 room.substr(room.find("[[object]]")) + shadowLight + brightWall}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -57,6 +57,22 @@ inline int mirrorPasses(const SceneRenderer& renderer) {
       std::count_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.depth >= 0; }));
 }
 
+// Draws a frame and returns the names of its passes that begin so. They belong to no mirror.
+inline std::vector<std::string> drawnMaps(Session& session, const std::string& beginning, double time = 0.0) {
+  session.draw(time, true);
+  session.finish();
+  std::vector<std::string> names;
+  const nlohmann::ordered_json stats = frameStats(session);
+  for (const auto& pass : stats["passes"]) {
+    const std::string name = pass["name"];
+    if (name.rfind(beginning, 0) == 0) {
+      EXPECT_TRUE(pass["mirror"].is_null() && pass["depth"].is_null() && pass["parent"].is_null()) << name;
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
 inline int unchangedMirrors(const nlohmann::ordered_json& stats) {
   return static_cast<int>(std::count_if(stats["skipped"].begin(), stats["skipped"].end(),
                                         [](const auto& skip) { return skip["reason"] == "unchanged"; }));

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/stats.hpp"
-#include "picture_support.hpp"
+#include "reuse_support.hpp"
 
 namespace speculum {
 namespace {
@@ -80,15 +79,18 @@ Options mapped(const std::filesystem::path& file, std::vector<std::pair<std::str
 // Maps differ from traced shadows along the edges of shadows, the less the more texels they have.
 TEST(ShadowMaps, LargerFacesReduceError) {
   const std::filesystem::path file = room("error");
-  Options options = mapped(file, {{"effects.shadow_lookup", "traced"}});
-  const Image8 traced = draw(options);
-  set(options, {{"effects.shadows", "false"}});
-  const int without = difference(draw(options), traced, 4).over;
+  QuietSession session(mapped(file, {{"effects.shadow_lookup", "traced"}}));
+  const auto drawn = [&](const char* key, const char* value) {
+    set(session, {{key, value}});
+    return picture(session, 0.0);
+  };
+  const Image8 traced = picture(session, 0.0);
+  const int without = difference(drawn("effects.shadows", "false"), traced, 4).over;
+  set(session, {{"effects.shadows", "true"}, {"effects.shadow_lookup", "map"}});
   EXPECT_GT(without, 5000);
   int before = without;
   for (const char* size : {"128", "512", "2048"}) {
-    const Image8 picture = draw(mapped(file, {{"effects.shadow_map_size", size}}));
-    const PictureAgreement agreement = difference(picture, traced, 4);
+    const PictureAgreement agreement = difference(drawn("effects.shadow_map_size", size), traced, 4);
     std::printf("faces of %4s texels: %d of %d pixels over, of %d without shadows\n", size, agreement.over,
                 agreement.counted, without);
     EXPECT_LT(agreement.over, 0.7 * before);
@@ -121,29 +123,17 @@ glow = 0
 casts_shadow = true
 )");
   for (const char* samples : {"1", "4"}) {
-    Options lit = headless(file, {320, 240});
-    set(lit, {{"effects.shadows", "false"}, {"view.samples", samples}});
-    const Image8 expected = draw(lit);
+    QuietSession session(mapped(file, {{"effects.shadows", "false"}, {"view.samples", samples}}));
+    const Image8 expected = picture(session, 0.0);
     for (const char* size : {"64", "256", "1024"}) {
-      const Image8 picture = draw(mapped(file, {{"effects.shadow_map_size", size}, {"view.samples", samples}}));
-      EXPECT_EQ(difference(picture, expected, 1).over, 0) << size << " texels, " << samples << " samples";
+      set(session, {{"effects.shadows", "true"}, {"effects.shadow_map_size", size}});
+      EXPECT_EQ(difference(picture(session, 0.0), expected, 1).over, 0) << size << " texels, " << samples << " samples";
     }
   }
 }
 
 std::vector<std::string> shadowPasses(Session& session, double time = 0.0) {
-  session.draw(time, true);
-  session.finish();
-  std::vector<std::string> names;
-  const nlohmann::ordered_json stats = frameStats(session);
-  for (const auto& pass : stats["passes"]) {
-    const std::string name = pass["name"];
-    if (name.rfind("shadow map of ", 0) == 0) {
-      EXPECT_TRUE(pass["mirror"].is_null() && pass["depth"].is_null() && pass["parent"].is_null());
-      names.push_back(name);
-    }
-  }
-  return names;
+  return drawnMaps(session, "shadow map of ", time);
 }
 
 TEST(ShadowMaps, ListTheirFacesWhenRendered) {

@@ -82,6 +82,24 @@ TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
   EXPECT_TRUE(has("message.dismiss"));
 }
 
+TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
+  windows_->setVisible(false);
+  status_.text = "Nothing to undo";
+  run(2);
+  float right = 0.0f;
+  float top = 700.0f;
+  const ImDrawData& drawn = *ImGui::GetDrawData();
+  for (int i = 0; i < drawn.CmdListsCount; ++i) {
+    for (const ImDrawVert& vertex : drawn.CmdLists[i]->VtxBuffer) {
+      right = std::max(right, vertex.pos.x);
+      top = std::min(top, vertex.pos.y);
+    }
+  }
+  EXPECT_LT(right, 200.0f);
+  EXPECT_GT(right, 100.0f);
+  EXPECT_GT(top, 660.0f);
+}
+
 TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
   device_.samples = {1, 4};
   const auto choose = [&](int row) {

@@ -9,6 +9,7 @@
 
 #include "frame/depth_readout.hpp"
 #include "scene_text.hpp"
+#include "studio.hpp"
 #include "truth_support.hpp"
 
 namespace speculum {
@@ -17,7 +18,8 @@ namespace {
 using namespace testing_support;
 
 constexpr PictureSize size{641, 361};
-constexpr std::array<const char*, 3> methods = {"clip_distance", "oblique", "none"};
+constexpr std::array<std::pair<const char*, ClipMethod>, 3> methods = {
+    {{"clip_distance", ClipMethod::clipDistance}, {"oblique", ClipMethod::oblique}, {"none", ClipMethod::none}}};
 
 // The quad of writeQuad in 48 x 48 squares: each vertex is rounded and snapped for itself.
 void writeGrid() {
@@ -64,72 +66,83 @@ std::string prefixOf(const Case& c) {
   return scene;
 }
 
-// A square at `distance` along the path, `scale` of what fills a good part of the picture.
-std::string square(const Case& c, double distance, double scale, const char* model, const glm::dvec3& color) {
-  const double s = std::sqrt(0.5);
-  const glm::dvec3 direction(s, 0, c.nested ? -s : s);  // where the line of sight leads after its mirrors
-  const glm::dvec3 image(0, 0, c.nested ? 2 * wallDistance + c.h : -c.h);
-  const double half = (c.nested ? 0.2 : 1.0) * c.half * c.distance * scale;
-  // Facing the eye's image, then turned by 45 degrees about x.
-  return objectText(model, image + distance * direction, {45, c.nested ? -45 : 225, 0}, half, color);
-}
-
-Options optionsOf(const Case& c, const std::string& squares, const std::string& clip) {
-  Options options = truthOptions(writeScene("readout", prefixOf(c) + squares), size, c.nested ? 2 : 1);
-  options.settings.emplace_back("reflection.clip", clip);
-  return options;
-}
-
-// Returns the depth readout of the pass that shows the squares.
-DepthReadout readoutOf(const Case& c) {
-  Session session(optionsOf(c, square(c, c.distance, 1.0, c.near, {1, 0, 0}), "clip_distance"));
-  const DrawnFrame& frame = session.draw(0.0, false);
-  const size_t depth = c.nested ? 2 : 1;
-  for (const PlannedPass& pass : frame.plan.passes) {
-    if (pass.view.path.size() == depth) {
-      const auto readout = depthReadout(pass, frame.plan.projection, session.scene(), frame.state);
-      return readout.value_or(DepthReadout{});
-    }
-  }
-  ADD_FAILURE() << "no such pass";
-  return {};
-}
-
 struct Count {
   int nearer = 0;   // pixels that the nearer square covers
   int farther = 0;  // of those, with the farther one before it
 };
 
-// Draws the nearer square by itself, because the mirror's plane cuts the two along lines a gap apart.
-const Image8& pictureAlone(const Case& c, const std::string& nearer, const std::string& clip) {
-  static std::map<std::string, Image8> drawn;
-  Image8& picture = drawn[prefixOf(c) + nearer + clip];
-  if (picture.rgba.empty()) {
-    picture = draw(optionsOf(c, nearer, clip));
-  }
-  return picture;
-}
+// Draws the squares of a case with any gap between them.
+class Squares {
+ public:
+  Squares(Gpu& gpu, const Case& c)
+      : case_(c),
+        studio_(gpu, truthOptions(writeScene("readout", prefixOf(c) + objectText(c.near, {}, {}, 1.0, {1, 0, 0}) +
+                                                            objectText(c.far, {}, {}, 1.0, {0, 1, 0})),
+                                  size, c.nested ? 2 : 1)),
+        near_(placed(studio_.scene.objects[0], c.distance, 1.0)),
+        far_(studio_.scene.objects[1]) {}
 
-// Both orders of drawing, until the farther square is seen: with equal depths the one that is drawn first stays.
-Count orderOf(const Case& c, double gap, const std::string& clip) {
-  const std::string nearer = square(c, c.distance, 1.0, c.near, {1, 0, 0});
-  const std::string farther = square(c, c.distance + gap, 0.96, c.far, {0, 1, 0});
-  const Image8& alone = pictureAlone(c, nearer, clip);
-  Count count;
-  for (const std::string& squares : {nearer + farther, farther + nearer}) {
-    const Image8 picture = draw(optionsOf(c, squares, clip));
-    count = {};
-    for (size_t i = 0; i < picture.rgba.size(); i += 4) {
-      const bool covered = alone.rgba[i] > 0;
-      count.nearer += covered;
-      count.farther += covered && picture.rgba[i + 1] > 0;
+  // Returns the depth readout of the pass that shows the nearer square.
+  DepthReadout readout() {
+    draw({near_}, ClipMethod::clipDistance);
+    for (const PlannedPass& pass : studio_.plan.passes) {
+      if (pass.view.path.size() == (case_.nested ? 2 : 1)) {
+        return depthReadout(pass, studio_.plan.projection, studio_.scene, studio_.state).value_or(DepthReadout{});
+      }
     }
-    if (count.farther > 0) {
-      break;
-    }
+    ADD_FAILURE() << "no such pass";
+    return {};
   }
-  return count;
-}
+
+  // Tries both orders of drawing, until the farther square is seen: with equal depths the one that is drawn first
+  // stays.
+  Count orderAt(double gap, ClipMethod clip) {
+    const Object farther = placed(far_, case_.distance + gap, 0.96);
+    // The nearer square by itself, because the mirror's plane cuts the two along lines a gap apart.
+    Image8& alone = alone_[clip];
+    if (alone.rgba.empty()) {
+      alone = draw({near_}, clip);
+    }
+    Count count;
+    for (const std::vector<Object>& objects : {std::vector{near_, farther}, std::vector{farther, near_}}) {
+      const Image8 picture = draw(objects, clip);
+      count = {};
+      for (size_t i = 0; i < picture.rgba.size(); i += 4) {
+        const bool covered = alone.rgba[i] > 0;
+        count.nearer += covered;
+        count.farther += covered && picture.rgba[i + 1] > 0;
+      }
+      if (count.farther > 0) {
+        break;
+      }
+    }
+    return count;
+  }
+
+ private:
+  // A square at `distance` along the path, `scale` of what fills a good part of the picture.
+  Object placed(Object object, double distance, double scale) const {
+    const double s = std::sqrt(0.5);
+    const glm::dvec3 direction(s, 0, case_.nested ? -s : s);  // where the line of sight leads after its mirrors
+    const glm::dvec3 image(0, 0, case_.nested ? 2 * wallDistance + case_.h : -case_.h);
+    object.position = image + distance * direction;
+    // Facing the eye's image, then turned by 45 degrees about x.
+    object.rotation = {45, case_.nested ? -45 : 225, 0};
+    object.scale = glm::dvec3((case_.nested ? 0.2 : 1.0) * case_.half * case_.distance * scale);
+    return object;
+  }
+  Image8 draw(const std::vector<Object>& objects, ClipMethod clip) {
+    studio_.scene.objects = objects;
+    studio_.settings.reflection.clip = clip;
+    return studio_.fresh();
+  }
+
+  Case case_;
+  Studio studio_;
+  Object near_;
+  Object far_;
+  std::map<ClipMethod, Image8> alone_;
+};
 
 std::string describe(const Case& c, double gap) {
   std::ostringstream out;
@@ -147,16 +160,17 @@ class DepthReadoutOf : public testing::Test {
 
   // Draws each method at the gap that the readout states, and returns the number of methods with one.
   int expectInOrder(const Case& c) {
-    const DepthReadout readout = readoutOf(c);
+    Squares squares(gpu_, c);
+    const DepthReadout readout = squares.readout();
     int stated = 0;
-    for (const char* method : methods) {
-      const std::optional<double> gap = gapWith(readout, methodOf(method));
+    for (const auto& [name, method] : methods) {
+      const std::optional<double> gap = gapWith(readout, method);
       // The squares would no longer be alike on the screen.
       if (!gap || *gap > 0.2 * c.distance) {
         continue;
       }
-      SCOPED_TRACE(std::string(method) + ": " + describe(c, *gap));
-      const Count count = orderOf(c, *gap, method);
+      SCOPED_TRACE(std::string(name) + ": " + describe(c, *gap));
+      const Count count = squares.orderAt(*gap, method);
       EXPECT_GT(count.nearer, 5000) << "too little to judge by";
       EXPECT_EQ(count.farther, 0);
       ++stated;
@@ -165,19 +179,17 @@ class DepthReadoutOf : public testing::Test {
   }
 
   // Draws at a part of the gap and returns the number of methods that lose the order.
-  int losing(const Case& c, double part) {
-    const DepthReadout readout = readoutOf(c);
+  static int losing(Squares& squares, double part) {
+    const DepthReadout readout = squares.readout();
     int lost = 0;
-    for (const char* method : methods) {
-      const std::optional<double> gap = gapWith(readout, methodOf(method));
-      lost += gap && orderOf(c, part * *gap, method).farther > 0;
+    for (const auto& [name, method] : methods) {
+      const std::optional<double> gap = gapWith(readout, method);
+      lost += gap && squares.orderAt(part * *gap, method).farther > 0;
     }
     return lost;
   }
 
-  static ClipMethod methodOf(const std::string& name) {
-    return name == "oblique" ? ClipMethod::oblique : name == "none" ? ClipMethod::none : ClipMethod::clipDistance;
-  }
+  Gpu gpu_{headless("", size)};
 };
 
 constexpr std::array<std::pair<const char*, const char*>, 4> meshes = {
@@ -203,7 +215,7 @@ TEST_F(DepthReadoutOf, GapHoldsForCutSurfaces) {
 TEST_F(DepthReadoutOf, GapHoldsInANearMirror) {
   EXPECT_EQ(expectInOrder({.h = 0.01}), 3);
   EXPECT_EQ(expectInOrder({.h = 1e-6}), 2) << "oblique depth keeps no gap there";
-  EXPECT_FALSE(readoutOf({.h = 1e-6}).oblique);
+  EXPECT_FALSE(Squares(gpu_, {.h = 1e-6}).readout().oblique);
 }
 
 TEST_F(DepthReadoutOf, GapHoldsInNestedMirrors) {
@@ -215,8 +227,9 @@ TEST_F(DepthReadoutOf, GapHoldsInNestedMirrors) {
 TEST_F(DepthReadoutOf, HundredthOfTheGapFails) {
   int lost = 0;
   for (const auto& [near, far] : meshes) {
-    lost += lost > 0 ? 0 : losing({.near = near, .far = far}, 1.0 / 100.0);
-    EXPECT_EQ(losing({.near = near, .far = far}, 1.0 / 400.0), 3) << near << " before " << far;
+    Squares squares(gpu_, {.near = near, .far = far});
+    lost += lost > 0 ? 0 : losing(squares, 1.0 / 100.0);
+    EXPECT_EQ(losing(squares, 1.0 / 400.0), 3) << near << " before " << far;
   }
   EXPECT_GE(lost, 1);
 }

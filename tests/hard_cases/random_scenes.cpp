@@ -6,6 +6,7 @@
 #include "random_scene.hpp"
 #include "reference/ray_tracer.hpp"
 #include "sampling.hpp"
+#include "studio.hpp"
 #include "truth_support.hpp"
 
 namespace speculum {
@@ -15,62 +16,30 @@ using namespace testing_support;
 
 constexpr PictureSize size{160, 90};
 
-// Kept from one scene to the next, as are its pipelines.
-struct Gpu {
-  Options options = headless("", size);
-  Device device{deviceOptions(options, nullptr)};
-  Renderer renderer{device, rendererOptions(options, nullptr)};
-};
-
-class Drawn {
+// A scene with its views: 0 is the camera's, others are bookmarks.
+class Drawn : public Studio {
  public:
-  Drawn(Gpu& gpu, const std::filesystem::path& file, double time)
-      : gpu_(gpu), scene_(loadScene(file)), state_(evaluate(scene_, time)), systems_(gpu.renderer, scene_) {}
-  ~Drawn() {
-    gpu_.renderer.waitIdle();
-    EXPECT_EQ(gpu_.device.validationMessages(), 0) << scene_.file;
-    EXPECT_EQ(systems_.finiteWatch().count(), 0u) << describe(systems_.finiteWatch().findings().front());
-  }
-  Drawn(const Drawn&) = delete;
-  Drawn& operator=(const Drawn&) = delete;
+  Drawn(Gpu& gpu, const std::filesystem::path& file, double at) : Studio(gpu, headless(file, size)) { time = at; }
 
-  // 0: the camera's; others are bookmarks.
-  size_t views() const { return scene_.bookmarks.size() + 1; }
+  size_t views() const { return scene.bookmarks.size() + 1; }
   void look(size_t view) {
-    const CameraSpec camera = view == 0 ? scene_.camera : cameraOf(scene_.bookmarks[view - 1], scene_.camera);
-    state_.camera = lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
+    const CameraSpec spec = view == 0 ? scene.camera : cameraOf(scene.bookmarks[view - 1], scene.camera);
+    camera = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
   }
   TraceResult traced(PictureSize extent, int maxDepth) const {
-    return *RayTracer(scene_, state_)
+    SceneState traced = evaluate(scene, time);
+    traced.camera = camera.value();
+    return *RayTracer(scene, traced)
                 .render({.width = extent.width,
                          .height = extent.height,
                          .samples = 1,
                          .maxDepth = maxDepth,
                          .minThroughput = Settings().reflection.minThroughput});
   }
-
-  // Returns the picture under these settings, from cached images where they hold.
-  Image8 picture(const Settings& settings) {
-    Frame frame = gpu_.renderer.beginFrame().value();
-    frame.capture = true;
-    FrameCache cache = systems_.cache();
-    cache.main = nullptr;
-    const FramePlan plan = planFrame(scene_, state_, settings, size.width, size.height, cache);
-    systems_.record(frame, state_, settings, plan);
-    gpu_.renderer.endFrame(frame);
-    return pictureOf(gpu_.renderer.readback());
+  Image8 drawWith(const Settings& changed, bool fresh = true) {
+    settings = changed;
+    return fresh ? Studio::fresh() : draw();
   }
-  // Returns it with all images drawn anew.
-  Image8 fresh(const Settings& settings) {
-    systems_.restart();
-    return picture(settings);
-  }
-
- private:
-  Gpu& gpu_;
-  Scene scene_;
-  SceneState state_;
-  SceneRenderer systems_;
 };
 
 Settings settingsWith(const std::vector<std::pair<std::string, std::string>>& changes) {
@@ -84,7 +53,7 @@ Settings settingsWith(const std::vector<std::pair<std::string, std::string>>& ch
 
 class RandomScenes : public testing::TestWithParam<unsigned> {
  protected:
-  static void SetUpTestSuite() { gpu_ = std::make_unique<Gpu>(); }
+  static void SetUpTestSuite() { gpu_ = std::make_unique<Gpu>(headless("", size)); }
   static void TearDownTestSuite() {
     gpu_.reset();
     EXPECT_GE(views_, 2 * scenes_) << "few views see a mirror";
@@ -133,16 +102,16 @@ void expectSame(const Image8& picture, const Image8& expected, const std::string
 
 // Returns the picture.
 Image8 expectNoSwitchMatters(Drawn& drawn, const Settings& settings, const std::string& name) {
-  const Image8 picture = drawn.fresh(settings);
-  expectSame(drawn.picture(settings), picture, name + "_cached");
+  const Image8 picture = drawn.drawWith(settings);
+  expectSame(drawn.drawWith(settings, false), picture, name + "_cached");
   Settings without = settings;
   without.debug.skipHidden = false;
   without.debug.maskPasses = false;
-  expectSame(drawn.fresh(without), picture, name + "_mask");
+  expectSame(drawn.drawWith(without), picture, name + "_mask");
   if (settings.reflection.meshError == 0.0) {
     // With other triangles in its draw, lavapipe may round a triangle's color otherwise.
     without.debug.cullClusters = false;
-    expectSame(drawn.fresh(without), picture, name + "_clusters", 20);
+    expectSame(drawn.drawWith(without), picture, name + "_clusters", 20);
   }
   return picture;
 }
@@ -163,7 +132,7 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
       continue;
     }
     ++views;
-    expectTraced(plain.fresh(settingsWith(truthSettings(scene.maxDepth))), plain.traced(size, scene.maxDepth), name);
+    expectTraced(plain.drawWith(settingsWith(truthSettings(scene.maxDepth))), plain.traced(size, scene.maxDepth), name);
     Drawn& drawn = withEffects ? *withEffects : plain;
     drawn.look(view);
     const Image8 picture = expectNoSwitchMatters(drawn, settings, name);

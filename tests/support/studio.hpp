@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+
+#include "picture_support.hpp"
+
+namespace speculum::testing_support {
+
+// A device and its renderer, for one scene after the other.
+struct Gpu {
+  explicit Gpu(const Options& options)
+      : device(deviceOptions(options, nullptr)), renderer(device, rendererOptions(options, nullptr)) {}
+
+  Device device;
+  Renderer renderer;
+};
+
+// A scene whose nodes, time and settings change between pictures without new meshes, materials or pipelines.
+class Studio {
+ public:
+  // Begins with the scene, settings and size of `options`.
+  Studio(Gpu& gpu, const Options& options) : Studio(gpu, loadSceneWithSettings(options), options.size) {}
+  ~Studio() {
+    gpu_.renderer.waitIdle();
+    EXPECT_EQ(gpu_.device.validationMessages(), 0) << scene.file;
+    EXPECT_EQ(sceneRenderer.finiteWatch().count(), 0u) << describe(sceneRenderer.finiteWatch().findings().front());
+  }
+  Studio(const Studio&) = delete;
+  Studio& operator=(const Studio&) = delete;
+
+  // Shows what stands in another scene, whose models are the first of this one's in the same order.
+  void show(const Scene& other) { static_cast<SceneContent&>(scene) = other; }
+  // Draws the picture, from cached images where they hold.
+  Image8 draw() {
+    gpu_.renderer.reloadShaders();
+    Frame frame = gpu_.renderer.beginFrame().value();
+    state = evaluate(scene, time);
+    state.camera = camera.value_or(state.camera);
+    FrameCache cache = sceneRenderer.cache();
+    cache.main = reusesMain ? cache.main : nullptr;
+    plan = planFrame(scene, state, settings, size_.width, size_.height, cache);
+    frame.capture = true;
+    sceneRenderer.record(frame, state, settings, plan);
+    gpu_.renderer.endFrame(frame);
+    return pictureOf(gpu_.renderer.readback());
+  }
+  // Draws it with all images rendered anew.
+  Image8 fresh() {
+    sceneRenderer.restart();
+    return draw();
+  }
+
+  Scene scene;
+  Settings settings;
+  double time = 0.0;                 // seconds
+  std::optional<CameraPose> camera;  // in place of the scene's
+  bool reusesMain = false;           // as in the window, if nothing changed
+  SceneState state;                  // of the last picture, as is the plan
+  FramePlan plan;
+  SceneRenderer sceneRenderer;
+
+ private:
+  Studio(Gpu& gpu, LoadedScene loaded, PictureSize size)
+      : scene(std::move(loaded.scene)),
+        settings(std::move(loaded.settings)),
+        sceneRenderer(gpu.renderer, scene),
+        gpu_(gpu),
+        size_(size) {}
+
+  Gpu& gpu_;
+  PictureSize size_;
+};
+
+}  // namespace speculum::testing_support
