@@ -19,11 +19,12 @@ struct Device {
   double sample = 0.0;
   double noise = 0.08;  // relative
   bool isCpu = true;
+  double ray = 1e-3;
 
   double frameMs(const FrameWork& work, std::mt19937& random) const {
     const double samples = work.mainTexels * (work.viewSamples - 1) + work.mirrorTexels * (work.mirrorSamples - 1);
-    const double ms = picture * work.picturePixels + pass * work.passes + triangle * work.triangles +
-                      texel * (work.mainTexels + work.mirrorTexels) + sample * samples;
+    const double ms = picture * work.plainTexels + pass * work.passes + triangle * work.triangles +
+                      texel * (work.mainTexels + work.mirrorTexels) + sample * samples + ray * work.lightRays;
     return ms * std::exp(noise * std::normal_distribution<>()(random));
   }
 };
@@ -41,8 +42,9 @@ struct Window {
   std::mt19937 random{1};
   double load = 1.0;
   double mirrors = 1.0;
+  double raysOfTexel = 0.0;
   MotionController controller{device.isCpu};
-  std::vector<MotionLevel> levels = motionLevels({}, {}, 1 + 4, true);
+  std::vector<MotionLevel> levels = motionLevels({}, {}, {}, 1 + 4, true);
   uint64_t number = 0;
   std::deque<std::pair<uint64_t, double>> inFlight;  // frames whose times have not arrived yet
   std::vector<double> times{};                       // ms
@@ -50,11 +52,14 @@ struct Window {
 
   FrameWork work(const Settings& settings) const {
     const double texels = 1280.0 * 720.0 * settings.view.scale * settings.view.scale;
-    return {.picturePixels = 1280.0 * 720.0,
-            .passes = 1.0 + 8.0 * mirrors,
+    const double passes = std::min(8.0 * mirrors, static_cast<double>(settings.reflection.maxPasses));
+    return {.plainTexels = 1280.0 * 720.0,
+            .passes = 1.0 + passes,
+            .mirrorPasses = passes,
             .triangles = 1e5 * (1.0 + mirrors),
             .mainTexels = texels,
             .mirrorTexels = 0.6 * mirrors * texels,
+            .lightRays = settings.effects.shadowLookup == ShadowLookup::map ? 0.0 : raysOfTexel * texels,
             .viewSamples = settings.view.samples,
             .mirrorSamples = settings.reflection.samples};
   }
@@ -212,21 +217,44 @@ TEST(MotionController, NeverMovesWithoutNeed) {
   EXPECT_EQ(run.chosen, std::vector<size_t>(50, 0));
 }
 
+TEST(MotionController, TakesMapsOnlyWhereRaysAreSlow) {
+  Scene scene;
+  scene.lights = {{.castsShadow = true}};
+  for (const double ray : {3e-3, 3e-5}) {
+    SCOPED_TRACE(ray);
+    Device device = fastCpu;
+    device.ray = ray;
+    Window run{device};
+    run.levels = motionLevels(scene, {}, {}, 1 + 4, true);
+    run.raysOfTexel = 0.2;
+    run.mirrors = 0.0;
+    run.stand(6);
+    run.move(1);
+    EXPECT_LE(run.times[0], 1.4 * budget);
+    run.move(60);
+    const Settings& settings = run.levels[run.chosen.back()].settings;
+    EXPECT_EQ(settings.effects.shadowLookup, ray < 1e-4 ? ShadowLookup::traced : ShadowLookup::map);
+    EXPECT_GE(settings.view.scale, 0.8) << "maps suffice";
+  }
+}
+
 TEST(MotionLevels, NothingIsRaised) {
   Settings chosen;
   chosen.view.samples = 2;
   chosen.view.scale = 0.7;
   chosen.reflection.maxDepth = 1;
+  chosen.reflection.maxPasses = 20;
   chosen.reflection.updateInterval = 3;
   chosen.reflection.meshError = 1.0;
   const std::vector<MotionLevel> front{{Settings(), 0.01}};
-  const std::vector<MotionLevel> levels = motionLevels(chosen, front, 1 + 2 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4, true);
   ASSERT_GT(levels.size(), 5u);
   EXPECT_TRUE(sameMainView(levels[0].settings, chosen));
   for (const auto& [settings, error] : levels) {
     EXPECT_LE(settings.view.samples, 2);
     EXPECT_LE(settings.view.scale, 0.7);
     EXPECT_LE(settings.reflection.maxDepth, 1);
+    EXPECT_LE(settings.reflection.maxPasses, 20);
     EXPECT_GE(settings.reflection.updateInterval, 3);
     EXPECT_GE(settings.reflection.meshError, 1.0);
     EXPECT_TRUE(settings.reflection.clip == chosen.reflection.clip && settings.effects == chosen.effects);
@@ -236,7 +264,7 @@ TEST(MotionLevels, NothingIsRaised) {
 TEST(MotionLevels, FollowTheMeasuredFront) {
   MotionLevel point{Settings(), 0.02};
   point.settings.view.scale = 0.6;
-  const std::vector<MotionLevel> levels = motionLevels({}, std::span(&point, 1), 1 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels({}, {}, std::span(&point, 1), 1 + 4, true);
   EXPECT_EQ(levels[1].settings.view.scale, 0.6);
   EXPECT_EQ(levels[1].settings.view.samples, 4);
   EXPECT_EQ(levels[1].error, 0.02);
@@ -249,7 +277,7 @@ TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
   point.settings.view.meshError = point.settings.reflection.meshError = 1.0;
   const auto mostError = [&](bool simplifies) {
     double most = 0.0;
-    for (const MotionLevel& level : motionLevels({}, std::span(&point, 1), 1 + 4, simplifies)) {
+    for (const MotionLevel& level : motionLevels({}, {}, std::span(&point, 1), 1 + 4, simplifies)) {
       most = std::max({most, level.settings.view.meshError, level.settings.reflection.meshError});
     }
     return most;
@@ -258,12 +286,73 @@ TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
   EXPECT_GE(mostError(true), 1.0);
 }
 
+TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
+  const auto last = [](const Scene& scene, const Settings& chosen = {}) {
+    return motionLevels(scene, chosen, {}, 1 + 4, true).back().settings.effects;
+  };
+  Scene scene;
+  EXPECT_EQ(last(scene), EffectSettings());
+  scene.lights = {{.castsShadow = true}};
+  EXPECT_EQ(last(scene).shadowLookup, ShadowLookup::map);
+  EXPECT_EQ(last(scene).roughLookup, ReflectionSource::traced);
+  Settings off;
+  off.effects.shadows = false;
+  EXPECT_EQ(last(scene, off), off.effects);
+  scene.mirrors = {{.castsLight = true}};
+  EXPECT_FALSE(last(scene).castsLight);
+  EXPECT_EQ(last(scene).shadowLookup, ShadowLookup::map);
+  scene.mirrors = {{.roughness = 0.2}, {.ripple = Ripple()}};
+  EXPECT_EQ(last(scene).roughLookup, ReflectionSource::image);
+  EXPECT_EQ(last(scene).rippleLookup, ReflectionSource::image);
+  EXPECT_EQ(last(scene).curvedLookup, CurvedLookup::traced);
+  scene.objects = {{.mirror = ObjectMirror()}};
+  EXPECT_EQ(last(scene).curvedLookup, CurvedLookup::environment);
+}
+
+TEST(FrameWork, CountsTheRaysOfEffects) {
+  Scene scene;
+  scene.mirrors = {{.roughness = 0.2}};
+  scene.lights = {{.castsShadow = true}};
+  const SceneState state;
+  Settings settings;
+  settings.effects.perSample = true;
+  settings.effects.roughSamples = 8;
+  FramePlan plan{.projection = Projection(1.0, 1.0, 0.1)};
+  plan.main.view = mainView({}, plan.projection, 100, 100);
+  plan.effects.shadowRays = true;
+  EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 4 * 1e4);
+  settings.effects.perSample = false;
+  EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 1e4);
+  plan.main.mirrors.push_back({.scatters = true, .polygon = {{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}}});
+  const FrameWork work = workOf(plan, scene, state, settings);
+  EXPECT_NEAR(work.roughRays, 8 * 2 * 1e4, 1e-3) << "a reflected ray and one to the light";
+  Settings to = settings;
+  to.view.scale = 0.5;
+  to.effects.roughSamples = 4;
+  EXPECT_NEAR(scaledWork(work, settings, to).roughRays, 2e4, 1e-3);
+  to.effects.roughLookup = ReflectionSource::image;
+  EXPECT_EQ(scaledWork(work, settings, to).roughRays, 0.0);
+  plan.effects.shadowMaps = true;
+  EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 0.0);
+}
+
+TEST(FrameWork, FollowsTheBoundOnPasses) {
+  Settings to;
+  to.reflection.maxPasses = 8;
+  const FrameWork work = scaledWork({.passes = 60.0, .mirrorPasses = 50.0, .triangles = 6e4}, {}, to);
+  EXPECT_EQ(work.passes, 18.0);
+  EXPECT_EQ(work.triangles, 1.8e4);
+}
+
 TEST(MotionLevels, WordsSayWhatIsGivenUp) {
   MotionLevel level{Settings(), 0.0512};
   EXPECT_EQ(motionText(Settings(), level), "full quality");
   level.settings.view.scale = 0.5;
   level.settings.view.samples = level.settings.reflection.samples = 1;
   EXPECT_EQ(motionText(Settings(), level), "0.5 scale, 1 sample, FLIP about 0.05");
+  level.settings.effects.shadowLookup = ShadowLookup::map;
+  EXPECT_EQ(motionText(Settings(), level), "shadows from maps, 0.5 scale, 1 sample, FLIP about 0.05");
+  level.settings.effects = {};
   level.settings.reflection.samples = 2;
   level.settings.reflection.maxDepth = 1;
   EXPECT_EQ(motionText(Settings(), level), "0.5 scale, 1 sample, mirrors with 2 samples, depth 1, FLIP about 0.05");
@@ -347,7 +436,9 @@ TEST(Pace, StillPicturesConvergeOnce) {
   EXPECT_FALSE(pace.wantsFrame());
   EXPECT_EQ(frame(1), std::pair(3, 3)) << "the mean again";
   EXPECT_EQ(frame(2), std::pair(1, 0)) << "something else is shown";
-  EXPECT_EQ(frame(3, 1e-9), std::pair(3, 0)) << "full quality would take too long";
+  EXPECT_EQ(frame(3, 1e-9), std::pair(1, 0)) << "full quality would take too long";
+  EXPECT_EQ(pace.text().rfind("Draft: 0.1", 0), 0u) << pace.text();
+  EXPECT_EQ(frame(3, 1e-9), std::pair(3, 0));
 }
 
 TEST(Pace, BudgetFollowsDeviceAndMonitor) {

@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "frame/mesh_level.hpp"
+#include "frame/shadow_map.hpp"
 
 namespace speculum {
 
 namespace {
 
-// Milliseconds for a picture's pixel, a pass, a triangle, a texel and each further sample of a texel.
-constexpr std::array<double, 5> cpuPrices{8e-6, 0.3, 1e-4, 8e-5, 6e-5};
-constexpr std::array<double, 5> gpuPrices{1e-7, 0.03, 2e-6, 2e-6, 5e-7};
+// Milliseconds for a texel without light, a pass, a triangle, a texel, each further sample of a texel, and a ray.
+constexpr std::array<double, 6> cpuPrices{8e-6, 0.3, 1e-4, 8e-5, 6e-5, 1e-3};
+constexpr std::array<double, 6> gpuPrices{1e-7, 0.03, 2e-6, 2e-6, 5e-7, 1e-5};
+constexpr size_t rayKind = 5;
 
 // Standard deviations, relative.
 constexpr double speedGuess = 1.0;    // of the device's speed at first
 constexpr double priceGuess = 0.5;    // of each price besides
+constexpr double rayGuess = 1.5;      // of that of rays, which depends on the scene and on hardware
 constexpr double speedDrift = 0.015;  // from frame to frame
 constexpr double priceDrift = 0.004;
 constexpr double frameNoise = 0.1;
@@ -41,18 +45,69 @@ double trianglesOf(const PlannedPass& pass, const Scene& scene, const SceneState
   return indices / 3.0;
 }
 
+// Adds the rays of a pass with `texels`, whose pixels have `samples` of them.
+void addRays(FrameWork& work, const PlannedPass& pass, double texels, int samples, const FramePlan& plan,
+             const Scene& scene, const SceneState& state, const EffectSettings& settings) {
+  const TracedEffects& effects = plan.effects;
+  const double points = settings.perSample ? samples : 1.0;  // a texel that send rays
+  const double toLights = effects.shadowRays ? static_cast<double>(shadowLights(scene).size()) +
+                                                   2.0 * static_cast<double>(effects.mirroredLights.size())
+                                             : 0.0;
+  const double reflected = points * (1.0 + toLights);
+  if (!effects.shadowMaps) {
+    work.lightRays += texels * points * toLights;
+  }
+  for (const MirrorDraw& draw : pass.mirrors) {
+    if (draw.scatters && !draw.back) {
+      const bool rough = settings.roughness && scene.mirrors[static_cast<size_t>(draw.mirror)].roughness > 0.0;
+      const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
+                                     pass.view.pictureSize.y);
+      (rough ? work.roughRays : work.rippleRays) += area * reflected * (rough ? settings.roughSamples : 1);
+    }
+  }
+  for (const int i : effects.curvedRays ? pass.instances : std::vector<int>()) {
+    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    if (scene.objects[static_cast<size_t>(instance.object)].mirror) {
+      const double distance = glm::length(instance.center - pass.view.eye);
+      const double radius =
+          instance.radius / std::max(distance, 1e-9) * 0.5 * plan.projection.focal * pass.view.pictureSize.y;
+      work.curvedRays += std::min(std::numbers::pi * radius * radius, texels) * reflected;
+    }
+  }
+}
+
 }  // namespace
 
 FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& state, const Settings& settings) {
-  FrameWork work{.picturePixels = static_cast<double>(plan.width) * plan.height,
+  FrameWork work{.plainTexels = static_cast<double>(plan.width) * plan.height,
                  .passes = static_cast<double>(plan.passes.size()) + 1.0,
+                 .mirrorPasses = static_cast<double>(plan.passes.size()),
                  .mainTexels = static_cast<double>(plan.main.view.rect.area()),
                  .viewSamples = settings.view.samples,
                  .mirrorSamples = settings.reflection.samples};
   work.triangles = trianglesOf(plan.main, scene, state);
+  addRays(work, plan.main, work.mainTexels, work.viewSamples, plan, scene, state, settings.effects);
   for (const PlannedPass& pass : plan.passes) {
     work.triangles += trianglesOf(pass, scene, state);
     work.mirrorTexels += pass.areaPx;
+    addRays(work, pass, pass.areaPx, work.mirrorSamples, plan, scene, state, settings.effects);
+  }
+  for (const EnvironmentMap& map : plan.maps) {
+    for (const PlannedPass& face : map.cacheIndex < 0 ? map.faces : std::vector<PlannedPass>()) {
+      ++work.passes;
+      work.triangles += trianglesOf(face, scene, state);
+      work.mapTexels += face.areaPx;
+      addRays(work, face, face.areaPx, 1, plan, scene, state, settings.effects);
+    }
+  }
+  for (const ShadowMap& map : plan.shadowMaps) {
+    for (const ShadowFace& face : map.faces) {
+      if (face.rendered) {
+        ++work.passes;
+        work.triangles += trianglesOf(face.pass, scene, state);
+        work.plainTexels += static_cast<double>(map.size) * map.size;
+      }
+    }
   }
   return work;
 }
@@ -62,6 +117,22 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   const double view = to.view.scale / from.view.scale;
   work.mainTexels *= squared(view);
   work.mirrorTexels *= squared(view * to.reflection.scale / from.reflection.scale);
+  const double kept = std::min(work.mirrorPasses, static_cast<double>(to.reflection.maxPasses));
+  const double passes = work.passes - work.mirrorPasses + kept;
+  work.triangles *= passes / std::max(work.passes, 1.0);
+  work.passes = passes;
+  work.mirrorPasses = kept;
+  const auto points = [](const Settings& settings) { return settings.effects.perSample ? settings.view.samples : 1.0; };
+  const double rays = squared(view) * points(to) / points(from);
+  const EffectSettings& effects = to.effects;
+  // Rays to lights in spite of maps are for light off mirrors.
+  const bool shadowMaps = effects.shadowLookup == ShadowLookup::map &&
+                          (from.effects.shadowLookup == ShadowLookup::traced || !effects.castsLight);
+  work.lightRays *= shadowMaps ? 0.0 : rays;
+  work.rippleRays *= effects.rippleLookup == ReflectionSource::image ? 0.0 : rays;
+  work.curvedRays *= effects.curvedLookup == CurvedLookup::environment ? 0.0 : rays;
+  work.roughRays *=
+      effects.roughLookup == ReflectionSource::image ? 0.0 : rays * effects.roughSamples / from.effects.roughSamples;
   work.viewSamples = to.view.samples;
   work.mirrorSamples = to.reflection.samples;
   return work;
@@ -71,13 +142,16 @@ CostModel::CostModel(bool cpuDevice) : prices_(cpuDevice ? cpuPrices : gpuPrices
   factors_.fill(1.0);
   for (size_t i = 0; i < kinds; ++i) {
     covariance_[i].fill(speedGuess * speedGuess);
-    covariance_[i][i] += priceGuess * priceGuess;
+    const double price = i == rayKind ? rayGuess : priceGuess;
+    covariance_[i][i] += price * price;
   }
 }
 
 CostModel::Vector CostModel::guess(const FrameWork& work) const {
   const double further = work.mainTexels * (work.viewSamples - 1) + work.mirrorTexels * (work.mirrorSamples - 1);
-  Vector ms{work.picturePixels, work.passes, work.triangles, work.mainTexels + work.mirrorTexels, further};
+  Vector ms{work.plainTexels, work.passes,
+            work.triangles,   work.mainTexels + work.mirrorTexels + work.mapTexels,
+            further,          work.lightRays + work.rippleRays + work.curvedRays + work.roughRays};
   std::ranges::transform(ms, prices_, ms.begin(), std::multiplies());
   return ms;
 }

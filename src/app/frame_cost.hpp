@@ -8,18 +8,26 @@ namespace speculum {
 
 // Amounts of work in a frame, computed from its plan before it is drawn.
 struct FrameWork {
-  double picturePixels = 0.0;  // pixels that the display pass writes
-  double passes = 0.0;
+  double plainTexels = 0.0;   // written without light: by the display pass, and of shadow maps
+  double passes = 0.0;        // all
+  double mirrorPasses = 0.0;  // of mirrors
   double triangles = 0.0;
   double mainTexels = 0.0;
   double mirrorTexels = 0.0;
+  double mapTexels = 0.0;  // of environment maps
+  // Rays, about: from what is drawn to lights, and from mirrors of each kind with those that their hits send to lights.
+  double lightRays = 0.0;
+  double rippleRays = 0.0;
+  double curvedRays = 0.0;
+  double roughRays = 0.0;
   int viewSamples = 1;
   int mirrorSamples = 1;
 };
 
 FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& state, const Settings& settings);
-// Estimates the work of a frame planned with settings `from` if it were planned with `to`, from the numbers of texels
-// and samples alone.
+// Estimates the work of a frame planned with settings `from` if it were planned with `to`, from the numbers of texels,
+// samples, passes and rays alone: maps that are looked up instead of rays cost nothing, and rays that `from` lacks are
+// not known.
 FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to);
 
 // Predicts milliseconds of a frame as a sum over its kinds of work, each with a price that it learns from frames: a
@@ -34,7 +42,7 @@ class CostModel {
   void learn(const FrameWork& work, double ms);
 
  private:
-  static constexpr size_t kinds = 5;
+  static constexpr size_t kinds = 6;
   using Vector = std::array<double, kinds>;
 
   Vector guess(const FrameWork& work) const;  // milliseconds of each kind

@@ -17,6 +17,7 @@ constexpr double leastPatience = 0.25;  // seconds
 constexpr double mostPatience = 4.0;
 constexpr double settled = 1.0;  // seconds at a better level after which it counts as right
 constexpr size_t mostPending = 8;
+constexpr int longestInterval = 60;  // frames
 
 }  // namespace
 
@@ -41,7 +42,7 @@ size_t MotionController::choose(std::span<const MotionLevel> levels, double budg
     predicted_.clear();
     patience_ = leastPatience;
     sinceChange_ = 0.0;
-    raised_ = false;
+    raised_ = refused_ = false;
     const size_t fitting = fittingLevel(levels, 0, level_, work, aim * budgetMs);
     if (fitting < level_) {
       level_ = fitting;
@@ -49,9 +50,10 @@ size_t MotionController::choose(std::span<const MotionLevel> levels, double budg
     }
   }
   sinceChange_ += seconds;
-  const auto interval = static_cast<size_t>(levels[level_].settings.reflection.updateInterval);
+  const Settings& settings = levels[level_].settings;
+  const int interval = std::max(settings.reflection.updateInterval, settings.effects.environmentInterval);
   predicted_.push_back(model_.predict(work));
-  while (predicted_.size() > interval) {
+  while (predicted_.size() > static_cast<size_t>(std::min(interval, longestInterval))) {
     predicted_.pop_front();
   }
   const double longest = std::ranges::max(predicted_);
@@ -68,9 +70,10 @@ size_t MotionController::choose(std::span<const MotionLevel> levels, double budg
   } else if (!begins && level_ > 0 && longest <= roomToRaise * budgetMs) {
     const MotionLevel& better = levels[level_ - 1];
     const double promised = model_.predict(scaledWork(work, levels[level_].settings, better.settings));
-    const bool waited = sinceChange_ >= patience_ || promised <= farBelow * budgetMs;
+    const bool waited = sinceChange_ >= patience_ || (promised <= farBelow * budgetMs && !refused_);
     if (waited && promised <= roomToRaise * budgetMs && planAt(level_ - 1) > roomToRaise * budgetMs) {
       planAt(before);
+      refused_ = true;
       sinceChange_ = 0.0;
     }
   }
@@ -80,6 +83,7 @@ size_t MotionController::choose(std::span<const MotionLevel> levels, double budg
       patience_ = mistake ? std::min(2.0 * patience_, mostPatience) : leastPatience;
     }
     raised_ = level_ < before && !begins;
+    refused_ = false;
     sinceChange_ = 0.0;
     predicted_.clear();
   }

@@ -49,6 +49,7 @@ class MotionController {
   double patience_ = 0.0;         // seconds at a level before a better one is tried
   double sinceChange_ = 0.0;      // seconds
   bool raised_ = false;           // the last change was to a better level
+  bool refused_ = false;          // since then a better level did not fit once it was planned
   std::deque<double> predicted_;  // milliseconds of the last frames, one update interval
 };
 

@@ -6,13 +6,20 @@
 #include <cmath>
 #include <limits>
 
+#include "frame/traced_effects.hpp"
+
 namespace speculum {
 
 namespace {
 
 constexpr double scaleStep = 0.9;
-constexpr double blurredScale = 0.4;  // below it, losing reflections is seen less than losing detail
+// Below these, losing far reflections is seen less than losing detail.
+constexpr double softScale = 0.7;
+constexpr double blurredScale = 0.4;
 constexpr double leastScale = 0.125;
+constexpr int smallShadowMap = 256;     // texels of a face's side
+constexpr int smallEnvironment = 64;    // likewise
+constexpr int environmentInterval = 8;  // frames
 
 Settings lowered(Settings settings, const Settings& limit) {
   ViewSettings& view = settings.view;
@@ -23,9 +30,43 @@ Settings lowered(Settings settings, const Settings& limit) {
   reflection.scale = std::min(reflection.scale, limit.reflection.scale);
   reflection.samples = std::min(reflection.samples, limit.reflection.samples);
   reflection.maxDepth = std::min(reflection.maxDepth, limit.reflection.maxDepth);
+  reflection.maxPasses = std::min(reflection.maxPasses, limit.reflection.maxPasses);
   reflection.updateInterval = std::max(reflection.updateInterval, limit.reflection.updateInterval);
   reflection.meshError = std::max(reflection.meshError, limit.reflection.meshError);
+  EffectSettings& effects = settings.effects;
+  effects.perSample = effects.perSample && limit.effects.perSample;
+  effects.castsLight = effects.castsLight && limit.effects.castsLight;
+  effects.shadowLookup = std::max(effects.shadowLookup, limit.effects.shadowLookup);
+  effects.shadowMapSize = std::min(effects.shadowMapSize, limit.effects.shadowMapSize);
+  effects.rippleLookup = std::max(effects.rippleLookup, limit.effects.rippleLookup);
+  effects.roughLookup = std::max(effects.roughLookup, limit.effects.roughLookup);
+  effects.roughSamples = std::min(effects.roughSamples, limit.effects.roughSamples);
+  effects.curvedLookup = std::max(effects.curvedLookup, limit.effects.curvedLookup);
+  effects.environmentSize = std::min(effects.environmentSize, limit.effects.environmentSize);
+  effects.environmentInterval = std::max(effects.environmentInterval, limit.effects.environmentInterval);
   return settings;
+}
+
+// Effects of a scene that rays or maps show, under its settings.
+struct RayUse {
+  bool shadows = false;
+  bool castsLight = false;
+  bool ripple = false;
+  bool rough = false;
+  bool curved = false;
+};
+
+RayUse raysOf(const Scene& scene, const EffectSettings& effects) {
+  RayUse use{.shadows = effects.shadows && !shadowLights(scene).empty(),
+             .curved = effects.curved && std::ranges::any_of(scene.objects, [](const Object& object) {
+                         return object.mirror.has_value();
+                       })};
+  for (const Mirror& mirror : scene.mirrors) {
+    use.castsLight = use.castsLight || (effects.castsLight && mirror.castsLight);
+    use.ripple = use.ripple || (effects.ripple && mirror.ripple);
+    use.rough = use.rough || (effects.roughness && mirror.roughness > 0.0);
+  }
+  return use;
 }
 
 // Return the mean FLIP that each setting adds, on average over the shipped scenes without traced effects
@@ -42,11 +83,21 @@ double mirrorSampleError(int samples) {
 double depthError(int depth) {
   return depth == 0 ? 0.2 : 0.08 / depth;
 }
+double passError(int passes) {
+  return 0.03 * std::pow(8.0 / passes, 1.6);
+}
 double viewMeshError(double texels) {
   return 0.012 * texels;
 }
 double mirrorMeshError(double texels) {
   return 0.003 * texels;
+}
+double shadowError(const EffectSettings& effects) {
+  return effects.shadowLookup == ShadowLookup::map ? 4.0 / effects.shadowMapSize : 0.0;
+}
+double roughError(const EffectSettings& effects) {
+  return std::hypot(effects.roughLookup == ReflectionSource::image ? 0.13 : 0.0,
+                    0.18 / std::sqrt(effects.roughSamples));
 }
 
 // Adds errors of different kinds as squares, like independent ones.
@@ -58,15 +109,23 @@ double addedError(const Settings& chosen, const Settings& lower) {
                      added(viewSampleError(chosen.view.samples), viewSampleError(lower.view.samples)) +
                      added(mirrorSampleError(a.samples), mirrorSampleError(b.samples)) +
                      added(a.maxDepth == b.maxDepth ? depthError(b.maxDepth) : 0.0, depthError(b.maxDepth)) +
+                     added(passError(a.maxPasses), passError(b.maxPasses)) +
                      added(viewMeshError(chosen.view.meshError), viewMeshError(lower.view.meshError)) +
                      added(mirrorMeshError(a.meshError), mirrorMeshError(b.meshError));
-  return std::sqrt(sum);
+  const EffectSettings& c = chosen.effects;
+  const EffectSettings& d = lower.effects;
+  const auto once = [](bool differs, double error) { return differs ? error * error : 0.0; };
+  const double effects = once(c.perSample != d.perSample, 0.01) + added(shadowError(c), shadowError(d)) +
+                         once(c.rippleLookup != d.rippleLookup, 0.03) + once(c.curvedLookup != d.curvedLookup, 0.045) +
+                         once(c.castsLight != d.castsLight, 0.08) + added(roughError(c), roughError(d));
+  return std::sqrt(sum + effects);
 }
 
 }  // namespace
 
-std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const MotionLevel> front, unsigned sampleCounts,
-                                      bool simplifies) {
+std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
+                                      unsigned sampleCounts, bool simplifies) {
+  const RayUse rays = raysOf(scene, chosen.effects);
   std::vector<MotionLevel> levels{{chosen}};
   const auto add = [&](const Settings& settings, double error) {
     if (!sameMainView(settings, levels.back().settings)) {
@@ -93,6 +152,7 @@ std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const Mo
       step([&](Settings& s) { s.view.scale = scale; });
     }
   };
+  const auto passesTo = [&](int most) { step([&](Settings& s) { s.reflection.maxPasses = most; }); };
   const auto simplify = [&](double mirrors, double view) {
     if (simplifies) {
       step([&](Settings& s) {
@@ -101,6 +161,14 @@ std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const Mo
       });
     }
   };
+  const auto replace = [&](bool used, const auto& change) {
+    if (used) {
+      step([&](Settings& s) { change(s.effects); });
+    }
+  };
+  using E = EffectSettings;
+  replace(rays.shadows || rays.ripple || rays.curved, [](E& effects) { effects.perSample = false; });
+  replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowLookup = ShadowLookup::map; });
   simplify(0.5, 0.0);
   for (const auto& samples : {+[](Settings& s) -> int& { return s.reflection.samples; },
                               +[](Settings& s) -> int& { return s.view.samples; }}) {
@@ -110,12 +178,32 @@ std::vector<MotionLevel> motionLevels(const Settings& chosen, std::span<const Mo
       }
     }
   }
+  replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowMapSize = smallShadowMap; });
+  replace(rays.ripple, [](E& effects) { effects.rippleLookup = ReflectionSource::image; });
+  replace(rays.curved, [](E& effects) {
+    effects.curvedLookup = CurvedLookup::environment;
+    effects.environmentSize = smallEnvironment;
+    effects.environmentInterval = environmentInterval;
+  });
+  // Light off mirrors has no shadows in maps.
+  replace(rays.castsLight, [](E& effects) {
+    effects.castsLight = false;
+    effects.shadowLookup = ShadowLookup::map;
+    effects.shadowMapSize = smallShadowMap;
+  });
+  replace(rays.rough, [](E& effects) { effects.roughSamples = 16; });
+  replace(rays.rough, [](E& effects) { effects.roughSamples = 4; });
+  replace(rays.rough, [](E& effects) { effects.roughLookup = ReflectionSource::image; });
+  passesTo(32);
+  scaleTo(softScale);
+  passesTo(24);
+  passesTo(16);
   scaleTo(blurredScale);
   simplify(2.0, 1.0);
-  step([](Settings& s) { s.reflection.maxDepth = 2; });
+  passesTo(12);
+  passesTo(8);
   scaleTo(leastScale);
   simplify(2.0, 2.0);
-  step([](Settings& s) { s.reflection.maxDepth = 1; });
   return levels;
 }
 
@@ -128,6 +216,16 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
       text += (text.empty() ? "" : ", ") + words;
     }
   };
+  const EffectSettings& effects = settings.effects;
+  add(effects.castsLight != chosen.effects.castsLight, "no light off mirrors");
+  add(effects.shadowLookup != chosen.effects.shadowLookup, "shadows from maps");
+  add(effects.curvedLookup != chosen.effects.curvedLookup, "curved mirrors from maps");
+  add(effects.rippleLookup != chosen.effects.rippleLookup, "ripples from images");
+  const bool images = effects.roughLookup != chosen.effects.roughLookup;
+  add(images, "rough mirrors from images");
+  add(!images && effects.roughSamples != chosen.effects.roughSamples,
+      fmt::format("{} rays a pixel of rough mirrors", effects.roughSamples));
+  add(effects.perSample != chosen.effects.perSample && text.empty(), "rays once a pixel");
   const auto samples = [](int count) { return fmt::format("{} {}", count, count == 1 ? "sample" : "samples"); };
   add(settings.view.scale != chosen.view.scale, fmt::format("{:.2g} scale", settings.view.scale));
   add(settings.view.samples != chosen.view.samples, samples(settings.view.samples));
@@ -135,6 +233,7 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   add(reflection.samples != chosen.reflection.samples && reflection.samples != settings.view.samples,
       "mirrors with " + samples(reflection.samples));
   add(reflection.maxDepth != chosen.reflection.maxDepth, fmt::format("depth {}", reflection.maxDepth));
+  add(reflection.maxPasses != chosen.reflection.maxPasses, fmt::format("{} mirror images", reflection.maxPasses));
   add(reflection.updateInterval != chosen.reflection.updateInterval,
       fmt::format("mirrors every {} frames", reflection.updateInterval));
   const double mirrors = reflection.meshError != chosen.reflection.meshError ? reflection.meshError : 0.0;

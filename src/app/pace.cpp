@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "frame/picture_offset.hpp"
+
 namespace speculum {
 
 namespace {
 
 constexpr double cpuBudgetMs = 50.0;
 constexpr double refreshShare = 0.8;
-constexpr size_t mostDrawn = 4;  // frames whose times have not arrived
+constexpr double longestWait = 3.0;  // budgets: slower still pictures come after a draft
+constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
 
 }  // namespace
 
@@ -37,17 +40,25 @@ FittedPlan Pace::plan(const Request& request, const Planner& plan) {
   return planStill(request, counted);
 }
 
-FittedPlan Pace::planMoving(const Request& request, const Planner& plan) {
+// Plans the frame so that it keeps the budget. Sets text_ to what that gives up.
+FittedPlan Pace::planWithinBudget(const Request& request, const Planner& plan) {
   FittedPlan fitted;
   Settings chosen = request.chosen;
   chosen.view.accumulate = 1;
-  const std::vector<MotionLevel> levels = motionLevels(chosen, request.front, sampleCounts_, request.simplifies);
+  const std::vector<MotionLevel> levels =
+      motionLevels(request.scene, chosen, request.front, sampleCounts_, request.simplifies);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
     fitted = plan(settings, 0);
     return work_;
   });
+  text_ = motionText(chosen, levels[level]);
+  return fitted;
+}
+
+FittedPlan Pace::planMoving(const Request& request, const Planner& plan) {
   shown_.reset();
-  text_ = "Moving: " + motionText(chosen, levels[level]);
+  FittedPlan fitted = planWithinBudget(request, plan);
+  text_ = "Moving: " + text_;
   return fitted;
 }
 
@@ -65,11 +76,18 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
     return plan(settings, 0);
   }
   if (picture_ < 0) {
-    FittedPlan full = plan(settings, 0);
+    FittedPlan first = plan(settings, 0);
     picture_ = 0;
     // A slow frame would only delay the mean, whose pictures have one sample.
     if (request.budgetMs <= 0.0 || controller_.predict(work_) <= request.budgetMs) {
-      return full;
+      return first;
+    }
+    Settings mean = settings;
+    mean.view.accumulate = pictures_;
+    if (controller_.predict(scaledWork(work_, settings, pictureSettings(mean))) > longestWait * request.budgetMs) {
+      first = planWithinBudget(request, plan);
+      text_ = "Draft: " + text_;
+      return first;
     }
   }
   settings.view.accumulate = pictures_;

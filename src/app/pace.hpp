@@ -10,8 +10,8 @@
 namespace speculum {
 
 // Chooses the quality of the window's frames: while something moves, as much of the chosen settings as fits into a
-// budget of milliseconds; otherwise all of them, then the mean of pictures with offsets (view.accumulate), one in each
-// frame.
+// budget of milliseconds; otherwise all of them, or where that takes longer a draft that fits, then the mean of
+// pictures with offsets (view.accumulate), one in each frame.
 class Pace {
  public:
   // `sampleCounts`: those that the device has, as a sum.
@@ -57,6 +57,7 @@ class Pace {
   const std::string& text() const { return text_; }
 
  private:
+  FittedPlan planWithinBudget(const Request& request, const Planner& plan);
   FittedPlan planMoving(const Request& request, const Planner& plan);
   FittedPlan planStill(const Request& request, const Planner& plan);
 
@@ -79,7 +80,7 @@ class Pace {
   std::string text_;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
-  int picture_ = -1;  // next picture of the mean; -1: one in full quality comes first
+  int picture_ = -1;  // next picture of the mean; -1: one in full quality, or a draft, comes first
   int pictures_ = 0;  // in the mean
 };
 

@@ -40,6 +40,13 @@ bool sameDrawing(const Settings& a, const Settings& b) {
   return sameMirrorImages(a, b) && a.debug == b.debug;
 }
 
+// Says whether settings make the same environment maps, in which mirrors show the background.
+bool sameMaps(const Settings& a, Settings b) {
+  b.reflection = a.reflection;
+  b.view.scale = a.view.scale;
+  return sameDrawing(a, b);
+}
+
 // Replaces a map by that of the frame before if it can be reused, and says whether it did.
 bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const ImageSurroundings& around,
               const View& main) {
@@ -55,14 +62,14 @@ bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const I
   const auto before = std::find_if(maps.begin(), maps.end(), [&](const EnvironmentMap& other) {
     return other.object == map.object && other.copy == map.copy;
   });
-  if (before == maps.end()) {
+  if (before == maps.end() || !sameMaps(before->settings, around.settings)) {
     map.due = interval - map.instance % interval;  // so that maps become due in turn
     return false;
   }
   map.due = interval;
   const bool unchanged = skipUnchanged && before->content == map.content;
   const bool young = before->age < std::min(before->due, interval);
-  if (!sameDrawing(before->settings, around.settings) || !(unchanged || young)) {
+  if (!unchanged && !young) {
     return false;
   }
   map.cacheIndex = static_cast<int>(before - maps.begin());
