@@ -169,10 +169,14 @@ void Planner::fill(int node) {
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
   const auto isOwn = [&](int mirror) { return !view.path.empty() && view.path.back() == mirror; };
+  // An image shows no mirror of its own mirror's plane.
+  const auto inOwnPlane = [&](int mirror) {
+    return !view.path.empty() && state_.mirrors[view.path.back()].plane == state_.mirrors[mirror].plane;
+  };
   std::vector<Sight> sights;  // of the mirrors that are seen; a view may look at a thousand that are not
   std::vector<int> seen;
   for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
-    if (!isOwn(i) && !behindEye(view, state_.mirrors[i].polygon)) {
+    if (!inOwnPlane(i) && !behindEye(view, state_.mirrors[i].polygon)) {
       Sight sight = sightOf(scene_, state_, view, drawn, i);
       if (!sight.visible.empty()) {
         sights.push_back(std::move(sight));

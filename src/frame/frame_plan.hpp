@@ -36,6 +36,7 @@ struct MirrorDraw {
   std::optional<CachedLookup> cached;  // set if it reuses a cached image; with neither it shows the background
   std::vector<glm::dvec3> polygon;     // world, cut to what the view shows, counter-clockwise for the view's eye
   Plane plane;                         // world; facing the view's eye
+  int layer = 0;                       // MirrorState::frontLayer or backLayer, by the side that is seen
 };
 
 // One pass: a view and what is drawn in it.

@@ -24,7 +24,9 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, con
   if (!sight.visible.empty()) {
     draw.polygon = visiblePart(drawn, geometry.polygon);
   }
+  draw.layer = geometry.frontLayer;
   if (sight.height < 0.0) {
+    draw.layer = geometry.backLayer;
     draw.plane.normal = -draw.plane.normal;
     std::reverse(draw.polygon.begin(), draw.polygon.end());
   }

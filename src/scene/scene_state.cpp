@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/polygon.hpp"
+#include "scene/mirror_layers.hpp"
 
 namespace speculum {
 
@@ -137,6 +138,7 @@ SceneState evaluate(const Scene& scene, double timeSeconds) {
   for (const Mirror& mirror : scene.mirrors) {
     state.mirrors.push_back(mirrorState(mirror, timeSeconds));
   }
+  findLayers(scene.mirrors, state.mirrors);
   return state;
 }
 

@@ -54,6 +54,11 @@ struct MirrorState {
   glm::dvec3 normal{0.0, 0.0, 1.0};  // world, unit, to the front
   glm::dvec3 axisX{1.0, 0.0, 0.0};   // world, unit; for ripples
   glm::dvec3 axisY{0.0, 1.0, 0.0};
+  int plane = 0;  // first mirror of the same plane; its own index if there is none before it
+  // Of mirrors that overlap in one plane, those that reflect are in front of backs, then those listed first. A mirror's
+  // layer is 0, or one more than the largest layer of those that cover it.
+  int frontLayer = 0;  // seen from its front
+  int backLayer = 0;
 };
 
 struct SceneState {

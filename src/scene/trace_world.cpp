@@ -107,16 +107,32 @@ Ray TraceWorld::toMesh(const Ray& ray, int instance, double tMax) const {
           tMax};
 }
 
-std::optional<double> TraceWorld::meetPolygon(const Ray& ray, const ShearedRay& sheared, const MirrorState& mirror,
+bool TraceWorld::skipsMirror(const Skip& skip, int mirror) const {
+  const auto sharesPlane = [&](int other) { return other >= 0 && mirrors_[other].plane == mirrors_[mirror].plane; };
+  return sharesPlane(skip.mirror) || sharesPlane(skip.secondMirror);
+}
+
+bool TraceWorld::covers(const SceneHit& hit, const SceneHit& other) const {
+  const auto layer = [&](const SceneHit& h) {
+    return h.mirrorFront ? mirrors_[h.index].frontLayer : mirrors_[h.index].backLayer;
+  };
+  return hit.kind == HitKind::mirror && other.kind == HitKind::mirror && layer(hit) < layer(other);
+}
+
+// Takes the distance of the first mirror of the plane for all mirrors of that plane, so that they are met at the same
+// one.
+std::optional<double> TraceWorld::meetPolygon(const Ray& ray, const ShearedRay& sheared, int mirror,
                                               double tMax) const {
-  const double t = glm::dot(mirror.polygon[0] - ray.origin, mirror.normal) / glm::dot(ray.direction, mirror.normal);
-  if (!(t > ray.tMin && t < tMax)) {
+  const MirrorState& plane = mirrors_[mirrors_[mirror].plane];
+  const double t = glm::dot(plane.polygon[0] - ray.origin, plane.normal) / glm::dot(ray.direction, plane.normal);
+  if (!(t > ray.tMin && t <= tMax)) {
     return std::nullopt;
   }
   bool left = false;
   bool right = false;
-  glm::dvec3 a = sheared.project(mirror.polygon.back());
-  for (const glm::dvec3& p : mirror.polygon) {
+  const std::vector<glm::dvec3>& polygon = mirrors_[mirror].polygon;
+  glm::dvec3 a = sheared.project(polygon.back());
+  for (const glm::dvec3& p : polygon) {
     const glm::dvec3 b = sheared.project(p);
     const double side = a.x * b.y - a.y * b.x;
     left = left || side > 0.0;
@@ -127,7 +143,7 @@ std::optional<double> TraceWorld::meetPolygon(const Ray& ray, const ShearedRay& 
 }
 
 std::optional<double> TraceWorld::meetMirror(const Ray& ray, int mirror) const {
-  return meetPolygon(ray, ShearedRay(ray), mirrors_[mirror], ray.tMax);
+  return meetPolygon(ray, ShearedRay(ray), mirror, ray.tMax);
 }
 
 // Uses the distance of centre and ray: the textbook discriminant cancels for small, distant glyphs.
@@ -160,11 +176,11 @@ std::optional<SceneHit> TraceWorld::meet(const Item& item, const Ray& ray, const
     hit.weights = found->weights;
     return hit;
   }
-  if (item.kind == HitKind::mirror && skip.skips(item.index)) {
+  if (item.kind == HitKind::mirror && skipsMirror(skip, item.index)) {
     return std::nullopt;
   }
-  const auto t = item.kind == HitKind::mirror ? meetPolygon(ray, sheared, mirrors_[item.index], tMax)
-                                              : meetGlyph(ray, item.index, tMax);
+  const auto t =
+      item.kind == HitKind::mirror ? meetPolygon(ray, sheared, item.index, tMax) : meetGlyph(ray, item.index, tMax);
   if (!t) {
     return std::nullopt;
   }
@@ -178,8 +194,8 @@ bool TraceWorld::blocks(const Item& item, const Ray& ray, const ShearedRay& shea
     const int64_t own = skip.instance == item.index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
     return meshes_[instances_[item.index].mesh].occluded(toMesh(ray, item.index, ray.tMax), own);
   }
-  return item.kind == HitKind::mirror && !skip.skips(item.index) &&
-         meetPolygon(ray, sheared, mirrors_[item.index], ray.tMax).has_value();
+  return item.kind == HitKind::mirror && !skipsMirror(skip, item.index) &&
+         meetPolygon(ray, sheared, item.index, ray.tMax).has_value();
 }
 
 std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip) const {
@@ -187,7 +203,8 @@ std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip) co
   std::optional<SceneHit> best;
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
     for (uint32_t i = first; i < first + count; ++i) {
-      if (const auto hit = meet(items_[i], ray, sheared, tMax, skip)) {
+      const auto hit = meet(items_[i], ray, sheared, tMax, skip);
+      if (hit && (!best || hit->t < best->t || covers(*hit, *best))) {
         best = hit;
         tMax = hit->t;
       }

@@ -21,14 +21,12 @@ struct SceneHit {
   bool mirrorFront = false;  // mirrors: the ray comes from the front side
 };
 
-// Surfaces that a ray ignores: the one it starts on, and the mirror that reflected it.
+// Surfaces that a ray ignores: the one it starts on, and the mirror that reflected it, with all mirrors of its plane.
 struct Skip {
   int instance = -1;
   uint32_t triangle = 0;
   int mirror = -1;
   int secondMirror = -1;
-
-  bool skips(int mirrorIndex) const { return mirrorIndex == mirror || mirrorIndex == secondMirror; }
 };
 
 // Everything that a ray can meet at one time: a BVH over instances, mirrors and glyphs. Instances are intersected in
@@ -64,12 +62,14 @@ class TraceWorld {
     glm::dmat3 normalFromMesh;
   };
   Bounds boundsOf(const Item& item) const;
+  bool skipsMirror(const Skip& skip, int mirror) const;
+  // Says whether one mirror covers another at the same distance.
+  bool covers(const SceneHit& hit, const SceneHit& other) const;
   Ray toMesh(const Ray& ray, int instance, double tMax) const;
   std::optional<SceneHit> meet(const Item& item, const Ray& ray, const ShearedRay& sheared, double tMax,
                                const Skip& skip) const;
   bool blocks(const Item& item, const Ray& ray, const ShearedRay& sheared, const Skip& skip) const;
-  std::optional<double> meetPolygon(const Ray& ray, const ShearedRay& sheared, const MirrorState& mirror,
-                                    double tMax) const;
+  std::optional<double> meetPolygon(const Ray& ray, const ShearedRay& sheared, int mirror, double tMax) const;
   std::optional<double> meetGlyph(const Ray& ray, int light, double tMax) const;
 
   const Scene* scene_;

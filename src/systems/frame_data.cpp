@@ -399,10 +399,41 @@ void addTriangles(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> 
 
 }  // namespace
 
+namespace {
+
+// Moves a mirror behind those that cover it in its plane, by more than rounding moves the depth of any pixel of them:
+// 16 steps of a float at the largest depth. Stays in front of whatever is twice as far.
+void moveBack(std::vector<glm::dvec4>& clip, int layer, double largestDepth) {
+  constexpr double step = 0x1p-20;
+  for (glm::dvec4& v : clip) {
+    v.z = std::max(0.5 * v.z, v.z - layer * step * largestDepth * v.w);
+  }
+}
+
+}  // namespace
+
 void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection,
                            PassData& data) {
   const auto& [scene, state, settings, environment, plan] = source;
   const EffectSettings& effects = settings.effects;
+  const auto clipPolygon = [&](const MirrorDraw& draw) {
+    std::vector<glm::dvec4> clip;
+    for (const glm::dvec3& p : draw.polygon) {
+      clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
+    }
+    return clip;
+  };
+  const auto largestDepth = [&](int plane) {
+    double largest = 0.0;
+    for (const MirrorDraw& draw : pass.mirrors) {
+      if (state.mirrors[draw.mirror].plane == plane) {
+        for (const glm::dvec4& v : clipPolygon(draw)) {
+          largest = std::max(largest, v.z / v.w);
+        }
+      }
+    }
+    return largest;
+  };
   for (const MirrorDraw& draw : pass.mirrors) {
     const Mirror& mirror = scene.mirrors[draw.mirror];
     const View* image = imageView(draw, plan);
@@ -423,9 +454,9 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
     mirrors_.push_back({mirrorData(draw, mirror, state, effects, pass.view, image)});
-    std::vector<glm::dvec4> clip;
-    for (const glm::dvec3& p : draw.polygon) {
-      clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
+    std::vector<glm::dvec4> clip = clipPolygon(draw);
+    if (draw.layer > 0) {
+      moveBack(clip, draw.layer, largestDepth(state.mirrors[draw.mirror].plane));
     }
     addTriangles(mirrorVertices_, clip, pass.view.pictureSize * overscan(pass.view));
     range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;

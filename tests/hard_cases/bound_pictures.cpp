@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
+#include "geometry/affine.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
@@ -88,6 +90,42 @@ TEST(MirrorsOfFewPixels, LeaveOutTheirAreaAtMost) {
   }
   EXPECT_LE(missing, 0.5 * 2.0 * static_cast<double>(left));
   EXPECT_GT(missing, 0.0);
+}
+
+// Sheets of one plane that overlap, some facing away, before a mirror that shows them once more.
+std::string sheetsInOnePlane(Random& random) {
+  const glm::dvec3 rotation = random.inBox(40.0);
+  const glm::dmat3 turn = rotationFromDegrees(rotation);
+  const glm::dvec3 center = random.uniform(0, 1) < 0.5 ? glm::dvec3(0.0) : random.inBox(1e6);
+  std::ostringstream text;
+  text << "[environment]\nbackground = [0.3, 0.4, 0.6]\nambient = [0.5, 0.5, 0.5]\n"
+       << cameraText(center + turn * glm::dvec3(random.uniform(-3, 3), random.uniform(-1, 2), 2.5), center)
+       << objectText("MODELS/torus_knot.obj", center + turn * glm::dvec3(0.4, 0.3, 1.5), {20, 30, 0}, 0.6,
+                     {0.8, 0.3, 0.1});
+  for (int i = 0; i < 5; ++i) {
+    const glm::dvec3 at = center + turn * glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.0);
+    const double quarterTurns = std::floor(random.uniform(0, 4));
+    const bool away = random.uniform(0, 1) < 0.3;
+    std::vector<glm::dvec3> corners;
+    for (int corner = 0; corner < 3 + i; ++corner) {
+      const double angle = (away ? -1.0 : 1.0) * 2.0 * std::numbers::pi * (corner + 0.37 * quarterTurns) / (3 + i);
+      corners.push_back(at + turn * (glm::dvec3(std::cos(angle), std::sin(angle), 0.0) * random.uniform(0.9, 1.0)));
+    }
+    text << "[[mirror]]\n"
+         << polygonText(corners) << "reflectance = " << random.vec(0.2, 0.9) << "\nback_color = " << random.vec(0, 1)
+         << "\ntwo_sided = " << (i == 1 ? "true" : "false") << "\n";
+  }
+  text << "[[mirror]]\n" << rectangleText(center + turn * glm::dvec3(0, 0, 5), rotation + glm::dvec3(0, 180, 0), 6, 6);
+  return text.str();
+}
+
+TEST(MirrorsInOnePlane, CoverInTheOrderOfTheFile) {
+  constexpr PictureSize large{240, 135};
+  Random random(7);
+  for (int i = 0; i < 12; ++i) {
+    const auto file = writeScene("one_plane_" + std::to_string(i), sheetsInOnePlane(random));
+    expectTruth(file, large, 3, trace(file, large, 3));
+  }
 }
 
 }  // namespace

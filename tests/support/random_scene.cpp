@@ -235,7 +235,7 @@ Sight facing(Builder& b) {
   return {{b.number(-1, 1), b.number(-0.5, 0.5), 0.5 * distance}, {b.number(-1, 1), b.number(-0.5, 0.5), -distance}};
 }
 
-// A plane of mirrors that adjoin each other, before it others that stand close.
+// A plane of mirrors that adjoin each other, in it or before it others that stand close.
 Sight tiles(Builder& b) {
   const int columns = b.count(1, 4);
   const int rows = b.count(1, 3);
@@ -248,7 +248,7 @@ Sight tiles(Builder& b) {
     }
   }
   for (int i = b.count(1, 4); i > 0; --i) {
-    const double gap = std::pow(10.0, b.random.uniform(-3, 0.5));
+    const double gap = b.random.chance(0.3) ? 0.0 : std::pow(10.0, b.random.uniform(-3, 0.5));
     b.mirror({b.number(-2, 2), b.number(-1, 1), gap}, {0, b.random.chance(0.5) ? 180.0 : 0.0, b.angle(-90, 90)},
              {b.number(0.5, 2), b.number(0.5, 2)}, b.count(3, 6));
   }
