@@ -89,6 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"render", "--out", "x.png", "--camera", "door", "--scene", "single_plane"},
                   "--camera: the scene has no bookmark 'door' (it has none; position:target"},
         UsageCase{{"render", "--out", "x.png", "--fps", "0", "--frames", "1"}, "--fps"},
+        UsageCase{{"render", "--out", "x.png", "--scene", ""}, "--scene: an empty name"},
         UsageCase{{"render", "--out", "x.png", "--scene", "nowhere.toml"}, "there is no file 'nowhere.toml'"},
         UsageCase{{"render", "--out", "x.png", "--set", "view.exposure"}, "has no value (key=value)"},
         UsageCase{{"render", "--out", "x.png", "--set", "view.exposre=1"}, "did you mean 'view.exposure'?"},
@@ -140,6 +141,15 @@ TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
                                            "--json",  out("r.json")});
   EXPECT_EQ(result.exitCode, 1) << result.output;
   EXPECT_FALSE(std::filesystem::exists(out("r.json")));
+}
+
+TEST_F(CommandLine, OutputThatCannotBeWrittenExitsTwo) {
+  for (const char* arguments : {"--help", "scenes"}) {
+    const ProcessResult result =
+        runProcess({"sh", "-c", "\"$0\" $1 >/dev/full", (binaryDir() / "speculum").string(), arguments});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_EQ(result.output, "standard output: cannot be written (check the disk that it goes to)\n");
+  }
 }
 
 TEST_F(CommandLine, HelpAndVersionExitZero) {

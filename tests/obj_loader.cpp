@@ -78,6 +78,14 @@ TEST_F(ObjLoader, RelativeIndicesCountBackwards) {
   EXPECT_EQ(mesh.vertices[2].normal, glm::dvec3(1, 0, 0));
 }
 
+TEST_F(ObjLoader, LeftOutIndicesMayKeepTheirSlashes) {
+  const Mesh mesh = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.5 0.25\nf 1/ 2// 3/1/\n");
+  EXPECT_EQ(mesh.indices.size(), 3u);
+  EXPECT_EQ(mesh.vertices[0].uv, glm::dvec2(0.0));
+  EXPECT_EQ(mesh.vertices[2].uv, glm::dvec2(0.5, 0.25));
+  EXPECT_EQ(mesh.vertices[2].normal, glm::dvec3(0, 0, 1));
+}
+
 TEST_F(ObjLoader, ConcavePolygonKeepsItsArea) {
   const Mesh mesh = load("v 0 0 0\nv 2 0 0\nv 0.5 0.5 0\nv 0 2 0\nf 1 2 3 4\n");
   ASSERT_EQ(mesh.indices.size(), 6u);
@@ -274,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(
         ObjFault{"NormalTooLarge", kVertices + "vn 0 0 1\nf 1//1 2//1 3//2\n", "5: f:", "vn index 2 is out of range"},
         ObjFault{"NormalOfTriple", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/-2 3/1/1\n", "6: f:", "vn index -2"},
         ObjFault{"IndexIsWord", kVertices + "f 1 2 x\n", "4: f:", "'x' is not an index"},
-        ObjFault{"IndexIsEmpty", kVertices + "f 1 2 3//\n", "4: f:", "'' is not an index"},
+        ObjFault{"IndexIsEmpty", kVertices + "f 1 2 /3\n", "4: f:", "'' is not an index"},
         ObjFault{"IndexOfFour", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1/1 2 3\n", "6: f:", "'1/1' is not an index"},
         ObjFault{"FaceOfTwo", kVertices + "f 1 2\n", "4: f:", "has 2 vertices (a face needs 3 or more)"},
         ObjFault{"FaceOfNone", kVertices + "\nf\n", "5: f:", "has 0 vertices"},

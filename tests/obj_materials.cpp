@@ -36,6 +36,18 @@ TEST_F(MtlFile, IsRead) {
   EXPECT_EQ(warnings(), "");
 }
 
+TEST_F(MtlFile, OtherFormsOfNumbersAreRead) {
+  const Material material =
+      load(kSquare + "usemtl m\nf 1 2 3\n", "newmtl m\nKd 0.5\nKs xyz 0.1 0.2 0.3\nKe spectral lamp.rfl 2\nd -halo 1\n")
+          .parts[0]
+          .material;
+  EXPECT_EQ(material.diffuse, glm::dvec3(0.5)) << "one number counts for all three";
+  EXPECT_EQ(material.specular, glm::dvec3(0.0));
+  EXPECT_EQ(warnings(),
+            "warning: m.mtl:3: Ks xyz is not used (write Ks r g b)\n"
+            "warning: m.mtl:4: Ke spectral is not used (write Ke r g b)\n");
+}
+
 TEST_F(MtlFile, ShininessBelowOneCountsAsOne) {
   EXPECT_EQ(load(kSquare + "usemtl m\nf 1 2 3\n", "newmtl m\nNs 0.2\n").parts[0].material.shininess, 1.0);
 }
@@ -135,7 +147,7 @@ TEST_F(MtlFile, FaultsNameTheirLine) {
            {"newmtl a\nKd nan 0 0\n", "2: Kd: is nan"},
            {"newmtl a\nKs 0 -1 0\n", "2: Ks: is -1"},
            {"newmtl a\nKe x 0 0\n", "2: Ke: 'x' is not a number"},
-           {"newmtl a\nKd 0.5\n", "2: Kd: has 1 numbers (3 are needed)"},
+           {"newmtl a\nKd 0.5 0.5\n", "2: Kd: has 2 numbers (3 are needed)"},
            {"newmtl a\nNs inf\n", "2: Ns: is inf"},
            {"newmtl a\nd half\n", "2: d: 'half' is not a number"},
            {std::string("newmtl a\n\0\0", 11), "2: file: is not a text file"}}) {

@@ -1,9 +1,12 @@
 #include "platform/files.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -108,6 +111,25 @@ TEST(Files, ReplaceWritesToAPipe) {
   replaceFile(pipe, "content");
   EXPECT_EQ(reader.get(), "content");
   EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST(Files, OpenDescriptorsAreWrittenTo) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path() / "log";
+  replaceFile(file, "first ");
+  const int appending = ::open(file.c_str(), O_WRONLY | O_APPEND);
+  ASSERT_GE(appending, 0);
+  replaceFile("/dev/fd/" + std::to_string(appending), "second");
+  ::close(appending);
+  EXPECT_EQ(readText(file), "first second");
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  replaceFile("/proc/self/fd/" + std::to_string(ends[1]), "piped");
+  std::array<char, 5> read{};
+  EXPECT_EQ(::read(ends[0], read.data(), read.size()), 5);
+  EXPECT_EQ(std::string_view(read.data(), read.size()), "piped");
+  ::close(ends[0]);
+  ::close(ends[1]);
 }
 
 TEST(Files, StoreMakesTheFolder) {

@@ -1,4 +1,5 @@
 // Saving, the prompts about unsaved changes, and what is copied of them.
+#include "app/recovery.hpp"
 #include "test_paths.hpp"
 #include "workspace_support.hpp"
 
@@ -309,6 +310,27 @@ TEST_F(Saving, NextStartOffersTheKeptChanges) {
   EXPECT_EQ(edit().prompt, Prompt::saveAs) << "a copy is no place for a scene";
   start();
   EXPECT_EQ(edit().prompt, Prompt::recovery) << "neither saved nor discarded";
+  send(CancelPrompt{});
+  start();
+  EXPECT_EQ(edit().prompt, Prompt::none);
+}
+
+TEST_F(Saving, OtherWindowsKeepTheirRecords) {
+  removeBall();
+  const auto kept = [&] {
+    workspace_->keepUnsavedWork();
+    return view().log.lines(LogLevel::error).back().text.substr(std::string("unsaved changes are kept in ").size());
+  };
+  const std::string first = kept();
+  setExposure(0.5);
+  const std::string second = kept();
+  ASSERT_NE(first, second);
+  start();
+  EXPECT_EQ(edit().proposedFile, second);
+  recordRecovery(first);  // as another window does meanwhile
+  send(CancelPrompt{});
+  start();
+  EXPECT_EQ(edit().proposedFile, first);
   send(CancelPrompt{});
   start();
   EXPECT_EQ(edit().prompt, Prompt::none);

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <iostream>
 #include <map>
 
 #include "app/demo.hpp"
@@ -85,12 +86,16 @@ int runCommand(const Options& options) {
 int speculumMain(int argc, const char* const* argv) {
   keepFreedMemory();
   try {
-    const std::optional<Options> options = parseOptions(argc, argv);
-    if (!options) {
-      return 0;
+    int result = 0;
+    if (const std::optional<Options> options = parseOptions(argc, argv)) {
+      setUpLog(options->logLevel);
+      result = runCommand(*options);
     }
-    setUpLog(options->logLevel);
-    return runCommand(*options);
+    std::cout.flush();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) {
+      throw std::runtime_error("standard output: cannot be written (check the disk that it goes to)");
+    }
+    return result;
   } catch (const std::exception& error) {
     // Bad usage, bad input and a missing GPU all end here: nothing was done, and the line says what would help.
     std::fprintf(stderr, "%s\n", error.what());

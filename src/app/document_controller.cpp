@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "accuracy/fingerprint.hpp"
+#include "app/recovery.hpp"
 #include "edit/scene_writer.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
@@ -37,13 +38,13 @@ fs::path ownFolder() {
   return documentsDir() / "Speculum";
 }
 
-// Removes all copies but the newest.
+// Removes all copies but the newest and those with unsaved changes.
 void keepNewest(const fs::path& folder) {
   constexpr size_t kept = 100;
   std::error_code none;
   std::vector<std::pair<fs::file_time_type, fs::path>> files;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
-    if (entry.path().extension() == ".toml") {
+    if (entry.path().extension() == ".toml" && !hasRecovery(entry.path())) {
       files.emplace_back(entry.last_write_time(none), entry.path());
     }
   }

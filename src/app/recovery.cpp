@@ -11,26 +11,43 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path recordFile() {
-  return userConfigDir() / "recovery";
+fs::path recordFolder() {
+  return userConfigDir() / "unsaved";
+}
+
+fs::path recordOf(const fs::path& copy) {
+  return recordFolder() / copy.filename();
 }
 
 }  // namespace
 
 void recordRecovery(const fs::path& copy) {
-  storeFile(recordFile(), copy.string());
+  storeFile(recordOf(copy), copy.string());
 }
 
-std::optional<fs::path> recoveryCopy() {
-  const auto record = readFileIfAny(recordFile());
-  const fs::path copy = record ? fs::path(std::string(record->begin(), record->end())) : fs::path();
+bool hasRecovery(const fs::path& copy) {
   std::error_code none;
-  return fs::is_regular_file(copy, none) ? std::optional(copy) : std::nullopt;
+  return fs::exists(recordOf(copy), none);
 }
 
-void forgetRecovery() {
+std::optional<fs::path> newestRecovery() {
   std::error_code none;
-  fs::remove(recordFile(), none);
+  std::optional<fs::path> newest;
+  fs::file_time_type time;
+  for (const auto& record : fs::directory_iterator(recordFolder(), none)) {
+    const auto text = readFileIfAny(record);
+    const fs::path copy = text ? fs::path(std::string(text->begin(), text->end())) : fs::path();
+    if (fs::is_regular_file(copy, none) && (!newest || record.last_write_time(none) > time)) {
+      newest = copy;
+      time = record.last_write_time(none);
+    }
+  }
+  return newest;
+}
+
+void forgetRecovery(const fs::path& copy) {
+  std::error_code none;
+  fs::remove(recordOf(copy), none);
 }
 
 }  // namespace speculum

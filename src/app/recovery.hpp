@@ -5,11 +5,12 @@
 
 namespace speculum {
 
-// The record, in the user's settings, of the copy in which a session that failed kept its unsaved changes.
+// Records, in the user's settings, of copies in which sessions that failed kept their unsaved changes.
 void recordRecovery(const std::filesystem::path& copy);
-// Returns the copy that an earlier session recorded, if it is still there.
-std::optional<std::filesystem::path> recoveryCopy();
-// Call when the changes are saved or discarded.
-void forgetRecovery();
+bool hasRecovery(const std::filesystem::path& copy);
+// Returns the copy of the newest record, if it is still there.
+std::optional<std::filesystem::path> newestRecovery();
+// Call when the changes of that copy are saved or discarded.
+void forgetRecovery(const std::filesystem::path& copy);
 
 }  // namespace speculum

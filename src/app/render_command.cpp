@@ -214,10 +214,10 @@ int runBench(const Options& options) {
       return 1;
     }
   }
+  printBench(*merged, measured);
   if (!options.json.empty()) {
     writeJson(options.json, *merged);
   }
-  printBench(*merged, measured);
   return session.exitCode();
 }
 

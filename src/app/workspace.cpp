@@ -46,8 +46,11 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
       accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
   browser_.list(loaded_->scene.file);
   startDocument();
-  if (const auto kept = options.frames == 0 ? recoveryCopy() : std::nullopt) {
-    document_->offerRecovery(*kept);
+  if (options.frames == 0) {
+    recovery_ = newestRecovery();
+  }
+  if (recovery_) {
+    document_->offerRecovery(*recovery_);
   }
 }
 
@@ -114,7 +117,7 @@ void Workspace::apply(const Command& command) {
                  [&](const DiscardChanges&) { resume(document_->discard(settings_.current)); },
                  [&](const CancelPrompt&) {
                    if (edit_.prompt == Prompt::recovery) {
-                     forgetRecovery();
+                     forgetRecoveryOfThis();
                    }
                    document_->cancelPrompt();
                    if (browser_.loaded()) {
@@ -413,7 +416,7 @@ void Workspace::resume(const std::optional<Command>& afterPrompt) {
 void Workspace::quit() {
   if (document_->confirmDiscard(settings_.current, Quit{})) {
     if (edit_.prompt != Prompt::recovery) {
-      forgetRecovery();  // what it was about is saved or discarded
+      forgetRecoveryOfThis();  // what it was about is saved or discarded
     }
     host_.close();
   }
@@ -542,7 +545,14 @@ bool Workspace::takeBack(const std::string& why) {
 
 void Workspace::forgetRecoveryIfSaved() {
   if (!document_->hasUnsaved(settings_.current)) {
-    forgetRecovery();
+    forgetRecoveryOfThis();
+  }
+}
+
+// Other windows have records of their own.
+void Workspace::forgetRecoveryOfThis() {
+  if (recovery_) {
+    forgetRecovery(*std::exchange(recovery_, std::nullopt));
   }
 }
 
@@ -551,6 +561,7 @@ void Workspace::keepUnsavedWork() noexcept {
     const fs::path file = document_->savedOrCopy(settings());
     if (file != scene().file) {
       recordRecovery(file);
+      recovery_ = file;
       spdlog::error("unsaved changes are kept in {}", file.string());
     }
   } catch (const std::exception& error) {

@@ -105,6 +105,7 @@ class Workspace {
   void askWhatToOpen();
   void takeChosenFile();
   void forgetRecoveryIfSaved();
+  void forgetRecoveryOfThis();
   void open(const std::filesystem::path& file);
   void openDropped(const std::vector<std::filesystem::path>& files);
   void showScene(std::unique_ptr<LoadedScene> scene);
@@ -135,7 +136,8 @@ class Workspace {
   LogCapture logCapture_;
   std::unique_ptr<LoadedScene> loaded_;
   std::vector<std::filesystem::path> shippedModels_;
-  std::unique_ptr<DocumentController> document_;  // of loaded_
+  std::unique_ptr<DocumentController> document_;   // of loaded_
+  std::optional<std::filesystem::path> recovery_;  // copy with unsaved changes that was offered or made
   SceneBrowser browser_;
   AccuracyController accuracy_;
   ViewController camera_;

@@ -20,8 +20,6 @@ namespace speculum {
 
 namespace {
 
-constexpr double largestNear = 0.001;  // metres
-
 // A pass before its index in the order of recording is known.
 struct Node {
   PlannedPass pass;
@@ -67,7 +65,7 @@ class Planner {
       : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), cache_(cache) {
     // A larger `near` gains nothing, because depth is near / distance in a float, and loses the order of all that is
     // nearer, which is clamped to one depth.
-    const double near = std::min(state.camera.near, largestNear);
+    const double near = std::min(state.camera.near, Projection().near);
     plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, near);
     plan_.width = width;
     plan_.height = height;

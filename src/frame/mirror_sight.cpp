@@ -21,12 +21,11 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, con
               .visible = visiblePart(view, geometry.polygon)};
   MirrorDraw& draw = sight.draw;
   draw.back = showsBack(scene.mirrors[mirror], sight.height);
+  draw.layer = sight.height < 0.0 ? geometry.backLayer : geometry.frontLayer;
   if (!sight.visible.empty()) {
     draw.polygon = visiblePart(drawn, geometry.polygon);
   }
-  draw.layer = geometry.frontLayer;
   if (sight.height < 0.0) {
-    draw.layer = geometry.backLayer;
     draw.plane.normal = -draw.plane.normal;
     std::reverse(draw.polygon.begin(), draw.polygon.end());
   }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -89,6 +90,26 @@ fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+// Returns the open descriptor that a path such as /dev/stdout or /dev/fd/3 names, else -1. It may stand for a pipe, or
+// for a file that is appended to.
+int descriptorNamed(fs::path file) {
+  std::error_code error;
+  const fs::path descriptors = fs::canonical("/proc/self/fd", error);
+  for (int links = 0; links < 40 && !error; ++links) {
+    const std::string name = file.filename().string();
+    int number = -1;
+    if (fs::weakly_canonical(folderOf(file), error) == descriptors &&
+        std::from_chars(name.data(), name.data() + name.size(), number).ec == std::errc()) {
+      return number;
+    }
+    if (!fs::is_symlink(file, error)) {
+      break;
+    }
+    file = file.parent_path() / fs::read_symlink(file, error);
+  }
+  return -1;
+}
+
 }  // namespace
 
 FileError::FileError(const fs::path& file, std::string problem, const std::string& remedy)
@@ -114,6 +135,10 @@ namespace {
 
 void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
   std::error_code error;
+  if (const int own = descriptorNamed(file); own >= 0) {
+    writeAndClose(::dup(own), file, content, false);
+    return;
+  }
   const fs::path target = behindLinks(file);
   const fs::path folder = folderOf(target);
   if (!fs::is_directory(folder, error)) {

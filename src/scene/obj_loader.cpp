@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -42,12 +43,12 @@ FaceCorner cornerOf(const LineReader& line, std::string_view token, const MeshBu
   if (first == std::string_view::npos) {
     return corner;
   }
-  const size_t second = token.find('/', first + 1);
-  const std::string_view texcoord = token.substr(first + 1, second - first - 1);
-  if (second == std::string_view::npos || !texcoord.empty()) {
+  const size_t second = std::min(token.find('/', first + 1), token.size());
+  // Some programs write v/, v// and v/vt/.
+  if (const std::string_view texcoord = token.substr(first + 1, second - first - 1); !texcoord.empty()) {
     corner.texcoord = indexOf(line, texcoord, "vt", mesh.texcoordCount());
   }
-  if (second != std::string_view::npos) {
+  if (second + 1 < token.size()) {
     corner.normal = indexOf(line, token.substr(second + 1), "vn", mesh.normalCount());
   }
   return corner;

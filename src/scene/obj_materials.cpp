@@ -81,17 +81,36 @@ std::string_view textureName(const LineReader& line) {
   return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
 }
 
-// Returns the line with its numbers rewritten, because the parser's arithmetic overflows on 1e2147483648.
-std::string checkedNumbers(LineReader& line, size_t count, const Range& range) {
+// Returns a number for the parser, whose arithmetic overflows on 1e2147483648.
+std::string checkedNumber(const LineReader& line, double value, const Range& range) {
+  if (!range.contains(value)) {
+    line.fail(line.keyword(), fmt::format("is {}", value), range.text());
+  }
+  // No number of a material makes a difference beyond; the parser rounds the largest doubles to infinity.
+  return ' ' + fmt::to_string(std::clamp(value, -1e38, 1e38));
+}
+
+// Returns the line of a color, given by three numbers or by one for all three. Colors as spectra or CIE XYZ are left
+// out with a warning.
+std::string checkedColor(const fs::path& file, LineReader& line, const Range& range) {
+  const std::vector<std::string_view>& tokens = line.tokens();
+  if (tokens.size() > 1 && (tokens[1] == "spectral" || tokens[1] == "xyz")) {
+    spdlog::warn("{}:{}: {} {} is not used (write {} r g b)", file.string(), line.number(), line.keyword(), tokens[1],
+                 line.keyword());
+    return {};
+  }
+  const std::vector<double>& numbers = tokens.size() == 2 ? line.numbers(1, 1) : line.numbers(3, 3);
   std::string text(line.keyword());
-  for (const double value : line.numbers(count, count)) {
-    if (!range.contains(value)) {
-      line.fail(line.keyword(), fmt::format("is {}", value), range.text());
-    }
-    // No number of a material makes a difference beyond; the parser rounds the largest doubles to infinity.
-    text += ' ' + fmt::to_string(std::clamp(value, -1e38, 1e38));
+  for (size_t i = 0; i < 3; ++i) {
+    text += checkedNumber(line, numbers[numbers.size() == 3 ? i : 0], range);
   }
   return text;
+}
+
+// Returns the line of a number. With -halo, d fades with the angle; its number counts.
+std::string checkedFactor(LineReader& line) {
+  const bool halo = line.tokens().size() > 1 && line.tokens()[1] == "-halo";
+  return std::string(line.keyword()) + checkedNumber(line, line.numbers(1, 1, halo ? 2 : 1)[0], kAny);
 }
 
 struct MaterialLines {
@@ -115,9 +134,9 @@ CheckedMtl checkMtl(const fs::path& file, std::string_view text) {
     const std::string_view key = line.keyword();
     const bool color = key == "Kd" || key == "Ks" || key == "Ke";
     if (color) {
-      checked.text.append(checkedNumbers(line, 3, key == "Ke" ? kRadiance : kSurfaceColor));
+      checked.text.append(checkedColor(file, line, key == "Ke" ? kRadiance : kSurfaceColor));
     } else if (key == "Ns" || key == "d" || key == "Tr") {
-      checked.text.append(checkedNumbers(line, 1, kAny));
+      checked.text.append(checkedFactor(line));
     } else if (key == "newmtl") {
       if (++count > kMostMaterials) {
         line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));

@@ -70,9 +70,9 @@ bool LineReader::next() {
   return false;
 }
 
-const std::vector<double>& LineReader::numbers(size_t least, size_t most) {
+const std::vector<double>& LineReader::numbers(size_t least, size_t most, size_t firstToken) {
   numbers_.clear();
-  for (size_t i = 1; i < tokens_.size(); ++i) {
+  for (size_t i = firstToken; i < tokens_.size(); ++i) {
     const std::optional<double> value = parseNumber(tokens_[i]);
     if (!value) {
       fail(keyword(), fmt::format("'{}' is not a number", tokens_[i]), "write for example 0.5 or -1e-3");

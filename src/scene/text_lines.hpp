@@ -35,8 +35,8 @@ class LineReader {
   int number() const { return number_; }  // from 1; the first of joined lines
   double done() const { return 1.0 - static_cast<double>(rest_.size()) / static_cast<double>(size_); }
 
-  // The numbers after the keyword, valid until the next call. Throws InputError for other tokens and other counts.
-  const std::vector<double>& numbers(size_t least, size_t most);
+  // The numbers from a token on, valid until the next call. Throws InputError for other tokens and other counts.
+  const std::vector<double>& numbers(size_t least, size_t most, size_t firstToken = 1);
 
   [[noreturn]] void fail(std::string_view key, const std::string& wrong, const std::string& right) const;
 

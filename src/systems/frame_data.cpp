@@ -374,7 +374,7 @@ namespace {
 // Pixels: the error of vertices snapped to 1/256 of a pixel. A wider fringe shows at recursion depth 32.
 constexpr double fringeWidth = 1.0 / 256.0;
 // Depth behind everything but the background.
-constexpr double fringeDepth = 1e-25;
+constexpr double fringeDepth = 1e-37;
 
 // Triangles of a convex polygon in clip space.
 void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygon) {

@@ -92,6 +92,21 @@ TEST(MirrorsOfFewPixels, LeaveOutTheirAreaAtMost) {
   EXPECT_GT(missing, 0.0);
 }
 
+// A room of any size around an eye that is nearer to its mirror than a millimetre.
+TEST(EyeNearerThanTheNearPlane, SmallRoomsKeepTheirOrder) {
+  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
+    const std::string text =
+        "[environment]\nbackground = [0.3, 0.4, 0.6]\nambient = [0.5, 0.5, 0.5]\n" +
+        cameraText(unit * glm::dvec3(0.1, 0.2, 4e-4), unit * glm::dvec3(0.3, 0.1, -1.0)) + "[[mirror]]\n" +
+        rectangleText({0, 0, 0}, {0, 0, 0}, unit, unit) + "reflectance = [0.9, 0.9, 0.9]\n" +
+        objectText("MODELS/torus_knot.obj", unit * glm::dvec3(0.1, 0.1, 0.3), {20, 30, 0}, 0.2 * unit,
+                   {0.8, 0.3, 0.1}) +
+        objectText("MODELS/box.obj", unit * glm::dvec3(0.2, 0.1, 0.6), {30, 10, 0}, 0.3 * unit, {0.1, 0.3, 0.8});
+    const auto file = writeScene("small_room", text);
+    expectTruth(file, size, 2, trace(file, size, 2));
+  }
+}
+
 // Sheets of one plane that overlap, some facing away, before a mirror that shows them once more.
 std::string sheetsInOnePlane(Random& random) {
   const glm::dvec3 rotation = random.inBox(40.0);
