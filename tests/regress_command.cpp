@@ -196,9 +196,27 @@ scene = 'room.toml'
   EXPECT_EQ(lineOf("room", result.output), "updated room: wrote " + (folder_ / "room.png").string());
 }
 
+TEST_F(RegressCommand, FirstOfCasesGivesTheirPicture) {
+  writeRoom("room.toml");
+  writeCases(R"(
+[[case]]
+scene = 'room.toml'
+grid."view.exposure" = [1, 0.25]
+picture = 'same.png'
+)");
+  const ProcessResult result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.output.find("2 cases: 1 failed, 1 updated"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("too, which gives it"), std::string::npos) << result.output;
+}
+
 TEST_F(RegressCommand, MistakesExitTwo) {
   writeRoom("room.toml");
   writeCases("[[case]]\nscene = 'room.toml'\n");
+  const ProcessResult file =
+      speculum({"regress", (folder_ / "cases.toml").string(), "--out", (folder_ / "room.toml").string()});
+  EXPECT_EQ(file.exitCode, 2);
+  EXPECT_NE(file.output.find("room.toml cannot be made (a folder for the report)"), std::string::npos) << file.output;
   EXPECT_EQ(regress({"--filter", "hall*"}).exitCode, 2);
   EXPECT_EQ(regress({"--update", "hall*"}).exitCode, 2);
   EXPECT_EQ(speculum({"regress"}).exitCode, 2);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <thread>
 
 #include "app/case_drawer.hpp"
@@ -120,12 +121,37 @@ Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject, int repe
 // Replaces the expected picture with the one just drawn.
 void accept(const CaseFiles& files, Outcome& outcome) {
   const std::filesystem::path picture = outcome.picture;
-  if (picture.has_parent_path()) {
-    std::filesystem::create_directories(picture.parent_path());
-  }
+  std::error_code ignored;
+  std::filesystem::create_directories(picture.parent_path(), ignored);
   replaceFile(picture, readFile(files.actual));
   outcome.verdict = Verdict::updated;
   outcome.message = "wrote " + picture.string();
+}
+
+// Replaces the expected pictures of failed cases whose names match. Of cases that share a picture the first gives it.
+void acceptAll(const Options& options, RegressRun& run) {
+  std::map<std::filesystem::path, std::string> givers;
+  for (size_t i = 0; i < run.cases.size(); ++i) {
+    Outcome& outcome = run.outcomes[i];
+    const std::string& name = run.cases[i].name;
+    if (outcome.picture.empty()) {
+      continue;
+    }
+    const auto [giver, first] = givers.emplace(outcome.picture, name);
+    if (!outcome.replaceable || !matches(*options.update, name)) {
+      continue;
+    }
+    if (!first) {
+      outcome.message += fmt::format("; the picture is that of case '{}' too, which gives it", giver->second);
+      continue;
+    }
+    try {
+      accept(CaseFiles(options.out, name), outcome);
+    } catch (const std::exception& error) {
+      outcome.verdict = Verdict::error;
+      outcome.message = error.what();
+    }
+  }
 }
 
 void writeReports(const Options& options, const RegressRun& run) {
@@ -164,7 +190,11 @@ int runRegress(const Options& options) {
     return runWorker(options, run.cases);
   }
   run.command.insert(run.command.end(), options.arguments.begin(), options.arguments.end());
-  std::filesystem::create_directories(options.out);
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (!std::filesystem::is_directory(options.out)) {
+    throw UsageError("--out: " + options.out.string() + " cannot be made (a folder for the report)");
+  }
   std::vector<WorkerJob> jobs;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     const RegressCase& subject = run.cases[i];
@@ -172,7 +202,7 @@ int runRegress(const Options& options) {
                     fmt::format("{} {}x{}", subject.scene.string(), subject.size.width, subject.size.height),
                     subject.timeout * options.repeat});
     for (const std::filesystem::path& file : CaseFiles(options.out, subject.name).all()) {
-      std::filesystem::remove(file);
+      std::filesystem::remove(file, error);
     }
   }
   run.outcomes.resize(run.cases.size());
@@ -191,9 +221,6 @@ int runRegress(const Options& options) {
       try {
         outcome = outcomeOf(reply, subject, options.repeat);
         withoutDevice += reply.end == JobEnd::answered && outcome.device.empty();
-        if (outcome.replaceable && options.update && matches(*options.update, subject.name)) {
-          accept(CaseFiles(options.out, subject.name), outcome);
-        }
       } catch (const std::exception& error) {
         outcome.verdict = Verdict::error;
         outcome.message = error.what();
@@ -208,8 +235,11 @@ int runRegress(const Options& options) {
   if (withoutDevice > 0 && withoutDevice == run.outcomes.size()) {
     throw std::runtime_error(run.outcomes.front().message);
   }
-  writeReports(options, run);
+  if (options.update) {
+    acceptAll(options, run);
+  }
   printOutcomes(run, options.out / "index.html");
+  writeReports(options, run);
   return run.passed() ? 0 : 1;
 }
 
