@@ -65,9 +65,9 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
       (rough ? work.roughRays : work.rippleRays) += area * reflected * (rough ? settings.roughSamples : 1);
     }
   }
-  for (const int i : effects.curvedRays ? pass.instances : std::vector<int>()) {
+  for (const int i : pass.instances) {
     const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    if (scene.objects[static_cast<size_t>(instance.object)].mirror) {
+    if (effects.curvedRays && scene.objects[static_cast<size_t>(instance.object)].mirror) {
       const double distance = glm::length(instance.center - pass.view.eye);
       const double radius =
           instance.radius / std::max(distance, 1e-9) * 0.5 * plan.projection.focal * pass.view.pictureSize.y;
@@ -93,11 +93,13 @@ FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& st
     addRays(work, pass, pass.areaPx, work.mirrorSamples, plan, scene, state, settings.effects);
   }
   for (const EnvironmentMap& map : plan.maps) {
-    for (const PlannedPass& face : map.cacheIndex < 0 ? map.faces : std::vector<PlannedPass>()) {
-      ++work.passes;
-      work.triangles += trianglesOf(face, scene, state);
-      work.mapTexels += face.areaPx;
-      addRays(work, face, face.areaPx, 1, plan, scene, state, settings.effects);
+    for (const PlannedPass& face : map.faces) {
+      if (map.cacheIndex < 0) {
+        ++work.passes;
+        work.triangles += trianglesOf(face, scene, state);
+        work.mapTexels += face.areaPx;
+        addRays(work, face, face.areaPx, 1, plan, scene, state, settings.effects);
+      }
     }
   }
   for (const ShadowMap& map : plan.shadowMaps) {
