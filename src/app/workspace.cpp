@@ -79,6 +79,7 @@ void Workspace::apply(const Command& command) {
                  [&](const AddBookmark&) {
                    editor().addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
                    camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
+                   status_.set("Added bookmark '" + scene().bookmarks.back().name + "'. Shift+M goes to the next one.");
                  },
                  [&](const GoToBookmark& c) { camera_.goToBookmark(c.index, scene()); },
                  [&](const GoToNextBookmark&) { camera_.goToNextBookmark(scene()); },
@@ -135,11 +136,13 @@ void Workspace::apply(const Command& command) {
                  [&](const AddMirror&) {
                    if (const auto view = sceneView(time())) {
                      editor().addMirror(*view);
+                     reportAdded();
                    }
                  },
                  [&](const AddLight&) {
                    if (const auto view = sceneView(time())) {
                      editor().addLight(*view);
+                     reportAdded();
                    }
                  },
                  [&](const AddObject& c) { addObject(c.model); },
@@ -381,6 +384,7 @@ void Workspace::addObject(const fs::path& model) {
       useModels();
     }
     editor().addObject(*view, mesh);
+    reportAdded();
   } catch (const std::exception& error) {
     document_->setNote(error.what());
     status_.set(error.what());
@@ -390,6 +394,10 @@ void Workspace::addObject(const fs::path& model) {
       useModels();
     }
   }
+}
+
+void Workspace::reportAdded() {
+  status_.set("Added " + describe(scene(), editor().document().selection()));
 }
 
 void Workspace::useModels() {
