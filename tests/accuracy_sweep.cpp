@@ -85,10 +85,13 @@ TEST(QualityBudget, ChoosesPointsWithAReason) {
   const auto chosen = [&](const QualityBudget& budget) { return chooseForBudget(results, budget).value(); };
   EXPECT_EQ(chosen({.ms = 3.5}).point, 1);
   EXPECT_TRUE(chosen({.ms = 3.5}).met);
-  EXPECT_NE(chosen({.ms = 3.5}).why.find("gives up 0.1 of mean FLIP against '4'"), std::string::npos)
+  EXPECT_NE(chosen({.ms = 3.5}).why.find("the most accurate is '4' with 0.1 in 4 ms"), std::string::npos)
       << chosen({.ms = 3.5}).why;
   EXPECT_EQ(chosen({.ms = 100.0}).point, 3);
-  EXPECT_NE(chosen({.ms = 100.0}).why.find("gives up nothing"), std::string::npos);
+  EXPECT_NE(chosen({.ms = 100.0}).why.find("the most accurate of"), std::string::npos);
+  results.points[3].gpuMs.median = 10400.0;
+  EXPECT_NE(chosen({.ms = 3.5}).why.find("in 10.4 s"), std::string::npos) << chosen({.ms = 3.5}).why;
+  results.points[3].gpuMs.median = 4.0;
   EXPECT_EQ(chosen({.ms = 0.5}).point, 0);
   EXPECT_FALSE(chosen({.ms = 0.5}).met);
   EXPECT_EQ(chosen({.error = 0.2}).point, 1);

@@ -131,6 +131,50 @@ TEST(FrameReport, PanelOnlyFramesChangeNoFigure) {
   EXPECT_NEAR(report.view().frameMs, 10.0, 1.0) << "not held up by the slow frame before";
 }
 
+TEST(FrameReport, EarlierTimesAreMarked) {
+  const Scene scene;
+  const SceneState state;
+  const Settings settings;
+  const RecordedPass mirror{{.path = {0}}, "mirror a"};
+  const RecordedPass main{{.kind = PassKind::main}, "main view"};
+  FrameReport report;
+  FramePlan plan;
+  const auto frame = [&](uint64_t number, const std::vector<RecordedPass>& passes, const FrameTimings& timings,
+                         const std::vector<RecordedPass>& timed) {
+    const RecordedFrame recorded{scene, state, settings, plan, number, 1.0, 1.0};
+    report.updateTimes(recorded, timings);
+    report.updatePasses(recorded, timings, passes, timed);
+  };
+  const auto timings = [](uint64_t frame, const std::vector<double>& ms) {
+    FrameTimings all{.frame = frame};
+    for (const double pass : ms) {
+      all.gpuMs += pass;
+      all.passes.push_back({.gpuMs = pass});
+    }
+    return all;
+  };
+  const std::vector<PassView>& rows = report.view().passes;
+  frame(1, {mirror, main}, {}, {});
+  frame(2, {mirror, main}, timings(1, {530.0, 100.0}), {mirror, main});
+  EXPECT_TRUE(rows[0].timed && rows[1].timed);
+  plan.reused.resize(1);
+  plan.reused[0].view.path = {0};
+  frame(3, {main}, timings(2, {}), {mirror, main});
+  EXPECT_TRUE(rows[0].reused && rows[0].timed) << "the frame's own passes were not timed";
+  frame(4, {main}, timings(3, {90.0}), {main});
+  EXPECT_EQ(report.view().timedGpuMs, 90.0);
+  EXPECT_FALSE(rows[0].timed);
+  EXPECT_EQ(rows[0].gpuMs, 530.0);
+  EXPECT_TRUE(rows[1].timed);
+  EXPECT_EQ(rows[1].gpuMs, 90.0);
+  plan.mainReused = true;
+  frame(5, {}, {}, {});
+  frame(6, {}, timings(5, {3.0}), {main});
+  EXPECT_EQ(rows[1].gpuMs, 90.0) << "a frame that draws the panels only";
+  EXPECT_TRUE(rows[0].reused);
+  EXPECT_FALSE(rows[1].reused);
+}
+
 TEST(CameraControl, FramesSpheresInAnyPictureShape) {
   CameraSpec spec;
   spec.position = {1.0, 2.0, 3.0};

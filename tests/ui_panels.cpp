@@ -130,6 +130,11 @@ TEST_F(PanelTest, MenusSendTheirCommands) {
   EXPECT_EQ(clickFor<OpenScene>("menu./scenes/two.obj").file, "/scenes/two.obj");
   click("menu.Edit");
   clickFor<Undo>("menu.Undo change Exposure###Undo");
+  edit_.models = {"/models/ball.obj"};
+  click("menu.Edit");
+  click("menu.Add object");
+  run(3);
+  EXPECT_EQ(clickFor<AddObject>("menu.ball").model, "/models/ball.obj");
   click("menu.View");
   EXPECT_EQ(clickFor<LookFromMirror>("menu.Look out of mirror").side, MirrorSide::front);
 }
@@ -233,6 +238,9 @@ TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
   run(2);
   click("window.reset");
   run(3);
+  EXPECT_FALSE(has("log.copy") || has("edit.add_mirror")) << "all are closed";
+  click("panel.Log", 0.1);
+  run(3);
   EXPECT_GT(widget("log.copy").x, moved.x + 50);
 }
 
@@ -293,6 +301,34 @@ TEST_F(PanelTest, EscapeClosesWindowsFromTheTop) {
   windows_->setVisible(false);
   windows_->toggleInspector();
   EXPECT_TRUE(windows_->visible());
+}
+
+TEST_F(PanelTest, KeysFitNarrowWindows) {
+  windows_->toggleHelp();
+  run(4);
+  EXPECT_EQ(widget("help.left").y, widget("help.right").y);
+  ImGui::GetIO().DisplaySize = {400.0f, 700.0f};
+  run(4);
+  EXPECT_EQ(widget("help.left").x, widget("help.right").x);
+  EXPECT_GT(widget("help.right").y, widget("help.left").y);
+  EXPECT_LT(widget("help.right").x + widget("help.right").width, 400);
+}
+
+TEST_F(PanelTest, HandlesAreNotDrawnOverATarget) {
+  edit_.overlay.outline = {{{0.0, 350.0}, {900.0, 350.0}}, {{450.0, 0.0}, {450.0, 700.0}}};
+  click("panel.Targets", 0.1);
+  run(3);
+  ASSERT_TRUE(windows_->state().targets.canvas);
+  const WindowRect canvas = *windows_->state().targets.canvas;
+  const ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  int lines = 0;
+  for (const ImDrawCmd& part : list.CmdBuffer) {
+    const bool beside = part.ClipRect.z <= canvas.corner.x || part.ClipRect.x >= canvas.corner.x + canvas.size.x ||
+                        part.ClipRect.w <= canvas.corner.y || part.ClipRect.y >= canvas.corner.y + canvas.size.y;
+    lines += part.ElemCount > 0;
+    EXPECT_TRUE(beside || part.ElemCount == 0);
+  }
+  EXPECT_GT(lines, 0);
 }
 
 class Inspector : public PanelTest {
@@ -457,9 +493,13 @@ TEST_F(Inspector, OnlyValidPolygonsAreApplied) {
 
 TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   edit_.prompt = Prompt::unsavedChanges;
+  edit_.saveFile = "/home/scene.toml";
   run(3);
+  EXPECT_TRUE(has("ask.save"));
   clickFor<DiscardChanges>("ask.discard");
+  edit_.saveFile.reset();
   run(3);
+  EXPECT_FALSE(has("ask.save")) << "only to another file";
   clickFor<AskWhereToSave>("ask.save_as");
   edit_.prompt = Prompt::saveAs;
   edit_.proposedFile = "/home/scene.toml";

@@ -36,5 +36,13 @@ TEST(PassTree, IsEmptyWithoutPasses) {
   EXPECT_TRUE(passTree({}, {}).empty());
 }
 
+TEST(PassTree, ReusedImagesAreNotListedTwice) {
+  const std::vector<PassView> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
+  const std::vector<SkippedView> skipped = {{"a", {0}, "unchanged"}, {"b", {1}, "hidden"}};
+  const std::vector<PassNode> roots = passTree(passes, skipped);
+  ASSERT_EQ(roots.size(), 1u);
+  EXPECT_EQ(roots[0].skipped, std::vector<int>{1});
+}
+
 }  // namespace
 }  // namespace speculum

@@ -225,6 +225,21 @@ TEST_F(Editing, ContinuedEditsAreOneStep) {
   EXPECT_EQ(edit().undo, "");
 }
 
+TEST_F(Editing, FirstCopiesStandBesideEachOther) {
+  clickBall();
+  Object many = object();
+  many.copies.count = 3;
+  send(EditNode{edit().selected, many});
+  const double width = object().copies.step.x;
+  EXPECT_GT(width, 0.1);
+  many.copies = {.count = 4, .step = glm::dvec3(0.0)};
+  send(EditNode{edit().selected, many});
+  EXPECT_EQ(object().copies.step, glm::dvec3(0.0)) << "typed";
+  send(Undo{});
+  send(Undo{});
+  EXPECT_EQ(object().copies, Copies());
+}
+
 TEST_F(Editing, NodesAreAddedAndSelectedInOrder) {
   send(AddMirror{});
   send(AddLight{});

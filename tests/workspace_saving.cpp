@@ -200,10 +200,12 @@ TEST_F(ShippedScene, IsSavedToTheUsersFolder) {
   const fs::path own = documentsDir() / "Speculum" / "no_mirror.toml";
   removeFirst();
   const size_t nodes = allNodes(scene()).size();
+  EXPECT_FALSE(edit().saveFile);
   send(Save{});
   ASSERT_EQ(edit().prompt, Prompt::saveAs);
   EXPECT_EQ(edit().proposedFile, own);
   send(SaveAs{own});
+  EXPECT_EQ(edit().saveFile, own);
   ASSERT_EQ(edit().prompt, Prompt::none) << edit().note;
   EXPECT_EQ(scene().file, own);
   EXPECT_EQ(allNodes(loadScene(own)).size(), nodes);

@@ -1,4 +1,5 @@
 // Camera, bookmarks, time, captures and files of the window, by commands.
+#include "accuracy/sweep_json.hpp"
 #include "image/picture_files.hpp"
 #include "workspace_support.hpp"
 
@@ -179,7 +180,7 @@ TEST_F(WindowView, RecordingsAreEvenSequences) {
   ASSERT_EQ(pictures().size(), 1u);
   EXPECT_TRUE(fs::exists(pictures()[0] / "00001.png"));
   EXPECT_FALSE(fs::exists(pictures()[0] / "00002.png"));
-  EXPECT_EQ(status(), "recorded 2 frames at 30 a second in " + pictures()[0].string());
+  EXPECT_EQ(status(), "Recorded 2 frames at 30 a second in " + pictures()[0].string());
   EXPECT_EQ(workspace_->frameSeconds(1.0), 1.0);
 }
 
@@ -187,9 +188,9 @@ TEST_F(WindowView, CapturesThatFailSaySo) {
   std::ofstream(picturesDir()) << "a file in the folder's place";
   send(TakeScreenshot{true});
   drawFrame();
-  EXPECT_EQ(status().rfind("not saved: ", 0), 0u) << status();
+  EXPECT_EQ(status().rfind("Not saved: ", 0), 0u) << status();
   send(ToggleRecording{true});
-  EXPECT_EQ(status().rfind("not recorded: ", 0), 0u) << status();
+  EXPECT_EQ(status().rfind("Not recorded: ", 0), 0u) << status();
   EXPECT_FALSE(workspace_->capture().wanted());
 }
 
@@ -219,6 +220,42 @@ TEST_F(WindowView, UndoCoversSettingsInOrder) {
   send(Undo{});
   send(Redo{});
   EXPECT_EQ(edit().redo, "");
+}
+
+class BudgetView : public WorkspaceTest {
+ protected:
+  BudgetView() : WorkspaceTest(corridorScene(), {.sweepResults = measured()}) {}
+
+  static fs::path measured() {
+    SweepResults results;
+    for (const auto& [samples, error, ms] : {std::tuple("1", 0.2, 1.0), std::tuple("4", 0.1, 4.0)}) {
+      SweepPoint& point = results.points.emplace_back();
+      point.name = std::string("samples ") + samples;
+      point.changes = {{"view.samples", samples}};
+      point.whole.flip = error;
+      point.gpuMs = {.median = ms, .minimum = ms, .lowerQuartile = ms, .upperQuartile = ms, .repeats = 15};
+    }
+    const fs::path file = writeScene("measured", "").replace_extension(".json");
+    std::ofstream(file) << sweepJson(results);
+    return file;
+  }
+  void setBudget(double ms) {
+    Settings settings = workspace_->settings();
+    settings.quality.budgetMs = ms;
+    send(SetSettings{settings});
+  }
+  std::string choice() { return view().accuracy.choice; }
+};
+
+TEST_F(BudgetView, PointsChosenByHandAreSaid) {
+  setBudget(1e-3);
+  EXPECT_NE(choice().find("no measured point fits 0.001 ms"), std::string::npos) << choice();
+  send(ApplyPoint{view().accuracy.front.back()});
+  EXPECT_EQ(choice(), "Set by hand. Change a bound to let it choose again.");
+  setBudget(2e-3);
+  EXPECT_NE(choice().find("no measured point fits"), std::string::npos) << choice();
+  setBudget(0.0);
+  EXPECT_EQ(choice(), "");
 }
 
 TEST_F(WindowView, TitleNamesTheSceneAndItsState) {

@@ -10,13 +10,16 @@ namespace speculum {
 
 namespace {
 
-// Difference between the chosen point and the most accurate one.
-std::string givenUp(const SweepPoint& chosen, const SweepPoint& best) {
+std::string timeText(double ms) {
+  return ms < 1000.0 ? fmt::format("{:.3g} ms", ms) : fmt::format("{:.3g} s", ms / 1000.0);
+}
+
+// Compares the chosen point with the most accurate one.
+std::string comparison(const SweepPoint& chosen, const SweepPoint& best) {
   if (&chosen == &best) {
-    return "gives up nothing of what was measured";
+    return "the most accurate of the measured points";
   }
-  return fmt::format("gives up {:.3g} of mean FLIP against '{}' ({:.3g} at {:.3g} ms)",
-                     chosen.whole.flip - best.whole.flip, best.name, best.whole.flip, costMs(best));
+  return fmt::format("the most accurate is '{}' with {:.3g} in {}", best.name, best.whole.flip, timeText(costMs(best)));
 }
 
 // One candidate per error, by ascending error: the first, unless a later one is cheaper beyond the spread.
@@ -108,10 +111,10 @@ std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const Q
   }
   choice.met = affordable(choice.point) && exact(choice.point);
   const SweepPoint& chosen = points[choice.point];
-  choice.why = fmt::format("'{}', mean FLIP {:.3g} at {:.3g} ms; {}", chosen.name, chosen.whole.flip, costMs(chosen),
-                           givenUp(chosen, best));
+  choice.why = fmt::format("'{}', mean FLIP {:.3g} in {}; {}", chosen.name, chosen.whole.flip, timeText(costMs(chosen)),
+                           comparison(chosen, best));
   if (!affordable(choice.point)) {
-    choice.why += fmt::format("; no measured point fits {:.3g} ms", budget.ms);
+    choice.why += "; no measured point fits " + timeText(budget.ms);
   }
   if (!exact(choice.point)) {
     choice.why += fmt::format("; the error bound {:.3g} is not met", budget.error);

@@ -19,10 +19,14 @@ std::string aboutText(const SweepResults& results) {
          std::to_string(results.height) + ", reference of " + std::to_string(results.truthSamples) + " samples a pixel";
 }
 
+std::string roughText(const SweepResults& results) {
+  return "Rough figures of a " + std::to_string(results.width) + "x" + std::to_string(results.height) + " picture.";
+}
+
 std::string stepText(const std::string& stage) {
-  return stage == "ground truth" ? "1/3: tracing the reference"
-         : stage == "pictures"   ? "2/3: drawing and comparing"
-         : stage == "times"      ? "3/3: taking times"
+  return stage == "ground truth" ? "tracing the reference (1 of 3)"
+         : stage == "pictures"   ? "comparing settings (2 of 3)"
+         : stage == "times"      ? "taking times (3 of 3)"
                                  : stage;
 }
 
@@ -74,6 +78,7 @@ void AccuracyController::setResults(SweepResults results) {
 void AccuracyController::measure(SweepRequest request) {
   requested_ = request.camera;
   requestedTime_ = request.time;
+  view_.choice = results_.points.empty() ? "" : view_.choice;
   sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
     std::shared_ptr<const SweepResults> rough;
     const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
@@ -83,6 +88,16 @@ void AccuracyController::measure(SweepRequest request) {
   });
 }
 
+void AccuracyController::cancel() {
+  if (const auto status = sweep_.progress(); status && status->rough && status->rough == rough_) {
+    view_.about = roughText(results_) + " The measurement was cancelled.";
+  }
+  sweep_.cancel();
+  if (results_.points.empty()) {
+    budget_ = {};  // so that one that is set says again what it needs
+  }
+}
+
 // A rough measurement first, then the whole one in its place.
 void AccuracyController::takeResults() {
   if (const auto status = sweep_.progress(); status && status->rough && rough_ != status->rough) {
@@ -90,8 +105,7 @@ void AccuracyController::takeResults() {
     setResults(*rough_);
     measured_ = requested_;
     measuredTime_ = requestedTime_;
-    view_.about = "Rough figures so far, of a picture of " + std::to_string(results_.width) + "x" +
-                  std::to_string(results_.height) + ".";
+    view_.about = roughText(results_) + " Better ones follow.";
   }
   if (std::optional<SweepResults> results = sweep_.takeResult()) {
     setResults(std::move(*results));
@@ -144,7 +158,8 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
                                [&](const auto& point) { return isAtPoint(settings, point); });
   view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
   if (view_.current != chosen_) {
-    view_.choice.clear();
+    const bool bounded = budget_.ms > 0.0 || budget_.error > 0.0;
+    view_.choice = bounded && !results_.points.empty() ? "Set by hand. Change a bound to let it choose again." : "";
     chosen_ = -1;
   }
 }
@@ -161,7 +176,7 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
   view_.otherView = !view_.points.empty() && measured_ &&
                     (measured_->eye != shown.state.camera.eye ||
                      measured_->worldToView != shown.state.camera.worldToView || measuredTime_ != shown.state.time);
-  view_.stage = status ? (status->rough ? "" : "rough ") + stepText(status->stage) : "";
+  view_.stage = status ? (status->rough ? "" : "Rough: ") + stepText(status->stage) : "";
   view_.progress = status ? status->fraction : 0.0;
   view_.about = sweep_.takeError().value_or(view_.about);
   const bool changed = view_.showsDifference ? difference_.update(shown, image) : difference_.reset();

@@ -19,7 +19,7 @@ class AccuracyController {
   AccuracyController(const Options& options, const Settings& loaded, const std::string& choice);
 
   void measure(SweepRequest request);
-  void cancel() { sweep_.cancel(); }
+  void cancel();
   void setProblem(const std::string& problem) { view_.about = problem; }
   void applyPoint(int point, Settings& settings) const;
   void showDifference(bool shown) { view_.showsDifference = shown; }

@@ -43,7 +43,7 @@ std::optional<std::string> Capture::toggleRecording(const std::string& scene, bo
     bare_ = !withPanel;
     return std::nullopt;
   } catch (const std::filesystem::filesystem_error& error) {
-    return "not recorded: " + std::string(error.what());
+    return "Not recorded: " + std::string(error.what());
   }
 }
 
@@ -51,10 +51,10 @@ std::string Capture::record(const Image8& picture) {
   try {
     writePng(*folder_ / fmt::format("{:05}.png", frames_), picture);
     ++frames_;
-    recorded_ = fmt::format("recorded {} {} at {} a second in {}", frames_, frames_ == 1 ? "frame" : "frames",
+    recorded_ = fmt::format("Recorded {} {} at {} a second in {}", frames_, frames_ == 1 ? "frame" : "frames",
                             framesPerSecond, folder_->string());
   } catch (const std::exception& error) {
-    recorded_ = "recording ended after " + std::to_string(frames_) + " frames: " + error.what();
+    recorded_ = "Recording ended after " + std::to_string(frames_) + " frames: " + error.what();
     folder_.reset();
   }
   return recorded_;
@@ -73,7 +73,7 @@ Capture::Saved Capture::save(const std::string& scene, const Image8& picture) {
     writePng(file, picture);
     return {"Saved " + file.string(), true};
   } catch (const std::exception& error) {
-    return {"not saved: " + std::string(error.what()), true};
+    return {"Not saved: " + std::string(error.what()), true};
   }
 }
 

@@ -61,7 +61,15 @@ DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::
     : loaded_(loaded),
       editor_(loaded.scene, shippedModels, std::move(beforeChange)),
       prompts_(prompts),
-      settingsAtLoad_(loaded.settings) {}
+      settingsAtLoad_(loaded.settings) {
+  findSaveFile();
+}
+
+// Call when the scene has another file. It touches the disk.
+void DocumentController::findSaveFile() {
+  const fs::path file = editor_.document().usualFile();
+  saveFile_ = !isShipped(file) && isWritable(file) ? std::optional(file) : std::nullopt;
+}
 
 bool DocumentController::hasUnsaved(const Settings& settings) const {
   return editor_.document().modified() || settings != loaded_.settings ||
@@ -85,12 +93,12 @@ bool DocumentController::confirmDiscard(const Settings& settings, std::optional<
 std::optional<Command> DocumentController::save(const Settings& settings) {
   editor_.release();
   prompt_ = Prompt::none;
-  const fs::path file = editor_.document().usualFile();
-  if (isShipped(file) || !isWritable(file)) {
+  findSaveFile();
+  if (!saveFile_) {
     askWhere();
     return std::nullopt;
   }
-  if (saveTo(file, settings)) {
+  if (saveTo(editor_.document().usualFile(), settings)) {
     return discard(settings);
   }
   const std::string why = note_;
@@ -101,8 +109,8 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
 
 void DocumentController::askWhere() {
   const fs::path file = editor_.document().usualFile();
-  const bool usual = isWritable(file) && !isShipped(file);
-  proposed_ = fs::absolute(usual ? file : ownFolder() / file.filename());
+  findSaveFile();
+  proposed_ = fs::absolute(saveFile_.value_or(ownFolder() / file.filename()));
   note_.clear();
   prompt_ = Prompt::saveAs;
 }
@@ -156,6 +164,7 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings)
     loaded_.settings = settings;
     refused_.reset();
     saved_ = true;
+    findSaveFile();
     return true;
   } catch (const SaveError& error) {
     std::error_code none;
@@ -188,6 +197,7 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
 void DocumentController::fill(EditView& view, const Settings& settings) const {
   editor_.fill(view);
   view.unsaved = hasUnsaved(settings);
+  view.saveFile = saveFile_;
   view.prompt = prompt_;
   view.proposedFile = proposed_;
   view.note = note_;

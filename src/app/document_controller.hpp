@@ -52,11 +52,13 @@ class DocumentController {
   };
 
   bool saveTo(const std::filesystem::path& named, const Settings& settings);
+  void findSaveFile();
 
   LoadedScene& loaded_;
   SceneEditor editor_;
   bool prompts_;
-  Settings settingsAtLoad_;  // before the user changed any
+  Settings settingsAtLoad_;                        // before the user changed any
+  std::optional<std::filesystem::path> saveFile_;  // none if it comes with the program or cannot be written
   Prompt prompt_ = Prompt::none;
   std::filesystem::path proposed_;  // for Prompt::saveAs
   std::optional<Command> afterPrompt_;

@@ -107,6 +107,7 @@ void FrameReport::clear() {
   view_.passes.clear();
   view_.skipped.clear();
   view_.history.clear();
+  view_.timedGpuMs = 0.0;
   skipped_.clear();
 }
 
@@ -121,7 +122,7 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   view_.validationMessages = device.validation() ? device.validationMessages() : -1;
   view_.target.value = texelOf(sceneRenderer.probed(), frame.plan);
   updateTimes(frame, timings);
-  updatePasses(frame, timings, sceneRenderer);
+  updatePasses(frame, timings, sceneRenderer.passes(), sceneRenderer.passesOf(timings.frame));
   updateEffects(frame, sceneRenderer.ledger());
   updateSkipped(frame, hoveredSkipped);
 }
@@ -160,9 +161,13 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
   view_.history.addGpu(timings.frame, timings.gpuMs, passes);
 }
 
+bool FrameReport::drewScene(uint64_t frame) const {
+  return std::ranges::any_of(drawn_, [&](const DrawnFrame& drawn) { return drawn.number == frame; });
+}
+
 // Lists passes whose images are reused too, because a list that changes from frame to frame cannot be read.
 void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& timings,
-                               const SceneRenderer& sceneRenderer) {
+                               std::span<const RecordedPass> passes, std::span<const RecordedPass> timed) {
   const FramePlan& plan = frame.plan;
   const int interval = frame.settings.reflection.updateInterval;
   const auto isReused = [&](const PassView& row) {
@@ -176,14 +181,16 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   }
   for (PassView& row : rows) {
     ++row.framesAgo;
+    row.reused = plan.mainReused ? row.reused : isReused(row);
   }
   std::ptrdiff_t index = 0;
-  for (const RecordedPass& pass : sceneRenderer.passes()) {
+  for (const RecordedPass& pass : passes) {
     auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == pass; });
     if (row == rows.end()) {
       PassView fresh{pass, pass.name};
       const auto before = std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == pass; });
       fresh.gpuMs = before == view_.passes.end() ? std::nan("") : before->gpuMs;  // few frames have passes timed
+      fresh.timed = before != view_.passes.end() && before->timed;
       row = rows.insert(rows.begin() + index, std::move(fresh));
     }
     row->areaPx = pass.areaPx;
@@ -192,15 +199,21 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     row->resolution = planned ? depthReadout(*planned, plan.projection, frame.scene, frame.state) : std::nullopt;
     row->outline = outlineOf(plan, pass.path, plan.width, plan.height);
     row->framesAgo = 0;
+    row->reused = false;
     index = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
   // Times are of an earlier frame, whose plan may have differed.
-  const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
-  for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
+  const size_t times = drewScene(timings.frame) ? std::min(timed.size(), timings.passes.size()) : 0;
+  if (times > 0) {
+    view_.timedGpuMs = timings.gpuMs;
+    std::ranges::for_each(rows, [](PassView& row) { row.timed = false; });
+  }
+  for (size_t i = 0; i < times; ++i) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == timed[i]; });
     if (row != rows.end()) {
       row->gpuMs = timings.passes[i].gpuMs;
+      row->timed = true;
     }
   }
   view_.passes = std::move(rows);

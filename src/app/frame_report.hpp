@@ -31,15 +31,17 @@ class FrameReport {
   std::optional<DebugView> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
                                   bool standardSampleLocations);
 
-  // update()'s part that needs no device.
+  // update()'s parts that need no device. `passes` of this frame, `timed` of the frame that the timings are of.
   void updateTimes(const RecordedFrame& frame, const FrameTimings& timings);
+  void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> passes,
+                    std::span<const RecordedPass> timed);
 
   FrameHistory& history() { return view_.history; }
   std::span<const SkippedMirror> skipped() const { return skipped_; }  // in the last frame
   const FrameView& view() const { return view_; }
 
  private:
-  void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, const SceneRenderer& sceneRenderer);
+  bool drewScene(uint64_t frame) const;  // among the latest
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
   void updateSkipped(const RecordedFrame& frame, const std::vector<int>& hovered);
 

@@ -32,6 +32,18 @@ glm::dvec3 anchorOf(const SceneNode& node) {
       node);
 }
 
+// Gives copies that would all stand in one place a step beside each other.
+SceneNode withCopiesApart(const Scene& scene, const Selection& target, SceneNode node) {
+  auto* object = std::get_if<Object>(&node);
+  const bool first = object && object->copies.count > 1 && object->copies.step == glm::dvec3(0.0) &&
+                     scene.objects.at(static_cast<size_t>(target.index)).copies.count <= 1;
+  if (first) {
+    const glm::dvec3 beside = anchorOf(copyBeside(scene, target)) - anchorOf(nodeOf(scene, target));
+    object->copies.step = glm::round(beside * 1000.0) / 1000.0;
+  }
+  return node;
+}
+
 }  // namespace
 
 SceneEditor::SceneEditor(Scene& scene, std::span<const std::filesystem::path> shipped,
@@ -204,7 +216,7 @@ void SceneEditor::edit(const Selection& target, const SceneNode& node, bool cont
   if (continued && !document_.inGesture()) {
     document_.beginGesture();
   }
-  replace("edit", std::array{PlacedNode(target, node)});
+  replace("edit", std::array{PlacedNode(target, withCopiesApart(document_.scene(), target, node))});
   if (!continued) {
     endEdit();
   }

@@ -82,6 +82,7 @@ void Workspace::apply(const Command& command) {
                  [&](const AddBookmark&) {
                    editor().addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
                    camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
+                   status_.set("Added bookmark '" + scene().bookmarks.back().name + "'. Shift+M goes to the next one.");
                  },
                  [&](const GoToBookmark& c) { camera_.goToBookmark(c.index, scene()); },
                  [&](const GoToNextBookmark&) { camera_.goToNextBookmark(scene()); },
@@ -138,11 +139,13 @@ void Workspace::apply(const Command& command) {
                  [&](const AddMirror&) {
                    if (const auto view = sceneView(time())) {
                      editor().addMirror(*view);
+                     reportAdded();
                    }
                  },
                  [&](const AddLight&) {
                    if (const auto view = sceneView(time())) {
                      editor().addLight(*view);
+                     reportAdded();
                    }
                  },
                  [&](const AddObject& c) { addObject(c.model); },
@@ -384,6 +387,7 @@ void Workspace::addObject(const fs::path& model) {
       useModels();
     }
     editor().addObject(*view, mesh);
+    reportAdded();
   } catch (const std::exception& error) {
     document_->setNote(error.what());
     status_.set(error.what());
@@ -393,6 +397,10 @@ void Workspace::addObject(const fs::path& model) {
       useModels();
     }
   }
+}
+
+void Workspace::reportAdded() {
+  status_.set("Added " + describe(scene(), editor().document().selection()));
 }
 
 void Workspace::useModels() {

@@ -111,6 +111,7 @@ class Workspace {
   void showScene(std::unique_ptr<LoadedScene> scene);
   void startDocument();
   void addObject(const std::filesystem::path& model);
+  void reportAdded();  // the selected node
   void useModels();
   void resume(const std::optional<Command>& afterPrompt);
   void quit();

@@ -191,7 +191,7 @@ constexpr SettingField fields[] = {
      .kind = BooleanSetting{at<&V::continuous>},
      .label = "Draw continuously",
      .text = "the window draws all the time, not only after changes",
-     .cost = "Energy: a still picture otherwise costs nothing.",
+     .cost = "Uses power all the time; otherwise a still picture costs nothing.",
      .changes = mainView},
 
     {.key = "effects.shadows",
@@ -303,21 +303,24 @@ constexpr SettingField fields[] = {
     {.key = "quality.budget_ms",
      .kind = NumberSetting{at<&Q::budgetMs>, 0.0, 1e6},
      .label = "GPU budget (ms)",
-     .text = "the most accurate measured settings within so many GPU ms; 0: off",
+     .text = "chooses the most accurate measured settings whose frames take at most this GPU time; 0: off",
      .cost = "Costs nothing itself.",
      .changes = none},
     {.key = "quality.max_error",
      .kind = NumberSetting{at<&Q::maxError>, 0.0, 1.0},
      .label = "Max. mean FLIP",
-     .text = "the fastest measured settings within this mean FLIP; 0: off",
+     .text =
+         "chooses the fastest measured settings up to this mean FLIP, the mean perceived difference from the reference "
+         "(0 none, 1 largest); 0: off",
      .cost = "Costs nothing itself.",
      .changes = none},
     {.key = "quality.motion_ms",
      .kind = AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6},
      .label = "Full quality while moving",
-     .text = "frame time for which settings are lowered while anything moves; auto: 50 on CPUs, else 0.8 of a refresh; "
-             "0: never",
-     .cost = "Costs quality while anything moves.",
+     .text =
+         "0 keeps all settings while anything moves; auto lowers them for frames of 50 ms on CPUs, elsewhere of 0.8 "
+         "of a refresh; a number, for frames of that time",
+     .cost = "At 0 movement may stutter, otherwise it loses quality.",
      .unit = "ms",
      .changes = none},
     {.key = "quality.still_pictures",

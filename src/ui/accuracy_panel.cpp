@@ -74,8 +74,10 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   list.AddRect(plot.corner, end, ImGui::GetColorU32(ImGuiCol_Text, gridOpacity));
   forTicks(plot.lowMs, plot.highMs, [&](double ms) {
     list.AddLine({plot.x(ms), plot.corner.y}, {plot.x(ms), end.y}, ImGui::GetColorU32(ImGuiCol_Text, gridOpacity));
-    list.AddText({plot.x(ms) + 2.0f, end.y - ImGui::GetFontSize()}, ImGui::GetColorU32(ImGuiCol_Text),
-                 figure(ms).c_str());
+    const std::string text = figure(ms);
+    if (plot.x(ms) + 2.0f + ImGui::CalcTextSize(text.c_str()).x < end.x) {
+      list.AddText({plot.x(ms) + 2.0f, end.y - ImGui::GetFontSize()}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    }
   });
   forTicks(plot.lowError, plot.highError, [&](double error) {
     list.AddLine({plot.corner.x, plot.y(error)}, {end.x, plot.y(error)},
@@ -151,8 +153,8 @@ void plot(PanelContext& ui) {
   if (hovered >= 0) {
     const PointView& point = accuracy.points[hovered];
     ImGui::SetTooltip(
-        "%s\nmean FLIP %s, %s ms (%s .. %s)%s", point.name.c_str(), figure(point.error).c_str(),
-        figure(point.ms).c_str(), figure(point.lowerMs).c_str(), figure(point.upperMs).c_str(),
+        "%s\nmean FLIP %s, %s (%s .. %s)%s", point.name.c_str(), figure(point.error).c_str(),
+        duration(point.ms).c_str(), duration(point.lowerMs).c_str(), duration(point.upperMs).c_str(),
         isOnFront(accuracy, hovered) ? "" : "\nGrey: more accurate points take no longer, within the spread.");
     if (ImGui::IsItemClicked()) {
       ui.send(ApplyPoint{hovered});
@@ -160,8 +162,10 @@ void plot(PanelContext& ui) {
   }
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped(
-      "Error (mean FLIP, up) over GPU ms. A click applies a point; nothing beats the orange ones in both.");
+      "Error (mean FLIP) over GPU ms. A click applies a point; none is both faster and more accurate than an orange "
+      "one.");
   ImGui::PopStyleColor();
+  tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.");
 }
 
 void frontSlider(PanelContext& ui) {

@@ -20,6 +20,12 @@ void textWithin(const std::string& text, const ImVec2& low, const ImVec2& high, 
   ImGui::PopClipRect();
 }
 
+// Returns the title, or the file's name where there is none or another scene has the same.
+std::string captionOf(const std::vector<SceneEntry>& scenes, const SceneEntry& scene) {
+  const auto same = std::ranges::count(scenes, scene.title, &SceneEntry::title);
+  return scene.title.empty() || same > 1 ? scene.file.filename().string() : scene.title;
+}
+
 void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const ImVec2& size) {
   const SceneEntry& scene = ui.view.browser.scenes[index];
   const bool shown = index == ui.view.browser.shown;
@@ -45,7 +51,7 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
     list.AddRect(low, high, ImGui::GetColorU32(color), ImGui::GetStyle().FrameRounding, 0,
                  0.17f * ImGui::GetFontSize());
   }
-  textWithin(scene.title.empty() ? scene.name : scene.title, {low.x, high.y}, {high.x, high.y + titleHeight}, 0.0f);
+  textWithin(captionOf(ui.view.browser.scenes, scene), {low.x, high.y}, {high.x, high.y + titleHeight}, 0.0f);
   ImGui::PopID();
 }
 

@@ -82,7 +82,8 @@ void addButtons(PanelContext& ui) {
     ui.send(AddLight{});
   }
   const bool named = ui.state.model || !ui.state.modelFile.empty();
-  if (button(ui, "Add object", "edit.add_object", "Adds the model beside in the middle of the view.", named)) {
+  if (button(ui, "Add object", "edit.add_object", "Adds an object with the chosen model in the middle of the view.",
+             named)) {
     ui.send(AddObject{ui.state.model.value_or(ui.state.modelFile)});
   }
   ImGui::SameLine();
@@ -104,7 +105,8 @@ void historyButtons(PanelContext& ui) {
   action("Undo", "edit.undo", "Ctrl+Z   " + edit.undo, !edit.undo.empty(), Undo{});
   ImGui::SameLine();
   action("Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, !edit.redo.empty(), Redo{});
-  action("Save", "edit.save", "Ctrl+S   " + edit.scene->file.string(), edit.unsaved, Save{});
+  action("Save", "edit.save", "Ctrl+S   " + (edit.saveFile ? edit.saveFile->string() : "Asks for a file"), edit.unsaved,
+         Save{});
   ImGui::SameLine();
   action("Save as...", "edit.save_as", "Ctrl+Shift+S", true, AskWhereToSave{});
   ImGui::SameLine();

@@ -100,10 +100,10 @@ void gizmoMode(PanelContext& ui) {
       ui.send(SetGizmoMode{mode});
     }
     recordWidget(ui, key);
+    tip("G switches between the handles. Hold Ctrl while dragging to snap.");
     ImGui::SameLine();
   }
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("  G switches, Ctrl snaps");
+  ImGui::NewLine();
 }
 
 }  // namespace

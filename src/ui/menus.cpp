@@ -55,6 +55,13 @@ void editMenu(PanelContext& ui) {
   ImGui::Separator();
   item(ui, "Add mirror", AddMirror{});
   item(ui, "Add light", AddLight{});
+  if (menu(ui, "Add object")) {
+    for (const std::filesystem::path& model : edit.models) {
+      item(ui, model.stem().c_str(), AddObject{model}, true, "");
+    }
+    ImGui::EndMenu();
+  }
+  ImGui::Separator();
   item(ui, "Reset settings", ResetSettings{});
 }
 

@@ -25,6 +25,7 @@ UiOutput PanelWindows::build(const UiView& view) {
   state_.widgets.clear();
   state_.hoveredPass = -1;
   state_.targets.pointed.reset();
+  state_.targets.canvas.reset();
   const ImVec2 pointer = ImGui::GetIO().MousePos;
   if (state_.openedAt && glm::distance(*state_.openedAt, glm::vec2(pointer.x, pointer.y)) > clickReach) {
     state_.openedAt.reset();
@@ -35,10 +36,10 @@ UiOutput PanelWindows::build(const UiView& view) {
     menuBar(ui);
     mainPanel(ui);
     sideWindows(ui);
-    panels::passOutline(ui);
+    panels::besideTarget(ui, [&] { panels::passOutline(ui); });
     panels::help(ui);
   }
-  panels::editOverlay(view.edit.overlay);
+  panels::besideTarget(ui, [&] { panels::editOverlay(view.edit.overlay); });
   if (visible_) {
     panels::inspector(ui, dock_);
   }
@@ -121,6 +122,10 @@ void PanelWindows::windowMenu(PanelContext& ui) {
   ImGui::Separator();
   if (ImGui::MenuItem("Reset layout")) {
     dock_.reset();
+    state_.inspector = state_.help = false;
+    for (const PanelName& panel : panelNames) {
+      state_.choices.*panel.open = false;
+    }
   }
   panels::recordWidget(ui, "window.reset");
   if (ImGui::MenuItem("Hide panels", keysOf(TogglePanel{}))) {

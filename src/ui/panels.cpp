@@ -48,7 +48,7 @@ void sceneChoice(PanelContext& ui) {
   const bool open = ImGui::BeginCombo("Scene", shown.name.c_str(), ImGuiComboFlags_HeightLargest);
   recordWidget(ui, "scene");
   if (!open) {
-    return tip((shown.file.string() + "\nThe window Scenes shows pictures of all.").c_str());
+    return tip((shown.file.string() + "\nWindow > Scenes shows pictures of all scenes.").c_str());
   }
   for (size_t i = 0; i < browser.scenes.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));  // names may repeat
@@ -75,7 +75,7 @@ void cameraMode(PanelContext& ui) {
   }
 }
 
-// What the passes that a setting acts on took, if they were timed.
+// Says what the passes that a setting acts on took in the last frame whose passes were timed.
 std::string measuredHere(const FrameView& frame, std::string_view key) {
   const SettingField& field = *findSettingField(key);
   if (field.changes >= FramePart::display || std::holds_alternative<ColorSetting>(field.kind)) {
@@ -84,11 +84,12 @@ std::string measuredHere(const FrameView& frame, std::string_view key) {
   const bool mirrors = key.starts_with("reflection.");
   double ms = 0.0;
   for (const PassView& pass : frame.passes) {
-    ms += pass.kind == (mirrors ? PassKind::mirror : PassKind::main) ? pass.gpuMs : 0.0;
+    const bool counts = pass.kind == (mirrors ? PassKind::mirror : PassKind::main) && pass.timed && !pass.reused;
+    ms += counts ? pass.gpuMs : 0.0;
   }
   const bool known = ms > 0.0 && (mirrors || key.starts_with("view."));
   return known ? std::string("\nHere ") + (mirrors ? "mirror images take " : "the main view takes ") + duration(ms) +
-                     " of the frame's " + duration(frame.gpuMs) + "."
+                     " of a frame's " + duration(frame.timedGpuMs) + " on the GPU."
                : "";
 }
 

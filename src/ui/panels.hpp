@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 
 #include "ui/panel_choices.hpp"
 #include "ui/panel_dock.hpp"
@@ -29,6 +30,7 @@ struct PanelState {
     double halfDistance = 5.0;
     glm::dvec2 center{0.0};             // texel in the middle
     std::optional<glm::ivec2> pointed;  // texel under the pointer
+    std::optional<WindowRect> canvas;   // where the target is drawn; none while the window is closed
   } targets;
 
   std::array<char, 64> logFilter{};  // text that a line must contain
@@ -106,6 +108,8 @@ void prompts(PanelContext& ui);                             // over all others, 
 // Drawn over the picture, behind all windows.
 void passOutline(const PanelContext& ui);  // around the mirror of the pass or skipped row under the pointer
 void editOverlay(const OverlayView& overlay);
+// Draws with the background's list, but not over the target that the Targets window shows.
+void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
 
 // Draws the status line at the lower left edge of the display, which PanelDock keeps free, up to `right`, where windows
 // of the right edge begin. `width` is the panel's, in pixels; 0 while the panel is hidden, and the line is then as wide

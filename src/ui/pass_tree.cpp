@@ -13,8 +13,11 @@ bool isSeenIn(const std::vector<int>& path, const std::vector<int>& parent) {
 PassNode nodeOf(int pass, std::span<const PassView> passes, std::span<const SkippedView> skipped) {
   PassNode node{.pass = pass};
   const std::vector<int>& path = passes[static_cast<size_t>(pass)].path;
+  const auto isListed = [&](const std::vector<int>& mirror) {
+    return std::ranges::any_of(passes, [&](const PassView& other) { return other.path == mirror; });
+  };
   for (size_t i = 0; i < skipped.size(); ++i) {
-    if (isSeenIn(skipped[i].path, path)) {
+    if (isSeenIn(skipped[i].path, path) && !isListed(skipped[i].path)) {
       node.skipped.push_back(static_cast<int>(i));
     }
   }

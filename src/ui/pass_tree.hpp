@@ -16,7 +16,8 @@ struct PassNode {
 };
 
 // The main view first, with every mirror pass below the one that it is seen in, then the passes that are no view.
-// Mirrors whose parent is not listed are left out, and skipped ones likewise.
+// Mirrors whose parent is not listed are left out, and skipped ones likewise. A mirror whose image is reused is listed
+// with the pass that rendered it, not among the skipped ones.
 std::vector<PassNode> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped);
 
 // The last mirror of a pass's name, which says enough where its parents are in sight.

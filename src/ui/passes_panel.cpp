@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
 
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
@@ -15,8 +16,16 @@ std::string metres(const std::optional<double>& value) {
   return value ? fmt::format("{:.2g}", *value) : "never";
 }
 
+// Draws a figure at the right edge of its column.
+void figure(const std::string& text, bool dimmed = false) {
+  ImGui::TableNextColumn();
+  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(space, 0.0f));
+  dimmed ? ImGui::TextDisabled("%s", text.c_str()) : ImGui::TextUnformatted(text.c_str());
+}
+
 void depthResolution(const PassView& pass, ClipMethod inUse) {
-  ImGui::TextUnformatted(pass.resolution ? metres(gapWith(*pass.resolution, inUse)).c_str() : "");
+  figure(pass.resolution ? metres(gapWith(*pass.resolution, inUse)) : "");
   if (!pass.resolution) {
     return;
   }
@@ -49,12 +58,14 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
   }
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string title = std::to_string(node.skipped.size()) + " without a pass###skipped";
-  const bool open = ImGui::TreeNodeEx(title.c_str(), ImGuiTreeNodeFlags_SpanFullWidth);
+  const bool open = ImGui::TreeNodeEx("###skipped", ImGuiTreeNodeFlags_SpanFullWidth);
   recordWidget(ui, "skipped in " + ui.view.frame.passes[static_cast<size_t>(node.pass)].name);
+  ImGui::SameLine();
+  textAcrossColumns(std::to_string(node.skipped.size()) + " without a pass");
   if (!open) {
     return;
   }
+  ImGui::Indent(ImGui::GetTreeNodeToLabelSpacing());
   for (const int i : node.skipped) {
     const SkippedView& skip = ui.view.frame.skipped[static_cast<size_t>(i)];
     const std::string name = pathEnd(skip.name);
@@ -71,6 +82,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
       ImGui::SetTooltip("%s\n%s", skip.name.c_str(), why.c_str());
     }
   }
+  ImGui::Unindent(ImGui::GetTreeNodeToLabelSpacing());
   ImGui::TreePop();
 }
 
@@ -99,18 +111,14 @@ void passRow(PanelContext& ui, const PassNode& node) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
   }
-  ImGui::TableNextColumn();
-  if (pass.framesAgo > 0 && !ui.view.frame.still) {
-    ImGui::TextDisabled("%s", milliseconds(pass.gpuMs).c_str());
-    tip("The image of an earlier frame is reused.");
-  } else {
-    ImGui::TextUnformatted(milliseconds(pass.gpuMs).c_str());
+  figure(milliseconds(pass.gpuMs), pass.reused || !pass.timed);
+  if (pass.reused) {
+    tip("The image of an earlier frame is reused. The time is that of rendering it.");
+  } else if (!pass.timed) {
+    tip("Time of an earlier frame.");
   }
-  ImGui::TableNextColumn();
-  ImGui::Text("%u", pass.draws);
-  ImGui::TableNextColumn();
-  ImGui::Text("%.0f", pass.areaPx);
-  ImGui::TableNextColumn();
+  figure(std::to_string(pass.draws));
+  figure(pass.areaPx > 0.0 ? fmt::format("{:.0f}", pass.areaPx) : "");
   depthResolution(pass, ui.settings.reflection.clip);
   if (!open) {
     return;
@@ -145,6 +153,19 @@ void skippedOutline(const PanelContext& ui) {
   });
 }
 
+void header() {
+  static constexpr std::array<const char*, 5> about{
+      "The main view and, below the view that each is seen in, the mirror images.",
+      "GPU time of the pass. Grey: of an earlier frame.", "Draw calls.", "Pixels that the pass renders.",
+      "Smallest distance between surfaces that the pass still keeps in order."};
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (int column = 0; column < static_cast<int>(about.size()); ++column) {
+    ImGui::TableSetColumnIndex(column);
+    ImGui::TableHeader(ImGui::TableGetColumnName(column));
+    tip(about[static_cast<size_t>(column)]);
+  }
+}
+
 }  // namespace
 
 void passOutline(const PanelContext& ui) {
@@ -168,19 +189,20 @@ void passes(PanelContext& ui) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
   }
-  ImGui::TextWrapped("CPU %s   GPU %s   Memory %s MiB", duration(frame.cpuMs).c_str(), duration(frame.gpuMs).c_str(),
+  ImGui::TextWrapped("GPU %s   Memory %s MiB", duration(frame.timedGpuMs).c_str(),
                      mebibytes(frame.deviceBytes).c_str());
+  tip("GPU time of the last frame whose passes were timed. Timing slows a frame, so few are.");
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("passes", 5, flags)) {
     return;
   }
-  const float figure = 4.0f * ImGui::GetFontSize();
+  const float width = 4.0f * ImGui::GetFontSize();
   ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, figure);
-  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * figure);
-  ImGui::TableSetupColumn("Pixels", ImGuiTableColumnFlags_WidthFixed, figure);
-  ImGui::TableSetupColumn("Depth m", ImGuiTableColumnFlags_WidthFixed, figure);
-  ImGui::TableHeadersRow();
+  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, width);
+  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * width);
+  ImGui::TableSetupColumn("Pixels", ImGuiTableColumnFlags_WidthFixed, width);
+  ImGui::TableSetupColumn("Depth (m)", ImGuiTableColumnFlags_WidthFixed, 1.1f * width);
+  header();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
   for (const PassNode& node : passTree(frame.passes, frame.skipped)) {
     passRow(ui, node);

@@ -33,13 +33,19 @@ void answerButton(PanelContext& ui, const char* label, std::string_view key, Com
 }
 
 void unsavedChanges(PanelContext& ui) {
-  ImGui::Text("Save the changes before closing this scene?");
-  ImGui::TextDisabled("%s", ui.view.edit.scene->file.c_str());
+  const EditView& edit = ui.view.edit;
+  ImGui::TextUnformatted("Save the changes before closing this scene?");
+  ImGui::TextDisabled("%s", (edit.saveFile ? *edit.saveFile : edit.scene->file.stem()).c_str());
   ImGui::Spacing();
-  answerButton(ui, "Save", "ask.save", Save{});
-  ImGui::SetItemDefaultFocus();
-  ImGui::SameLine();
+  if (edit.saveFile) {
+    answerButton(ui, "Save", "ask.save", Save{});
+    ImGui::SetItemDefaultFocus();
+    ImGui::SameLine();
+  }
   answerButton(ui, "Save as...", "ask.save_as", AskWhereToSave{});
+  if (!edit.saveFile) {
+    ImGui::SetItemDefaultFocus();
+  }
   ImGui::SameLine();
   answerButton(ui, "Discard", "ask.discard", DiscardChanges{});
   ImGui::SameLine();
@@ -55,7 +61,7 @@ void saveAs(PanelContext& ui) {
   ImGui::InputText("##file", &ui.state.saveAs, ImGuiInputTextFlags_AutoSelectAll);
   recordWidget(ui, "edit.file");
   if (!ui.view.edit.note.empty()) {
-    ImGui::TextWrapped("%s", ui.view.edit.note.c_str());
+    coloredText(errorColor, ui.view.edit.note);
   }
   const size_t commands = ui.output.commands.size();
   answerButton(ui, "Save", "where.save", SaveAs{ui.state.saveAs});
@@ -63,6 +69,7 @@ void saveAs(PanelContext& ui) {
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
   if (ui.output.commands.size() == commands && enterPressed()) {
     ui.send(SaveAs{ui.state.saveAs});
+    ImGui::CloseCurrentPopup();  // it opens again, with the keyboard in the field, if that fails
   }
 }
 

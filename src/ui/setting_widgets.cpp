@@ -128,6 +128,7 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
   if (ImGui::ColorButton("##swatch", {picked.x, picked.y, picked.z, 1.0f}, ImGuiColorEditFlags_NoTooltip)) {
     ImGui::OpenPopup("picker");
   }
+  tip("Opens a picker. It shows display colors (sRGB, 0 to 255), the numbers beside are linear (0 to 1).");
   if (ImGui::BeginPopup("picker")) {
     if (ImGui::ColorPicker3("##picker", &picked.x, ImGuiColorEditFlags_NoSidePreview)) {
       for (int i = 0; i < 3; ++i) {

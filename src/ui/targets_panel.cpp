@@ -20,7 +20,7 @@ struct Rect {
   ImVec2 high;
 };
 
-// Fills Fills `outer` without `inner`, which lies in it.
+// Fills `outer` without `inner`, which lies in it.
 void fillAround(const Rect& outer, const Rect& inner, ImU32 color) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(outer.low, {outer.high.x, inner.low.y}, color);
@@ -70,8 +70,8 @@ void controls(PanelContext& ui, const PassView* shown) {
   static constexpr std::array<Choice, 3> choices{
       {{Targets::Kind::color, "Color", "color", "Radiance, through exposure and tone curve."},
        {Targets::Kind::depth, "Depth", "depth",
-        "Metres from the eye: white 0, grey the distance beside, black infinitely far; white outside the mask. "
-        "Oblique clipping changes depth, and the greys mean nothing."},
+        "Distance from the eye: white is near, half grey the distance set here, black infinitely far. Outside the mask "
+        "it is white. With oblique clipping shades are no distances."},
        {Targets::Kind::mask, "Mask", "mask", "Grey: pixels that the pass shades. Lines: the mirrors seen in it."}}};
   Targets& targets = ui.state.targets;
   passChoice(ui, shown);
@@ -198,6 +198,22 @@ void caption(PanelContext& ui, const Rect& canvas, bool hovered, const glm::dvec
 
 }  // namespace
 
+void besideTarget(const PanelContext& ui, const std::function<void()>& draw) {
+  if (!ui.state.targets.canvas) {
+    return draw();
+  }
+  const WindowRect& canvas = *ui.state.targets.canvas;
+  const ImVec2 low(canvas.corner.x, canvas.corner.y);
+  const ImVec2 high(low.x + canvas.size.x, low.y + canvas.size.y);
+  const ImVec2 end = ImGui::GetIO().DisplaySize;
+  for (const Rect& part : {Rect{{0.0f, 0.0f}, {end.x, low.y}}, Rect{{0.0f, high.y}, end},
+                           Rect{{0.0f, low.y}, {low.x, high.y}}, Rect{{high.x, low.y}, {end.x, high.y}}}) {
+    ImGui::GetBackgroundDrawList()->PushClipRect(part.low, part.high);
+    draw();
+    ImGui::GetBackgroundDrawList()->PopClipRect();
+  }
+}
+
 bool hasTarget(const PassView& pass) {
   return pass.kind == PassKind::mirror || pass.kind == PassKind::main;
 }
@@ -210,6 +226,8 @@ void targets(PanelContext& ui) {
   const float top = start.y + 3.0f * ImGui::GetFrameHeightWithSpacing();
   const Rect canvas{{start.x, top}, {start.x + std::max(room.x, 1.0f), std::max(start.y + room.y, top + 1.0f)}};
   background(canvas);
+  targets.canvas =
+      WindowRect{{canvas.low.x, canvas.low.y}, {canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y}};
   const PassView* shown = shownPass(ui);
   controls(ui, shown);
   const glm::dvec2 size(canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y);

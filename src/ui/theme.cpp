@@ -14,6 +14,7 @@ void applyTheme(Theme theme, float scale) {
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
   style.Colors[ImGuiCol_PopupBg].w = 1.0f;
   style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
+  style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_SliderGrab];  // progress, with text over it
   const float disabled = theme == Theme::light ? 0.33f : 0.68f;
   style.Colors[ImGuiCol_TextDisabled] = {disabled, disabled, disabled, 1.0f};
   style.ScaleAllSizes(scale);

@@ -22,12 +22,12 @@ void time(PanelContext& ui) {
     ui.send(Seek{seconds});
   }
   recordWidget(ui, "time");
-  tip("Seconds of animation.");
-  if (button(ui, "<", "time.back", "Steps back by 1/60 s (,).")) {
+  tip("Time of the animation.");
+  if (button(ui, "<", "time.back", "Steps back by 1/60 s. Key: comma.")) {
     ui.send(StepTime{-1});
   }
   ImGui::SameLine();
-  if (button(ui, ">", "time.on", "Steps forward by 1/60 s (.).")) {
+  if (button(ui, ">", "time.on", "Steps forward by 1/60 s. Key: period.")) {
     ui.send(StepTime{1});
   }
   ImGui::SameLine();
@@ -45,7 +45,7 @@ void time(PanelContext& ui) {
     ui.send(SetTimeSpeed{speed});
   }
   recordWidget(ui, "time.speed");
-  tip("Seconds of animation a second ([ and ]).");
+  tip("Speed of the animation. Keys: [ halves it, ] doubles it.");
 }
 
 }  // namespace speculum::panels

@@ -15,8 +15,10 @@ namespace speculum {
 
 struct PassView : PassId {
   std::string name;
-  int framesAgo = 0;   // since it ran
-  double gpuMs = 0.0;  // NaN until it was timed
+  int framesAgo = 0;    // since it ran
+  bool reused = false;  // by the frame that drew the scene last: no pass, the image of an earlier frame
+  double gpuMs = 0.0;   // NaN until it was timed
+  bool timed = false;   // `gpuMs` is of the frame that FrameView::timedGpuMs is of, not of an earlier one
   double areaPx = 0.0;
   uint32_t draws = 0;
   std::optional<DepthReadout> resolution;  // a mirror's, if it sees anything but the background
@@ -61,6 +63,7 @@ struct FrameView {
   bool still = false;    // later frames drew the panels only
   double cpuMs = 0.0;
   double gpuMs = 0.0;
+  double timedGpuMs = 0.0;  // of the last frame whose passes were timed, which few are
   FrameHistory history;
   uint64_t deviceBytes = 0;
   uint64_t budgetBytes = 0;
@@ -152,7 +155,8 @@ struct EditView {
   std::vector<std::filesystem::path> models;  // that an object can be added of
   std::string undo;                           // label of the step; empty: none
   std::string redo;
-  bool unsaved = false;  // there are changes to save, of the settings too
+  bool unsaved = false;                           // there are changes to save, of the settings too
+  std::optional<std::filesystem::path> saveFile;  // file that Save writes; none: it asks for one
   Prompt prompt = Prompt::none;
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
   std::string note;                    // what was saved, or why it was not
@@ -179,7 +183,7 @@ struct AccuracyView {
   bool measuring = false;
   std::string stage;       // of the measurement that runs
   double progress = 0.0;   // of the stage, 0 .. 1
-  std::string choice;      // point chosen by the budget, and what it gives up
+  std::string choice;      // point chosen by the budget, beside the most accurate one
   std::string difference;  // error of the picture, or progress of the difference view
   bool showsDifference = false;
   std::vector<glm::vec3> heatBar;  // colors from no error to an error of 1, display sRGB
