@@ -91,8 +91,7 @@ ordered_json picturesJson(const SweepResults& results, const std::filesystem::pa
 
 std::vector<int> indicesByCost(const SweepResults& results, const std::vector<int>& points) {
   std::vector<int> sorted = points;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](int a, int b) { return costMs(results.points[a]) < costMs(results.points[b]); });
+  std::ranges::stable_sort(sorted, [&](int a, int b) { return costMs(results.points[a]) < costMs(results.points[b]); });
   return sorted;
 }
 
@@ -151,7 +150,7 @@ std::vector<int> shownPoints(const SweepResults& results, int most) {
   byCost = indicesByCost(results, byCost);
   std::vector<int> shown;
   const auto add = [&](int point) {
-    if (static_cast<int>(shown.size()) < most && std::find(shown.begin(), shown.end(), point) == shown.end()) {
+    if (static_cast<int>(shown.size()) < most && std::ranges::find(shown, point) == shown.end()) {
       shown.push_back(point);
     }
   };
@@ -171,8 +170,8 @@ std::vector<int> shownPoints(const SweepResults& results, int most) {
     add(front.front());
     add(front.back());
   }
-  const auto [best, worst] = std::minmax_element(
-      byCost.begin(), byCost.end(), [&](int a, int b) { return points[a].whole.flip < points[b].whole.flip; });
+  const auto [best, worst] =
+      std::ranges::minmax_element(byCost, [&](int a, int b) { return points[a].whole.flip < points[b].whole.flip; });
   add(*worst);
   const size_t room = static_cast<size_t>(std::max(1, most - static_cast<int>(shown.size())));
   const size_t step = std::max<size_t>(1, (front.size() + room - 1) / room);

@@ -140,8 +140,7 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
     return;
   }
   settings_ = settings;
-  const auto at = std::find_if(pointSettings_.begin(), pointSettings_.end(),
-                               [&](const auto& point) { return isAtPoint(settings, point); });
+  const auto at = std::ranges::find_if(pointSettings_, [&](const auto& point) { return isAtPoint(settings, point); });
   view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
   if (view_.current != chosen_) {
     view_.choice.clear();

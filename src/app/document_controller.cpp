@@ -47,7 +47,7 @@ void keepNewest(const fs::path& folder) {
       files.emplace_back(entry.last_write_time(none), entry.path());
     }
   }
-  std::sort(files.begin(), files.end(), std::greater<>());
+  std::ranges::sort(files, std::greater<>());
   for (size_t i = kept; i < files.size(); ++i) {
     fs::remove(files[i].second, none);
   }

@@ -144,7 +144,7 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
     drawn_.push_front({frame.number, frame.cpuMs});
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
   }
-  const auto timed = std::ranges::find_if(drawn_, [&](const DrawnFrame& f) { return f.number == timings.frame; });
+  const auto timed = std::ranges::find(drawn_, timings.frame, &DrawnFrame::number);
   if (timed == drawn_.end()) {
     return;
   }
@@ -167,8 +167,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   const int interval = frame.settings.reflection.updateInterval;
   const auto isReused = [&](const PassView& row) {
     return (plan.mainReused && row.kind == PassKind::main) ||
-           std::any_of(plan.reused.begin(), plan.reused.end(),
-                       [&](const PlannedPass& p) { return p.view.path == row.path; });
+           std::ranges::any_of(plan.reused, [&](const PlannedPass& p) { return p.view.path == row.path; });
   };
   std::vector<PassView> rows;
   if (interval > 1 || !plan.reused.empty() || plan.mainReused) {
@@ -179,7 +178,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   }
   std::ptrdiff_t index = 0;
   for (const RecordedPass& pass : sceneRenderer.passes()) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == pass; });
+    auto row = std::ranges::find_if(rows, [&](const PassView& r) { return r == pass; });
     if (row == rows.end()) {
       PassView fresh{pass, pass.name};
       const auto before = std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == pass; });
@@ -198,7 +197,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   // Times are of an earlier frame, whose plan may have differed.
   const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
   for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == timed[i]; });
+    const auto row = std::ranges::find_if(rows, [&](const PassView& r) { return r == timed[i]; });
     if (row != rows.end()) {
       row->gpuMs = timings.passes[i].gpuMs;
     }
@@ -227,7 +226,7 @@ void FrameReport::updateSkipped(const RecordedFrame& frame, const std::vector<in
   view_.skippedOutline.clear();
   // The path is that of the last frame; an edit may have removed mirrors since.
   const auto exists = [&](int mirror) { return static_cast<size_t>(mirror) < frame.state.mirrors.size(); };
-  if (!hovered.empty() && std::all_of(hovered.begin(), hovered.end(), exists)) {
+  if (!hovered.empty() && std::ranges::all_of(hovered, exists)) {
     const PictureView picture(frame.state.camera, frame.plan.width, frame.plan.height);
     const std::span<const int> before = std::span(hovered).first(hovered.size() - 1);
     if (const auto image = picture.through(frame.scene, frame.state, before)) {

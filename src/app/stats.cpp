@@ -57,7 +57,7 @@ ordered_json parentJson(const std::vector<RecordedPass>& passes, const RecordedP
     return nullptr;
   }
   const std::vector<int> seenIn(pass.path.begin(), pass.path.end() - 1);
-  const auto parent = std::find_if(passes.begin(), passes.end(), [&](const RecordedPass& other) {
+  const auto parent = std::ranges::find_if(passes, [&](const RecordedPass& other) {
     return (other.kind == PassKind::mirror || other.kind == PassKind::main) && other.path == seenIn;
   });
   return parent == passes.end() ? ordered_json(nullptr) : ordered_json(parent - passes.begin());
@@ -142,7 +142,7 @@ bool isMilliseconds(const std::string& key) {
 }  // namespace
 
 ordered_json summary(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const auto rank = [&](double part) {
     return values[static_cast<size_t>(std::ceil(part * static_cast<double>(values.size() - 1)))];
   };
@@ -182,8 +182,7 @@ std::vector<GatheredPass> gatherPasses(const std::vector<ordered_json>& frames,
   for (size_t f = 0; f < frames.size(); ++f) {
     auto next = gathered.begin();
     for (size_t i = 0; i < ids[f].size(); ++i) {
-      auto found = std::find_if(gathered.begin(), gathered.end(),
-                                [&](const GatheredPass& known) { return known.id == ids[f][i]; });
+      auto found = std::ranges::find(gathered, ids[f][i], &GatheredPass::id);
       if (found == gathered.end()) {
         found = gathered.insert(next, {.id = ids[f][i]});
       }
@@ -202,8 +201,8 @@ ordered_json gatheredParent(const std::vector<GatheredPass>& gathered, const Gat
     return nullptr;
   }
   const ordered_json* sought = &pass.lastFrame->at("passes").at(parent.get<size_t>());
-  const auto found = std::find_if(gathered.begin(), gathered.end(), [&](const GatheredPass& other) {
-    return std::find(other.passes.begin(), other.passes.end(), sought) != other.passes.end();
+  const auto found = std::ranges::find_if(gathered, [&](const GatheredPass& other) {
+    return std::ranges::find(other.passes, sought) != other.passes.end();
   });
   return found - gathered.begin();
 }

@@ -28,7 +28,7 @@ void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   for (const fs::path& file : files) {
     addFile(fingerprint, file);
   }
@@ -36,7 +36,7 @@ void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
 
 template <typename Item, typename Predicate>
 bool contains(const std::vector<Item>& items, Predicate predicate) {
-  return std::any_of(items.begin(), items.end(), predicate);
+  return std::ranges::any_of(items, predicate);
 }
 
 bool isRough(const Mirror& mirror) {

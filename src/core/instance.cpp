@@ -18,16 +18,16 @@ constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
 bool layerPresent() {
   const auto layers = enumerate<VkLayerProperties>("list Vulkan layers", vkEnumerateInstanceLayerProperties);
-  return std::any_of(layers.begin(), layers.end(),
-                     [](const auto& layer) { return std::strcmp(layer.layerName, validationLayer) == 0; });
+  return std::ranges::any_of(layers,
+                             [](const auto& layer) { return std::strcmp(layer.layerName, validationLayer) == 0; });
 }
 
 bool extensionPresent(const char* name) {
   const auto extensions = enumerate<VkExtensionProperties>("list instance extensions", [](uint32_t* count, auto* data) {
     return vkEnumerateInstanceExtensionProperties(nullptr, count, data);
   });
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
+  return std::ranges::any_of(extensions,
+                             [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
 uint32_t usedVersion() {

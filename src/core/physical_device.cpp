@@ -12,7 +12,7 @@ namespace speculum {
 namespace {
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
 }
 
@@ -37,8 +37,7 @@ VkSampleCountFlags sampleCounts(VkPhysicalDevice device, VkFormat format, VkImag
 // Reads whether fragment shaders can query acceleration structures. Needs Vulkan 1.2 for addresses of buffers.
 void readRayQueries(PhysicalDevice& device, uint32_t instanceVersion) {
   if (std::min(device.properties.apiVersion, instanceVersion) < VK_API_VERSION_1_2 ||
-      !std::all_of(rayQueryExtensions.begin(), rayQueryExtensions.end(),
-                   [&](const char* name) { return device.hasExtension(name); })) {
+      !std::ranges::all_of(rayQueryExtensions, [&](const char* name) { return device.hasExtension(name); })) {
     return;
   }
   RayQueryFeatures found;
@@ -224,7 +223,7 @@ const PhysicalDevice* best(const std::vector<PhysicalDevice>& devices) {
 }  // namespace
 
 bool PhysicalDevice::hasExtension(std::string_view name) const {
-  return std::find(extensions.begin(), extensions.end(), name) != extensions.end();
+  return std::ranges::find(extensions, name) != extensions.end();
 }
 
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance, VkSurfaceKHR surface) {

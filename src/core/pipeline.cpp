@@ -109,9 +109,7 @@ PipelineLayoutHandle createLayout(Device& device, const PipelineDesc& desc) {
 }
 
 bool uses(const PipelineDesc& desc, const std::vector<std::string>& shaders) {
-  const auto listed = [&](const std::string& name) {
-    return std::find(shaders.begin(), shaders.end(), name) != shaders.end();
-  };
+  const auto listed = [&](const std::string& name) { return std::ranges::find(shaders, name) != shaders.end(); };
   if (const auto* compute = std::get_if<ComputePipelineDesc>(&desc)) {
     return listed(compute->comp);
   }

@@ -70,7 +70,7 @@ void Renderer::finish(Slot& slot) {
 }
 
 const FrameTimings* Renderer::timingsOf(uint64_t frame) const {
-  const auto slot = std::find_if(slots_.begin(), slots_.end(), [&](const Slot& s) { return s.timings.frame == frame; });
+  const auto slot = std::ranges::find_if(slots_, [&](const Slot& s) { return s.timings.frame == frame; });
   return slot == slots_.end() ? nullptr : &slot->timings;
 }
 

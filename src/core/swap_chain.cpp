@@ -77,7 +77,7 @@ std::vector<PresentMode> SwapChain::presentModes() const {
   });
   std::vector<PresentMode> offered;
   for (const PresentMode mode : {PresentMode::fifo, PresentMode::mailbox, PresentMode::immediate}) {
-    if (std::find(modes.begin(), modes.end(), vulkanMode(mode)) != modes.end()) {
+    if (std::ranges::find(modes, vulkanMode(mode)) != modes.end()) {
       offered.push_back(mode);
     }
   }
@@ -86,7 +86,7 @@ std::vector<PresentMode> SwapChain::presentModes() const {
 
 void SwapChain::choosePresentMode(PresentMode wanted) {
   const std::vector<PresentMode> offered = presentModes();
-  const bool present = std::find(offered.begin(), offered.end(), wanted) != offered.end();
+  const bool present = std::ranges::find(offered, wanted) != offered.end();
   mode_ = present ? wanted : PresentMode::fifo;
   stale_ = true;
   if (!present) {

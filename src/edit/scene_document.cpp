@@ -184,8 +184,7 @@ void SceneDocument::remove(const Selection& selection) {
 
 void SceneDocument::remove(std::span<const Selection> nodes) {
   std::vector<Selection> fromTheEnd(nodes.begin(), nodes.end());
-  std::sort(fromTheEnd.begin(), fromTheEnd.end(),
-            [](const Selection& a, const Selection& b) { return a.index > b.index; });
+  std::ranges::sort(fromTheEnd, [](const Selection& a, const Selection& b) { return a.index > b.index; });
   structural("remove " + describe(scene_, nodes), [&] {
     for (const Selection& node : fromTheEnd) {
       erase(node);

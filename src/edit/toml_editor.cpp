@@ -13,13 +13,13 @@ namespace {
 constexpr size_t kLongestLine = 120;
 
 const KeyText* find(const std::vector<KeyText>& keys, const KeyText& wanted) {
-  const auto found = std::find_if(keys.begin(), keys.end(),
-                                  [&](const KeyText& k) { return k.table == wanted.table && k.key == wanted.key; });
+  const auto found =
+      std::ranges::find_if(keys, [&](const KeyText& k) { return k.table == wanted.table && k.key == wanted.key; });
   return found == keys.end() ? nullptr : &*found;
 }
 
 bool hasTable(const std::vector<KeyText>& keys, const std::string& table) {
-  return std::any_of(keys.begin(), keys.end(), [&](const KeyText& k) { return k.table == table; });
+  return std::ranges::any_of(keys, [&](const KeyText& k) { return k.table == table; });
 }
 
 std::string keyValue(const std::string& key, size_t width, const std::string& value) {
@@ -327,7 +327,7 @@ std::string TomlEditor::text() const {
     resolve(*list, change, edits);
   }
   // Keys added to a table come before a table that is added behind it.
-  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {
+  std::ranges::stable_sort(edits, [](const Edit& a, const Edit& b) {
     return std::tuple(a.range.begin, a.range.end, a.block) < std::tuple(b.range.begin, b.range.end, b.block);
   });
   std::string result;

@@ -28,10 +28,10 @@ Visible visibleIn(const FramePlan& plan) {
       }
     }
   };
-  std::for_each(plan.passes.begin(), plan.passes.end(), add);
-  std::for_each(plan.reused.begin(), plan.reused.end(), add);
+  std::ranges::for_each(plan.passes, add);
+  std::ranges::for_each(plan.reused, add);
   for (const EnvironmentMap& map : plan.maps) {
-    std::for_each(map.faces.begin(), map.faces.end(), add);
+    std::ranges::for_each(map.faces, add);
   }
   add(plan.main);
   return visible;

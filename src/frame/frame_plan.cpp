@@ -195,8 +195,8 @@ void Planner::fill(int node) {
 }
 
 bool Planner::behindEye(const View& view, std::span<const glm::dvec3> polygon) const {
-  return std::all_of(polygon.begin(), polygon.end(),
-                     [&](const glm::dvec3& p) { return (view.worldToView * (p - view.eye)).z >= 0.0; });
+  return std::ranges::all_of(polygon,
+                             [&](const glm::dvec3& p) { return (view.worldToView * (p - view.eye)).z >= 0.0; });
 }
 
 void Planner::skip(const View& view, int mirror, SkipReason reason, std::string detail) {
@@ -474,7 +474,7 @@ void Planner::reuseMean() {
   plan_.maps.clear();
   plan_.shadowMaps.assign(cache_.shadowMaps.begin(), cache_.shadowMaps.end());
   for (ShadowMap& map : plan_.shadowMaps) {
-    std::for_each(map.faces.begin(), map.faces.end(), [](ShadowFace& face) { face.rendered = false; });
+    std::ranges::for_each(map.faces, [](ShadowFace& face) { face.rendered = false; });
   }
   for (MirrorDraw& draw : plan_.main.mirrors) {
     draw.pass = -1;
@@ -491,8 +491,7 @@ std::string_view skipReasonName(SkipReason reason) {
 }
 
 const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path) {
-  const auto pass =
-      std::find_if(plan.passes.begin(), plan.passes.end(), [&](const PlannedPass& p) { return p.view.path == path; });
+  const auto pass = std::ranges::find_if(plan.passes, [&](const PlannedPass& p) { return p.view.path == path; });
   return pass == plan.passes.end() ? nullptr : &*pass;
 }
 

@@ -48,7 +48,7 @@ TableReader::TableReader(const std::filesystem::path& file, std::string label, c
     : TableReader(file, std::move(label), table, line) {
   const toml::key* first = nullptr;
   for (const auto& [key, value] : table_) {
-    const bool isKnown = std::find(known.begin(), known.end(), key.str()) != known.end();
+    const bool isKnown = std::ranges::find(known, key.str()) != known.end();
     if (!isKnown && (first == nullptr || key.source().begin.line < first->source().begin.line)) {
       first = &key;
     }
@@ -204,7 +204,7 @@ size_t TableReader::choice(std::string_view key, size_t fallback, std::span<cons
     return fallback;
   }
   const std::string value = text(key);
-  const auto found = std::find(choices.begin(), choices.end(), value);
+  const auto found = std::ranges::find(choices, value);
   if (found == choices.end()) {
     fail(key, fmt::format("is '{}'", value), nearestKeyAdvice(value, choices));
   }

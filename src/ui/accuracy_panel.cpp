@@ -95,7 +95,7 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
 }
 
 bool isOnFront(const AccuracyView& accuracy, int point) {
-  return std::find(accuracy.front.begin(), accuracy.front.end(), point) != accuracy.front.end();
+  return std::ranges::find(accuracy.front, point) != accuracy.front.end();
 }
 
 void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy, int hovered) {
@@ -167,7 +167,7 @@ void plot(PanelContext& ui) {
 void frontSlider(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   const int last = static_cast<int>(accuracy.front.size()) - 1;
-  const auto place = std::find(accuracy.front.begin(), accuracy.front.end(), accuracy.current);
+  const auto place = std::ranges::find(accuracy.front, accuracy.current);
   const bool onFront = place != accuracy.front.end();
   int index = onFront ? static_cast<int>(place - accuracy.front.begin()) : 0;
   const std::string text = onFront ? accuracy.points[accuracy.current].name : "not on the front";

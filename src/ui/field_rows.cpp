@@ -20,8 +20,8 @@ constexpr double farthest = 1e15;  // metres and degrees; docs/scene_format.md, 
 // Makes a label of a key: "casts_light" becomes "Casts light", "orbit.speed" in degrees per second "Orbit speed
 // (deg/s)".
 std::string labelOf(std::string path, std::string_view unit) {
-  std::replace_if(
-      path.begin(), path.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
+  std::ranges::replace_if(
+      path, [](char c) { return c == '_' || c == '.'; }, ' ');
   path[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(path[0])));
   return unit.empty() ? path : path + " (" + std::string(unit) + ")";
 }

@@ -23,8 +23,8 @@ void nodeList(PanelContext& ui) {
   int row = 0;
   for (const Selection& node : allNodes(*edit.scene)) {
     const bool selected = sameNode(node, edit.selected);
-    const bool other = std::any_of(edit.others.begin(), edit.others.end(),
-                                   [&](const Selection& selection) { return sameNode(selection, node); });
+    const bool other =
+        std::ranges::any_of(edit.others, [&](const Selection& selection) { return sameNode(selection, node); });
     ImGui::PushID(row);
     if (ImGui::Selectable(describe(*edit.scene, node).c_str(), selected || other)) {
       const ImGuiIO& io = ImGui::GetIO();

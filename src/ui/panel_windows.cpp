@@ -227,8 +227,7 @@ WindowRect PanelWindows::freeRect() const {
 bool PanelWindows::closeTop() {
   const auto close = [&](const ImGuiWindow& window) {
     const std::string_view name = window.Name;
-    const auto panel =
-        std::find_if(panelNames.begin(), panelNames.end(), [&](const PanelName& p) { return p.name == name; });
+    const auto panel = std::ranges::find(panelNames, name, &PanelName::name);
     bool* open = name == panels::helpTitle        ? &state_.help
                  : name == panels::inspectorTitle ? &state_.inspector
                  : panel != panelNames.end()      ? &(state_.choices.*panel->open)

@@ -179,7 +179,7 @@ bool SimpleUI::takesPointer(double x, double y) const {
     return true;
   }
   const ImVec2 point(static_cast<float>(x), static_cast<float>(y));
-  return std::any_of(context.Windows.begin(), context.Windows.end(), [&](const ImGuiWindow* window) {
+  return std::ranges::any_of(context.Windows, [&](const ImGuiWindow* window) {
     ImRect reach = window->OuterRectClipped;
     reach.Expand((window->Flags & ImGuiWindowFlags_NoResize) == 0 ? edgeReach : 0.0f);
     return window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&

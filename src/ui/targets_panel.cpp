@@ -174,10 +174,9 @@ PixelRect inPixels(const Rect& rect) {
 // Returns the pass whose target is shown: the chosen one, or the main view if that is gone.
 const PassView* shownPass(PanelContext& ui) {
   const std::vector<PassView>& passes = ui.view.frame.passes;
-  const auto pass = std::find_if(passes.begin(), passes.end(),
-                                 [&](const PassView& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
-  const auto main =
-      std::find_if(passes.begin(), passes.end(), [](const PassView& p) { return p.kind == PassKind::main; });
+  const auto pass =
+      std::ranges::find_if(passes, [&](const PassView& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
+  const auto main = std::ranges::find(passes, PassKind::main, &PassView::kind);
   const auto shown = pass != passes.end() ? pass : main;
   ui.state.targets.path = shown != passes.end() ? std::optional(shown->path) : std::nullopt;
   return shown != passes.end() ? &*shown : nullptr;
