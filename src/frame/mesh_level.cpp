@@ -55,8 +55,7 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
     return best;  // without making levels that nothing uses
   }
   const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
-  const auto end = std::ranges::upper_bound(levels, largestError,
-                                            [](double error, const MeshLevel& level) { return error < level.error; });
+  const auto end = std::ranges::upper_bound(levels, largestError, {}, &MeshLevel::error);
   // Coarsest first. Of the finer levels only the first one with clusters can have fewer triangles to draw.
   for (auto level = end; level != levels.begin();) {
     --level;
@@ -116,8 +115,7 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
 }
 
 int levelOf(const PlannedPass& pass, int instance) {
-  const auto found = std::ranges::lower_bound(
-      pass.simplified, instance, [](const SimplifiedInstance& s, int wanted) { return s.instance < wanted; });
+  const auto found = std::ranges::lower_bound(pass.simplified, instance, {}, &SimplifiedInstance::instance);
   return found != pass.simplified.end() && found->instance == instance ? found->level : -1;
 }
 

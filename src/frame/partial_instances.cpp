@@ -49,8 +49,7 @@ bool visible(const MeshCluster& cluster, const std::vector<LocalPlane>& planes) 
 }  // namespace
 
 const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int instance) {
-  const auto found = std::ranges::lower_bound(
-      partial, instance, [](const PartialInstance& part, int wanted) { return part.instance < wanted; });
+  const auto found = std::ranges::lower_bound(partial, instance, {}, &PartialInstance::instance);
   return found != partial.end() && found->instance == instance ? &*found : nullptr;
 }
 

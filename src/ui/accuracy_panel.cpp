@@ -190,8 +190,7 @@ void budget(PanelContext& ui) {
     if (ImGui::Checkbox(findSettingField(key)->label, &active)) {
       value = active ? usual : 0.0;
     }
-    recordWidget(ui, key);
-    tip(settingHelp(key).c_str());
+    recordWidget(ui, key, settingHelp(key));
     if (active) {
       ImGui::SameLine();
       ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
@@ -237,13 +236,10 @@ void differenceView(PanelContext& ui) {
 void accuracy(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   if (!accuracy.measuring) {
-    if (button(ui, "Measure this view", "accuracy.measure", "Runs in the background while you go on.")) {
-      ui.send(MeasureAccuracy{});
-    }
+    commandButton(ui, "Measure this view", "accuracy.measure", "Runs in the background while you go on.",
+                  MeasureAccuracy{});
   } else {
-    if (button(ui, "Cancel", "accuracy.cancel", "")) {
-      ui.send(CancelMeasurement{});
-    }
+    commandButton(ui, "Cancel", "accuracy.cancel", "", CancelMeasurement{});
     ImGui::SameLine();
     ImGui::ProgressBar(static_cast<float>(accuracy.progress), ImVec2(-1.0f, 0.0f), accuracy.stage.c_str());
   }

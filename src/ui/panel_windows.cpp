@@ -133,8 +133,7 @@ void PanelWindows::windowChoices(PanelContext& ui) {
     for (const PanelName& panel : panelNames) {
       ImGui::TableNextColumn();
       ImGui::Checkbox(panel.name.data(), &(state_.choices.*panel.open));
-      panels::recordWidget(ui, "panel." + std::string(panel.name));
-      panels::tip(panel.about);
+      panels::recordWidget(ui, "panel." + std::string(panel.name), panel.about);
     }
     ImGui::EndTable();
   }
@@ -147,8 +146,8 @@ void PanelWindows::presentModes(PanelContext& ui) {
     if (ImGui::MenuItem(("Present: " + name).c_str(), nullptr, device.presentMode == i)) {
       ui.send(SetPresentMode{i});
     }
-    panels::recordWidget(ui, "present." + name);
-    panels::tip(
+    panels::recordWidget(
+        ui, "present." + name,
         "fifo waits for the screen and never tears, mailbox shows the newest picture at each refresh, immediate shows "
         "pictures at once and may tear.");
   }

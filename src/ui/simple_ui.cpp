@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "platform/folders.hpp"
-#include "ui/font.hpp"
+#include "platform/process.hpp"
 #include "ui/glfw_input.hpp"
 
 namespace speculum {
@@ -37,6 +37,23 @@ DescriptorPoolHandle createPool(Device& device) {
   return DescriptorPoolHandle(device.get(), pool);
 }
 
+// Returns a sans serif font of the system whose digits are equally wide; empty if there is none.
+std::filesystem::path findFont() {
+  std::error_code none;
+  for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                           "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
+                           "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
+    if (std::filesystem::is_regular_file(file, none)) {
+      return file;
+    }
+  }
+  const ProcessResult found = runProcess({"fc-match", "-f", "%{file}", "sans-serif:fontformat=TrueType"});
+  return found.exitCode == 0 && std::filesystem::is_regular_file(found.output, none)
+             ? std::filesystem::path(found.output)
+             : std::filesystem::path();
+}
+
 void addFont(ImFontAtlas& atlas, float pixels) {
   static const std::filesystem::path file = findFont();
   // Names of scenes: Latin, Greek and Cyrillic.
@@ -49,6 +66,23 @@ void addFont(ImFontAtlas& atlas, float pixels) {
   ImFontConfig builtIn;
   builtIn.SizePixels = pixels;
   atlas.AddFontDefault(&builtIn);
+}
+
+// Sets colors and sizes. `scale`: 1 for 96 dots an inch.
+void applyTheme(Theme theme, float scale) {
+  ImGuiStyle style;
+  theme == Theme::light ? ImGui::StyleColorsLight(&style) : ImGui::StyleColorsDark(&style);
+  style.WindowRounding = 6.0f;
+  style.FrameRounding = 3.0f;
+  style.GrabRounding = 3.0f;
+  style.FrameBorderSize = theme == Theme::light ? 1.0f : 0.0f;  // white on white
+  style.Colors[ImGuiCol_WindowBg].w = 0.94f;
+  style.Colors[ImGuiCol_PopupBg].w = 1.0f;
+  style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
+  const float disabled = theme == Theme::light ? 0.33f : 0.68f;
+  style.Colors[ImGuiCol_TextDisabled] = {disabled, disabled, disabled, 1.0f};
+  style.ScaleAllSizes(scale);
+  ImGui::GetStyle() = style;
 }
 
 }  // namespace

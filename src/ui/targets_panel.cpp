@@ -20,7 +20,7 @@ struct Rect {
   ImVec2 high;
 };
 
-// Fills Fills `outer` without `inner`, which lies in it.
+// Fills `outer` without `inner`, which lies in it.
 void fillAround(const Rect& outer, const Rect& inner, ImU32 color) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(outer.low, {outer.high.x, inner.low.y}, color);
@@ -56,8 +56,7 @@ void passChoice(PanelContext& ui, const PassView* shown) {
     }
     ImGui::EndCombo();
   }
-  recordWidget(ui, "targets.pass");
-  tip("Pass whose target is shown.");
+  recordWidget(ui, "targets.pass", "Pass whose target is shown.");
 }
 
 void controls(PanelContext& ui, const PassView* shown) {
@@ -80,8 +79,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     if (ImGui::RadioButton(choice.label, targets.kind == choice.kind)) {
       targets.kind = choice.kind;
     }
-    recordWidget(ui, std::string("targets.") + choice.name);
-    tip(choice.about);
+    recordWidget(ui, std::string("targets.") + choice.name, choice.about);
   }
   if (button(ui, "Fit", "targets.fit", "Shows the whole image.")) {
     targets.zoom = 0.0;
@@ -96,8 +94,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
     ImGui::SliderFloat("##half", &half, 0.1f, 1000.0f, "grey %.3g m", ImGuiSliderFlags_Logarithmic);
     targets.halfDistance = half;
-    recordWidget(ui, "targets.half");
-    tip("Distance that is shown half bright.");
+    recordWidget(ui, "targets.half", "Distance that is shown half bright.");
   }
 }
 

@@ -21,22 +21,16 @@ void time(PanelContext& ui) {
   if (ImGui::SliderFloat("Time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(Seek{seconds});
   }
-  recordWidget(ui, "time");
-  tip("Seconds of animation.");
-  if (button(ui, "<", "time.back", "Steps back by 1/60 s (,).")) {
-    ui.send(StepTime{-1});
-  }
+  recordWidget(ui, "time", "Seconds of animation.");
+  commandButton(ui, "<", "time.back", "Steps back by 1/60 s (,).", StepTime{-1});
   ImGui::SameLine();
-  if (button(ui, ">", "time.on", "Steps forward by 1/60 s (.).")) {
-    ui.send(StepTime{1});
-  }
+  commandButton(ui, ">", "time.on", "Steps forward by 1/60 s (.).", StepTime{1});
   ImGui::SameLine();
   bool paused = playback.paused;
   if (ImGui::Checkbox("Pause", &paused)) {
     ui.send(SetPaused{paused});
   }
-  recordWidget(ui, "pause");
-  tip("Pauses the animation (Space). The picture then becomes exact.");
+  recordWidget(ui, "pause", "Pauses the animation (Space). The picture then becomes exact.");
   ImGui::SameLine();
   float speed = static_cast<float>(playback.speed);
   ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
@@ -44,8 +38,7 @@ void time(PanelContext& ui) {
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(SetTimeSpeed{speed});
   }
-  recordWidget(ui, "time.speed");
-  tip("Seconds of animation a second ([ and ]).");
+  recordWidget(ui, "time.speed", "Seconds of animation a second ([ and ]).");
 }
 
 }  // namespace speculum::panels
