@@ -136,7 +136,7 @@ std::string_view barrierName(BarrierKind kind) {
 }
 
 std::optional<BarrierKind> barrierFromName(std::string_view name) {
-  const auto found = std::ranges::find_if(kinds, [&](BarrierKind k) { return barrierName(k) == name; });
+  const auto found = std::ranges::find(kinds, name, barrierName);
   return found == kinds.end() ? std::nullopt : std::optional(*found);
 }
 

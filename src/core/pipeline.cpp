@@ -124,10 +124,10 @@ PipelineFactory::PipelineFactory(Device& device, ShaderLibrary& shaders, RenderP
     : device_(device), shaders_(shaders), renderPasses_(renderPasses), cache_(cache), retired_(retired) {}
 
 bool PipelineFactory::reload() {
-  const ShaderChange change = shaders_.poll();
+  const std::vector<std::string> changed = shaders_.poll();
   bool rebuilt = false;
   for (Pipeline* pipeline : pipelines_) {
-    if (uses(pipeline->desc_, change.changed)) {
+    if (uses(pipeline->desc_, changed)) {
       retired_.retire(std::exchange(pipeline->pipeline_, build(pipeline->desc_, pipeline->layout_.get())));
       spdlog::info("pipeline {} was rebuilt", nameOf(pipeline->desc_));
       rebuilt = true;
@@ -188,10 +188,6 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
                                     .pColorBlendState = &blend,
                                     .pDynamicState = &dynamicState,
                                     .layout = layout};
-  return create(desc, info);
-}
-
-PipelineHandle PipelineFactory::create(const GraphicsPipelineDesc& desc, VkGraphicsPipelineCreateInfo info) {
   const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                 .colorAttachmentCount = 1,
                                                 .pColorAttachmentFormats = &desc.color,

@@ -66,7 +66,6 @@ class PipelineFactory {
   PipelineHandle build(const PipelineDesc& desc, VkPipelineLayout layout);
   PipelineHandle buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
   PipelineHandle buildCompute(const ComputePipelineDesc& desc, VkPipelineLayout layout);
-  PipelineHandle create(const GraphicsPipelineDesc& desc, VkGraphicsPipelineCreateInfo info);
 
   Device& device_;
   ShaderLibrary& shaders_;

@@ -26,15 +26,13 @@ constexpr float edgeReach = 4.0f;  // screen coordinates around a window that be
 
 DescriptorPoolHandle createPool(Device& device) {
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 64};
-  const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                        .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
-                                        .maxSets = size.descriptorCount,
-                                        .poolSizeCount = 1,
-                                        .pPoolSizes = &size};
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(device.get(), &info, nullptr, &pool), "vkCreateDescriptorPool for the panel");
-  device.setName(pool, "panel");
-  return DescriptorPoolHandle(device.get(), pool);
+  return device.create(vkCreateDescriptorPool,
+                       {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                        .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
+                        .maxSets = size.descriptorCount,
+                        .poolSizeCount = 1,
+                        .pPoolSizes = &size},
+                       "panel");
 }
 
 // Returns a sans serif font of the system whose digits are equally wide; empty if there is none.
