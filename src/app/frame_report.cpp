@@ -57,12 +57,6 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
                    .value = probed->value};
 }
 
-// The switch's name where the effect has one.
-std::string effectLabel(EffectKind effect, const std::string& name) {
-  const auto without = settingsWithout(effect);
-  return without.empty() ? name : findSettingField(without.front().first)->label;
-}
-
 std::string_view reasonText(SkipReason reason) {
   static constexpr std::array<std::string_view, 9> texts = {
       "behind the eye",        "seen from behind", "outside the view",  "hidden",   "below Min. pixels",
@@ -215,8 +209,8 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
   for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
     const auto kind = static_cast<EffectKind>(view_.effects.size());
     const EffectCost& cost = ledger[kind];
-    view_.effects.push_back(
-        {effectLabel(kind, effect.name), effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
+    const std::string label = findSettingField(settingsWithout(kind).front().key)->label;  // of its switch
+    view_.effects.push_back({label, effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
   }
 }
 

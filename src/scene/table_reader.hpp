@@ -57,6 +57,7 @@ class TableReader {
  private:
   std::string fullKey(std::string_view key) const;
   const toml::table* tableOf(std::string_view key) const;
+  void expect(bool fits, const toml::node& node, std::string_view key, std::string_view right) const;
   const toml::node& required(std::string_view key, std::string_view right) const;
   double numberOf(const toml::node& node, std::string_view key, const Range& range) const;
   std::vector<double> numbersOf(const toml::node& node, std::string_view key, size_t count, const Range& range) const;
