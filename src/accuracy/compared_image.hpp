@@ -1,9 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <glm/glm.hpp>
-#include <string>
-#include <vector>
 
 #include "image/image.hpp"
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-
 #include "accuracy/compared_image.hpp"
 #include "accuracy/image_metrics.hpp"
 #include "frame/settings.hpp"

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
-#include <span>
-#include <string>
 
 #include "accuracy/compared_image.hpp"
 #include "accuracy/plane.hpp"

@@ -2,10 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
-
 namespace speculum {
 
 namespace {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "accuracy/sweep_results.hpp"
 
 namespace speculum {

@@ -2,10 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 namespace speculum {
 
 namespace {

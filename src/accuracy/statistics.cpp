@@ -1,8 +1,5 @@
 #include "accuracy/statistics.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <vector>
-
 namespace speculum {
 
 // Repeated measurements of one thing, in the unit of the values.

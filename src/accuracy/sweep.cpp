@@ -1,8 +1,5 @@
 #include "accuracy/sweep.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "accuracy/sweep_planner.hpp"
 #include "accuracy/sweep_store.hpp"
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "accuracy/sweep_planner.hpp"
 
 namespace speculum {

@@ -1,9 +1,5 @@
 #include "accuracy/sweep_planner.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <stdexcept>
-
 #include "frame/setting_fields.hpp"
 
 namespace speculum {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "accuracy/sweep_results.hpp"
 #include "frame/settings.hpp"
 

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "accuracy/image_metrics.hpp"
 #include "accuracy/statistics.hpp"
 #include "frame/settings.hpp"

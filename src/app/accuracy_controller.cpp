@@ -1,8 +1,5 @@
 #include "app/accuracy_controller.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "accuracy/heat_map.hpp"
 #include "accuracy/sweep_json.hpp"
 #include "app/quality.hpp"

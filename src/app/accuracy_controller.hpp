@@ -1,7 +1,5 @@
 #pragma once
 
-#include <chrono>
-
 #include "accuracy/pareto.hpp"
 #include "app/difference_view.hpp"
 #include "app/motion_levels.hpp"

@@ -1,8 +1,5 @@
 #include "app/bench_against.hpp"
 
-#include <array>
-#include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/statistics.hpp"

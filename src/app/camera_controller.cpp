@@ -1,9 +1,6 @@
 #include "app/camera_controller.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "geometry/affine.hpp"
 #include "geometry/polygon.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <limits>
-#include <optional>
-
 #include "edit/selection.hpp"
 #include "scene/scene_state.hpp"
 #include "ui/commands.hpp"

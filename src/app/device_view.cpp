@@ -1,7 +1,5 @@
 #include "app/device_view.hpp"
 
-#include <algorithm>
-
 #include "app/session_subject.hpp"
 
 namespace speculum {

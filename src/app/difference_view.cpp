@@ -2,9 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <array>
-#include <utility>
-
 #include "accuracy/heat_map.hpp"
 
 namespace speculum {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <chrono>
-
 #include "accuracy/ground_truth.hpp"
 #include "app/background_job.hpp"
 

@@ -1,10 +1,5 @@
 #include "app/document_controller.hpp"
 
-#include <algorithm>
-#include <array>
-#include <functional>
-#include <stdexcept>
-
 #include "accuracy/fingerprint.hpp"
 #include "edit/scene_writer.hpp"
 #include "platform/files.hpp"

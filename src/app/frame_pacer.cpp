@@ -1,9 +1,5 @@
 #include "app/frame_pacer.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <utility>
-
 namespace speculum {
 
 namespace {

@@ -1,10 +1,5 @@
 #include "app/frame_report.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
-
 #include "edit/outline.hpp"
 #include "frame/effects.hpp"
 #include "frame/pass_mask.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <deque>
-
 #include "systems/scene_renderer.hpp"
 #include "ui/views.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <iterator>
 
 #include "geometry/mesh_levels.hpp"

@@ -3,8 +3,6 @@
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-
 namespace speculum {
 
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "ui/log_history.hpp"
 
 namespace speculum {

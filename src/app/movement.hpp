@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "scene/scene_state.hpp"
 
 namespace speculum {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "edit/transform.hpp"
 
 namespace speculum {

@@ -3,9 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <iostream>
-#include <map>
 
 #include "app/usage.hpp"
 #include "app/version.hpp"

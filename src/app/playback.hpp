@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "ui/views.hpp"
 
 namespace speculum {

@@ -1,6 +1,5 @@
 #include "app/progress.hpp"
 
-#include <cstdio>
 #include <regex>
 
 #include "app/options.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "accuracy/pareto.hpp"
 #include "app/options.hpp"
 #include "frame/settings.hpp"

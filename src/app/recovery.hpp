@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-
 namespace speculum {
 
 // The record, in the user's settings, of the copy in which a session that failed kept its unsaved changes.

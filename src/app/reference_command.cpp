@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/session.hpp"

@@ -2,10 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <sstream>
-#include <utility>
-
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"

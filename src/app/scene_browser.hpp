@@ -1,7 +1,5 @@
 #pragma once
 
-#include <map>
-
 #include "app/background_job.hpp"
 #include "app/session.hpp"
 #include "ui/views.hpp"

@@ -1,9 +1,5 @@
 #include "app/scene_editor.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "edit/outline.hpp"
 #include "scene/input_error.hpp"
 
@@ -309,7 +305,7 @@ void SceneEditor::redo() {
   }
 }
 
-// Undoes or redoes a step. Undoes or redoes a step. Nodes stay selected together as long as all of them keep their
+// Undoes or redoes a step. Nodes stay selected together as long as all of them keep their
 // indices.
 void SceneEditor::step(void (SceneDocument::*way)()) {
   beforeChange_();

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "accuracy/sweep.hpp"
 #include "app/session.hpp"
 

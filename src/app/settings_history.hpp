@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "edit/scene_document.hpp"
 #include "frame/settings.hpp"
 

@@ -1,9 +1,5 @@
 #include "app/stats.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <tuple>
-
 #include "frame/depth_readout.hpp"
 #include "frame/shadow_map.hpp"
 #include "platform/files.hpp"

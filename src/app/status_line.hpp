@@ -2,9 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <chrono>
-#include <string>
-
 #include "ui/views.hpp"
 
 namespace speculum {

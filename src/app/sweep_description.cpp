@@ -1,6 +1,5 @@
 #include "app/sweep_description.hpp"
 
-#include <algorithm>
 #include <ctime>
 
 #include "accuracy/fingerprint.hpp"

@@ -1,7 +1,6 @@
 #include "app/usage.hpp"
 
 #include <CLI/CLI.hpp>
-#include <map>
 
 #include "scene/nearest_key.hpp"
 

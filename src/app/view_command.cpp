@@ -2,9 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <string_view>
-
 #include "platform/folders.hpp"
 
 namespace speculum {

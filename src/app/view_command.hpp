@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "app/options.hpp"
 #include "frame/settings.hpp"
 #include "scene/scene.hpp"

@@ -1,9 +1,5 @@
 #include "app/view_controller.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace speculum {
 
 namespace {

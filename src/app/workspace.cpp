@@ -1,7 +1,5 @@
 #include "app/workspace.hpp"
 
-#include <algorithm>
-
 #include "app/pace.hpp"
 #include "app/recovery.hpp"
 #include "app/view_command.hpp"

@@ -1,7 +1,5 @@
 #include "core/acceleration_structure.hpp"
 
-#include <algorithm>
-
 #include "core/uploader.hpp"
 
 namespace speculum {

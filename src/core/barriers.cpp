@@ -1,9 +1,5 @@
 #include "core/barriers.hpp"
 
-#include <algorithm>
-#include <array>
-#include <vector>
-
 #include "core/image.hpp"
 
 namespace speculum {

@@ -2,10 +2,6 @@
 
 #include <vulkan/vulkan.h>
 
-#include <optional>
-#include <span>
-#include <string_view>
-
 namespace speculum {
 
 class Image;

@@ -1,8 +1,5 @@
 #include "core/buffer.hpp"
 
-#include <algorithm>
-#include <stdexcept>
-
 namespace speculum {
 
 Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferMemory memory,

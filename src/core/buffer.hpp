@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstring>
-#include <span>
-
 #include "core/memory.hpp"
 
 namespace speculum {

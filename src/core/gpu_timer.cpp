@@ -1,7 +1,5 @@
 #include "core/gpu_timer.hpp"
 
-#include <array>
-
 namespace speculum {
 
 namespace {

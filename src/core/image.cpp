@@ -1,10 +1,5 @@
 #include "core/image.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <bit>
-#include <stdexcept>
-
 namespace speculum {
 
 namespace {

@@ -2,10 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <stdexcept>
-
 #include "core/device.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <deque>
-#include <memory>
-#include <mutex>
-#include <string>
-#include <vector>
-
 #include "core/handle.hpp"
 
 namespace speculum {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "core/device.hpp"
 
 namespace speculum {

@@ -1,7 +1,5 @@
 #include "core/off_screen.hpp"
 
-#include <algorithm>
-
 namespace speculum {
 
 namespace {

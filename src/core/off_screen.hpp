@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "core/image.hpp"
 #include "core/pass.hpp"
 #include "core/retire_queue.hpp"

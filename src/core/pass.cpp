@@ -1,8 +1,5 @@
 #include "core/pass.hpp"
 
-#include <cstring>
-#include <vector>
-
 #include "core/gpu_timer.hpp"
 #include "core/render_pass_cache.hpp"
 

@@ -1,10 +1,5 @@
 #include "core/physical_device.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <stdexcept>
-
 #include "core/image.hpp"
 
 namespace speculum {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <string>
-#include <vector>
-
 #include "core/device.hpp"
 
 namespace speculum {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-
 #include "core/device.hpp"
 
 namespace speculum {

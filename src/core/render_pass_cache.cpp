@@ -1,7 +1,5 @@
 #include "core/render_pass_cache.hpp"
 
-#include <algorithm>
-
 namespace speculum {
 
 namespace {

@@ -1,8 +1,5 @@
 #include "core/renderer.hpp"
 
-#include <algorithm>
-#include <stdexcept>
-
 #include "platform/folders.hpp"
 
 namespace speculum {

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <array>
-#include <filesystem>
-#include <memory>
-#include <optional>
-
 #include "core/command_pool.hpp"
 #include "core/descriptors.hpp"
 #include "core/gpu_timer.hpp"

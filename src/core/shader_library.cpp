@@ -2,10 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <cstring>
-#include <stdexcept>
-
 #include "platform/process.hpp"
 
 namespace speculum {

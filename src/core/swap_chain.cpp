@@ -2,9 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <stdexcept>
-
 namespace speculum {
 
 namespace {

@@ -1,9 +1,6 @@
 #include "core/uploader.hpp"
 
-#include <algorithm>
-#include <cstring>
 #include <glm/gtc/packing.hpp>
-#include <stdexcept>
 
 namespace speculum {
 

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "core/command_pool.hpp"
 #include "core/image.hpp"
 

@@ -1,11 +1,5 @@
 #include "edit/gizmo.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "geometry/affine.hpp"
 
 namespace speculum {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "geometry/mesh.hpp"
 
 namespace speculum {

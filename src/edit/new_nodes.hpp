@@ -1,10 +1,5 @@
 #pragma once
 
-#include <set>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "edit/transform.hpp"
 
 namespace speculum {

@@ -1,9 +1,5 @@
 #include "edit/outline.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "edit/transform.hpp"
 
 namespace speculum {

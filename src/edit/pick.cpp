@@ -1,7 +1,5 @@
 #include "edit/pick.hpp"
 
-#include <algorithm>
-
 #include "geometry/reflection.hpp"
 
 namespace speculum {

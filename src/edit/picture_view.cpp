@@ -1,7 +1,5 @@
 #include "edit/picture_view.hpp"
 
-#include <algorithm>
-
 namespace speculum {
 
 namespace {

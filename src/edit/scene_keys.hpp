@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "scene/scene_fields.hpp"
 
 namespace speculum {

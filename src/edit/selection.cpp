@@ -1,7 +1,5 @@
 #include "edit/selection.hpp"
 
-#include <array>
-
 #include "frame/scene_names.hpp"
 
 namespace speculum {

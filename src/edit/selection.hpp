@@ -1,10 +1,5 @@
 #pragma once
 
-#include <span>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "scene/scene.hpp"
 
 namespace speculum {

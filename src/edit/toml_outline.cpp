@@ -2,9 +2,6 @@
 
 #include <toml++/toml.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "scene/toml_text.hpp"
 
 namespace speculum {

@@ -1,8 +1,5 @@
 #include "edit/transform.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/affine.hpp"
 #include "geometry/polygon.hpp"
 

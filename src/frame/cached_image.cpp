@@ -1,9 +1,5 @@
 #include "frame/cached_image.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace speculum {
 
 namespace {

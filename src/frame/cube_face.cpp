@@ -1,8 +1,5 @@
 #include "frame/cube_face.hpp"
 
-#include <algorithm>
-#include <array>
-
 namespace speculum {
 
 namespace {

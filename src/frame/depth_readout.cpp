@@ -1,8 +1,5 @@
 #include "frame/depth_readout.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/depth_resolution.hpp"
 
 namespace speculum {

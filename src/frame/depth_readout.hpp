@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "frame/frame_plan.hpp"
 
 namespace speculum {

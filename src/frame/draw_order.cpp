@@ -1,9 +1,5 @@
 #include "frame/draw_order.hpp"
 
-#include <algorithm>
-#include <map>
-#include <tuple>
-
 namespace speculum {
 
 namespace {

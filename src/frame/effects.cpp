@@ -1,9 +1,5 @@
 #include "frame/effects.hpp"
 
-#include <algorithm>
-#include <array>
-#include <set>
-
 #include "frame/scene_names.hpp"
 #include "image/color.hpp"
 

@@ -1,10 +1,6 @@
 #include "frame/frame_plan.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <queue>
-#include <sstream>
 
 #include "frame/cube_face.hpp"
 #include "frame/environment_map.hpp"

@@ -1,10 +1,5 @@
 #include "frame/image_content.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <set>
-#include <utility>
-
 #include "scene/scene_fields.hpp"
 
 namespace speculum {

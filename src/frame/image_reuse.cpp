@@ -1,7 +1,5 @@
 #include "frame/image_reuse.hpp"
 
-#include <algorithm>
-
 #include "frame/shadow_map.hpp"
 
 namespace speculum {

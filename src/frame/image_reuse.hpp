@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "frame/cached_image.hpp"
 #include "frame/image_content.hpp"
 

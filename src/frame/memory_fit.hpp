@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <string>
-
 #include "frame/frame_plan.hpp"
 
 namespace speculum {

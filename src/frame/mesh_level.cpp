@@ -1,10 +1,5 @@
 #include "frame/mesh_level.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <utility>
-
 namespace speculum {
 
 namespace {

@@ -1,8 +1,5 @@
 #include "frame/mirror_sight.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "frame/frame_plan.hpp"
 
 namespace speculum {

@@ -1,9 +1,5 @@
 #include "frame/occluded_region.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace speculum {
 
 namespace {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "frame/view.hpp"
 #include "geometry/convex_mesh.hpp"
 

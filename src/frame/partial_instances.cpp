@@ -1,8 +1,5 @@
 #include "frame/partial_instances.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "frame/view.hpp"
 #include "geometry/mesh.hpp"
 

@@ -1,8 +1,5 @@
 #include "frame/pass_mask.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

@@ -1,8 +1,5 @@
 #include "frame/pass_range.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 namespace speculum {
 
 namespace {

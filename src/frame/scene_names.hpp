@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <string>
-
 #include "scene/scene.hpp"
 
 namespace speculum {

@@ -1,8 +1,5 @@
 #include "frame/settings.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "frame/setting_fields.hpp"

@@ -1,8 +1,5 @@
 #include "frame/view.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/reflection.hpp"
 
 namespace speculum {

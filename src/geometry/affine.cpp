@@ -1,8 +1,5 @@
 #include "geometry/affine.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
-#include <span>
-#include <vector>
 
 namespace speculum {
 

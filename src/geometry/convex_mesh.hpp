@@ -1,10 +1,6 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <glm/glm.hpp>
-#include <span>
-#include <vector>
 
 namespace speculum {
 

@@ -1,8 +1,5 @@
 #include "geometry/depth_resolution.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

@@ -2,8 +2,6 @@
 
 #include <meshoptimizer.h>
 
-#include <algorithm>
-
 #include "geometry/bvh.hpp"
 
 namespace speculum {

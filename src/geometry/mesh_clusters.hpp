@@ -1,8 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "geometry/mesh.hpp"
 
 namespace speculum {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "geometry/mesh.hpp"
 
 namespace speculum {

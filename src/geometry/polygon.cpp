@@ -1,8 +1,5 @@
 #include "geometry/polygon.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

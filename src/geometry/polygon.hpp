@@ -1,10 +1,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace speculum {
 

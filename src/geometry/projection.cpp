@@ -1,8 +1,5 @@
 #include "geometry/projection.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

@@ -1,9 +1,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
-#include <span>
-#include <vector>
 
 namespace speculum {
 

@@ -1,11 +1,5 @@
 #include "geometry/surface_distance.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <span>
-
 namespace speculum {
 
 namespace {

@@ -2,8 +2,6 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <optional>
-#include <vector>
 
 #include "geometry/bvh.hpp"
 #include "geometry/mesh.hpp"

@@ -1,8 +1,5 @@
 #include "geometry/triangulate.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 #include "geometry/polygon.hpp"
 
 namespace speculum {

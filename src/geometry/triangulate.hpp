@@ -1,9 +1,6 @@
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
-#include <span>
-#include <vector>
 
 namespace speculum {
 

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
-#include <map>
-#include <tuple>
-#include <vector>
 
 namespace speculum {
 

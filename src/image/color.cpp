@@ -1,8 +1,5 @@
 #include "image/color.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

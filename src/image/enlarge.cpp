@@ -1,8 +1,5 @@
 #include "image/enlarge.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

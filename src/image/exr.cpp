@@ -2,11 +2,6 @@
 
 #include <tinyexr.h>
 
-#include <array>
-#include <cstdlib>
-#include <memory>
-#include <stdexcept>
-
 #include "image/exr_layout.hpp"
 #include "platform/files.hpp"
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-
 #include "image/image.hpp"
 
 namespace speculum {

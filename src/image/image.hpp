@@ -1,10 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
 #include <glm/glm.hpp>
-#include <string>
-#include <vector>
 
 namespace speculum {
 

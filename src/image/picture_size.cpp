@@ -1,7 +1,5 @@
 #include "image/picture_size.hpp"
 
-#include <charconv>
-
 namespace speculum {
 
 std::optional<PictureSize> pictureSize(std::string_view text) {

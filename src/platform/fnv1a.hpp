@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
 namespace speculum {
 
 inline constexpr uint64_t kFnv1aStart = 0xcbf29ce484222325u;

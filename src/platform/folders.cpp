@@ -1,7 +1,6 @@
 #include "platform/folders.hpp"
 
 #include <fstream>
-#include <stdexcept>
 
 #include "platform/process.hpp"
 

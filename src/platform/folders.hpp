@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <string_view>
-
 namespace speculum {
 
 std::filesystem::path executablePath();

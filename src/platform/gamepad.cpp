@@ -1,8 +1,5 @@
 #include "platform/gamepad.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

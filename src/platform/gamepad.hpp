@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-
 namespace speculum {
 
 // Named as on an Xbox controller.

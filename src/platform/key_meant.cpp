@@ -1,6 +1,3 @@
-#include <cctype>
-#include <string_view>
-
 #include "platform/window.hpp"
 
 namespace speculum {

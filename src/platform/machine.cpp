@@ -3,10 +3,7 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <fstream>
-#include <string_view>
-#include <thread>
 
 #include "platform/process.hpp"
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 namespace speculum {
 
 std::string machineDescription();  // processor, its threads, operating system

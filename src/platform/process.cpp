@@ -8,14 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <chrono>
-#include <cstdlib>
-#include <sstream>
-#include <stdexcept>
-#include <utility>
 
 namespace speculum {
 

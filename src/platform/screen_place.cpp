@@ -1,7 +1,5 @@
 #include "platform/screen_place.hpp"
 
-#include <algorithm>
-
 namespace speculum {
 
 namespace {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-
 namespace speculum {
 
 // A rectangle in screen coordinates of the desktop.

@@ -2,11 +2,6 @@
 
 #include <GLFW/glfw3.h>
 
-#include <algorithm>
-#include <array>
-#include <stdexcept>
-#include <utility>
-
 namespace speculum {
 
 namespace {

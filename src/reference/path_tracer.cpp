@@ -1,9 +1,5 @@
 #include "reference/path_tracer.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "reference/shading.hpp"
 
 namespace speculum {

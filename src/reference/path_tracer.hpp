@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "reference/ray_tracer.hpp"

@@ -1,9 +1,5 @@
 #include "reference/shading.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "geometry/affine.hpp"
 
 namespace speculum {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 namespace speculum {
 
 // Speed of the tracer's closest-hit queries on a generated mesh, on one thread.

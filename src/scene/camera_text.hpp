@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "scene/scene.hpp"
 
 namespace speculum {

@@ -1,8 +1,5 @@
 #include "scene/input_error.hpp"
 
-#include <algorithm>
-#include <string>
-
 #include "platform/files.hpp"
 
 namespace speculum {

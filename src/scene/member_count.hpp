@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 namespace speculum {
 
 // Stands for an initializer of any type; never converted while the program runs.

@@ -2,9 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
 #include "geometry/convex_mesh.hpp"

@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <cmath>
-
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene/toml_text.hpp"

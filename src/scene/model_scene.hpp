@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-
 #include "scene/obj_loader.hpp"
 #include "scene/scene.hpp"
 

@@ -1,9 +1,5 @@
 #include "scene/nearest_key.hpp"
 
-#include <algorithm>
-#include <numeric>
-#include <vector>
-
 namespace speculum {
 
 namespace {

@@ -2,9 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <array>
-#include <charconv>
-
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/obj_materials.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <vector>
-
 #include "geometry/mesh.hpp"
 
 namespace speculum {

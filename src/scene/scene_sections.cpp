@@ -1,11 +1,5 @@
 #include "scene/scene_sections.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <stdexcept>
-
 #include "geometry/polygon.hpp"
 #include "scene/scene_state.hpp"
 

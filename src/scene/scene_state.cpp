@@ -1,9 +1,5 @@
 #include "scene/scene_state.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 #include "geometry/polygon.hpp"
 
 namespace speculum {

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
-#include <vector>
 
 #include "geometry/affine.hpp"
 #include "scene/scene.hpp"

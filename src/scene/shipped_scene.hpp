@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-
 namespace speculum {
 
 // Finds a scene or model that comes with the program: by its name, such as "gallery", or by its path within the

@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 

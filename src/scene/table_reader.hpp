@@ -2,13 +2,7 @@
 
 #include <toml++/toml.h>
 
-#include <filesystem>
 #include <glm/glm.hpp>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "scene/value_range.hpp"
 

@@ -2,10 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <charconv>
-#include <cstdlib>
-
 #include "scene/input_error.hpp"
 
 namespace speculum {

@@ -1,8 +1,5 @@
 #include "scene/toml_depth.hpp"
 
-#include <algorithm>
-#include <cstddef>
-
 namespace speculum {
 
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 namespace speculum {
 
 // Returns the line of the first dotted key or table header with more than 32 parts, or 0. The TOML library limits the

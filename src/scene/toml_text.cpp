@@ -2,11 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-
 namespace speculum {
 
 namespace {

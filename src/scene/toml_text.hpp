@@ -1,9 +1,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace speculum {
 

@@ -2,8 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <cmath>
-
 namespace speculum {
 
 namespace {

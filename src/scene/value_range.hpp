@@ -1,8 +1,5 @@
 #pragma once
 
-#include <limits>
-#include <string>
-
 namespace speculum {
 
 // The numbers that a key takes; never infinite or NaN.

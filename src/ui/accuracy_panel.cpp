@@ -1,9 +1,7 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <cfloat>
-#include <cmath>
 
 #include "frame/setting_fields.hpp"
 #include "ui/panels.hpp"

@@ -2,10 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace speculum {
 
 namespace {

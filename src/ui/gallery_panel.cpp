@@ -1,7 +1,5 @@
 #include <imgui.h>
 
-#include <algorithm>
-
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

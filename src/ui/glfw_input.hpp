@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "ui/input_queue.hpp"
 
 struct GLFWwindow;

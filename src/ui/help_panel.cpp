@@ -1,8 +1,5 @@
 #include <imgui.h>
 
-#include <algorithm>
-#include <string_view>
-
 #include "ui/input_map.hpp"
 #include "ui/panels.hpp"
 

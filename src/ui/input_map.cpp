@@ -1,7 +1,5 @@
 #include "ui/input_map.hpp"
 
-#include <array>
-
 namespace speculum {
 
 namespace {

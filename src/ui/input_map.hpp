@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "platform/window.hpp"
 #include "ui/commands.hpp"
 

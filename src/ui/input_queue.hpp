@@ -1,8 +1,5 @@
 #pragma once
 
-#include <deque>
-#include <vector>
-
 namespace speculum {
 
 struct InputEvent {

@@ -2,10 +2,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include <algorithm>
 #include <cfloat>
-#include <tuple>
-#include <utility>
 
 #include "ui/field_rows.hpp"
 

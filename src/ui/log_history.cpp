@@ -1,10 +1,5 @@
 #include "ui/log_history.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <utility>
-
 namespace speculum {
 
 namespace {

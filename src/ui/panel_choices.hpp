@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <string_view>
-
 namespace speculum {
 
 enum class Theme { dark, light };

@@ -4,10 +4,6 @@
 #include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-
 namespace speculum {
 
 namespace {

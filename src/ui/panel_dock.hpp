@@ -1,9 +1,5 @@
 #pragma once
 
-#include <map>
-#include <string>
-#include <vector>
-
 #include "ui/panel_layout.hpp"
 
 namespace speculum {

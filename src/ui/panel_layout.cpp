@@ -1,7 +1,5 @@
 #include "ui/panel_layout.hpp"
 
-#include <algorithm>
-
 namespace speculum {
 
 namespace {

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <span>
-#include <vector>
 
 namespace speculum {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "ui/panel_choices.hpp"
 #include "ui/panel_dock.hpp"
 #include "ui/thumbnails.hpp"

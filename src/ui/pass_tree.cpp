@@ -1,7 +1,5 @@
 #include "ui/pass_tree.hpp"
 
-#include <algorithm>
-
 namespace speculum {
 
 namespace {

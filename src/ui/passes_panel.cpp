@@ -2,8 +2,6 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
 

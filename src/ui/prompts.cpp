@@ -2,8 +2,6 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include <algorithm>
-
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "core/renderer.hpp"
 #include "ui/panel_windows.hpp"
 

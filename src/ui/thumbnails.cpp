@@ -2,8 +2,6 @@
 
 #include <imgui.h>
 
-#include <algorithm>
-
 namespace speculum {
 
 void Thumbnails::addTo(ImFontAtlas& atlas) {

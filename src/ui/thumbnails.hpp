@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "image/image.hpp"
 
 struct ImFontAtlas;

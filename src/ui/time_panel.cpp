@@ -1,8 +1,5 @@
 #include <imgui.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "frame/depth_readout.hpp"
 #include "frame/frame_plan.hpp"
 #include "geometry/projection.hpp"
