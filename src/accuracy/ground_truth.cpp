@@ -2,7 +2,6 @@
 
 #include <tbb/task_arena.h>
 
-#include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
 
 namespace speculum {

@@ -5,7 +5,6 @@
 #include "accuracy/html_page.hpp"
 #include "accuracy/pareto.hpp"
 #include "accuracy/sweep_json.hpp"
-#include "frame/settings.hpp"
 #include "image/picture_files.hpp"
 
 namespace speculum {
@@ -48,11 +47,6 @@ size_t sizeOf(const ordered_json& picture) {
   return picture.is_null() ? 0 : picture["uri"].get_ref<const std::string&>().size();
 }
 
-// The rows of a heat map that show the picture; those below are its legend.
-int mapHeight(const SweepResults& results, const Image8& map) {
-  return results.height > 0 ? std::min(results.height, map.height) : map.height;
-}
-
 // Embeds points while the budget lasts, at least the first. All heat maps have the same legend.
 ordered_json picturesJson(const SweepResults& results, const std::filesystem::path& folder) {
   ordered_json pictures = {{"reference", nullptr}, {"legend", nullptr}, {"shown", ordered_json::array()}};
@@ -70,7 +64,8 @@ ordered_json picturesJson(const SweepResults& results, const std::filesystem::pa
     }
     ordered_json shown = {{"point", point}, {"picture", embedded(*picture, pictureQuality)}, {"map", nullptr}};
     if (map) {
-      const int height = mapHeight(results, *map);
+      const int height =
+          results.height > 0 ? std::min(results.height, map->height) : map->height;  // the legend is below
       shown["map"] = embedded(rows(*map, 0, height), pictureQuality);
       if (height < map->height && pictures["legend"].is_null()) {
         pictures["legend"] = embedded(rows(*map, height, map->height - height), legendQuality);

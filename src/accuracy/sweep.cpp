@@ -3,7 +3,6 @@
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"
-#include "image/color.hpp"
 
 namespace speculum {
 

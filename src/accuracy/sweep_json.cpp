@@ -248,10 +248,6 @@ int JsonReader::integerOf(const ordered_json& value, const char* key) const {
   return value.get<int>();
 }
 
-int JsonReader::integer(const char* key) const {
-  return integerOf(member(key), key);
-}
-
 std::vector<int> JsonReader::integers(const char* key) const {
   std::vector<int> values;
   for (const ordered_json& value : array(key)) {

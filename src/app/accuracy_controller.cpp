@@ -2,8 +2,6 @@
 
 #include "accuracy/heat_map.hpp"
 #include "accuracy/sweep_json.hpp"
-#include "app/quality.hpp"
-#include "image/color.hpp"
 
 namespace speculum {
 
@@ -114,10 +112,6 @@ void AccuracyController::followBudget(Settings& settings) {
   if (settings.quality.budgetMs != budget_.ms || settings.quality.maxError != budget_.error) {
     applyBudget(settings);
   }
-}
-
-void AccuracyController::acceptBudget(const Settings& settings) {
-  budget_ = {settings.quality.budgetMs, settings.quality.maxError};
 }
 
 void AccuracyController::applyBudget(Settings& settings) {

@@ -2,9 +2,6 @@
 
 #include <iterator>
 
-#include "geometry/affine.hpp"
-#include "geometry/polygon.hpp"
-
 namespace speculum {
 
 namespace {

@@ -1,8 +1,6 @@
 #include "app/document_controller.hpp"
 
 #include "accuracy/fingerprint.hpp"
-#include "edit/scene_writer.hpp"
-#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -32,7 +30,6 @@ fs::path ownFolder() {
   return documentsDir() / "Speculum";
 }
 
-// Removes all copies but the newest.
 void keepNewest(const fs::path& folder) {
   constexpr size_t kept = 100;
   std::error_code none;
@@ -104,10 +101,6 @@ void DocumentController::askWhere() {
 void DocumentController::offerRecovery(const fs::path& file) {
   proposed_ = file;
   prompt_ = Prompt::recovery;
-}
-
-void DocumentController::closeOpenPrompt() {
-  prompt_ = prompt_ == Prompt::open || prompt_ == Prompt::recovery ? Prompt::none : prompt_;
 }
 
 void DocumentController::askWhatToOpen(const fs::path& folder) {

@@ -1,7 +1,6 @@
 #include "app/frame_report.hpp"
 
 #include "edit/outline.hpp"
-#include "frame/effects.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame/scene_names.hpp"
 #include "frame/setting_fields.hpp"

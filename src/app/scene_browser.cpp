@@ -3,9 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "image/picture_files.hpp"
-#include "platform/files.hpp"
 #include "platform/folders.hpp"
-#include "scene/input_error.hpp"
 
 namespace speculum {
 
@@ -138,10 +136,6 @@ fs::path SceneBrowser::choose(const std::vector<fs::path>& files) {
                      ": not a scene (a .toml scene or an .obj model is needed)");
   }
   return *file;
-}
-
-std::unique_ptr<LoadedScene> SceneBrowser::takeLoaded() {
-  return load_.takeResult().value_or(nullptr);
 }
 
 void SceneBrowser::updateView() {

@@ -105,7 +105,7 @@ void SceneEditor::click(const SceneView& view, const glm::dvec2& pixel) {
   }
   const auto same = [](const Picked& a, const Picked& b) { return a.what == b.what && a.path == b.path; };
   if (clicked_ && glm::distance(clicked_->pixel, pixel) <= sameSpot &&
-      std::equal(next.found.begin(), next.found.end(), clicked_->found.begin(), clicked_->found.end(), same)) {
+      std::ranges::equal(next.found, clicked_->found, same)) {
     next.chosen = (clicked_->chosen + 1) % next.found.size();
   }
   const Picked picked = next.found[next.chosen];

@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 #include "scene/shipped_scene.hpp"
 

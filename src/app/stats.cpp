@@ -2,7 +2,6 @@
 
 #include "frame/depth_readout.hpp"
 #include "frame/shadow_map.hpp"
-#include "platform/files.hpp"
 #include "platform/machine.hpp"
 
 namespace speculum {
@@ -131,10 +130,6 @@ ordered_json raysJson(const RayUse& rays) {
           {"bytes", rays.structureBytes}};
 }
 
-bool isMilliseconds(const std::string& key) {
-  return key.size() > 3 && key.compare(key.size() - 3, 3, "_ms") == 0;
-}
-
 }  // namespace
 
 ordered_json summary(std::vector<double> values) {
@@ -152,7 +147,7 @@ namespace {
 ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
   ordered_json merged = ordered_json::object();
   for (const auto& [key, value] : objects.back()->items()) {
-    if (isMilliseconds(key) && value.is_number()) {
+    if (key.ends_with("_ms") && value.is_number()) {
       std::vector<double> values;
       for (const ordered_json* object : objects) {
         values.push_back(object->at(key).get<double>());

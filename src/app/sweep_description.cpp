@@ -6,7 +6,6 @@
 #include "app/session_subject.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
-#include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 

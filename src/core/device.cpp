@@ -198,10 +198,6 @@ MemoryBudget Device::memoryBudget() const {
   return result;
 }
 
-void Device::waitIdle() const {
-  check(vkDeviceWaitIdle(device_.get()), "wait for the GPU");
-}
-
 void Device::setObjectName(VkObjectType type, uint64_t object, std::string_view name) const {
   if (functions_.setName) {
     const std::string text(name);

@@ -100,7 +100,7 @@ class Device {
   VkSampleCountFlagBits sampleCount(int wanted);
 
   Barriers& barriers() { return barriers_; }
-  void waitIdle() const;
+  void waitIdle() const { check(vkDeviceWaitIdle(device_.get()), "wait for the GPU"); }
 
   // Warnings and errors of the validation layer since the start; 0 is the only good figure.
   int validationMessages() const { return instance_.messages().count(); }

@@ -223,10 +223,6 @@ VkPipelineBindPoint Pipeline::bindPoint() const {
                                                             : VK_PIPELINE_BIND_POINT_GRAPHICS;
 }
 
-void Pipeline::bind(VkCommandBuffer commands) const {
-  vkCmdBindPipeline(commands, bindPoint(), pipeline_.get());
-}
-
 void Pipeline::bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
                        std::span<const uint32_t> offsets) const {
   vkCmdBindDescriptorSets(commands, bindPoint(), layout_.get(), index, 1, &set, static_cast<uint32_t>(offsets.size()),

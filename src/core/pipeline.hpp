@@ -79,7 +79,7 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  void bind(VkCommandBuffer commands) const;
+  void bind(VkCommandBuffer commands) const { vkCmdBindPipeline(commands, bindPoint(), pipeline_.get()); }
   // `offsets` of the set's dynamic buffers, by binding.
   void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
                std::span<const uint32_t> offsets = {}) const;

@@ -1,7 +1,5 @@
 #include "edit/gizmo.hpp"
 
-#include "geometry/affine.hpp"
-
 namespace speculum {
 
 namespace {

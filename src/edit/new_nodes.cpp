@@ -1,8 +1,5 @@
 #include "edit/new_nodes.hpp"
 
-#include "geometry/affine.hpp"
-#include "scene/scene_state.hpp"
-
 namespace speculum {
 
 namespace {

@@ -27,9 +27,9 @@ size_t bytesOf(const SceneContent& content) {
 bool sameStructure(const SceneContent& a, const SceneContent& b) {
   return a.origins.objects == b.origins.objects && a.origins.lights == b.origins.lights &&
          a.origins.mirrors == b.origins.mirrors &&
-         std::equal(
-             a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),
-             [](const Object& x, const Object& y) { return x.mesh == y.mesh && x.copies.count == y.copies.count; });
+         std::ranges::equal(a.objects, b.objects, [](const Object& x, const Object& y) {
+           return x.mesh == y.mesh && x.copies.count == y.copies.count;
+         });
 }
 
 bool sameFile(const fs::path& a, const fs::path& b) {
@@ -140,18 +140,6 @@ Selection SceneDocument::add(const SceneNode& node) {
   step.label = "add " + describe(scene_, added);
   record(std::move(step));
   return added;
-}
-
-Selection SceneDocument::addMirror(const glm::dvec3& position, const glm::dvec3& viewer) {
-  return add(newMirror(position, viewer));
-}
-
-Selection SceneDocument::addLight(const glm::dvec3& position, const glm::dvec3& viewer) {
-  return add(newLight(position, viewer));
-}
-
-Selection SceneDocument::addObject(int mesh, const glm::dvec3& position) {
-  return add(newObject(scene_, mesh, position));
 }
 
 Selection SceneDocument::duplicate(const Selection& selection, double side) {

@@ -136,10 +136,6 @@ void TomlEditor::changeKey(TomlNode& table, const std::vector<KeyText>& base, co
   }
 }
 
-void TomlEditor::setValue(const TomlNode& value, const std::string& text) {
-  edits_.push_back({value.value.value(), text});
-}
-
 // Leaves the numbers of an array that did not change as they are written.
 void TomlEditor::patch(const TomlNode& value, const std::string& base, const std::string& edited) {
   const auto compare = [&](const auto& self, const TomlNode& here, const TomlNode& was, const TomlNode& becomes) {
@@ -268,10 +264,6 @@ void TomlEditor::addSection(const std::string& name, const std::vector<std::stri
     at = std::max(at, table != nullptr ? endOfTable(*table) : 0);
   }
   addBlock(at, "[" + name + "]", keys);
-}
-
-void TomlEditor::removeElement(const std::string& list, size_t index) {
-  remove(*root_.child(list)->children.at(index));
 }
 
 void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>& keys) {

@@ -1,8 +1,5 @@
 #include "edit/transform.hpp"
 
-#include "geometry/affine.hpp"
-#include "geometry/polygon.hpp"
-
 namespace speculum {
 
 namespace {

@@ -58,7 +58,7 @@ bool unmoved(const CachedImage& cached, const View& now, const Projection& proje
              std::span<const glm::dvec3> visible) {
   return cached.view.eye == now.eye && cached.view.worldToView == now.worldToView &&
          cached.view.pictureSize == now.pictureSize && cached.projection == projection &&
-         std::equal(cached.visible.begin(), cached.visible.end(), visible.begin(), visible.end());
+         std::ranges::equal(cached.visible, visible);
 }
 
 bool covers(const CachedImage& cached, const View& now, std::span<const glm::dvec3> visible) {

@@ -1,7 +1,6 @@
 #include "frame/effects.hpp"
 
 #include "frame/scene_names.hpp"
-#include "image/color.hpp"
 
 namespace speculum {
 

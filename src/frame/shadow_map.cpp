@@ -197,8 +197,8 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
 
 void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
                      const SceneState& state) {
-  const bool reuses = std::equal(maps.begin(), maps.end(), before.begin(), before.end(),
-                                 [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
+  const bool reuses = std::ranges::equal(
+      maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
   int serial = 0;
   for (const ShadowMap& map : before) {
     serial = std::max(serial, map.serial);

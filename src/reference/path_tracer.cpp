@@ -1,7 +1,5 @@
 #include "reference/path_tracer.hpp"
 
-#include "reference/shading.hpp"
-
 namespace speculum {
 
 namespace {

@@ -1,7 +1,5 @@
 #include "reference/shading.hpp"
 
-#include "geometry/affine.hpp"
-
 namespace speculum {
 
 namespace {

@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "scene/input_error.hpp"
 #include "scene/model_scene.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"

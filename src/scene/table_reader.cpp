@@ -149,10 +149,6 @@ bool TableReader::boolean(std::string_view key, bool fallback) const {
   return node->as_boolean()->get();
 }
 
-std::string TableReader::text(std::string_view key, const std::string& fallback) const {
-  return has(key) ? text(key) : fallback;
-}
-
 std::string TableReader::text(std::string_view key) const {
   const toml::node& node = required(key, "a string is needed");
   expect(node.is_string(), node, key, "a string is needed");

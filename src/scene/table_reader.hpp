@@ -28,7 +28,7 @@ class TableReader {
   double number(std::string_view key, double fallback, const Range& range = kAny) const;
   int64_t integer(std::string_view key, int64_t fallback, int64_t low, int64_t high) const;
   bool boolean(std::string_view key, bool fallback) const;
-  std::string text(std::string_view key, const std::string& fallback) const;
+  std::string text(std::string_view key, const std::string& fallback) const { return has(key) ? text(key) : fallback; }
   std::string text(std::string_view key) const;
   glm::dvec3 vec3(std::string_view key, const glm::dvec3& fallback, const Range& range = kAny) const;
   glm::dvec3 vec3(std::string_view key, const Range& range = kAny) const;

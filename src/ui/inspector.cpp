@@ -132,7 +132,6 @@ void gizmoMode(PanelContext& ui) {
   ImGui::TextDisabled("  G switches, Ctrl snaps");
 }
 
-// Draws the fields of the selected node.
 void selectedNode(PanelContext& ui) {
   const EditView& edit = ui.view.edit;
   if (!edit.selected) {

@@ -7,11 +7,7 @@
 
 namespace speculum {
 
-namespace {
-
 constexpr float clickReach = 6.0f;  // pixels within which clicks repeat each other
-
-}  // namespace
 
 PanelWindows::PanelWindows()
     : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}

@@ -3,9 +3,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "image/color.hpp"
-#include "ui/panels.hpp"
-
 namespace speculum::panels {
 
 namespace {

@@ -4,11 +4,7 @@
 
 namespace speculum::panels {
 
-namespace {
-
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
-
-}  // namespace
 
 void time(PanelContext& ui) {
   const PlaybackView& playback = ui.view.playback;
