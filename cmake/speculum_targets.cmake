@@ -16,30 +16,14 @@ if(SPECULUM_SANITIZE)
   target_link_options(speculum_flags INTERFACE -fsanitize=${SPECULUM_SANITIZE})
 endif()
 
-# Headers of the standard library that every source sees without including them. They are precompiled, or where a target
-# has no precompiled headers, included by the command line.
-set(standard_headers
-    algorithm array atomic bit cctype charconv chrono cmath cstddef cstdint cstdio cstdlib cstring deque filesystem functional
-    limits map memory mutex numbers numeric optional set span sstream stdexcept string string_view thread tuple utility
-    variant vector)
-list(TRANSFORM standard_headers REPLACE ".+" "<\\0>")
-list(TRANSFORM standard_headers PREPEND "#include " OUTPUT_VARIABLE standard_includes)
-list(JOIN standard_includes "\n" standard_includes)
-file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/standard.hpp CONTENT "${standard_includes}\n")
-set(precompiled "$<OR:$<BOOL:$<TARGET_PROPERTY:PRECOMPILE_HEADERS>>,$<BOOL:$<TARGET_PROPERTY:PRECOMPILE_HEADERS_REUSE_FROM>>>")
-set(precompiled "$<AND:${precompiled},$<NOT:$<BOOL:$<TARGET_PROPERTY:DISABLE_PRECOMPILE_HEADERS>>>>")
-target_compile_options(speculum_flags INTERFACE
-                       "$<$<AND:$<COMPILE_LANGUAGE:CXX>,$<NOT:${precompiled}>>:SHELL:-include ${PROJECT_BINARY_DIR}/standard.hpp>")
-
-# speculum_precompiled(NAME LIBRARIES lib... HEADERS header... [LIGHT]): the standard headers and others that many sources include,
-# compiled once.
+# speculum_precompiled(NAME LIBRARIES lib... HEADERS header... [LIGHT]): headers that many sources include, compiled once.
 # Targets take them with use_precompiled(TARGET NAME), and need the same optimisation as NAME.
 function(speculum_precompiled name)
   cmake_parse_arguments(ARG "LIGHT" "" "LIBRARIES;HEADERS" ${ARGN})
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} speculum_flags)
-  target_precompile_headers(${name} PRIVATE ${standard_headers} ${ARG_HEADERS})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
   if(ARG_LIGHT)
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()

@@ -1,5 +1,10 @@
 #include "accuracy/compared_image.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
 #include "image/color.hpp"
 #include "image/exr.hpp"
 #include "image/picture_files.hpp"

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <glm/glm.hpp>
+#include <string>
+#include <vector>
 
 #include "image/image.hpp"
 

@@ -2,6 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
 #include "image/color.hpp"
 
 namespace speculum {

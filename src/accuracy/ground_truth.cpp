@@ -2,6 +2,10 @@
 
 #include <tbb/task_arena.h>
 
+#include <chrono>
+#include <cmath>
+
+#include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
 
 namespace speculum {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "accuracy/compared_image.hpp"
 #include "accuracy/image_metrics.hpp"
 #include "frame/settings.hpp"

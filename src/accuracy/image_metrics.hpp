@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
 
 #include "accuracy/compared_image.hpp"
 #include "accuracy/plane.hpp"

@@ -2,6 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "accuracy/sweep_results.hpp"
 
 namespace speculum {

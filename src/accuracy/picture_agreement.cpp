@@ -1,5 +1,10 @@
 #include "accuracy/picture_agreement.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
 namespace speculum {
 
 PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts) {

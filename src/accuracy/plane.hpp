@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+#include <vector>
+
 namespace speculum {
 
 // One channel of a picture, row 0 at the top.

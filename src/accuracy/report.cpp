@@ -1,6 +1,10 @@
 #include "accuracy/report.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
 
 #include "accuracy/html_page.hpp"
 #include "accuracy/pareto.hpp"

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "scene/table_reader.hpp"
 
 namespace speculum {

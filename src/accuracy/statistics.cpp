@@ -1,5 +1,8 @@
 #include "accuracy/statistics.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

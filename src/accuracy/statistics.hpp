@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 namespace speculum {
 
 // Repeated measurements of one thing, in the unit of the values.

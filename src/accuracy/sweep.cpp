@@ -1,5 +1,8 @@
 #include "accuracy/sweep.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "accuracy/sweep_planner.hpp"
 #include "accuracy/sweep_store.hpp"
 

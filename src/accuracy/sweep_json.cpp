@@ -1,5 +1,9 @@
 #include "accuracy/sweep_json.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 #include "platform/files.hpp"
 #include "scene/scene_loader.hpp"
 

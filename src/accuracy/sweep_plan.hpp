@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "accuracy/sweep_planner.hpp"
 
 namespace speculum {

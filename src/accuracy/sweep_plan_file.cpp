@@ -1,5 +1,9 @@
 #include "accuracy/sweep_plan_file.hpp"
 
+#include <array>
+#include <limits>
+#include <stdexcept>
+
 #include "accuracy/setting_values.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/table_reader.hpp"

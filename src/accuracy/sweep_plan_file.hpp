@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "accuracy/sweep_planner.hpp"
 
 namespace speculum {

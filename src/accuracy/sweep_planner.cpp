@@ -1,5 +1,9 @@
 #include "accuracy/sweep_planner.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
 #include "frame/setting_fields.hpp"
 
 namespace speculum {

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "accuracy/sweep_results.hpp"
 #include "frame/settings.hpp"
 

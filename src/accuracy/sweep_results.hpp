@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "accuracy/image_metrics.hpp"
 #include "accuracy/statistics.hpp"
 #include "frame/settings.hpp"

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "accuracy/ground_truth.hpp"
 
 namespace speculum {

@@ -1,5 +1,8 @@
 #include "app/accuracy_controller.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "accuracy/heat_map.hpp"
 #include "accuracy/sweep_json.hpp"
 

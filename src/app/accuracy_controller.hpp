@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "accuracy/pareto.hpp"
 #include "app/difference_view.hpp"
 #include "app/motion_levels.hpp"

@@ -2,6 +2,17 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
 namespace speculum {
 
 // Runs work on a thread of its own while the window continues. Call everything from one thread; only the work itself

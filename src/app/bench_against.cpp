@@ -1,5 +1,8 @@
 #include "app/bench_against.hpp"
 
+#include <array>
+#include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/statistics.hpp"

@@ -1,6 +1,9 @@
 #include "app/camera_controller.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace speculum {
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "edit/selection.hpp"
 #include "scene/scene_state.hpp"
 #include "ui/commands.hpp"

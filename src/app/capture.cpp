@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <ctime>
+#include <utility>
 
 #include "image/picture_files.hpp"
 #include "platform/folders.hpp"

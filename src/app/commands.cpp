@@ -3,6 +3,9 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdio>
+#include <map>
+
 #include "app/demo.hpp"
 #include "app/device_view.hpp"
 #include "platform/folders.hpp"

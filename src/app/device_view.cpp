@@ -1,5 +1,7 @@
 #include "app/device_view.hpp"
 
+#include <algorithm>
+
 #include "app/session_subject.hpp"
 
 namespace speculum {

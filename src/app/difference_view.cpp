@@ -2,6 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <array>
+#include <utility>
+
 #include "accuracy/heat_map.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "accuracy/ground_truth.hpp"
 #include "app/background_job.hpp"
 

@@ -1,5 +1,10 @@
 #include "app/document_controller.hpp"
 
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <stdexcept>
+
 #include "accuracy/fingerprint.hpp"
 #include "platform/folders.hpp"
 

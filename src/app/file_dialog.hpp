@@ -1,5 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <optional>
+
 #include "platform/process.hpp"
 
 namespace speculum {

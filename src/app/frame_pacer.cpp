@@ -1,5 +1,9 @@
 #include "app/frame_pacer.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,10 @@
 #include "app/frame_report.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
 #include "edit/outline.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame/scene_names.hpp"

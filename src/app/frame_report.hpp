@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+
 #include "systems/scene_renderer.hpp"
 #include "ui/views.hpp"
 

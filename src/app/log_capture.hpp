@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "ui/log_history.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "scene/scene_state.hpp"
 
 namespace speculum {

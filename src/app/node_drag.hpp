@@ -1,5 +1,10 @@
 #pragma once
 
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "edit/transform.hpp"
 
 namespace speculum {

@@ -3,7 +3,9 @@
 #include <spdlog/fmt/fmt.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <iostream>
+#include <map>
 
 #include "app/usage.hpp"
 #include "app/version.hpp"

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/renderer.hpp"
 #include "image/picture_size.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "ui/views.hpp"
 
 namespace speculum {

@@ -1,5 +1,6 @@
 #include "app/progress.hpp"
 
+#include <cstdio>
 #include <regex>
 
 #include "app/options.hpp"

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <chrono>
+#include <filesystem>
+#include <string>
+
 namespace speculum {
 
 // Progress of long work on stderr: a bar that redraws itself on a terminal, a plain line every few seconds elsewhere.

@@ -2,6 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
 #include "accuracy/sweep_json.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/scene_loader.hpp"

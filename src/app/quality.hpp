@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "accuracy/pareto.hpp"
 #include "app/options.hpp"
 #include "frame/settings.hpp"

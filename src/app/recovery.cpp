@@ -1,5 +1,7 @@
 #include "app/recovery.hpp"
 
+#include <string>
+
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+
 namespace speculum {
 
 // The record, in the user's settings, of the copy in which a session that failed kept its unsaved changes.

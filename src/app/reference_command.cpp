@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "app/session.hpp"

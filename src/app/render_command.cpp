@@ -1,6 +1,10 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/bench_against.hpp"
 #include "app/commands.hpp"

@@ -2,6 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
 #include "image/picture_files.hpp"
 #include "platform/folders.hpp"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "app/background_job.hpp"
 #include "app/session.hpp"
 #include "ui/views.hpp"

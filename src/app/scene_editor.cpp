@@ -1,5 +1,9 @@
 #include "app/scene_editor.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "edit/outline.hpp"
 #include "scene/input_error.hpp"
 
@@ -305,7 +309,7 @@ void SceneEditor::redo() {
   }
 }
 
-// Undoes or redoes a step. Nodes stay selected together as long as all of them keep their
+// Undoes or redoes a step. Undoes or redoes a step. Nodes stay selected together as long as all of them keep their
 // indices.
 void SceneEditor::step(void (SceneDocument::*way)()) {
   beforeChange_();

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
 #include "app/node_drag.hpp"
 #include "edit/mesh_outline.hpp"
 #include "edit/pick.hpp"

@@ -2,6 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstdio>
+
+#include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 #include "scene/shipped_scene.hpp"
 

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <memory>
+
 #include "app/options.hpp"
 #include "app/quality.hpp"
 #include "frame/effects.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "accuracy/sweep.hpp"
 #include "app/session.hpp"
 

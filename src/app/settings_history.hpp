@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "edit/scene_document.hpp"
 #include "frame/settings.hpp"
 

@@ -1,5 +1,9 @@
 #include "app/stats.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
 #include "frame/depth_readout.hpp"
 #include "frame/shadow_map.hpp"
 #include "platform/machine.hpp"

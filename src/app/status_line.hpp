@@ -2,6 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <chrono>
+#include <string>
+
 #include "ui/views.hpp"
 
 namespace speculum {

@@ -1,5 +1,6 @@
 #include "app/sweep_description.hpp"
 
+#include <algorithm>
 #include <ctime>
 
 #include "accuracy/fingerprint.hpp"

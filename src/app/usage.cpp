@@ -1,6 +1,7 @@
 #include "app/usage.hpp"
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 #include "scene/nearest_key.hpp"
 

@@ -2,6 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "platform/folders.hpp"
 
 namespace speculum {

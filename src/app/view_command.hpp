@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "app/options.hpp"
 #include "frame/settings.hpp"
 #include "scene/scene.hpp"

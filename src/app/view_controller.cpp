@@ -1,5 +1,9 @@
 #include "app/view_controller.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,10 @@
 #include "app/view_sweep.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
 #include "accuracy/fingerprint.hpp"
 #include "app/background_job.hpp"
 #include "app/session_subject.hpp"

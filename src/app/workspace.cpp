@@ -1,5 +1,7 @@
 #include "app/workspace.hpp"
 
+#include <algorithm>
+
 #include "app/pace.hpp"
 #include "app/recovery.hpp"
 #include "app/view_command.hpp"

@@ -1,5 +1,7 @@
 #include "core/acceleration_structure.hpp"
 
+#include <algorithm>
+
 #include "core/uploader.hpp"
 
 namespace speculum {

@@ -1,5 +1,9 @@
 #include "core/barriers.hpp"
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include "core/image.hpp"
 
 namespace speculum {

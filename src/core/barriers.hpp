@@ -2,6 +2,10 @@
 
 #include <vulkan/vulkan.h>
 
+#include <optional>
+#include <span>
+#include <string_view>
+
 namespace speculum {
 
 class Image;

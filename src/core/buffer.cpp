@@ -1,5 +1,8 @@
 #include "core/buffer.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace speculum {
 
 Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferMemory memory,

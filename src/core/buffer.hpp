@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstring>
+#include <span>
+
 #include "core/memory.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #include "core/descriptors.hpp"
 
+#include <array>
+
 namespace speculum {
 
 DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,

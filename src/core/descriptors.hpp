@@ -1,5 +1,11 @@
 #pragma once
 
+#include <deque>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "core/device.hpp"
 
 namespace speculum {

@@ -2,6 +2,14 @@
 
 #include <vulkan/vulkan.h>
 
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "core/barriers.hpp"
 #include "core/handle.hpp"
 #include "core/instance.hpp"

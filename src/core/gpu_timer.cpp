@@ -1,5 +1,7 @@
 #include "core/gpu_timer.hpp"
 
+#include <array>
+
 namespace speculum {
 
 namespace {

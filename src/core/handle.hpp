@@ -2,6 +2,13 @@
 
 #include <vulkan/vulkan.h>
 
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
 namespace speculum {
 
 // Calls vkDestroyAccelerationStructureKHR, which the loader does not export.

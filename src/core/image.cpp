@@ -1,5 +1,10 @@
 #include "core/image.hpp"
 
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <stdexcept>
+
 namespace speculum {
 
 namespace {

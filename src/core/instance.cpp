@@ -2,6 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
 #include "core/device.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"

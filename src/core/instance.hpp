@@ -1,5 +1,11 @@
 #pragma once
 
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
 #include "core/handle.hpp"
 
 namespace speculum {

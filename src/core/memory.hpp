@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "core/device.hpp"
 
 namespace speculum {

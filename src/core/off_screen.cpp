@@ -1,5 +1,7 @@
 #include "core/off_screen.hpp"
 
+#include <algorithm>
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/image.hpp"
 #include "core/pass.hpp"
 #include "core/retire_queue.hpp"

@@ -1,5 +1,8 @@
 #include "core/pass.hpp"
 
+#include <cstring>
+#include <vector>
+
 #include "core/gpu_timer.hpp"
 #include "core/render_pass_cache.hpp"
 

@@ -1,5 +1,12 @@
 #pragma once
 
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "core/image.hpp"
 
 namespace speculum {

@@ -1,5 +1,10 @@
 #include "core/physical_device.hpp"
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <stdexcept>
+
 #include "core/image.hpp"
 
 namespace speculum {

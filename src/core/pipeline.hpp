@@ -1,5 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
 #include "core/pipeline_cache.hpp"
 #include "core/render_pass_cache.hpp"
 #include "core/retire_queue.hpp"

@@ -2,6 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <cstring>
+#include <optional>
+#include <span>
+
 #include "platform/files.hpp"
 #include "platform/fnv1a.hpp"
 

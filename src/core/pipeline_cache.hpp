@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "core/device.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #include "core/render_pass_cache.hpp"
 
+#include <algorithm>
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,8 @@
 #include "core/renderer.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "platform/folders.hpp"
 
 namespace speculum {

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
 #include "core/command_pool.hpp"
 #include "core/descriptors.hpp"
 #include "core/gpu_timer.hpp"

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <utility>
+
 namespace speculum {
 
 // Keeps objects that the GPU may still use until the frame that is being recorded has finished.

@@ -2,6 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
 #include "platform/process.hpp"
 
 namespace speculum {

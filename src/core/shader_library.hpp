@@ -1,5 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "core/device.hpp"
 #include "platform/files.hpp"
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string_view>
+#include <vector>
+
 #include "core/image.hpp"
 #include "core/retire_queue.hpp"
 #include "platform/window.hpp"

@@ -1,6 +1,9 @@
 #include "core/uploader.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <glm/gtc/packing.hpp>
+#include <stdexcept>
 
 namespace speculum {
 

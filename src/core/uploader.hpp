@@ -1,5 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "core/command_pool.hpp"
 #include "core/image.hpp"
 

@@ -2,6 +2,11 @@
 
 #include <vulkan/vulkan.h>
 
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace speculum {
 
 // VK_ERROR_OUT_OF_DEVICE_MEMORY or VK_ERROR_OUT_OF_HOST_MEMORY.

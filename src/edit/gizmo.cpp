@@ -1,5 +1,13 @@
 #include "edit/gizmo.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "geometry/affine.hpp"
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,11 @@
 #include "edit/mesh_outline.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
 #include "geometry/weld.hpp"
 
 namespace speculum {

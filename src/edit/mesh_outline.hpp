@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "geometry/mesh.hpp"
 
 namespace speculum {

@@ -1,5 +1,12 @@
 #include "edit/new_nodes.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/affine.hpp"
+#include "scene/scene_state.hpp"
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "edit/transform.hpp"
 
 namespace speculum {

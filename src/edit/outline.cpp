@@ -1,5 +1,9 @@
 #include "edit/outline.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "edit/transform.hpp"
 
 namespace speculum {

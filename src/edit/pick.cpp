@@ -1,5 +1,7 @@
 #include "edit/pick.hpp"
 
+#include <algorithm>
+
 #include "geometry/reflection.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #include "edit/picture_view.hpp"
 
+#include <algorithm>
+
 namespace speculum {
 
 namespace {

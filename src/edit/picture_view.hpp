@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "frame/view.hpp"
 #include "geometry/bvh.hpp"
 

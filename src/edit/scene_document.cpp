@@ -1,5 +1,9 @@
 #include "edit/scene_document.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 

@@ -1,5 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "edit/new_nodes.hpp"
 #include "edit/scene_writer.hpp"
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "scene/scene_fields.hpp"
 
 namespace speculum {

@@ -1,6 +1,8 @@
 #include "edit/scene_writer.hpp"
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "edit/scene_keys.hpp"

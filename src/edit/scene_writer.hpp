@@ -1,5 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
 #include "frame/settings.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #include "edit/selection.hpp"
 
+#include <array>
+
 #include "frame/scene_names.hpp"
 
 namespace speculum {

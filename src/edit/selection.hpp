@@ -1,5 +1,10 @@
 #pragma once
 
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
 #include "scene/scene.hpp"
 
 namespace speculum {

@@ -1,5 +1,9 @@
 #include "edit/toml_editor.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
 #include "scene/toml_text.hpp"
 
 namespace speculum {

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "edit/scene_keys.hpp"
 #include "edit/toml_outline.hpp"
 

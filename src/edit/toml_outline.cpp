@@ -2,6 +2,9 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "scene/toml_text.hpp"
 
 namespace speculum {

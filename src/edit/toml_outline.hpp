@@ -1,5 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace speculum {
 
 // Bytes of a text, the last one excluded.

@@ -1,5 +1,11 @@
 #include "edit/transform.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/affine.hpp"
+#include "geometry/polygon.hpp"
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,9 @@
 #include "frame/cached_image.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace speculum {
 
 namespace {

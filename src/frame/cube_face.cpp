@@ -1,5 +1,8 @@
 #include "frame/cube_face.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace speculum {
 
 namespace {

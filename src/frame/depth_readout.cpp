@@ -1,5 +1,8 @@
 #include "frame/depth_readout.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "geometry/depth_resolution.hpp"
 
 namespace speculum {

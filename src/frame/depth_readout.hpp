@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "frame/frame_plan.hpp"
 
 namespace speculum {

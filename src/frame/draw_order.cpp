@@ -1,5 +1,9 @@
 #include "frame/draw_order.hpp"
 
+#include <algorithm>
+#include <map>
+#include <tuple>
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,9 @@
 #include "frame/effects.hpp"
 
+#include <algorithm>
+#include <array>
+#include <set>
+
 #include "frame/scene_names.hpp"
 
 namespace speculum {

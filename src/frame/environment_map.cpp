@@ -1,5 +1,8 @@
 #include "frame/environment_map.hpp"
 
+#include <algorithm>
+#include <set>
+
 #include "frame/cube_face.hpp"
 #include "frame/scene_names.hpp"
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "frame/frame_plan.hpp"
 
 namespace speculum {

@@ -1,5 +1,12 @@
 #include "frame/frame_plan.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <sstream>
+
+#include "frame/cube_face.hpp"
 #include "frame/environment_map.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/mirror_search.hpp"

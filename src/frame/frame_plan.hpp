@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "frame/cached_image.hpp"
 #include "frame/partial_instances.hpp"
 #include "frame/settings.hpp"

@@ -1,5 +1,10 @@
 #include "frame/image_content.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <set>
+#include <utility>
+
 #include "scene/scene_fields.hpp"
 
 namespace speculum {

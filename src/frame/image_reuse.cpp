@@ -1,5 +1,7 @@
 #include "frame/image_reuse.hpp"
 
+#include <algorithm>
+
 #include "frame/shadow_map.hpp"
 
 namespace speculum {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "frame/cached_image.hpp"
 #include "frame/image_content.hpp"
 

@@ -1,5 +1,9 @@
 #include "frame/memory_fit.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
 #include "frame/image_reuse.hpp"
 #include "frame/pass_range.hpp"
 #include "frame/picture_offset.hpp"

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <string>
+
 #include "frame/frame_plan.hpp"
 
 namespace speculum {

@@ -1,5 +1,10 @@
 #include "frame/mesh_level.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,8 @@
 #include "frame/mirror_sight.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {

@@ -1,5 +1,9 @@
 #include "frame/occluded_region.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace speculum {
 
 namespace {

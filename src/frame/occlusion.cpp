@@ -1,5 +1,10 @@
 #include "frame/occlusion.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
 #include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
 #include "geometry/mesh_levels.hpp"

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "frame/occluded_region.hpp"
 #include "frame/settings.hpp"
 #include "frame/view.hpp"

@@ -1,5 +1,8 @@
 #include "frame/partial_instances.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

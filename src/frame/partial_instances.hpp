@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "frame/view.hpp"
 #include "geometry/mesh.hpp"
 

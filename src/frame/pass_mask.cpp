@@ -1,5 +1,8 @@
 #include "frame/pass_mask.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "frame/settings.hpp"
 #include "frame/view.hpp"

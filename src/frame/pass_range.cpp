@@ -1,5 +1,8 @@
 #include "frame/pass_range.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace speculum {
 
 namespace {

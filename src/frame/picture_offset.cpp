@@ -1,5 +1,9 @@
 #include "frame/picture_offset.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace speculum {
 
 Settings pictureSettings(const Settings& settings) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "scene/scene.hpp"
 
 namespace speculum {

@@ -1,5 +1,9 @@
 #include "frame/setting_fields.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+
 #include "scene/member_count.hpp"
 #include "scene/value_range.hpp"
 

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
 #include "frame/settings.hpp"
 
 namespace speculum {

@@ -1,5 +1,8 @@
 #include "frame/settings.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "frame/setting_fields.hpp"

@@ -2,6 +2,10 @@
 
 #include <glm/glm.hpp>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "image/color.hpp"
 #include "scene/scene.hpp"

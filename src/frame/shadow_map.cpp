@@ -1,5 +1,9 @@
 #include "frame/shadow_map.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "frame/cube_face.hpp"
 #include "frame/image_content.hpp"
 #include "frame/scene_names.hpp"

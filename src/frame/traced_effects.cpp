@@ -1,5 +1,7 @@
 #include "frame/traced_effects.hpp"
 
+#include <algorithm>
+
 #include "frame/frame_plan.hpp"
 #include "frame/scene_names.hpp"
 #include "geometry/reflection.hpp"

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "frame/settings.hpp"
 #include "scene/scene_state.hpp"
 

@@ -1,5 +1,8 @@
 #include "frame/view.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "geometry/reflection.hpp"
 
 namespace speculum {

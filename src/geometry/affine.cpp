@@ -1,5 +1,8 @@
 #include "geometry/affine.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

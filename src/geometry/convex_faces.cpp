@@ -1,5 +1,10 @@
 #include "geometry/convex_faces.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
 #include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/weld.hpp"

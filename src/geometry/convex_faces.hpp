@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 namespace speculum {
 

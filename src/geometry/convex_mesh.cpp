@@ -1,5 +1,10 @@
 #include "geometry/convex_mesh.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
 #include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/weld.hpp"

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 namespace speculum {
 

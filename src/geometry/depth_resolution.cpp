@@ -1,5 +1,8 @@
 #include "geometry/depth_resolution.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

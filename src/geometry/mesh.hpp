@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "geometry/convex_mesh.hpp"
 

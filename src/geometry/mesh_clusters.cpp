@@ -2,6 +2,8 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
+
 #include "geometry/bvh.hpp"
 
 namespace speculum {

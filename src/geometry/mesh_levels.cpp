@@ -2,7 +2,16 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
 #include "geometry/mesh_clusters.hpp"
 #include "geometry/surface_distance.hpp"

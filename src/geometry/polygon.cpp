@@ -1,5 +1,8 @@
 #include "geometry/polygon.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

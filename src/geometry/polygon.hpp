@@ -1,6 +1,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace speculum {
 

@@ -1,5 +1,8 @@
 #include "geometry/projection.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

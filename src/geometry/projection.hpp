@@ -1,6 +1,9 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace speculum {
 

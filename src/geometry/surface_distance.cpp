@@ -1,5 +1,11 @@
 #include "geometry/surface_distance.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
 namespace speculum {
 
 namespace {

@@ -1,5 +1,7 @@
 #include "geometry/triangle_mesh.hpp"
 
+#include <cmath>
+
 namespace speculum {
 
 namespace {

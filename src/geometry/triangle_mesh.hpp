@@ -2,6 +2,8 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <optional>
+#include <vector>
 
 #include "geometry/bvh.hpp"
 #include "geometry/mesh.hpp"

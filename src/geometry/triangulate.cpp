@@ -1,5 +1,8 @@
 #include "geometry/triangulate.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "geometry/polygon.hpp"
 
 namespace speculum {

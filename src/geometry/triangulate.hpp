@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 namespace speculum {
 

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
+#include <tuple>
+#include <vector>
 
 namespace speculum {
 

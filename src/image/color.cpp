@@ -1,5 +1,8 @@
 #include "image/color.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

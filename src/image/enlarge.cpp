@@ -1,5 +1,8 @@
 #include "image/enlarge.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

@@ -2,6 +2,11 @@
 
 #include <tinyexr.h>
 
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
 #include "image/exr_layout.hpp"
 #include "platform/files.hpp"
 

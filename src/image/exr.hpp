@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "image/image.hpp"
 
 namespace speculum {

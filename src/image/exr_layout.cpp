@@ -2,6 +2,16 @@
 
 #include <stb_image.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <map>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
 namespace speculum {
 
 namespace {

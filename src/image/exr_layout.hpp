@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 namespace speculum {
 
 // Checks that the chunks of an EXR file fill every pixel of its data window once and with as much data as they need,

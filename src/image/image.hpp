@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
+#include <string>
+#include <vector>
 
 namespace speculum {
 

@@ -3,6 +3,12 @@
 #include <stb_image.h>
 #include <stb_image_write.h>
 
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
 #include "platform/files.hpp"
 
 namespace speculum {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
 #include "image/image.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #include "image/picture_size.hpp"
 
+#include <charconv>
+
 namespace speculum {
 
 std::optional<PictureSize> pictureSize(std::string_view text) {

@@ -1,5 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace speculum {
 
 // A file that cannot be read or written. what() is `FILE: problem (remedy)`.

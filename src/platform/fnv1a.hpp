@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 namespace speculum {
 
 inline constexpr uint64_t kFnv1aStart = 0xcbf29ce484222325u;

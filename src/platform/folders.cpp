@@ -1,6 +1,7 @@
 #include "platform/folders.hpp"
 
 #include <fstream>
+#include <stdexcept>
 
 #include "platform/process.hpp"
 

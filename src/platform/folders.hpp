@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <string_view>
+
 namespace speculum {
 
 std::filesystem::path executablePath();

@@ -1,5 +1,8 @@
 #include "platform/gamepad.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace speculum {
 
 constexpr float deadZone = 0.25f;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 namespace speculum {
 
 // Named as on an Xbox controller.

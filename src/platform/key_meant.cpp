@@ -1,3 +1,6 @@
+#include <cctype>
+#include <string_view>
+
 #include "platform/window.hpp"
 
 namespace speculum {

@@ -3,7 +3,10 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <fstream>
+#include <string_view>
+#include <thread>
 
 #include "platform/process.hpp"
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 namespace speculum {
 
 std::string machineDescription();  // processor, its threads, operating system

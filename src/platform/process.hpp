@@ -1,5 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace speculum {
 
 struct ProcessResult {

@@ -1,5 +1,7 @@
 #include "platform/screen_place.hpp"
 
+#include <algorithm>
+
 namespace speculum {
 
 namespace {

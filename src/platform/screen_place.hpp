@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <span>
+
 namespace speculum {
 
 // A rectangle in screen coordinates of the desktop.

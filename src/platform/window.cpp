@@ -2,6 +2,11 @@
 
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
 namespace speculum {
 
 namespace {

@@ -2,6 +2,16 @@
 
 #include <vulkan/vulkan.h>
 
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "platform/gamepad.hpp"
 #include "platform/screen_place.hpp"
 

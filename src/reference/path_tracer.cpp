@@ -1,5 +1,11 @@
 #include "reference/path_tracer.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reference/shading.hpp"
+
 namespace speculum {
 
 namespace {

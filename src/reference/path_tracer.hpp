@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "reference/ray_tracer.hpp"

@@ -3,6 +3,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+
 #include "reference/path_tracer.hpp"
 
 namespace speculum {

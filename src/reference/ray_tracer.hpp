@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
+#include <optional>
+#include <vector>
 
 #include "image/image.hpp"
 #include "scene/trace_world.hpp"

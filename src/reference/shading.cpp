@@ -1,5 +1,11 @@
 #include "reference/shading.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/affine.hpp"
+
 namespace speculum {
 
 namespace {

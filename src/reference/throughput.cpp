@@ -2,7 +2,11 @@
 
 #include <time.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <random>
+#include <vector>
 
 #include "geometry/triangle_mesh.hpp"
 

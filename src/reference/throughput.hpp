@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace speculum {
 
 // Speed of the tracer's closest-hit queries on a generated mesh, on one thread.

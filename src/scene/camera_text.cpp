@@ -2,6 +2,13 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
 #include "scene/value_range.hpp"
 
 namespace speculum {

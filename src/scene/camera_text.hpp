@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "scene/scene.hpp"
 
 namespace speculum {

@@ -1,5 +1,8 @@
 #include "scene/input_error.hpp"
 
+#include <algorithm>
+#include <string>
+
 #include "platform/files.hpp"
 
 namespace speculum {

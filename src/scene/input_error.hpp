@@ -1,5 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
 namespace speculum {
 
 // Bad input. what() is one line: `FILE:LINE: key: what is wrong (what would be right)`.

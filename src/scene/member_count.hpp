@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace speculum {
 
 // Stands for an initializer of any type; never converted while the program runs.

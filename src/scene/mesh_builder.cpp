@@ -2,6 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
 #include "geometry/mesh_clusters.hpp"

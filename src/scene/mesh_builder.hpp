@@ -1,7 +1,13 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
+#include <map>
+#include <span>
 #include <unordered_map>
+#include <vector>
 
 #include "geometry/mesh.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <cmath>
+
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene/toml_text.hpp"

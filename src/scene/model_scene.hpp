@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "scene/obj_loader.hpp"
 #include "scene/scene.hpp"
 

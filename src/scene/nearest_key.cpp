@@ -1,5 +1,9 @@
 #include "scene/nearest_key.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
 namespace speculum {
 
 namespace {

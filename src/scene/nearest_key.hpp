@@ -1,5 +1,9 @@
 #pragma once
 
+#include <span>
+#include <string>
+#include <string_view>
+
 namespace speculum {
 
 // Returns the advice of an error about an unknown key: "did you mean 'x'?" for the known key with the least edit

@@ -2,6 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <array>
+#include <charconv>
+
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/obj_materials.hpp"

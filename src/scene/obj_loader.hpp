@@ -1,5 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <vector>
+
 #include "geometry/mesh.hpp"
 
 namespace speculum {

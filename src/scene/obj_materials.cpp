@@ -4,6 +4,11 @@
 #include <spdlog/spdlog.h>
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"

@@ -1,5 +1,12 @@
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "geometry/mesh.hpp"
 
 namespace speculum {

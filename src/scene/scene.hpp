@@ -1,6 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "geometry/mesh.hpp"
 

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <array>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
 #include "scene/member_count.hpp"
 #include "scene/scene.hpp"
 #include "scene/value_range.hpp"

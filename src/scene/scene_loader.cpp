@@ -2,6 +2,12 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+#include "scene/input_error.hpp"
 #include "scene/model_scene.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"

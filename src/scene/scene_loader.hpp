@@ -1,5 +1,10 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
 #include "scene/input_error.hpp"
 #include "scene/obj_loader.hpp"
 #include "scene/scene.hpp"

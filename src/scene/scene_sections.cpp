@@ -1,5 +1,11 @@
 #include "scene/scene_sections.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
 #include "geometry/polygon.hpp"
 #include "scene/scene_state.hpp"
 

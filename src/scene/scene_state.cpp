@@ -1,5 +1,9 @@
 #include "scene/scene_state.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 #include "geometry/polygon.hpp"
 
 namespace speculum {

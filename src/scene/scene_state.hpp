@@ -1,6 +1,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
+#include <vector>
 
 #include "geometry/affine.hpp"
 #include "scene/scene.hpp"

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+
 namespace speculum {
 
 // Finds a scene or model that comes with the program: by its name, such as "gallery", or by its path within the

@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 

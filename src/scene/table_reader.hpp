@@ -2,7 +2,13 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "scene/value_range.hpp"
 

@@ -2,6 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
 #include "scene/input_error.hpp"
 
 namespace speculum {

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace speculum {
 
 // Returns `text` without leading and trailing blanks.

@@ -1,5 +1,8 @@
 #include "scene/toml_depth.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace speculum {
 
 namespace {

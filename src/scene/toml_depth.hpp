@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 namespace speculum {
 
 // Returns the line of the first dotted key or table header with more than 32 parts, or 0. The TOML library limits the

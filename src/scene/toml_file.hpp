@@ -2,6 +2,9 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
+#include <string_view>
+
 namespace speculum {
 
 // Reads the text of a file of at most 16 MiB; `kind` names it in messages, such as "scene file". Throws InputError.

@@ -2,6 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
 namespace speculum {
 
 namespace {

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace speculum {
 

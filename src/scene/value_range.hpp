@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <string>
+
 namespace speculum {
 
 // The numbers that a key takes; never infinite or NaN.

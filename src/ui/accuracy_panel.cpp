@@ -1,7 +1,9 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cfloat>
+#include <cmath>
 
 #include "frame/setting_fields.hpp"
 #include "ui/panels.hpp"

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
 #include "edit/gizmo.hpp"
 #include "edit/transform.hpp"
 #include "frame/settings.hpp"

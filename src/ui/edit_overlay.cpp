@@ -1,6 +1,8 @@
 // Outline and handles of the selected nodes.
 #include <imgui.h>
 
+#include <span>
+
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

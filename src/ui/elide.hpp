@@ -1,5 +1,9 @@
 #pragma once
 
+#include <functional>
+#include <string>
+#include <string_view>
+
 namespace speculum {
 
 // `text`, or where that is wider than `room` as much of its start as fits with "...". `widthOf` is in the units of

@@ -3,6 +3,10 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
 #include "scene/scene_fields.hpp"
 #include "scene/scene_loader.hpp"
 #include "ui/setting_widgets.hpp"

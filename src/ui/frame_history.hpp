@@ -1,5 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace speculum {
 
 // Milliseconds of the last frames, by frame number: those of the CPU and the window, which are there at once, and those

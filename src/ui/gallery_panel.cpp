@@ -1,5 +1,7 @@
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

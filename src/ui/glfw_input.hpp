@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "ui/input_queue.hpp"
 
 struct GLFWwindow;

@@ -1,5 +1,8 @@
 #include <imgui.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "ui/input_map.hpp"
 #include "ui/panels.hpp"
 

@@ -1,5 +1,7 @@
 #include "ui/input_map.hpp"
 
+#include <array>
+
 namespace speculum {
 
 namespace {

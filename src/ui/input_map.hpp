@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "platform/window.hpp"
 #include "ui/commands.hpp"
 

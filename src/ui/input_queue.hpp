@@ -1,5 +1,8 @@
 #pragma once
 
+#include <deque>
+#include <vector>
+
 namespace speculum {
 
 struct InputEvent {

@@ -2,7 +2,10 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <cfloat>
+#include <tuple>
+#include <utility>
 
 #include "ui/field_rows.hpp"
 

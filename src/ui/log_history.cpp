@@ -1,5 +1,10 @@
 #include "ui/log_history.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
 namespace speculum {
 
 namespace {

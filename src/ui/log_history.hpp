@@ -1,5 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
 namespace speculum {
 
 enum class LogLevel { info, warning, error };

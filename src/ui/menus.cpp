@@ -2,6 +2,8 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 #include "ui/input_map.hpp"
 #include "ui/panels.hpp"
 

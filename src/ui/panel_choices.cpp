@@ -2,6 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 

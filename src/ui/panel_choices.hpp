@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+
 namespace speculum {
 
 enum class Theme { dark, light };

@@ -4,6 +4,10 @@
 #include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 namespace speculum {
 
 namespace {

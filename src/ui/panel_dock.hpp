@@ -1,5 +1,9 @@
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "ui/panel_layout.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #include "ui/panel_layout.hpp"
 
+#include <algorithm>
+
 namespace speculum {
 
 namespace {

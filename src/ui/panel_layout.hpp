@@ -1,6 +1,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
+#include <vector>
 
 namespace speculum {
 

@@ -3,6 +3,10 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
 #include "ui/input_map.hpp"
 
 namespace speculum {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "ui/panel_choices.hpp"
 #include "ui/panel_dock.hpp"
 #include "ui/thumbnails.hpp"

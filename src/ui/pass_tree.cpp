@@ -1,5 +1,7 @@
 #include "ui/pass_tree.hpp"
 
+#include <algorithm>
+
 namespace speculum {
 
 namespace {

@@ -2,6 +2,8 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
 

@@ -3,6 +3,12 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "image/color.hpp"
+#include "ui/panels.hpp"
+
 namespace speculum::panels {
 
 namespace {

@@ -6,6 +6,13 @@
 #include <imgui_internal.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <utility>
+
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "ui/glfw_input.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "core/renderer.hpp"
 #include "ui/panel_windows.hpp"
 

@@ -1,6 +1,10 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

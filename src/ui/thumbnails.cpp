@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace speculum {
 
 void Thumbnails::addTo(ImFontAtlas& atlas) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "image/image.hpp"
 
 struct ImFontAtlas;

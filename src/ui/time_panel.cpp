@@ -1,5 +1,8 @@
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "frame/depth_readout.hpp"
 #include "frame/frame_plan.hpp"
 #include "geometry/projection.hpp"
