@@ -1,6 +1,10 @@
 #include "frame/mirror_search.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <queue>
+#include <sstream>
 
 #include "frame/cube_face.hpp"
 #include "frame/mirror_sight.hpp"
