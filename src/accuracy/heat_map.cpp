@@ -136,7 +136,7 @@ Image8 heatColors(const Plane2d& map, double top) {
 Image8 heatMap(const Plane2d& map, double top) {
   Image8 image(map.width, map.height + legendHeight(map.width));
   const Image8 colors = heatColors(map, top);
-  std::copy(colors.rgba.begin(), colors.rgba.end(), image.rgba.begin());
+  std::ranges::copy(colors.rgba, image.rgba.begin());
   drawLegend(image, map.height, top);
   return image;
 }

@@ -74,7 +74,7 @@ ImageMetrics metricsOf(const ComparedImage& reference, const ComparedImage& test
   metrics.psnr = displayError == 0.0 ? infinity : -10.0 * std::log10(displayError / (3.0 * count));
   metrics.ssim = meanSsim(maps.ssim, pixels);
   metrics.flip /= count;
-  metrics.maxDiff = *std::max_element(differences.begin(), differences.end());
+  metrics.maxDiff = *std::ranges::max_element(differences);
   const auto rank = static_cast<size_t>(std::ceil(0.99 * count)) - 1;
   std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(rank), differences.end());
   metrics.p99Diff = differences[rank];

@@ -26,7 +26,7 @@ std::string comparison(const SweepPoint& chosen, const SweepPoint& best) {
 std::vector<int> onePerError(const std::vector<FrontCandidate>& candidates) {
   std::vector<int> order(candidates.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return candidates[a].error < candidates[b].error; });
+  std::ranges::stable_sort(order, [&](int a, int b) { return candidates[a].error < candidates[b].error; });
   std::vector<int> chosen;
   for (const int index : order) {
     const FrontCandidate& candidate = candidates[index];
@@ -53,15 +53,14 @@ std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates) {
     }
     cheapestMedian = std::min(cheapestMedian, spread.median);
   }
-  std::reverse(front.begin(), front.end());
+  std::ranges::reverse(front);
   return front;
 }
 
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points) {
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return points[a].changes.size() < points[b].changes.size(); });
+  std::ranges::stable_sort(order, [&](int a, int b) { return points[a].changes.size() < points[b].changes.size(); });
   std::vector<FrontCandidate> candidates;
   for (const int index : order) {
     candidates.push_back({points[index].whole.flip, costSpread(points[index])});
@@ -92,14 +91,14 @@ std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const Q
   const auto ordered = [&](const auto& rank) {
     std::vector<int> order(points.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
+    std::ranges::stable_sort(order, [&](int a, int b) { return rank(a) < rank(b); });
     return order;
   };
   const std::vector<int> byError = ordered([&](int i) { return std::pair(points[i].whole.flip, costMs(points[i])); });
   const std::vector<int> byCost = ordered([&](int i) { return std::pair(costMs(points[i]), points[i].whole.flip); });
   const SweepPoint& best = points[byError.front()];
   const auto orElse = [](const std::vector<int>& order, const auto& fits, int otherwise) {
-    const auto found = std::find_if(order.begin(), order.end(), fits);
+    const auto found = std::ranges::find_if(order, fits);
     return found == order.end() ? otherwise : *found;
   };
   BudgetChoice choice;

@@ -9,7 +9,6 @@
 #include "accuracy/html_page.hpp"
 #include "accuracy/pareto.hpp"
 #include "accuracy/sweep_json.hpp"
-#include "frame/settings.hpp"
 #include "image/picture_files.hpp"
 
 namespace speculum {
@@ -52,11 +51,6 @@ size_t sizeOf(const ordered_json& picture) {
   return picture.is_null() ? 0 : picture["uri"].get_ref<const std::string&>().size();
 }
 
-// The rows of a heat map that show the picture; those below are its legend.
-int mapHeight(const SweepResults& results, const Image8& map) {
-  return results.height > 0 ? std::min(results.height, map.height) : map.height;
-}
-
 // Embeds points while the budget lasts, at least the first. All heat maps have the same legend.
 ordered_json picturesJson(const SweepResults& results, const std::filesystem::path& folder) {
   ordered_json pictures = {{"reference", nullptr}, {"legend", nullptr}, {"shown", ordered_json::array()}};
@@ -74,7 +68,8 @@ ordered_json picturesJson(const SweepResults& results, const std::filesystem::pa
     }
     ordered_json shown = {{"point", point}, {"picture", embedded(*picture, pictureQuality)}, {"map", nullptr}};
     if (map) {
-      const int height = mapHeight(results, *map);
+      const int height =
+          results.height > 0 ? std::min(results.height, map->height) : map->height;  // the legend is below
       shown["map"] = embedded(rows(*map, 0, height), pictureQuality);
       if (height < map->height && pictures["legend"].is_null()) {
         pictures["legend"] = embedded(rows(*map, height, map->height - height), legendQuality);
@@ -91,8 +86,7 @@ ordered_json picturesJson(const SweepResults& results, const std::filesystem::pa
 
 std::vector<int> indicesByCost(const SweepResults& results, const std::vector<int>& points) {
   std::vector<int> sorted = points;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](int a, int b) { return costMs(results.points[a]) < costMs(results.points[b]); });
+  std::ranges::stable_sort(sorted, [&](int a, int b) { return costMs(results.points[a]) < costMs(results.points[b]); });
   return sorted;
 }
 
@@ -151,7 +145,7 @@ std::vector<int> shownPoints(const SweepResults& results, int most) {
   byCost = indicesByCost(results, byCost);
   std::vector<int> shown;
   const auto add = [&](int point) {
-    if (static_cast<int>(shown.size()) < most && std::find(shown.begin(), shown.end(), point) == shown.end()) {
+    if (static_cast<int>(shown.size()) < most && std::ranges::find(shown, point) == shown.end()) {
       shown.push_back(point);
     }
   };
@@ -171,8 +165,8 @@ std::vector<int> shownPoints(const SweepResults& results, int most) {
     add(front.front());
     add(front.back());
   }
-  const auto [best, worst] = std::minmax_element(
-      byCost.begin(), byCost.end(), [&](int a, int b) { return points[a].whole.flip < points[b].whole.flip; });
+  const auto [best, worst] =
+      std::ranges::minmax_element(byCost, [&](int a, int b) { return points[a].whole.flip < points[b].whole.flip; });
   add(*worst);
   const size_t room = static_cast<size_t>(std::max(1, most - static_cast<int>(shown.size())));
   const size_t step = std::max<size_t>(1, (front.size() + room - 1) / room);

@@ -20,7 +20,7 @@ Spread spreadOf(std::vector<double> values) {
   if (values.empty()) {
     return {};
   }
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return {.median = quantile(values, 0.5),
           .minimum = values.front(),
           .lowerQuartile = quantile(values, 0.25),

@@ -6,7 +6,6 @@
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"
-#include "image/color.hpp"
 
 namespace speculum {
 
@@ -212,8 +211,8 @@ void Sweep::fill(SweepResults& results) {
                               .picture = measurement.picture,
                               .heatMap = measurement.heatMap});
   }
-  const bool stamped = std::all_of(results.points.begin(), results.points.end(),
-                                   [](const SweepPoint& point) { return point.gpuMs.median > 0.0; });
+  const bool stamped =
+      std::ranges::all_of(results.points, [](const SweepPoint& point) { return point.gpuMs.median > 0.0; });
   if (!stamped) {
     for (SweepPoint& point : results.points) {
       point.gpuMs = {};

@@ -114,11 +114,10 @@ SweepSeries readSeries(const JsonReader& reader, size_t pointCount) {
     series.fit = LineFit{fit.get<double>("slope"), fit.get<double>("offset")};
   }
   const auto below = [](size_t count) { return [count](int i) { return i >= 0 && static_cast<size_t>(i) < count; }; };
-  if (series.points.size() != series.x.size() ||
-      !std::all_of(series.points.begin(), series.points.end(), below(pointCount))) {
+  if (series.points.size() != series.x.size() || !std::ranges::all_of(series.points, below(pointCount))) {
     reader.fail("points");
   }
-  if (!std::all_of(series.fitted.begin(), series.fitted.end(), below(series.points.size()))) {
+  if (!std::ranges::all_of(series.fitted, below(series.points.size()))) {
     reader.fail("fitted");
   }
   return series;
@@ -251,10 +250,6 @@ int JsonReader::integerOf(const ordered_json& value, const char* key) const {
     fail(key);
   }
   return value.get<int>();
-}
-
-int JsonReader::integer(const char* key) const {
-  return integerOf(member(key), key);
 }
 
 std::vector<int> JsonReader::integers(const char* key) const {

@@ -39,7 +39,7 @@ class JsonReader {
     }
   }
   // Returns a number that fits an int, while get<int>() would truncate any other.
-  int integer(const char* key) const;
+  int integer(const char* key) const { return integerOf(member(key), key); }
   std::vector<int> integers(const char* key) const;
   // Finite, not negative, and no more than any figure of a sweep can be.
   double number(const char* key) const;

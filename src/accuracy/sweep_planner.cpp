@@ -19,8 +19,8 @@ std::string shortName(const SweepPlanner::Changes& changes) {
     const std::string_view key = change.key;
     const std::string_view reflection = "reflection.";
     std::string words(key.starts_with(reflection) ? key.substr(reflection.size()) : key);
-    std::replace(words.begin(), words.end(), '.', ' ');
-    std::replace(words.begin(), words.end(), '_', ' ');
+    std::ranges::replace(words, '.', ' ');
+    std::ranges::replace(words, '_', ' ');
     const bool whole = change.value.ends_with(".0");
     name += (name.empty() ? "" : ", ") + words + " " + change.value.substr(0, change.value.size() - (whole ? 2 : 0));
   }
@@ -66,8 +66,7 @@ int SweepPlanner::add(const Changes& changes, const std::string& name) {
   }
   SweepConfiguration configuration{.name = name, .changes = settingChanges(base_, settings)};
   auto& all = plan.configurations;
-  const auto same = std::find_if(all.begin(), all.end(),
-                                 [&](const SweepConfiguration& c) { return c.changes == configuration.changes; });
+  const auto same = std::ranges::find(all, configuration.changes, &SweepConfiguration::changes);
   if (same != all.end()) {
     return static_cast<int>(same - all.begin());
   }
@@ -75,7 +74,7 @@ int SweepPlanner::add(const Changes& changes, const std::string& name) {
     configuration.name = shortName(configuration.changes);
   }
   const auto taken = [&](const SweepConfiguration& c) { return c.name == configuration.name; };
-  while (std::any_of(all.begin(), all.end(), taken)) {
+  while (std::ranges::any_of(all, taken)) {
     configuration.name += " (" + std::to_string(all.size()) + ")";
   }
   all.push_back(std::move(configuration));
@@ -116,7 +115,7 @@ void SweepPlanner::series(PlannedSeries planned, const std::vector<std::string>&
     std::from_chars(values[i].data(), values[i].data() + values[i].size(), x);
     const int point = add(each[i]);
     const auto& points = planned.series.points;
-    if (std::find(points.begin(), points.end(), point) == points.end()) {
+    if (std::ranges::find(points, point) == points.end()) {
       planned.series.x.push_back(x);
       planned.series.points.push_back(point);
     }

@@ -5,8 +5,6 @@
 
 #include "accuracy/heat_map.hpp"
 #include "accuracy/sweep_json.hpp"
-#include "app/quality.hpp"
-#include "image/color.hpp"
 
 namespace speculum {
 
@@ -133,10 +131,6 @@ void AccuracyController::followBudget(Settings& settings) {
   }
 }
 
-void AccuracyController::acceptBudget(const Settings& settings) {
-  budget_ = {settings.quality.budgetMs, settings.quality.maxError};
-}
-
 void AccuracyController::applyBudget(Settings& settings) {
   acceptBudget(settings);
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
@@ -154,8 +148,7 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
     return;
   }
   settings_ = settings;
-  const auto at = std::find_if(pointSettings_.begin(), pointSettings_.end(),
-                               [&](const auto& point) { return isAtPoint(settings, point); });
+  const auto at = std::ranges::find_if(pointSettings_, [&](const auto& point) { return isAtPoint(settings, point); });
   view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
   if (view_.current != chosen_) {
     const bool bounded = budget_.ms > 0.0 || budget_.error > 0.0;

@@ -29,7 +29,7 @@ class AccuracyController {
   // Applies the choice of quality.* if that differs from what was applied last.
   void followBudget(Settings& settings);
   // Takes a budget that undo brought back together with the settings that it had chosen: it chooses none.
-  void acceptBudget(const Settings& settings);
+  void acceptBudget(const Settings& settings) { budget_ = {settings.quality.budgetMs, settings.quality.maxError}; }
   // Call after a frame is drawn. `image` returns its pixels.
   void afterFrame(const ShownPicture& shown, const std::function<Image8()>& image);
   // Returns the picture to show instead of the scene, if it changed since the last call; one without pixels shows the

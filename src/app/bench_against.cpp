@@ -8,7 +8,6 @@
 #include "accuracy/statistics.hpp"
 #include "app/progress.hpp"
 #include "app/stats.hpp"
-#include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
 

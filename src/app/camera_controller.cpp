@@ -5,9 +5,6 @@
 #include <iterator>
 #include <limits>
 
-#include "geometry/affine.hpp"
-#include "geometry/polygon.hpp"
-
 namespace speculum {
 
 namespace {

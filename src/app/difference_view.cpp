@@ -9,12 +9,8 @@
 
 namespace speculum {
 
-namespace {
-
 constexpr std::chrono::milliseconds stillFor{400};      // before tracing begins
 constexpr std::array<int, 3> references = {4, 16, 64};  // samples a pixel: a quick first result, then better ones
-
-}  // namespace
 
 DifferenceView::View DifferenceView::viewOf(const ShownPicture& shown) {
   return {.file = shown.scene.file,

@@ -7,8 +7,6 @@
 
 #include "accuracy/fingerprint.hpp"
 #include "app/recovery.hpp"
-#include "edit/scene_writer.hpp"
-#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -48,7 +46,7 @@ void keepNewest(const fs::path& folder) {
       files.emplace_back(entry.last_write_time(none), entry.path());
     }
   }
-  std::sort(files.begin(), files.end(), std::greater<>());
+  std::ranges::sort(files, std::greater<>());
   for (size_t i = kept; i < files.size(); ++i) {
     fs::remove(files[i].second, none);
   }
@@ -118,10 +116,6 @@ void DocumentController::askWhere() {
 void DocumentController::offerRecovery(const fs::path& file) {
   proposed_ = file;
   prompt_ = Prompt::recovery;
-}
-
-void DocumentController::closeOpenPrompt() {
-  prompt_ = prompt_ == Prompt::open || prompt_ == Prompt::recovery ? Prompt::none : prompt_;
 }
 
 void DocumentController::askWhatToOpen(const fs::path& folder) {

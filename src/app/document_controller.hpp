@@ -31,7 +31,7 @@ class DocumentController {
   void askWhere();
   void askWhatToOpen(const std::filesystem::path& folder);
   void offerRecovery(const std::filesystem::path& file);
-  void closeOpenPrompt();
+  void closeOpenPrompt() { prompt_ = prompt_ == Prompt::open || prompt_ == Prompt::recovery ? Prompt::none : prompt_; }
   void cancelPrompt();
 
   bool savedSinceLastCall() { return std::exchange(saved_, false); }

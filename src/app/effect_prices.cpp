@@ -1,5 +1,6 @@
 #include "app/effect_prices.hpp"
 
+#include "accuracy/sweep_planner.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {
@@ -22,14 +23,10 @@ std::vector<EffectPrice> effectPrices(Session& session, double time, int pairs) 
   const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
   std::vector<EffectPrice> prices(effects.size());
   for (size_t i = 0; i < effects.size(); ++i) {
-    const auto changes = settingsWithout(static_cast<EffectKind>(i));
-    if (!effects[i].calledFor || changes.empty()) {
+    if (!effects[i].calledFor) {
       continue;
     }
-    Settings without = all;
-    for (const auto& [key, value] : changes) {
-      setSetting(without, key, value);
-    }
+    const Settings without = settingsWith(all, settingsWithout(static_cast<EffectKind>(i)));
     for (int pair = 0; pair <= pairs && !interruptRequested(); ++pair) {
       const double with = gpuMs(session, all, time);
       const double rest = gpuMs(session, without, time);

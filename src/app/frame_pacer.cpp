@@ -26,16 +26,8 @@ void FramePacer::change(const Settings& settings) {
   due_ = framesAfterChange + framesUntilFresh(settings);
 }
 
-void FramePacer::requestFrames(int frames) {
-  due_ = std::max(due_, frames);
-}
-
 double FramePacer::beginFrame(double seconds) {
   return std::exchange(idled_, false) ? std::numeric_limits<double>::quiet_NaN() : 1000.0 * seconds;
-}
-
-void FramePacer::frameDrawn() {
-  due_ = std::max(0, due_ - 1);
 }
 
 }  // namespace speculum

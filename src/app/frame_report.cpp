@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "edit/outline.hpp"
-#include "frame/effects.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame/scene_names.hpp"
 #include "frame/setting_fields.hpp"
@@ -55,12 +54,6 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
                    .depth = probed->depth,
                    .metres = plan.projection.near / static_cast<double>(probed->storedDepth),
                    .value = probed->value};
-}
-
-// The switch's name where the effect has one.
-std::string effectLabel(EffectKind effect, const std::string& name) {
-  const auto without = settingsWithout(effect);
-  return without.empty() ? name : findSettingField(without.front().first)->label;
 }
 
 std::string_view reasonText(SkipReason reason) {
@@ -145,7 +138,7 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
     drawn_.push_front({frame.number, frame.cpuMs});
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
   }
-  const auto timed = std::ranges::find_if(drawn_, [&](const DrawnFrame& f) { return f.number == timings.frame; });
+  const auto timed = std::ranges::find(drawn_, timings.frame, &DrawnFrame::number);
   if (timed == drawn_.end()) {
     return;
   }
@@ -172,8 +165,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   const int interval = frame.settings.reflection.updateInterval;
   const auto isReused = [&](const PassView& row) {
     return (plan.mainReused && row.kind == PassKind::main) ||
-           std::any_of(plan.reused.begin(), plan.reused.end(),
-                       [&](const PlannedPass& p) { return p.view.path == row.path; });
+           std::ranges::any_of(plan.reused, [&](const PlannedPass& p) { return p.view.path == row.path; });
   };
   std::vector<PassView> rows;
   if (interval > 1 || !plan.reused.empty() || plan.mainReused) {
@@ -185,7 +177,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   }
   std::ptrdiff_t index = 0;
   for (const RecordedPass& pass : passes) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == pass; });
+    auto row = std::ranges::find_if(rows, [&](const PassView& r) { return r == pass; });
     if (row == rows.end()) {
       PassView fresh{pass, pass.name};
       const auto before = std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == pass; });
@@ -210,7 +202,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     std::ranges::for_each(rows, [](PassView& row) { row.timed = false; });
   }
   for (size_t i = 0; i < times; ++i) {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const PassView& r) { return r == timed[i]; });
+    const auto row = std::ranges::find_if(rows, [&](const PassView& r) { return r == timed[i]; });
     if (row != rows.end()) {
       row->gpuMs = timings.passes[i].gpuMs;
       row->timed = true;
@@ -229,8 +221,8 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
   for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
     const auto kind = static_cast<EffectKind>(view_.effects.size());
     const EffectCost& cost = ledger[kind];
-    view_.effects.push_back(
-        {effectLabel(kind, effect.name), effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
+    const std::string label = findSettingField(settingsWithout(kind).front().key)->label;  // of its switch
+    view_.effects.push_back({label, effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
   }
 }
 
@@ -240,7 +232,7 @@ void FrameReport::updateSkipped(const RecordedFrame& frame, const std::vector<in
   view_.skippedOutline.clear();
   // The path is that of the last frame; an edit may have removed mirrors since.
   const auto exists = [&](int mirror) { return static_cast<size_t>(mirror) < frame.state.mirrors.size(); };
-  if (!hovered.empty() && std::all_of(hovered.begin(), hovered.end(), exists)) {
+  if (!hovered.empty() && std::ranges::all_of(hovered, exists)) {
     const PictureView picture(frame.state.camera, frame.plan.width, frame.plan.height);
     const std::span<const int> before = std::span(hovered).first(hovered.size() - 1);
     if (const auto image = picture.through(frame.scene, frame.state, before)) {

@@ -2,11 +2,7 @@
 
 namespace speculum {
 
-namespace {
-
 constexpr double clickReach = 4.0;  // screen coordinates that the pointer may move by between press and release
-
-}  // namespace
 
 void PointerController::cancel() {
   pressed_.reset();

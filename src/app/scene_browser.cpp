@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "image/picture_files.hpp"
-#include "platform/files.hpp"
 #include "platform/folders.hpp"
-#include "scene/input_error.hpp"
 
 namespace speculum {
 
@@ -29,7 +27,7 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
       files.push_back(entry.path());
     }
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   files.resize(std::min(files.size(), mostListed));
   return files;
 }
@@ -135,18 +133,13 @@ void SceneBrowser::open(const fs::path& file, const Options& options) {
 }
 
 fs::path SceneBrowser::choose(const std::vector<fs::path>& files) {
-  const auto file = std::find_if(files.begin(), files.end(), [](const fs::path& candidate) {
-    return isModelFile(candidate) || candidate.extension() == ".toml";
-  });
+  const auto file = std::ranges::find_if(
+      files, [](const fs::path& candidate) { return isModelFile(candidate) || candidate.extension() == ".toml"; });
   if (file == files.end()) {
     throw InputError((files.empty() ? std::string("nothing") : files.front().string()) +
                      ": not a scene (a .toml scene or an .obj model is needed)");
   }
   return *file;
-}
-
-std::unique_ptr<LoadedScene> SceneBrowser::takeLoaded() {
-  return load_.takeResult().value_or(nullptr);
 }
 
 void SceneBrowser::updateView() {

@@ -27,7 +27,7 @@ class SceneBrowser {
   void cancelLoading() { load_.cancel(); }
   bool busy() const { return load_.busy(); }  // loading, or with a scene or an error that nobody has taken
   bool loaded() const { return load_.hasResult(); }
-  std::unique_ptr<LoadedScene> takeLoaded();
+  std::unique_ptr<LoadedScene> takeLoaded() { return load_.takeResult().value_or(nullptr); }
   std::optional<std::string> takeError() { return load_.takeError(); }
 
   void updateView();  // once a frame, for the progress of loading

@@ -89,8 +89,8 @@ void SceneEditor::selectNext(int step) {
   if (nodes.empty()) {
     return;
   }
-  const auto now = std::find_if(nodes.begin(), nodes.end(),
-                                [&](const Selection& node) { return sameNode(node, document_.selection()); });
+  const auto now =
+      std::ranges::find_if(nodes, [&](const Selection& node) { return sameNode(node, document_.selection()); });
   const auto count = static_cast<int>(nodes.size());
   const int start = now != nodes.end() ? static_cast<int>(now - nodes.begin()) : step > 0 ? -1 : 0;
   select(nodes[static_cast<size_t>((start + step + count) % count)]);
@@ -101,8 +101,7 @@ void SceneEditor::toggle(const Selection& node) {
   document_.endGesture();
   forgetPath();
   const Selection first = document_.selection();
-  const auto other =
-      std::find_if(others_.begin(), others_.end(), [&](const Selection& other) { return sameNode(other, node); });
+  const auto other = std::ranges::find_if(others_, [&](const Selection& other) { return sameNode(other, node); });
   if (!first) {
     document_.select(node);
   } else if (other != others_.end()) {
@@ -122,7 +121,7 @@ void SceneEditor::click(const SceneView& view, const glm::dvec2& pixel) {
   }
   const auto same = [](const Picked& a, const Picked& b) { return a.what == b.what && a.path == b.path; };
   if (clicked_ && glm::distance(clicked_->pixel, pixel) <= sameSpot &&
-      std::equal(next.found.begin(), next.found.end(), clicked_->found.begin(), clicked_->found.end(), same)) {
+      std::ranges::equal(next.found, clicked_->found, same)) {
     next.chosen = (clicked_->chosen + 1) % next.found.size();
   }
   const Picked picked = next.found[next.chosen];
@@ -336,7 +335,7 @@ void SceneEditor::step(void (SceneDocument::*way)()) {
 }
 
 std::filesystem::path SceneEditor::modelFile(const std::filesystem::path& model) const {
-  if (std::find(models_.begin(), models_.end(), model) != models_.end()) {
+  if (std::ranges::find(models_, model) != models_.end()) {
     return model;
   }
   const std::filesystem::path file = (document_.scene().file.parent_path() / model).lexically_normal();
@@ -354,10 +353,9 @@ void SceneEditor::modelsChanged() {
   }
   const std::vector<std::filesystem::path> own = models_;
   std::error_code none;
-  std::copy_if(shipped_.begin(), shipped_.end(), std::back_inserter(models_), [&](const std::filesystem::path& file) {
-    return std::none_of(own.begin(), own.end(), [&](const std::filesystem::path& model) {
-      return std::filesystem::equivalent(model, file, none);
-    });
+  std::ranges::copy_if(shipped_, std::back_inserter(models_), [&](const std::filesystem::path& file) {
+    return std::ranges::none_of(
+        own, [&](const std::filesystem::path& model) { return std::filesystem::equivalent(model, file, none); });
   });
   picker_.reset();
   outlines_.clear();

@@ -217,9 +217,8 @@ void Session::collectFinished() {
     frame_.timings.gpuMs += timings->gpuMs;
     size_t place = 0;
     for (size_t i = 0; i < passes.size(); ++i) {
-      const auto known = std::find_if(frame_.passes.begin(), frame_.passes.end(), [&](const RecordedPass& pass) {
-        return static_cast<const PassId&>(pass) == passes[i];
-      });
+      const auto known = std::ranges::find_if(
+          frame_.passes, [&](const RecordedPass& pass) { return static_cast<const PassId&>(pass) == passes[i]; });
       if (known == frame_.passes.end()) {
         place = std::min(place, frame_.passes.size());
         frame_.passes.insert(frame_.passes.begin() + static_cast<std::ptrdiff_t>(place), passes[i]);

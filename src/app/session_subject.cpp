@@ -2,11 +2,7 @@
 
 namespace speculum {
 
-namespace {
-
 constexpr double secondsBetweenFrames = 1.0 / 30.0;
-
-}  // namespace
 
 void SessionSubject::drawBefore(int framesBefore, bool capture, bool whole) {
   session_.draw(time_ - framesBefore * secondsBetweenFrames, capture, [&] { return whole; });

@@ -6,7 +6,6 @@
 
 #include "frame/depth_readout.hpp"
 #include "frame/shadow_map.hpp"
-#include "platform/files.hpp"
 #include "platform/machine.hpp"
 
 namespace speculum {
@@ -57,7 +56,7 @@ ordered_json parentJson(const std::vector<RecordedPass>& passes, const RecordedP
     return nullptr;
   }
   const std::vector<int> seenIn(pass.path.begin(), pass.path.end() - 1);
-  const auto parent = std::find_if(passes.begin(), passes.end(), [&](const RecordedPass& other) {
+  const auto parent = std::ranges::find_if(passes, [&](const RecordedPass& other) {
     return (other.kind == PassKind::mirror || other.kind == PassKind::main) && other.path == seenIn;
   });
   return parent == passes.end() ? ordered_json(nullptr) : ordered_json(parent - passes.begin());
@@ -135,14 +134,10 @@ ordered_json raysJson(const RayUse& rays) {
           {"bytes", rays.structureBytes}};
 }
 
-bool isMilliseconds(const std::string& key) {
-  return key.size() > 3 && key.compare(key.size() - 3, 3, "_ms") == 0;
-}
-
 }  // namespace
 
 ordered_json summary(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const auto rank = [&](double part) {
     return values[static_cast<size_t>(std::ceil(part * static_cast<double>(values.size() - 1)))];
   };
@@ -156,7 +151,7 @@ namespace {
 ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
   ordered_json merged = ordered_json::object();
   for (const auto& [key, value] : objects.back()->items()) {
-    if (isMilliseconds(key) && value.is_number()) {
+    if (key.ends_with("_ms") && value.is_number()) {
       std::vector<double> values;
       for (const ordered_json* object : objects) {
         values.push_back(object->at(key).get<double>());
@@ -182,8 +177,7 @@ std::vector<GatheredPass> gatherPasses(const std::vector<ordered_json>& frames,
   for (size_t f = 0; f < frames.size(); ++f) {
     auto next = gathered.begin();
     for (size_t i = 0; i < ids[f].size(); ++i) {
-      auto found = std::find_if(gathered.begin(), gathered.end(),
-                                [&](const GatheredPass& known) { return known.id == ids[f][i]; });
+      auto found = std::ranges::find(gathered, ids[f][i], &GatheredPass::id);
       if (found == gathered.end()) {
         found = gathered.insert(next, {.id = ids[f][i]});
       }
@@ -202,8 +196,8 @@ ordered_json gatheredParent(const std::vector<GatheredPass>& gathered, const Gat
     return nullptr;
   }
   const ordered_json* sought = &pass.lastFrame->at("passes").at(parent.get<size_t>());
-  const auto found = std::find_if(gathered.begin(), gathered.end(), [&](const GatheredPass& other) {
-    return std::find(other.passes.begin(), other.passes.end(), sought) != other.passes.end();
+  const auto found = std::ranges::find_if(gathered, [&](const GatheredPass& other) {
+    return std::ranges::find(other.passes, sought) != other.passes.end();
   });
   return found - gathered.begin();
 }

@@ -17,7 +17,7 @@ nlohmann::ordered_json mergeStats(const std::vector<nlohmann::ordered_json>& fra
                                   const std::vector<std::vector<PassId>>& passes);
 std::vector<PassId> passIds(Session& session);  // of the last frame
 
-// Returns Returns { "median", "min", "p95", "max" } of at least one value.
+// Returns { "median", "min", "p95", "max" } of at least one value.
 nlohmann::ordered_json summary(std::vector<double> values);
 
 // Write a file and create its folder. Throw std::runtime_error if that fails.

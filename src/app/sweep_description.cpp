@@ -7,7 +7,6 @@
 #include "app/session_subject.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
-#include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 
@@ -28,7 +27,7 @@ void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   for (const fs::path& file : files) {
     addFile(fingerprint, file);
   }
@@ -36,7 +35,7 @@ void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
 
 template <typename Item, typename Predicate>
 bool contains(const std::vector<Item>& items, Predicate predicate) {
-  return std::any_of(items.begin(), items.end(), predicate);
+  return std::ranges::any_of(items, predicate);
 }
 
 bool isRough(const Mirror& mirror) {

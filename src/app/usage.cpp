@@ -82,7 +82,7 @@ std::string unknownArgument(const CLI::App& app) {
   if (!commanded && !isOption(left.front())) {
     return "'" + left.front() + "' is not a command (" + advice(left.front(), commandNames(app)) + ")";
   }
-  const auto option = std::find_if(left.begin(), left.end(), isOption);
+  const auto option = std::ranges::find_if(left, isOption);
   const std::string name = option == left.end() ? left.front() : option->substr(0, option->find('='));
   const std::string help = commanded ? "speculum " + used.get_name() + " --help" : "speculum --help";
   const std::string meant = advice(name, optionNames(used));

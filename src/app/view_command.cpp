@@ -29,7 +29,7 @@ std::string quoted(const std::string& argument) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::string_view("-_./:,=+%@").find(c) != std::string_view::npos;
   };
-  if (!argument.empty() && std::all_of(argument.begin(), argument.end(), plain)) {
+  if (!argument.empty() && std::ranges::all_of(argument, plain)) {
     return argument;
   }
   std::string text = "'";

@@ -47,10 +47,6 @@ double lowestHeight(const Scene& scene) {
 
 }  // namespace
 
-void ViewController::reset(const Scene& scene) {
-  camera_.reset(scene.camera);
-}
-
 void ViewController::sceneChanged(const Scene& scene) {
   camera_.reset(scene.camera);
   camera_.setFloor(lowestHeight(scene));
@@ -62,10 +58,6 @@ void ViewController::sceneChanged(const Scene& scene) {
 void ViewController::setMode(CameraMode mode) {
   view_.mode = mode;
   camera_.setMode(mode);
-}
-
-void ViewController::toggleMode() {
-  setMode(view_.mode == CameraMode::fly ? CameraMode::orbit : CameraMode::fly);
 }
 
 void ViewController::move(const glm::dvec3& direction, const GamepadState& pad, double seconds) {

@@ -9,10 +9,10 @@ namespace speculum {
 // The camera of the window with its mode, the scene's bookmarks and the mirrors that it looks from.
 class ViewController {
  public:
-  void reset(const Scene& scene);  // to the scene's camera
+  void reset(const Scene& scene) { camera_.reset(scene.camera); }  // to the scene's camera
   void sceneChanged(const Scene& scene);
   void setMode(CameraMode mode);
-  void toggleMode();
+  void toggleMode() { setMode(view_.mode == CameraMode::fly ? CameraMode::orbit : CameraMode::fly); }
   // Moves the camera along right, up and backwards of the view, each in -1 .. 1, and by the gamepad's sticks.
   void move(const glm::dvec3& direction, const GamepadState& pad, double seconds);
 

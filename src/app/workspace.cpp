@@ -27,7 +27,7 @@ std::vector<fs::path> findShippedModels() {
       models.push_back(entry.path());
     }
   }
-  std::sort(models.begin(), models.end());
+  std::ranges::sort(models);
   return models;
 }
 

@@ -98,9 +98,8 @@ const Rule& ruleOf(BarrierKind kind) {
 // Returns the uses that a barrier waits for: for an attachment its earlier writes, and shaders that read it if any can.
 Scope before(const Rule& rule, std::span<Image* const> images) {
   const bool writes = rule.layout == attachment || rule.layout == depthAttachment;
-  const bool read = std::any_of(images.begin(), images.end(), [](const Image* image) {
-    return (image->desc().usage & VK_IMAGE_USAGE_SAMPLED_BIT) != 0;
-  });
+  const bool read = std::ranges::any_of(
+      images, [](const Image* image) { return (image->desc().usage & VK_IMAGE_USAGE_SAMPLED_BIT) != 0; });
   return {rule.before.stages | (writes && read ? sampleStage : 0), rule.before.access};
 }
 
@@ -137,7 +136,7 @@ std::string_view barrierName(BarrierKind kind) {
 }
 
 std::optional<BarrierKind> barrierFromName(std::string_view name) {
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](BarrierKind k) { return barrierName(k) == name; });
+  const auto found = std::ranges::find(kinds, name, barrierName);
   return found == kinds.end() ? std::nullopt : std::optional(*found);
 }
 

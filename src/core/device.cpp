@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <set>
 #include <stdexcept>
 
@@ -27,36 +29,18 @@ VkPhysicalDeviceFeatures usedFeatures(const VkPhysicalDeviceFeatures& available)
   };
 }
 
+constexpr std::array<std::string_view, 3> renderPathNames{"auto", "dynamic", "renderpass"};
+
 }  // namespace
 
-struct Device::Functions {
-  PFN_vkCmdBeginRendering beginRendering = nullptr;
-  PFN_vkCmdEndRendering endRendering = nullptr;
-  PFN_vkCmdSetFrontFace setFrontFace = nullptr;
-  PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
-  PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
-  PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
-};
-
 std::string_view renderPathName(RenderPath path) {
-  switch (path) {
-    case RenderPath::dynamic:
-      return "dynamic";
-    case RenderPath::renderPass:
-      return "renderpass";
-    case RenderPath::automatic:
-      break;
-  }
-  return "auto";
+  return renderPathNames[static_cast<size_t>(path)];
 }
 
 std::optional<RenderPath> renderPathFromName(std::string_view name) {
-  for (const RenderPath path : {RenderPath::automatic, RenderPath::dynamic, RenderPath::renderPass}) {
-    if (name == renderPathName(path)) {
-      return path;
-    }
-  }
-  return std::nullopt;
+  const auto found = std::ranges::find(renderPathNames, name);
+  return found == renderPathNames.end() ? std::nullopt
+                                        : std::optional(static_cast<RenderPath>(found - renderPathNames.begin()));
 }
 
 std::vector<DeviceInfo> Device::list() {
@@ -169,20 +153,19 @@ void Device::createDevice(const PhysicalDevice& chosen) {
 }
 
 void Device::loadFunctions(bool core13) {
-  functions_ = std::make_unique<Functions>();
   const auto load = [&]<typename F>(F& function, const char* core, const char* extension) {
     function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), core13 ? core : extension));
   };
-  load(functions_->beginRendering, "vkCmdBeginRendering", "vkCmdBeginRenderingKHR");
-  load(functions_->endRendering, "vkCmdEndRendering", "vkCmdEndRenderingKHR");
-  load(functions_->setFrontFace, "vkCmdSetFrontFace", "vkCmdSetFrontFaceEXT");
+  load(functions_.beginRendering, "vkCmdBeginRendering", "vkCmdBeginRenderingKHR");
+  load(functions_.endRendering, "vkCmdEndRendering", "vkCmdEndRenderingKHR");
+  load(functions_.setFrontFace, "vkCmdSetFrontFace", "vkCmdSetFrontFaceEXT");
   if (instance_.hasDebugUtils()) {
     const auto loadInstance = [this]<typename F>(F& function, const char* name) {
       function = reinterpret_cast<F>(vkGetInstanceProcAddr(instance_.get(), name));
     };
-    loadInstance(functions_->setName, "vkSetDebugUtilsObjectNameEXT");
-    loadInstance(functions_->beginLabel, "vkCmdBeginDebugUtilsLabelEXT");
-    loadInstance(functions_->endLabel, "vkCmdEndDebugUtilsLabelEXT");
+    loadInstance(functions_.setName, "vkSetDebugUtilsObjectNameEXT");
+    loadInstance(functions_.beginLabel, "vkCmdBeginDebugUtilsLabelEXT");
+    loadInstance(functions_.endLabel, "vkCmdEndDebugUtilsLabelEXT");
   }
 }
 
@@ -195,13 +178,8 @@ void Device::renewSurface(const Window& window) {
 }
 
 VkSampleCountFlagBits Device::sampleCount(int wanted) {
-  VkSampleCountFlags count = 1;
-  for (VkSampleCountFlags candidate = 1; static_cast<int>(candidate) <= std::clamp(wanted, 1, 64); candidate *= 2) {
-    if (caps_.sampleCounts & candidate) {
-      count = candidate;
-    }
-  }
   const auto asked = static_cast<VkSampleCountFlags>(std::clamp(wanted, 1, 64));
+  const VkSampleCountFlags count = std::bit_floor(caps_.sampleCounts & (2 * std::bit_floor(asked) - 1));
   if (count != asked && !(reportedSampleCounts_ & asked)) {
     reportedSampleCounts_ |= asked;
     spdlog::warn("{} has no {} samples per pixel: {} are used", info_.name, wanted, count);
@@ -226,45 +204,29 @@ MemoryBudget Device::memoryBudget() const {
   return result;
 }
 
-void Device::waitIdle() const {
-  check(vkDeviceWaitIdle(device_.get()), "wait for the GPU");
-}
-
 void Device::setObjectName(VkObjectType type, uint64_t object, std::string_view name) const {
-  if (functions_->setName) {
+  if (functions_.setName) {
     const std::string text(name);
     const VkDebugUtilsObjectNameInfoEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
                                              .objectType = type,
                                              .objectHandle = object,
                                              .pObjectName = text.c_str()};
-    functions_->setName(device_.get(), &info);  // an object can do without a name
+    functions_.setName(device_.get(), &info);  // an object can do without a name
   }
 }
 
 void Device::beginLabel(VkCommandBuffer commands, std::string_view name) const {
-  if (functions_->beginLabel) {
+  if (functions_.beginLabel) {
     const std::string text(name);
     const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = text.c_str()};
-    functions_->beginLabel(commands, &label);
+    functions_.beginLabel(commands, &label);
   }
 }
 
 void Device::endLabel(VkCommandBuffer commands) const {
-  if (functions_->endLabel) {
-    functions_->endLabel(commands);
+  if (functions_.endLabel) {
+    functions_.endLabel(commands);
   }
-}
-
-void Device::beginRendering(VkCommandBuffer commands, const VkRenderingInfo& info) const {
-  functions_->beginRendering(commands, &info);
-}
-
-void Device::endRendering(VkCommandBuffer commands) const {
-  functions_->endRendering(commands);
-}
-
-void Device::setFrontFace(VkCommandBuffer commands, VkFrontFace frontFace) const {
-  functions_->setFrontFace(commands, frontFace);
 }
 
 int Device::addImageObserver(std::function<void(uint64_t)> observer) {

@@ -63,6 +63,16 @@ struct MemoryBudget {
   uint64_t usedBytes = 0;    // by this process
 };
 
+// Functions that the loader does not export: of Vulkan 1.3 or the extension before it, and null without debug labels.
+struct DeviceFunctions {
+  PFN_vkCmdBeginRendering beginRendering = nullptr;
+  PFN_vkCmdEndRendering endRendering = nullptr;
+  PFN_vkCmdSetFrontFace setFrontFace = nullptr;
+  PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
+  PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
+  PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
+};
+
 struct PhysicalDevice;
 
 // Instance, the chosen GPU, logical device, its one queue and, where that cannot present, another that does. Outlives
@@ -98,7 +108,7 @@ class Device {
   VkSampleCountFlagBits sampleCount(int wanted);
 
   Barriers& barriers() { return barriers_; }
-  void waitIdle() const;
+  void waitIdle() const { check(vkDeviceWaitIdle(device_.get()), "wait for the GPU"); }
 
   // Warnings and errors of the validation layer since the start; 0 is the only good figure.
   int validationMessages() const { return instance_.messages().count(); }
@@ -126,9 +136,7 @@ class Device {
   }
   void beginLabel(VkCommandBuffer commands, std::string_view name) const;
   void endLabel(VkCommandBuffer commands) const;
-  void beginRendering(VkCommandBuffer commands, const VkRenderingInfo& info) const;
-  void endRendering(VkCommandBuffer commands) const;
-  void setFrontFace(VkCommandBuffer commands, VkFrontFace frontFace) const;
+  const DeviceFunctions& functions() const { return functions_; }
 
   // Adds a function that is called with Image::id() when an image is destroyed, so that caches drop its framebuffers.
   // Returns a key for removeImageObserver().
@@ -138,7 +146,6 @@ class Device {
 
  private:
   friend class Memory;
-  struct Functions;
   struct Destroy {
     using pointer = VkDevice;
     void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
@@ -162,7 +169,7 @@ class Device {
   std::unique_ptr<VkDevice, Destroy> device_;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkQueue presentQueue_ = VK_NULL_HANDLE;
-  std::unique_ptr<Functions> functions_;
+  DeviceFunctions functions_;
   Barriers barriers_;
   std::atomic<uint64_t> allocatedBytes_{0};
   std::atomic<uint32_t> allocations_{0};

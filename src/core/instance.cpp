@@ -1,7 +1,8 @@
 #include "core/instance.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
@@ -18,16 +19,14 @@ constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
 bool layerPresent() {
   const auto layers = enumerate<VkLayerProperties>("list Vulkan layers", vkEnumerateInstanceLayerProperties);
-  return std::any_of(layers.begin(), layers.end(),
-                     [](const auto& layer) { return std::strcmp(layer.layerName, validationLayer) == 0; });
+  return std::ranges::any_of(layers,
+                             [](const auto& layer) { return std::string_view(layer.layerName) == validationLayer; });
 }
 
-bool extensionPresent(const char* name) {
-  const auto extensions = enumerate<VkExtensionProperties>("list instance extensions", [](uint32_t* count, auto* data) {
-    return vkEnumerateInstanceExtensionProperties(nullptr, count, data);
-  });
-  return std::any_of(extensions.begin(), extensions.end(),
-                     [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
+bool extensionPresent(std::string_view name) {
+  const auto extensions =
+      enumerate<VkExtensionProperties>("list instance extensions", vkEnumerateInstanceExtensionProperties, nullptr);
+  return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName; });
 }
 
 uint32_t usedVersion() {
@@ -75,6 +74,42 @@ std::vector<const char*> chooseLayers(const DeviceOptions& options) {
 }
 
 }  // namespace
+
+VkDebugUtilsMessengerCreateInfoEXT DebugMessages::createInfo() {
+  return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+          .messageSeverity =
+              VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+          .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+          .pfnUserCallback = &DebugMessages::receive,
+          .pUserData = this};
+}
+
+int DebugMessages::count() const {
+  const std::lock_guard lock(mutex_);
+  return count_;
+}
+
+std::vector<std::string> DebugMessages::latest() const {
+  const std::lock_guard lock(mutex_);
+  return {latest_.begin(), latest_.end()};
+}
+
+VkBool32 DebugMessages::receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
+                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
+  const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  static_cast<DebugMessages*>(self)->add(error, data->pMessage ? data->pMessage : "");
+  return VK_FALSE;
+}
+
+void DebugMessages::add(bool error, const std::string& text) {
+  spdlog::log(error ? spdlog::level::err : spdlog::level::warn, "validation: {}", text);
+  const std::lock_guard lock(mutex_);
+  ++count_;
+  latest_.push_back(text);
+  if (latest_.size() > kept) {
+    latest_.pop_front();
+  }
+}
 
 void Instance::destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
                                 const VkAllocationCallbacks* allocator) {

@@ -133,7 +133,7 @@ PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& ti
       desc_.viewport.x, desc_.viewport.y, desc_.viewport.width, desc_.viewport.height, 0.0f, 1.0f};
   vkCmdSetViewport(commands_, 0, 1, &viewport);
   vkCmdSetScissor(commands_, 0, 1, &desc_.scissor);
-  device_.setFrontFace(commands_, desc_.frontFace);
+  device_.functions().setFrontFace(commands_, desc_.frontFace);
 }
 
 void PassScope::countSamples() {
@@ -145,7 +145,7 @@ void PassScope::countSamples() {
 PassScope::~PassScope() {
   timer_.endSamples(commands_, timerSlot_);
   if (dynamic_) {
-    device_.endRendering(commands_);
+    device_.functions().endRendering(commands_);
   } else {
     vkCmdEndRenderPass(commands_);
   }
@@ -181,7 +181,7 @@ void PassScope::beginDynamic() {
                              .colorAttachmentCount = 1,
                              .pColorAttachments = &color,
                              .pDepthAttachment = targets.depth ? &depth : nullptr};
-  device_.beginRendering(commands_, info);
+  device_.functions().beginRendering(commands_, &info);
 }
 
 void PassScope::beginRenderPass() {

@@ -12,19 +12,8 @@ namespace speculum {
 namespace {
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
-}
-
-std::vector<std::string> extensionsOf(VkPhysicalDevice device) {
-  std::vector<std::string> names;
-  for (const VkExtensionProperties& property :
-       enumerate<VkExtensionProperties>("list device extensions", [&](uint32_t*count, auto*data) {
-         return vkEnumerateDeviceExtensionProperties(device, nullptr, count, data);
-       })) {
-    names.emplace_back(property.extensionName);
-  }
-  return names;
 }
 
 VkSampleCountFlags sampleCounts(VkPhysicalDevice device, VkFormat format, VkImageUsageFlags usage) {
@@ -37,8 +26,7 @@ VkSampleCountFlags sampleCounts(VkPhysicalDevice device, VkFormat format, VkImag
 // Reads whether fragment shaders can query acceleration structures. Needs Vulkan 1.2 for addresses of buffers.
 void readRayQueries(PhysicalDevice& device, uint32_t instanceVersion) {
   if (std::min(device.properties.apiVersion, instanceVersion) < VK_API_VERSION_1_2 ||
-      !std::all_of(rayQueryExtensions.begin(), rayQueryExtensions.end(),
-                   [&](const char* name) { return device.hasExtension(name); })) {
+      !std::ranges::all_of(rayQueryExtensions, [&](const char* name) { return device.hasExtension(name); })) {
     return;
   }
   RayQueryFeatures found;
@@ -145,7 +133,8 @@ std::optional<std::string> missing(const PhysicalDevice& device) {
 PhysicalDevice inspect(VkPhysicalDevice handle, int index, uint32_t instanceVersion, VkSurfaceKHR surface) {
   PhysicalDevice device{.handle = handle};
   vkGetPhysicalDeviceProperties(handle, &device.properties);
-  device.extensions = extensionsOf(handle);
+  device.extensions =
+      enumerate<VkExtensionProperties>("list device extensions", vkEnumerateDeviceExtensionProperties, handle, nullptr);
   device.core13 = std::min(device.properties.apiVersion, instanceVersion) >= VK_API_VERSION_1_3;
   readFeatures(device);
   readRayQueries(device, instanceVersion);
@@ -184,17 +173,11 @@ std::string listOf(const std::vector<PhysicalDevice>& devices) {
   return text;
 }
 
+// Returns the place among the types, the best of which is the first.
 int rank(VkPhysicalDeviceType type) {
-  switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return 2;
-    default:
-      return 3;
-  }
+  constexpr std::array types = {VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU,
+                                VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU};
+  return static_cast<int>(std::ranges::find(types, type) - types.begin());
 }
 
 const PhysicalDevice* find(const std::vector<PhysicalDevice>& devices, const std::string& wanted) {
@@ -224,14 +207,12 @@ const PhysicalDevice* best(const std::vector<PhysicalDevice>& devices) {
 }  // namespace
 
 bool PhysicalDevice::hasExtension(std::string_view name) const {
-  return std::find(extensions.begin(), extensions.end(), name) != extensions.end();
+  return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName; });
 }
 
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance, VkSurfaceKHR surface) {
   std::vector<PhysicalDevice> devices;
-  for (VkPhysicalDevice handle : enumerate<VkPhysicalDevice>("list GPUs", [&](uint32_t*count, auto*data) {
-         return vkEnumeratePhysicalDevices(instance.get(), count, data);
-       })) {
+  for (VkPhysicalDevice handle : enumerate<VkPhysicalDevice>("list GPUs", vkEnumeratePhysicalDevices, instance.get())) {
     devices.push_back(inspect(handle, static_cast<int>(devices.size()), instance.version(), surface));
   }
   return devices;

@@ -33,7 +33,7 @@ struct PhysicalDevice {
   VkPhysicalDevice handle = VK_NULL_HANDLE;
   VkPhysicalDeviceProperties properties{};
   VkPhysicalDeviceFeatures features{};
-  std::vector<std::string> extensions;
+  std::vector<VkExtensionProperties> extensions;
   DeviceInfo info;
   DeviceCaps caps;
   bool extendedDynamicState = false;

@@ -109,9 +109,7 @@ PipelineLayoutHandle createLayout(Device& device, const PipelineDesc& desc) {
 }
 
 bool uses(const PipelineDesc& desc, const std::vector<std::string>& shaders) {
-  const auto listed = [&](const std::string& name) {
-    return std::find(shaders.begin(), shaders.end(), name) != shaders.end();
-  };
+  const auto listed = [&](const std::string& name) { return std::ranges::find(shaders, name) != shaders.end(); };
   if (const auto* compute = std::get_if<ComputePipelineDesc>(&desc)) {
     return listed(compute->comp);
   }
@@ -126,10 +124,10 @@ PipelineFactory::PipelineFactory(Device& device, ShaderLibrary& shaders, RenderP
     : device_(device), shaders_(shaders), renderPasses_(renderPasses), cache_(cache), retired_(retired) {}
 
 bool PipelineFactory::reload() {
-  const ShaderChange change = shaders_.poll();
+  const std::vector<std::string> changed = shaders_.poll();
   bool rebuilt = false;
   for (Pipeline* pipeline : pipelines_) {
-    if (uses(pipeline->desc_, change.changed)) {
+    if (uses(pipeline->desc_, changed)) {
       retired_.retire(std::exchange(pipeline->pipeline_, build(pipeline->desc_, pipeline->layout_.get())));
       spdlog::info("pipeline {} was rebuilt", nameOf(pipeline->desc_));
       rebuilt = true;
@@ -190,10 +188,6 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
                                     .pColorBlendState = &blend,
                                     .pDynamicState = &dynamicState,
                                     .layout = layout};
-  return create(desc, info);
-}
-
-PipelineHandle PipelineFactory::create(const GraphicsPipelineDesc& desc, VkGraphicsPipelineCreateInfo info) {
   const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                 .colorAttachmentCount = 1,
                                                 .pColorAttachmentFormats = &desc.color,
@@ -230,10 +224,6 @@ Pipeline::~Pipeline() {
 VkPipelineBindPoint Pipeline::bindPoint() const {
   return std::holds_alternative<ComputePipelineDesc>(desc_) ? VK_PIPELINE_BIND_POINT_COMPUTE
                                                             : VK_PIPELINE_BIND_POINT_GRAPHICS;
-}
-
-void Pipeline::bind(VkCommandBuffer commands) const {
-  vkCmdBindPipeline(commands, bindPoint(), pipeline_.get());
 }
 
 void Pipeline::bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,

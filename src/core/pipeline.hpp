@@ -66,7 +66,6 @@ class PipelineFactory {
   PipelineHandle build(const PipelineDesc& desc, VkPipelineLayout layout);
   PipelineHandle buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
   PipelineHandle buildCompute(const ComputePipelineDesc& desc, VkPipelineLayout layout);
-  PipelineHandle create(const GraphicsPipelineDesc& desc, VkGraphicsPipelineCreateInfo info);
 
   Device& device_;
   ShaderLibrary& shaders_;
@@ -86,7 +85,7 @@ class Pipeline {
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
-  void bind(VkCommandBuffer commands) const;
+  void bind(VkCommandBuffer commands) const { vkCmdBindPipeline(commands, bindPoint(), pipeline_.get()); }
   // `offsets` of the set's dynamic buffers, by binding.
   void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
                std::span<const uint32_t> offsets = {}) const;

@@ -55,7 +55,7 @@ RenderPassCache::RenderPassCache(Device& device)
     : device_(device), observer_(device.addImageObserver([this](uint64_t id) {
         std::erase_if(framebuffers_, [id](const auto& entry) {
           const std::vector<uint64_t>& images = entry.first.images;
-          return std::find(images.begin(), images.end(), id) != images.end();
+          return std::ranges::find(images, id) != images.end();
         });
       })) {}
 

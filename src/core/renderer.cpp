@@ -7,15 +7,7 @@
 
 namespace speculum {
 
-namespace {
-
 constexpr VkFormat headlessFormat = VK_FORMAT_R8G8B8A8_UNORM;
-
-std::filesystem::path cacheDir(const RendererOptions& options) {
-  return options.pipelineCacheDir ? *options.pipelineCacheDir : userCacheDir();
-}
-
-}  // namespace
 
 Renderer::Slot::Slot(Device& device, const std::string& name)
     : pool(device, name),
@@ -30,7 +22,7 @@ Renderer::Renderer(Device& device, const RendererOptions& options)
       window_(options.window),
       renderPasses_(device),
       shaders_(device, options.spirvDir.empty() ? dataDirectory("shaders") : options.spirvDir, options.shaderDir),
-      pipelineCache_(device, cacheDir(options)),
+      pipelineCache_(device, options.pipelineCacheDir.value_or(userCacheDir())),
       uploader_(device),
       slots_{Slot(device, "frame in flight 0"), Slot(device, "frame in flight 1")},
       pipelines_(device, shaders_, renderPasses_, pipelineCache_, retired_),
@@ -70,7 +62,7 @@ void Renderer::finish(Slot& slot) {
 }
 
 const FrameTimings* Renderer::timingsOf(uint64_t frame) const {
-  const auto slot = std::find_if(slots_.begin(), slots_.end(), [&](const Slot& s) { return s.timings.frame == frame; });
+  const auto slot = std::ranges::find_if(slots_, [&](const Slot& s) { return s.timings.frame == frame; });
   return slot == slots_.end() ? nullptr : &slot->timings;
 }
 
@@ -185,10 +177,6 @@ void Renderer::submit(Slot& slot, const Frame& frame, bool presents) {
   check(vkQueueSubmit(device_.queue(), 1, &info, slot.finished.get()), "submit a frame");
 }
 
-bool Renderer::drawsAside(const Frame& frame) const {
-  return frame.capture && !headless() && !swapChain_->copyable();
-}
-
 Image& Renderer::displayImage(const Frame& frame) {
   if (!drawsAside(frame)) {
     return headless() ? headlessImage_ : swapChain_->image(frame.imageIndex);
@@ -200,16 +188,8 @@ Image& Renderer::displayImage(const Frame& frame) {
   return asideImage_;
 }
 
-PassTargets Renderer::displayTargets(Frame& frame) {
-  return {.color = &displayImage(frame), .role = TargetRole::swapchain};
-}
-
 VkFormat Renderer::displayFormat() const {
   return headless() ? headlessFormat : swapChain_->format();
-}
-
-VkExtent2D Renderer::displayExtent() const {
-  return headless() ? headlessImage_.extent() : swapChain_->extent();
 }
 
 uint32_t Renderer::displayImageCount() const {

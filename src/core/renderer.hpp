@@ -69,9 +69,9 @@ class Renderer {
   void endFrame(Frame& frame);
 
   // The display image as a pass target: UNORM color without depth. Their role is TargetRole::swapchain.
-  PassTargets displayTargets(Frame& frame);
+  PassTargets displayTargets(Frame& frame) { return {.color = &displayImage(frame), .role = TargetRole::swapchain}; }
   VkFormat displayFormat() const;
-  VkExtent2D displayExtent() const;
+  VkExtent2D displayExtent() const { return headless() ? headlessImage_.extent() : swapChain_->extent(); }
   uint32_t displayImageCount() const;  // at least 2, which Dear ImGui requires
   VkRenderPass overlayRenderPass();    // compatible with beginOverlay's; may change when displayFormat() does
   // Present modes of the window; none when headless. A new mode applies from the next frame on.
@@ -118,7 +118,7 @@ class Renderer {
   std::optional<uint32_t> acquireImage(Slot& slot);
   Image& displayImage(const Frame& frame);
   // Says whether the frame is drawn into an image of its own, because the swapchain's cannot be copied.
-  bool drawsAside(const Frame& frame) const;
+  bool drawsAside(const Frame& frame) const { return frame.capture && !headless() && !swapChain_->copyable(); }
   bool prepareSwapChain();
   void recordCapture(Slot& slot, const Frame& frame);
   void submit(Slot& slot, const Frame& frame, bool presents);

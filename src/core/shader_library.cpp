@@ -86,19 +86,18 @@ VkShaderModule ShaderLibrary::module(const std::string& name) {
   return entry.module.get();
 }
 
-ShaderChange ShaderLibrary::poll() {
-  ShaderChange change;
+std::vector<std::string> ShaderLibrary::poll() {
+  std::vector<std::string> changed;
   if (watching()) {
     for (auto& [name, entry] : entries_) {
       const bool touched = !entry.sources.empty() && newest(entry.sources) > entry.newest;
       if (touched && compile(name, entry)) {
-        change.changed.push_back(name);
+        changed.push_back(name);
       }
     }
     collectErrors();
   }
-  change.errors = errors_;
-  return change;
+  return changed;
 }
 
 // Compiles with the flags of the build, so that an unchanged file gives unchanged SPIR-V.

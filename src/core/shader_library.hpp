@@ -11,11 +11,6 @@
 
 namespace speculum {
 
-struct ShaderChange {
-  std::vector<std::string> changed;  // names whose SPIR-V is new, e.g. "mirror.frag"
-  std::string errors;                // messages of the compiler; empty if every file compiles
-};
-
 // SPIR-V modules by the name of their GLSL file ("mirror.frag" is read from mirror.frag.spv). With a directory of
 // GLSL, its files replace the built ones: compiled at start, and again when they or what they include change.
 class ShaderLibrary {
@@ -27,9 +22,10 @@ class ShaderLibrary {
   VkShaderModule module(const std::string& name);
 
   bool watching() const { return !glslDir_.empty(); }
-  // Compiles files that are newer than their modules. A file that fails keeps its module. Replaced modules are
-  // destroyed at once: pipelines do not need theirs after creation.
-  ShaderChange poll();
+  // Compiles files that are newer than their modules and returns the names whose SPIR-V is new, e.g. "mirror.frag". A
+  // file that fails keeps its module. Replaced modules are destroyed at once: pipelines do not need theirs after
+  // creation.
+  std::vector<std::string> poll();
   const std::string& errors() const { return errors_; }  // messages for the files that fail at present
 
  private:

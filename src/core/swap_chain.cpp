@@ -57,9 +57,8 @@ SwapChain::SwapChain(Device& device, Window& window, PresentMode mode) : device_
 }
 
 void SwapChain::chooseFormat() {
-  const auto formats = enumerate<VkSurfaceFormatKHR>("list formats", [&](uint32_t* count, auto* data) {
-    return vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physical(), device_.surface(), count, data);
-  });
+  const auto formats = enumerate<VkSurfaceFormatKHR>("list formats", vkGetPhysicalDeviceSurfaceFormatsKHR,
+                                                     device_.physical(), device_.surface());
   for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}) {
     for (const VkSurfaceFormatKHR& format : formats) {
       if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
@@ -72,12 +71,11 @@ void SwapChain::chooseFormat() {
 }
 
 std::vector<PresentMode> SwapChain::presentModes() const {
-  const auto modes = enumerate<VkPresentModeKHR>("list present modes", [&](uint32_t* count, auto* data) {
-    return vkGetPhysicalDeviceSurfacePresentModesKHR(device_.physical(), device_.surface(), count, data);
-  });
+  const auto modes = enumerate<VkPresentModeKHR>("list present modes", vkGetPhysicalDeviceSurfacePresentModesKHR,
+                                                 device_.physical(), device_.surface());
   std::vector<PresentMode> offered;
   for (const PresentMode mode : {PresentMode::fifo, PresentMode::mailbox, PresentMode::immediate}) {
-    if (std::find(modes.begin(), modes.end(), vulkanMode(mode)) != modes.end()) {
+    if (std::ranges::find(modes, vulkanMode(mode)) != modes.end()) {
       offered.push_back(mode);
     }
   }
@@ -86,7 +84,7 @@ std::vector<PresentMode> SwapChain::presentModes() const {
 
 void SwapChain::choosePresentMode(PresentMode wanted) {
   const std::vector<PresentMode> offered = presentModes();
-  const bool present = std::find(offered.begin(), offered.end(), wanted) != offered.end();
+  const bool present = std::ranges::find(offered, wanted) != offered.end();
   mode_ = present ? wanted : PresentMode::fifo;
   stale_ = true;
   if (!present) {
@@ -142,9 +140,8 @@ void SwapChain::create() {
 }
 
 void SwapChain::createImages() {
-  for (VkImage image : enumerate<VkImage>("list swapchain images", [&](uint32_t*count, auto*data) {
-         return vkGetSwapchainImagesKHR(device_.get(), swapchain_.get(), count, data);
-       })) {
+  for (VkImage image :
+       enumerate<VkImage>("list swapchain images", vkGetSwapchainImagesKHR, device_.get(), swapchain_.get())) {
     const std::string name = "swapchain image " + std::to_string(images_.size());
     images_.emplace_back(device_, image, ImageDesc{.extent = extent_, .format = format_.format, .name = name});
     renderFinished_.push_back(device_.create(vkCreateSemaphore, {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO},

@@ -147,7 +147,7 @@ std::vector<float> Uploader::readFloats(Image& image) {
   std::vector<uint16_t> halves(raw.size() / sizeof(uint16_t));
   std::memcpy(halves.data(), raw.data(), raw.size());
   std::vector<float> values(halves.size());
-  std::transform(halves.begin(), halves.end(), values.begin(), [](uint16_t half) { return glm::unpackHalf1x16(half); });
+  std::ranges::transform(halves, values.begin(), [](uint16_t half) { return glm::unpackHalf1x16(half); });
   return values;
 }
 

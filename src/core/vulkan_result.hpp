@@ -10,18 +10,15 @@
 namespace speculum {
 
 // VK_ERROR_OUT_OF_DEVICE_MEMORY or VK_ERROR_OUT_OF_HOST_MEMORY.
-class OutOfMemoryError : public std::runtime_error {
- public:
+struct OutOfMemoryError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-class DeviceLostError : public std::runtime_error {
- public:
+struct DeviceLostError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-class SurfaceLostError : public std::runtime_error {
- public:
+struct SurfaceLostError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -31,17 +28,17 @@ class SurfaceLostError : public std::runtime_error {
 void check(VkResult result, std::string_view what);
 std::string resultName(VkResult result);
 
-// Lists what Vulkan enumerates in two calls: query(&count, nullptr) says how many, query(&count, data) which. Repeats
-// both if the number grew in between.
-template <typename T, typename Query>
-std::vector<T> enumerate(std::string_view what, Query query) {
+// Lists what Vulkan enumerates in two calls: query(first..., &count, nullptr) says how many, query(first..., &count,
+// data) which. Repeats both if the number grew in between.
+template <typename T, typename Query, typename... First>
+std::vector<T> enumerate(std::string_view what, Query query, First... first) {
   std::vector<T> items;
   VkResult result = VK_INCOMPLETE;
   while (result == VK_INCOMPLETE) {
     uint32_t count = 0;
-    check(query(&count, static_cast<T*>(nullptr)), what);
+    check(query(first..., &count, nullptr), what);
     items.resize(count);
-    result = query(&count, items.data());
+    result = query(first..., &count, items.data());
     items.resize(count);
   }
   check(result, what);

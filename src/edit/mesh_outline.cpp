@@ -64,12 +64,12 @@ std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
     const double y = 1.0 - (2.0 * i + 1.0) / mostPoints;
     const double angle = 2.0 * std::numbers::pi * std::numbers::phi * static_cast<double>(i);
     const glm::dvec3 d(std::sqrt(1.0 - y * y) * std::cos(angle), y, std::sqrt(1.0 - y * y) * std::sin(angle));
-    const auto most = std::max_element(
-        mesh.vertices.begin(), mesh.vertices.end(),
-        [&](const Vertex& a, const Vertex& b) { return glm::dot(a.position, d) < glm::dot(b.position, d); });
+    const auto most = std::ranges::max_element(mesh.vertices, [&](const Vertex& a, const Vertex& b) {
+      return glm::dot(a.position, d) < glm::dot(b.position, d);
+    });
     farthest.push_back(static_cast<size_t>(most - mesh.vertices.begin()));
   }
-  std::sort(farthest.begin(), farthest.end());
+  std::ranges::sort(farthest);
   farthest.erase(std::unique(farthest.begin(), farthest.end()), farthest.end());
   for (const size_t i : farthest) {
     points.push_back(mesh.vertices[i].position);

@@ -16,8 +16,8 @@ constexpr int circleSteps = 48;
 
 // Convex hull, counter-clockwise: Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions" (1979).
 std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::ranges::sort(points,
+                    [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   std::vector<glm::dvec2> hull;
   const auto add = [&](const glm::dvec2& p, size_t first) {
     while (hull.size() >= first + 2) {

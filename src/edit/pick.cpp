@@ -24,7 +24,7 @@ Selection selectionOf(const SceneHit& hit, const TraceWorld& world) {
 
 // Says whether the plan skipped the mirror at the end of the path, so that it shows no image.
 bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
-  return std::any_of(limits.skipped.begin(), limits.skipped.end(), [&](const SkippedMirror& skip) {
+  return std::ranges::any_of(limits.skipped, [&](const SkippedMirror& skip) {
     const bool shown = skip.reason == SkipReason::maxPasses || skip.reason == SkipReason::maxDepth ||
                        skip.reason == SkipReason::minPixels || skip.reason == SkipReason::minThroughput;
     return shown && skip.path == path;
@@ -65,7 +65,7 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
     ray = reflectedRay(ray, {placed.origin, placed.normal}, hit->t);
     skip = {.mirror = hit->index};
   }
-  std::reverse(found.begin(), found.end());
+  std::ranges::reverse(found);
   return found;
 }
 

@@ -31,9 +31,9 @@ size_t bytesOf(const SceneContent& content) {
 bool sameStructure(const SceneContent& a, const SceneContent& b) {
   return a.origins.objects == b.origins.objects && a.origins.lights == b.origins.lights &&
          a.origins.mirrors == b.origins.mirrors &&
-         std::equal(
-             a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),
-             [](const Object& x, const Object& y) { return x.mesh == y.mesh && x.copies.count == y.copies.count; });
+         std::ranges::equal(a.objects, b.objects, [](const Object& x, const Object& y) {
+           return x.mesh == y.mesh && x.copies.count == y.copies.count;
+         });
 }
 
 bool sameFile(const fs::path& a, const fs::path& b) {
@@ -146,18 +146,6 @@ Selection SceneDocument::add(const SceneNode& node) {
   return added;
 }
 
-Selection SceneDocument::addMirror(const glm::dvec3& position, const glm::dvec3& viewer) {
-  return add(newMirror(position, viewer));
-}
-
-Selection SceneDocument::addLight(const glm::dvec3& position, const glm::dvec3& viewer) {
-  return add(newLight(position, viewer));
-}
-
-Selection SceneDocument::addObject(int mesh, const glm::dvec3& position) {
-  return add(newObject(scene_, mesh, position));
-}
-
 Selection SceneDocument::duplicate(const Selection& selection, double side) {
   return selection ? structural("duplicate " + describe(scene_, selection),
                                 [&] { return append(copyBeside(scene_, selection, side)); })
@@ -184,8 +172,7 @@ void SceneDocument::remove(const Selection& selection) {
 
 void SceneDocument::remove(std::span<const Selection> nodes) {
   std::vector<Selection> fromTheEnd(nodes.begin(), nodes.end());
-  std::sort(fromTheEnd.begin(), fromTheEnd.end(),
-            [](const Selection& a, const Selection& b) { return a.index > b.index; });
+  std::ranges::sort(fromTheEnd, [](const Selection& a, const Selection& b) { return a.index > b.index; });
   structural("remove " + describe(scene_, nodes), [&] {
     for (const Selection& node : fromTheEnd) {
       erase(node);

@@ -39,9 +39,9 @@ class SceneDocument {
   bool gestureChanges() const { return gesture_ && content() != gesture_->content; }
 
   // Each adds a node in one step, selects it and returns where it is; see new_nodes.hpp.
-  Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer);
-  Selection addLight(const glm::dvec3& position, const glm::dvec3& viewer);
-  Selection addObject(int mesh, const glm::dvec3& position);
+  Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer) { return add(newMirror(position, viewer)); }
+  Selection addLight(const glm::dvec3& position, const glm::dvec3& viewer) { return add(newLight(position, viewer)); }
+  Selection addObject(int mesh, const glm::dvec3& position) { return add(newObject(scene_, mesh, position)); }
   // Beside the node, on the other side for -1. Throws std::out_of_range for what does not exist.
   Selection duplicate(const Selection& selection, double side = 1.0);
   void remove(const Selection& selection);  // nothing is selected afterwards

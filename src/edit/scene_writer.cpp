@@ -132,16 +132,14 @@ void editSettings(TomlEditor& editor, const Settings& loaded, std::span<const Se
 
 template <typename T>
 bool sameTexts(const T& a, const T& b) {
-  const std::vector<KeyText> x = keyTexts(a);
-  const std::vector<KeyText> y = keyTexts(b);
-  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const KeyText& p, const KeyText& q) {
+  return std::ranges::equal(keyTexts(a), keyTexts(b), [](const KeyText& p, const KeyText& q) {
     return p.table == q.table && p.key == q.key && p.text == q.text;
   });
 }
 
 template <typename T>
 bool sameLists(const std::vector<T>& a, const std::vector<T>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return sameTexts(x, y); });
+  return std::ranges::equal(a, b, sameTexts<T>);
 }
 
 bool readsBack(const Scene& read, const SceneContent& content) {

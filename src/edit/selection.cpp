@@ -6,11 +6,7 @@
 
 namespace speculum {
 
-namespace {
-
 constexpr std::array kindNames = {"", "object", "light", "mirror"};  // by Selection::Kind
-
-}  // namespace
 
 std::string describe(const Scene& scene, const Selection& selection) {
   std::string text = "nothing";

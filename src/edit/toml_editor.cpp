@@ -13,13 +13,13 @@ namespace {
 constexpr size_t kLongestLine = 120;
 
 const KeyText* find(const std::vector<KeyText>& keys, const KeyText& wanted) {
-  const auto found = std::find_if(keys.begin(), keys.end(),
-                                  [&](const KeyText& k) { return k.table == wanted.table && k.key == wanted.key; });
+  const auto found =
+      std::ranges::find_if(keys, [&](const KeyText& k) { return k.table == wanted.table && k.key == wanted.key; });
   return found == keys.end() ? nullptr : &*found;
 }
 
 bool hasTable(const std::vector<KeyText>& keys, const std::string& table) {
-  return std::any_of(keys.begin(), keys.end(), [&](const KeyText& k) { return k.table == table; });
+  return std::ranges::any_of(keys, [&](const KeyText& k) { return k.table == table; });
 }
 
 std::string keyValue(const std::string& key, size_t width, const std::string& value) {
@@ -138,10 +138,6 @@ void TomlEditor::changeKey(TomlNode& table, const std::vector<KeyText>& base, co
   } else if (!key.omissible) {
     addKey(within == &table ? std::vector{&table} : std::vector{&table, within}, key.key, key.text);
   }
-}
-
-void TomlEditor::setValue(const TomlNode& value, const std::string& text) {
-  edits_.push_back({value.value.value(), text});
 }
 
 // Leaves the numbers of an array that did not change as they are written.
@@ -274,10 +270,6 @@ void TomlEditor::addSection(const std::string& name, const std::vector<std::stri
   addBlock(at, "[" + name + "]", keys);
 }
 
-void TomlEditor::removeElement(const std::string& list, size_t index) {
-  remove(*root_.child(list)->children.at(index));
-}
-
 void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>& keys) {
   const TomlNode* known = root_.child(list);
   if (known != nullptr && known->value) {
@@ -327,7 +319,7 @@ std::string TomlEditor::text() const {
     resolve(*list, change, edits);
   }
   // Keys added to a table come before a table that is added behind it.
-  std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {
+  std::ranges::stable_sort(edits, [](const Edit& a, const Edit& b) {
     return std::tuple(a.range.begin, a.range.end, a.block) < std::tuple(b.range.begin, b.range.end, b.block);
   });
   std::string result;

@@ -25,10 +25,10 @@ class TomlEditor {
   // Adds [name] behind the last of the tables `after` that the text has.
   void addSection(const std::string& name, const std::vector<std::string>& after, const std::vector<KeyText>& keys);
   // Removes an element of the file's array `list`, with the comment right above it.
-  void removeElement(const std::string& list, size_t index);
+  void removeElement(const std::string& list, size_t index) { remove(*root_.child(list)->children.at(index)); }
   // Adds an element at the end of the file's array `list`, which the text may lack.
   void addElement(const std::string& list, const std::vector<KeyText>& keys);
-  void setValue(const TomlNode& value, const std::string& text);
+  void setValue(const TomlNode& value, const std::string& text) { edits_.push_back({value.value.value(), text}); }
   // Adds a key to the last of `tables`, a path of nested tables of which only the last may be missing from the text.
   void addKey(const std::vector<TomlNode*>& tables, const std::string& key, const std::string& text);
   void remove(TomlNode& node);

@@ -25,7 +25,7 @@ bool isArrayOfHeaders(const toml::node& node) {
 
 // Says whether only headers of nested tables name the table; it then has the position of the first of them.
 bool isImplicit(const toml::table& table) {
-  return std::any_of(table.begin(), table.end(), [&](const auto& entry) {
+  return std::ranges::any_of(table, [&](const auto& entry) {
     const bool headed = entry.second.is_table() || isArrayOfHeaders(entry.second);
     return headed && beginOf(entry.second.source()) == beginOf(table.source());
   });
@@ -83,8 +83,8 @@ class Outliner {
     for (const auto& [key, child] : table) {
       entries.emplace_back(&key, &child);
     }
-    std::sort(entries.begin(), entries.end(),
-              [](const auto& a, const auto& b) { return beginOf(a.first->source()) < beginOf(b.first->source()); });
+    std::ranges::sort(
+        entries, [](const auto& a, const auto& b) { return beginOf(a.first->source()) < beginOf(b.first->source()); });
     for (const auto& [key, child] : entries) {
       TomlNode& added = *node.children.emplace_back(std::make_unique<TomlNode>());
       added.key = key->str();
@@ -141,7 +141,7 @@ class Outliner {
   // Keys in braces begin behind the brace or the comma.
   void keyItems(TomlNode& braces) {
     std::vector<TomlNode*> items = itemsOf(braces);
-    std::sort(items.begin(), items.end(), [](auto* a, auto* b) { return a->value->begin < b->value->begin; });
+    std::ranges::sort(items, [](auto* a, auto* b) { return a->value->begin < b->value->begin; });
     size_t end = braces.value->begin + 1;
     for (TomlNode* item : items) {
       item->keyed = TextRange{text_.find_first_not_of(" \t,", end), item->value->end};
@@ -196,7 +196,7 @@ void moveBack(TomlNode& node, size_t bytes) {
 }  // namespace
 
 TomlNode* TomlNode::child(std::string_view name) {
-  const auto found = std::find_if(children.begin(), children.end(), [&](const auto& c) { return c->key == name; });
+  const auto found = std::ranges::find_if(children, [&](const auto& c) { return c->key == name; });
   return kind == Kind::table && found != children.end() ? found->get() : nullptr;
 }
 

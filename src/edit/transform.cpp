@@ -40,7 +40,7 @@ glm::dvec3 about(const glm::dvec3& pivot, const glm::dmat3& rotation, const glm:
 }  // namespace
 
 const InstanceState* instanceOf(const SceneState& state, const Selection& selection) {
-  const auto found = std::find_if(state.instances.begin(), state.instances.end(), [&](const InstanceState& instance) {
+  const auto found = std::ranges::find_if(state.instances, [&](const InstanceState& instance) {
     return selection.kind == Selection::Kind::object && instance.object == selection.index &&
            instance.copy == selection.copy;
   });

@@ -52,8 +52,8 @@ bool shows(const CachedImage& cached, const glm::dvec3& relative) {
   const std::optional<glm::dvec2> texel = texelOf(cached.view, cached.projection, relative);
   return texel && texel->x >= filterReach && texel->y >= filterReach &&
          texel->x <= cached.view.rect.width - filterReach && texel->y <= cached.view.rect.height - filterReach &&
-         std::all_of(cached.view.cone.begin(), cached.view.cone.end(),
-                     [&](const glm::dvec3& normal) { return glm::dot(normal, relative) >= 0.0; });
+         std::ranges::all_of(cached.view.cone,
+                             [&](const glm::dvec3& normal) { return glm::dot(normal, relative) >= 0.0; });
 }
 
 }  // namespace
@@ -62,11 +62,11 @@ bool unmoved(const CachedImage& cached, const View& now, const Projection& proje
              std::span<const glm::dvec3> visible) {
   return cached.view.eye == now.eye && cached.view.worldToView == now.worldToView &&
          cached.view.pictureSize == now.pictureSize && cached.projection == projection &&
-         std::equal(cached.visible.begin(), cached.visible.end(), visible.begin(), visible.end());
+         std::ranges::equal(cached.visible, visible);
 }
 
 bool covers(const CachedImage& cached, const View& now, std::span<const glm::dvec3> visible) {
-  return std::all_of(visible.begin(), visible.end(), [&](const glm::dvec3& corner) {
+  return std::ranges::all_of(visible, [&](const glm::dvec3& corner) {
     return shows(cached, corner - cached.view.eye) && shows(cached, corner - now.eye);
   });
 }

@@ -18,7 +18,7 @@ void addMirror(const Mirror& material, const MirrorState& mirror, int index, con
   }
   if (height < 0.0) {
     draw.plane.normal = -draw.plane.normal;
-    std::reverse(draw.polygon.begin(), draw.polygon.end());
+    std::ranges::reverse(draw.polygon);
   }
   face.mirrors.push_back(std::move(draw));
 }
@@ -49,7 +49,7 @@ std::vector<Box> boxesOf(const Scene& scene, const SceneState& state) {
   }
   for (const MirrorState& mirror : state.mirrors) {
     Box& box = boxes.emplace_back();
-    std::for_each(mirror.polygon.begin(), mirror.polygon.end(), [&](const glm::dvec3& p) { box.add(p); });
+    std::ranges::for_each(mirror.polygon, [&](const glm::dvec3& p) { box.add(p); });
   }
   return boxes;
 }

@@ -37,7 +37,7 @@ std::vector<int> frontToBack(const View& view, std::span<const int> instances, c
   for (Entry& entry : entries) {
     entry.batch = nearest[entry.mesh];
   }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
+  std::ranges::sort(entries, [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
   std::vector<int> order;
   order.reserve(entries.size());
   for (const Entry& entry : entries) {

@@ -1,10 +1,10 @@
 #include "frame/effects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "frame/scene_names.hpp"
-#include "image/color.hpp"
 
 namespace speculum {
 
@@ -28,10 +28,10 @@ Visible visibleIn(const FramePlan& plan) {
       }
     }
   };
-  std::for_each(plan.passes.begin(), plan.passes.end(), add);
-  std::for_each(plan.reused.begin(), plan.reused.end(), add);
+  std::ranges::for_each(plan.passes, add);
+  std::ranges::for_each(plan.reused, add);
   for (const EnvironmentMap& map : plan.maps) {
-    std::for_each(map.faces.begin(), map.faces.end(), add);
+    std::ranges::for_each(map.faces, add);
   }
   add(plan.main);
   return visible;
@@ -92,34 +92,21 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effect) {
-  switch (effect) {
-    case EffectKind::shadows:
-      return {{"effects.shadows", "false"}};
-    case EffectKind::roughness:
-      return {{"effects.roughness", "false"}};
-    case EffectKind::ripple:
-      return {{"effects.ripple", "false"}};
-    case EffectKind::castsLight:
-      return {{"effects.casts_light", "false"}};
-    case EffectKind::curved:
-      return {{"effects.curved", "false"}};
-    case EffectKind::msaa:
-      return {{"view.samples", "1"}, {"reflection.samples", "1"}};
-    case EffectKind::toneMap:
-      return {{"view.tone_map", "clamp"}};
-    case EffectKind::wireframe:
-      return {{"view.wireframe", "false"}};
-    case EffectKind::fresnel:
-      return {{"effects.fresnel", "false"}};
-    case EffectKind::textures:
-      return {{"effects.textures", "false"}};
-    case EffectKind::glyphs:
-      return {{"effects.glyphs", "false"}};
-    case EffectKind::count:
-      break;
-  }
-  return {};
+std::vector<SettingChange> settingsWithout(EffectKind effect) {
+  static const std::array<std::vector<SettingChange>, static_cast<size_t>(EffectKind::count)> without = {{
+      {{"effects.shadows", "false"}},
+      {{"effects.roughness", "false"}},
+      {{"effects.ripple", "false"}},
+      {{"effects.casts_light", "false"}},
+      {{"effects.fresnel", "false"}},
+      {{"effects.textures", "false"}},
+      {{"view.samples", "1"}, {"reflection.samples", "1"}},
+      {{"view.tone_map", "clamp"}},
+      {{"effects.glyphs", "false"}},
+      {{"view.wireframe", "false"}},
+      {{"effects.curved", "false"}},
+  }};
+  return without[static_cast<size_t>(effect)];
 }
 
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {

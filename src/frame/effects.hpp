@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "frame/frame_plan.hpp"
@@ -30,8 +29,8 @@ struct Effect {
   std::string why;
 };
 
-// Settings (key, value) that leave an effect out of the picture.
-std::vector<std::pair<std::string, std::string>> settingsWithout(EffectKind effect);
+// Settings that leave an effect out of the picture, at least one.
+std::vector<SettingChange> settingsWithout(EffectKind effect);
 
 // Says whether something with a texture is drawn, or seen in an image that is reused.
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);

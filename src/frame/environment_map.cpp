@@ -68,9 +68,9 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
       const InstanceState& instance = state.instances[static_cast<size_t>(i)];
       return instance.radius / std::max(1e-9, glm::length(instance.center - state.camera.eye));
     };
-    std::stable_sort(curved.begin(), curved.end(), [&](int a, int b) { return width(a) > width(b); });
+    std::ranges::stable_sort(curved, [&](int a, int b) { return width(a) > width(b); });
     curved.resize(mostEnvironmentMaps);
-    std::sort(curved.begin(), curved.end());
+    std::ranges::sort(curved);
   }
   return curved;
 }

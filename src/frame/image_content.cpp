@@ -91,9 +91,9 @@ void addEffects(const ImageSurroundings& around, const View& main, Numbers& numb
   const TracedEffects& effects = around.effects;
   numbers.addAll(effects.any(), effects.traces(), effects.shadows.has_value(), effects.shadowMaps,
                  effects.castsLight.has_value(), static_cast<double>(effects.mirroredLights.size()));
-  const bool waves =
-      around.settings.effects.ripple && std::any_of(around.scene.mirrors.begin(), around.scene.mirrors.end(),
-                                                    [](const Mirror& m) { return m.ripple && m.ripple->speed != 0.0; });
+  const bool waves = around.settings.effects.ripple && std::ranges::any_of(around.scene.mirrors, [](const Mirror& m) {
+                       return m.ripple && m.ripple->speed != 0.0;
+                     });
   numbers.add(waves && (effects.any() || effects.ripple) ? around.state.time : 0.0);
   if (!effects.any()) {
     return;

@@ -32,7 +32,7 @@ int marginFor(const CachedImage& image, const ReuseRequest& request, int due) {
 }
 
 auto imageOf(std::span<const CachedImage> images, int mirror) {
-  return std::find_if(images.begin(), images.end(), [&](const CachedImage& image) { return image.mirror == mirror; });
+  return std::ranges::find(images, mirror, &CachedImage::mirror);
 }
 
 // Compares debug.* too, which sameMirrorImages leaves out, so that a reused image is the same bit for bit.
@@ -59,9 +59,8 @@ bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const I
     }
     map.content = imageContent(around, main, faces);
   }
-  const auto before = std::find_if(maps.begin(), maps.end(), [&](const EnvironmentMap& other) {
-    return other.object == map.object && other.copy == map.copy;
-  });
+  const auto before = std::ranges::find_if(
+      maps, [&](const EnvironmentMap& other) { return other.object == map.object && other.copy == map.copy; });
   if (before == maps.end() || !sameMaps(before->settings, around.settings)) {
     map.due = interval - map.instance % interval;  // so that maps become due in turn
     return false;
@@ -135,11 +134,10 @@ void reuseMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap
 }
 
 void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around) {
-  const bool renders =
-      !plan.passes.empty() || rendersShadows(plan.shadowMaps) ||
-      std::any_of(plan.maps.begin(), plan.maps.end(), [](const EnvironmentMap& map) { return map.cacheIndex < 0; });
-  const bool reprojects = std::any_of(plan.main.mirrors.begin(), plan.main.mirrors.end(),
-                                      [](const MirrorDraw& draw) { return draw.cached && draw.cached->moved; });
+  const bool renders = !plan.passes.empty() || rendersShadows(plan.shadowMaps) ||
+                       std::ranges::any_of(plan.maps, [](const EnvironmentMap& map) { return map.cacheIndex < 0; });
+  const bool reprojects =
+      std::ranges::any_of(plan.main.mirrors, [](const MirrorDraw& draw) { return draw.cached && draw.cached->moved; });
   if (renders || reprojects) {
     return;
   }

@@ -55,8 +55,7 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
     return best;  // without making levels that nothing uses
   }
   const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
-  const auto end = std::upper_bound(levels.begin(), levels.end(), largestError,
-                                    [](double error, const MeshLevel& level) { return error < level.error; });
+  const auto end = std::ranges::upper_bound(levels, largestError, {}, &MeshLevel::error);
   // Coarsest first. Of the finer levels only the first one with clusters can have fewer triangles to draw.
   for (auto level = end; level != levels.begin();) {
     --level;
@@ -110,14 +109,13 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
     }
   };
   add(plan.main);
-  std::for_each(plan.passes.begin(), plan.passes.end(), add);
-  std::for_each(plan.reused.begin(), plan.reused.end(), add);
+  std::ranges::for_each(plan.passes, add);
+  std::ranges::for_each(plan.reused, add);
   return {meshes.begin(), meshes.end()};
 }
 
 int levelOf(const PlannedPass& pass, int instance) {
-  const auto found = std::lower_bound(pass.simplified.begin(), pass.simplified.end(), instance,
-                                      [](const SimplifiedInstance& s, int wanted) { return s.instance < wanted; });
+  const auto found = std::ranges::lower_bound(pass.simplified, instance, {}, &SimplifiedInstance::instance);
   return found != pass.simplified.end() && found->instance == instance ? found->level : -1;
 }
 

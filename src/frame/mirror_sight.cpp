@@ -27,7 +27,7 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, con
   }
   if (sight.height < 0.0) {
     draw.plane.normal = -draw.plane.normal;
-    std::reverse(draw.polygon.begin(), draw.polygon.end());
+    std::ranges::reverse(draw.polygon);
   }
   return sight;
 }

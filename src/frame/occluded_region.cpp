@@ -84,7 +84,7 @@ std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const V
   region.reserve(region.size() + 2 * drawn.size());
   const glm::dvec3 inside = vertexMean(drawn) - view.eye;
   if (height < 0.0) {
-    std::reverse(drawn.begin(), drawn.end());
+    std::ranges::reverse(drawn);
   }
   for (size_t i = 0; i < drawn.size(); ++i) {
     const auto normal = addEdge(region, drawn[i] - view.eye, drawn[(i + 1) % drawn.size()] - view.eye, inside,
@@ -127,9 +127,8 @@ std::optional<BodyRegion> hiddenByBody(const BodyOccluder& body, const View& vie
 bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::dvec3& eye) {
   const double height = target.plane.distance(eye);
   const double least = depthPart * std::abs(height) + body.slack + target.slack;
-  return std::all_of(body.points.begin(), body.points.end(), [&](const glm::dvec3& p) {
-    return (height > 0.0 ? 1.0 : -1.0) * target.plane.distance(p) > least;
-  });
+  return std::ranges::all_of(
+      body.points, [&](const glm::dvec3& p) { return (height > 0.0 ? 1.0 : -1.0) * target.plane.distance(p) > least; });
 }
 
 std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,
@@ -140,11 +139,11 @@ std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const
     std::vector<std::vector<glm::dvec3>> cut;
     for (const HalfSpace& half : region) {
       const auto inside = [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; };
-      if (std::all_of(within.begin(), within.end(), inside)) {
+      if (std::ranges::all_of(within, inside)) {
         continue;
       }
       const double slope2 = glm::dot(half.gradient, half.gradient);
-      const bool apart = !(slope2 > 0.0) || std::none_of(within.begin(), within.end(), inside);
+      const bool apart = !(slope2 > 0.0) || std::ranges::none_of(within, inside);
       if (apart) {
         cut.clear();
         cut.push_back(polygon);

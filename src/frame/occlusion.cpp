@@ -68,8 +68,7 @@ class Prefilter {
     const glm::dvec3 fromEye = center - eye_;
     // No point of another line is farther from the first one than the polygon's radius.
     return looksLarge(center, radius, radius) && lines_[0].meetsSphere(fromEye, radius + radius_) &&
-           std::any_of(lines_.begin(), lines_.end(),
-                       [&](const Sightline& line) { return line.meetsSphere(fromEye, radius); });
+           std::ranges::any_of(lines_, [&](const Sightline& line) { return line.meetsSphere(fromEye, radius); });
   }
   // Says whether something of a radius, at the point of a sphere that is nearest to the eye, looks large enough.
   bool looksLarge(const glm::dvec3& center, double sphereRadius, double radius) const {
@@ -80,8 +79,7 @@ class Prefilter {
   // Says whether a corner lies beyond a plane.
   bool reachesBeyond(const Plane& plane) const {
     const double side = plane.distance(eye_);
-    return std::any_of(polygon_.begin(), polygon_.end(),
-                       [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
+    return std::ranges::any_of(polygon_, [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
   }
 
  private:
@@ -175,12 +173,11 @@ bool Occlusion::Occluders::add(const OccludedRegion& region, const HalfSpace* al
                                const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
   bool all = true;
   const auto meets = [&](const HalfSpace& half) {
-    const auto within =
-        std::count_if(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; });
+    const auto within = std::ranges::count_if(polygon, [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; });
     all = all && within == std::ssize(polygon);
     return within > 0;
   };
-  if ((also && !meets(*also)) || !std::all_of(region.begin(), region.end(), meets)) {
+  if ((also && !meets(*also)) || !std::ranges::all_of(region, meets)) {
     return false;
   }
   if (all) {
@@ -230,7 +227,7 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
         return found;
       }
     }
-    if (std::any_of(body.faces.begin(), body.faces.end(), [&](Face& face) { return addFace(face, {.index = i}); })) {
+    if (std::ranges::any_of(body.faces, [&](Face& face) { return addFace(face, {.index = i}); })) {
       return found;
     }
   }
@@ -270,7 +267,7 @@ void Occlusion::setView(const View& view, std::span<const int> instances, std::v
       std::nth_element(candidates.begin(), candidates.begin() + mostTested, candidates.end(),
                        [&](int a, int b) { return std::pair(-angle(a), a) < std::pair(-angle(b), b); });
       candidates.resize(mostTested);
-      std::sort(candidates.begin(), candidates.end());
+      std::ranges::sort(candidates);
     }
   };
   keepLargest(viewMirrors_,
@@ -299,7 +296,7 @@ std::optional<std::string> Occlusion::hiddenTogether(std::span<const Occluder> o
     }
     pieces = std::move(left);
     const std::string name = nameOfOccluder(occluder);
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (std::ranges::find(names, name) == names.end()) {
       names.push_back(name);
     }
     if (pieces.empty()) {

@@ -39,7 +39,7 @@ std::vector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& ins
 }
 
 bool visible(const MeshCluster& cluster, const std::vector<LocalPlane>& planes) {
-  return std::all_of(planes.begin(), planes.end(), [&](const LocalPlane& plane) {
+  return std::ranges::all_of(planes, [&](const LocalPlane& plane) {
     return glm::dot(plane.normal, cluster.center) + glm::dot(glm::abs(plane.normal), cluster.halfExtent) +
                plane.offset >=
            0.0;
@@ -49,8 +49,7 @@ bool visible(const MeshCluster& cluster, const std::vector<LocalPlane>& planes) 
 }  // namespace
 
 const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int instance) {
-  const auto found = std::lower_bound(partial.begin(), partial.end(), instance,
-                                      [](const PartialInstance& part, int wanted) { return part.instance < wanted; });
+  const auto found = std::ranges::lower_bound(partial, instance, {}, &PartialInstance::instance);
   return found != partial.end() && found->instance == instance ? &*found : nullptr;
 }
 

@@ -73,7 +73,7 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
     for (const double outwards : {0.0, 0.25, 0.5, 1.0}) {
       const double moved = offset + outwards * glm::length(perPixel);
       const auto inside = [&](const glm::dvec3& p) { return glm::dot(line, p) + moved >= 0.0; };
-      if (std::all_of(part.begin(), part.end(), inside)) {
+      if (std::ranges::all_of(part, inside)) {
         break;
       }
       std::vector<glm::dvec3> rest = clipPolygon(part, Plane{line * (-moved / length2), line});

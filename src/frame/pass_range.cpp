@@ -12,8 +12,8 @@ double area(const PlannedPass& pass) {
 }
 
 bool showsImageOf(const PlannedPass& pass, size_t first) {
-  return std::any_of(pass.mirrors.begin(), pass.mirrors.end(),
-                     [&](const MirrorDraw& draw) { return draw.pass >= static_cast<int>(first); });
+  return std::ranges::any_of(pass.mirrors,
+                             [&](const MirrorDraw& draw) { return draw.pass >= static_cast<int>(first); });
 }
 
 }  // namespace
@@ -37,8 +37,7 @@ std::vector<PassRange> independentPasses(const FramePlan& plan) {
 std::vector<size_t> largestFirst(const FramePlan& plan, const PassRange& range) {
   std::vector<size_t> passes(range.end - range.first);
   std::iota(passes.begin(), passes.end(), range.first);
-  std::stable_sort(passes.begin(), passes.end(),
-                   [&](size_t a, size_t b) { return area(plan.passes[a]) > area(plan.passes[b]); });
+  std::ranges::stable_sort(passes, [&](size_t a, size_t b) { return area(plan.passes[a]) > area(plan.passes[b]); });
   return passes;
 }
 

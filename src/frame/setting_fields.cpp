@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <sstream>
 
 #include "scene/member_count.hpp"
 #include "scene/value_range.hpp"
@@ -383,17 +382,14 @@ std::span<const SettingField> settingFields() {
 }
 
 const SettingField* findSettingField(std::string_view key) {
-  const auto* found =
-      std::find_if(std::begin(fields), std::end(fields), [&](const SettingField& field) { return field.key == key; });
+  const auto* found = std::ranges::find(fields, key, &SettingField::key);
   return found == std::end(fields) ? nullptr : found;
 }
 
 std::string settingRange(const SettingField& field) {
   struct Visitor {
-    std::string operator()(const NumberSetting& n) const { return shortNumber(n.low) + " .. " + shortNumber(n.high); }
-    std::string operator()(const AutomaticSetting& n) const {
-      return "auto | " + shortNumber(n.low) + " .. " + shortNumber(n.high);
-    }
+    std::string operator()(const NumberSetting& n) const { return Range{n.low, n.high}.shortText(); }
+    std::string operator()(const AutomaticSetting& n) const { return "auto | " + Range{n.low, n.high}.shortText(); }
     std::string operator()(const IntegerSetting& n) const {
       if (!n.powersOfTwo) {
         return std::to_string(n.low) + " .. " + std::to_string(n.high);
@@ -414,14 +410,6 @@ std::string settingRange(const SettingField& field) {
     }
     std::string operator()(const ColorSetting&) const { return "r,g,b (linear, " + kRadiance.shortText() + ")"; }
     std::string operator()(const TextSetting& text) const { return std::string(text.meaning); }
-
-    static std::string shortNumber(double value) {
-      std::ostringstream stream;
-      stream << value;
-      std::string text = stream.str();
-      const size_t exponent = text.find("e+0");
-      return exponent == std::string::npos ? text : text.erase(exponent + 1, 2);
-    }
   };
   return std::visit(Visitor(), field.kind);
 }

@@ -97,7 +97,7 @@ struct Parser {
   }
 
   Problem operator()(const ChoiceSetting& choice) const {
-    const auto found = std::find(choice.names.begin(), choice.names.end(), text);
+    const auto found = std::ranges::find(choice.names, text);
     if (found == choice.names.end()) {
       return wrong("a choice");
     }

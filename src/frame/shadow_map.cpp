@@ -97,15 +97,14 @@ std::array<glm::dvec3, 4> cornerRays(const View& view, const Projection& project
 
 // Says whether all rays from `eye` stay on the plane's negative side.
 bool liesBehind(const glm::dvec3& normal, double height, std::span<const glm::dvec3> rays) {
-  return height < 0.0 &&
-         std::all_of(rays.begin(), rays.end(), [&](const glm::dvec3& ray) { return glm::dot(normal, ray) <= 0.0; });
+  return height < 0.0 && std::ranges::all_of(rays, [&](const glm::dvec3& ray) { return glm::dot(normal, ray) <= 0.0; });
 }
 
 // Says whether the pyramids of two views may meet; false only if a side of one of them separates them.
 bool mayMeet(const View& a, std::span<const glm::dvec3> raysOfA, const View& b, std::span<const glm::dvec3> raysOfB) {
   const auto separates = [](const View& sides, const View& other, std::span<const glm::dvec3> rays) {
     return (sides.clip && liesBehind(sides.clip->normal, sides.clip->distance(other.eye), rays)) ||
-           std::any_of(sides.cone.begin(), sides.cone.end(), [&](const glm::dvec3& normal) {
+           std::ranges::any_of(sides.cone, [&](const glm::dvec3& normal) {
              return liesBehind(normal, glm::dot(normal, other.eye - sides.eye), rays);
            });
   };
@@ -156,8 +155,7 @@ class FacePlanner {
     }
     if (!near.empty()) {
       face.pass = planFace(cube, scene_, state_, settings_.debug.cullClusters);
-      face.read =
-          std::any_of(near.begin(), near.end(), [&](const PlannedPass* pass) { return hasReceiver(face, *pass); });
+      face.read = std::ranges::any_of(near, [&](const PlannedPass* pass) { return hasReceiver(face, *pass); });
     }
     return face;
   }
@@ -166,13 +164,12 @@ class FacePlanner {
   // Says whether something that the pass draws, and that light falls on, is in the face.
   bool hasReceiver(const ShadowFace& face, const PlannedPass& pass) const {
     const std::vector<int>& drawn = face.pass.instances;
-    return std::any_of(pass.instances.begin(), pass.instances.end(),
-                       [&](int i) { return std::binary_search(drawn.begin(), drawn.end(), i); }) ||
-           std::any_of(pass.mirrors.begin(), pass.mirrors.end(), [&](const MirrorDraw& draw) {
+    return std::ranges::any_of(pass.instances, [&](int i) { return std::ranges::binary_search(drawn, i); }) ||
+           std::ranges::any_of(pass.mirrors, [&](const MirrorDraw& draw) {
              const Mirror& mirror = scene_.mirrors[static_cast<size_t>(draw.mirror)];
              return (draw.back ? mirror.backColor : mirror.baseColor) != glm::dvec3(0.0) &&
-                    std::any_of(face.pass.mirrors.begin(), face.pass.mirrors.end(),
-                                [&](const MirrorDraw& in) { return in.mirror == draw.mirror; });
+                    std::ranges::any_of(face.pass.mirrors,
+                                        [&](const MirrorDraw& in) { return in.mirror == draw.mirror; });
            });
   }
 
@@ -204,8 +201,8 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
 
 void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
                      const SceneState& state) {
-  const bool reuses = std::equal(maps.begin(), maps.end(), before.begin(), before.end(),
-                                 [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
+  const bool reuses = std::ranges::equal(
+      maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
   int serial = 0;
   for (const ShadowMap& map : before) {
     serial = std::max(serial, map.serial);
@@ -232,9 +229,8 @@ std::string shadowFaceName(const ShadowMap& map, size_t face) {
 }
 
 bool rendersShadows(std::span<const ShadowMap> maps) {
-  return std::any_of(maps.begin(), maps.end(), [](const ShadowMap& map) {
-    return std::any_of(map.faces.begin(), map.faces.end(), [](const ShadowFace& face) { return face.rendered; });
-  });
+  return std::ranges::any_of(
+      maps, [](const ShadowMap& map) { return std::ranges::any_of(map.faces, &ShadowFace::rendered); });
 }
 
 glm::ivec2 shadowExtent(std::span<const ShadowMap> maps) {

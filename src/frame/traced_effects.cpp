@@ -15,11 +15,10 @@ bool isBlack(const glm::dvec3& color) {
 }
 
 bool hasTracedEffects(const Scene& scene) {
-  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const PointLight& l) { return l.castsShadow; }) ||
-         std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [](const Object& o) { return o.mirror.has_value(); }) ||
-         std::any_of(scene.mirrors.begin(), scene.mirrors.end(),
-                     [](const Mirror& m) { return m.roughness > 0.0 || m.ripple || m.castsLight; });
+  return std::ranges::any_of(scene.lights, &PointLight::castsShadow) ||
+         std::ranges::any_of(scene.objects, [](const Object& o) { return o.mirror.has_value(); }) ||
+         std::ranges::any_of(scene.mirrors,
+                             [](const Mirror& m) { return m.roughness > 0.0 || m.ripple || m.castsLight; });
 }
 
 // Surfaces in the passes that light falls on.

@@ -118,9 +118,9 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
 std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
   // Most mirrors of a view that shows many lie beyond one plane; these cost no memory.
   const auto beyond = [&](const Plane& plane) {
-    return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return plane.distance(p) < 0.0; });
+    return std::ranges::all_of(polygon, [&](const glm::dvec3& p) { return plane.distance(p) < 0.0; });
   };
-  if ((view.clip && beyond(*view.clip)) || std::any_of(view.cone.begin(), view.cone.end(), [&](const glm::dvec3& n) {
+  if ((view.clip && beyond(*view.clip)) || std::ranges::any_of(view.cone, [&](const glm::dvec3& n) {
         return beyond({view.eye, n});
       })) {
     return {};
@@ -131,7 +131,7 @@ std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3
       return {};
     }
     const Plane plane{view.eye, normal};
-    if (!std::all_of(part.begin(), part.end(), [&](const glm::dvec3& p) { return plane.distance(p) >= 0.0; })) {
+    if (!std::ranges::all_of(part, [&](const glm::dvec3& p) { return plane.distance(p) >= 0.0; })) {
       part = clipPolygon(part, plane);
     }
   }
@@ -142,8 +142,8 @@ bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {
   if (view.clip && view.clip->distance(center) < -radius) {
     return false;
   }
-  return std::all_of(view.cone.begin(), view.cone.end(),
-                     [&](const glm::dvec3& normal) { return glm::dot(normal, center - view.eye) >= -radius; });
+  return std::ranges::all_of(view.cone,
+                             [&](const glm::dvec3& normal) { return glm::dot(normal, center - view.eye) >= -radius; });
 }
 
 bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent) {
@@ -158,7 +158,7 @@ bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& 
   if (view.clip && view.clip->distance(worldFromBox.translation) < -reach(view.clip->normal)) {
     return false;
   }
-  return std::all_of(view.cone.begin(), view.cone.end(), [&](const glm::dvec3& normal) {
+  return std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
     return glm::dot(normal, worldFromBox.translation - view.eye) >= -reach(normal);
   });
 }

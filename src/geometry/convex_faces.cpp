@@ -189,8 +189,7 @@ std::vector<std::vector<glm::dvec3>> convexFaces(std::span<const glm::dvec3> pos
     return {};
   }
   std::vector<std::vector<glm::dvec3>> faces = FaceJoiner(positions, indices).faces();
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const auto& a, const auto& b) { return polygonArea(a) > polygonArea(b); });
+  std::ranges::stable_sort(faces, [](const auto& a, const auto& b) { return polygonArea(a) > polygonArea(b); });
   faces.resize(std::min(faces.size(), most));
   return faces;
 }

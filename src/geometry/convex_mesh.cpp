@@ -34,7 +34,7 @@ std::optional<std::vector<ConvexMesh::Edge>> edgesOf(const std::vector<ConvexMes
       ++counts[it->second];
     }
   }
-  const bool closed = std::all_of(counts.begin(), counts.end(), [](int count) { return count == 2; });
+  const bool closed = std::ranges::all_of(counts, [](int count) { return count == 2; });
   return closed ? std::optional(edges) : std::nullopt;
 }
 
@@ -67,8 +67,7 @@ bool bounds(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& inside,
     plane.normal = -plane.normal;
   }
   return plane.distance(inside) > convexTolerance &&
-         std::all_of(points.begin(), points.end(),
-                     [&](const glm::dvec3& p) { return plane.distance(p) >= -convexTolerance; });
+         std::ranges::all_of(points, [&](const glm::dvec3& p) { return plane.distance(p) >= -convexTolerance; });
 }
 
 }  // namespace
@@ -90,7 +89,7 @@ ConvexMesh convexMesh(std::span<const glm::dvec3> positions, std::span<const uin
     return {};
   }
   const glm::dvec3 inside = vertexMean(scaled);
-  const bool convex = std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const ConvexMesh::Triangle& t) {
+  const bool convex = std::ranges::all_of(mesh.triangles, [&](const ConvexMesh::Triangle& t) {
     return bounds({scaled[t[0]], scaled[t[1]], scaled[t[2]]}, inside, scaled);
   });
   if (!convex) {

@@ -211,9 +211,8 @@ class SimplifiedPart {
   // Returns the vertex at a point whose normal is nearest to a triangle's.
   Vertex vertexFor(uint32_t point, const glm::dvec3& normal) const {
     const std::vector<Vertex>& all = vertices_[point];
-    Vertex best = *std::max_element(all.begin(), all.end(), [&](const Vertex& a, const Vertex& b) {
-      return glm::dot(a.normal, normal) < glm::dot(b.normal, normal);
-    });
+    Vertex best = *std::ranges::max_element(
+        all, [&](const Vertex& a, const Vertex& b) { return glm::dot(a.normal, normal) < glm::dot(b.normal, normal); });
     if (glm::dot(best.normal, normal) < 0.0) {
       best.normal = normal;
     }
@@ -301,7 +300,7 @@ MeshLevels simplified(const Mesh& mesh, const std::function<bool()>& cancelled) 
     if (cancelled && cancelled()) {
       throw std::runtime_error("simplifying was cancelled");
     }
-    std::for_each(parts.begin(), parts.end(), [](SimplifiedPart& part) { part.simplify(); });
+    std::ranges::for_each(parts, [](SimplifiedPart& part) { part.simplify(); });
     const size_t left = indexCount(parts);
     if (left == 0 || static_cast<double>(left) > (1.0 - leastGain) * static_cast<double>(last)) {
       break;

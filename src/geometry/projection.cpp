@@ -25,7 +25,7 @@ std::vector<glm::dvec2> cornersOf(std::span<const glm::dvec4> clip, double width
 }
 
 bool touchesEyePlane(std::span<const glm::dvec4> clip) {
-  return std::any_of(clip.begin(), clip.end(), [](const glm::dvec4& v) { return !(v.w > eyePlane); });
+  return std::ranges::any_of(clip, [](const glm::dvec4& v) { return !(v.w > eyePlane); });
 }
 
 // Start and end in pixels, rounded outwards and padded. Clamps before it converts, because a vertex may project to any

@@ -85,8 +85,4 @@ bool SurfaceDistance::within(const glm::dvec3& point, double distance) const {
   return nearest(point, distance * distance) <= distance * distance;
 }
 
-double SurfaceDistance::to(const glm::dvec3& point) const {
-  return std::sqrt(nearest(point, -1.0));
-}
-
 }  // namespace speculum

@@ -16,7 +16,7 @@ class SurfaceDistance {
   // Says whether a triangle is no farther away than `distance`.
   bool within(const glm::dvec3& point, double distance) const;
   // Distance to the nearest triangle; infinite without any.
-  double to(const glm::dvec3& point) const;
+  double to(const glm::dvec3& point) const { return std::sqrt(nearest(point, -1.0)); }
 
  private:
   // Returns the square of the least distance, or of the first one found that is no more than `enough`, a square too.

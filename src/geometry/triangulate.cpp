@@ -98,7 +98,7 @@ double squaredLength(const glm::dvec3& v) {
 // A diagonal outside of a quad that is not convex would cover what the quad leaves free.
 bool isInside(std::span<const glm::dvec3> quad, const std::array<std::array<int, 3>, 2>& triangles) {
   const glm::dvec3 normal = newellVector(quad);
-  return std::all_of(triangles.begin(), triangles.end(), [&](const std::array<int, 3>& t) {
+  return std::ranges::all_of(triangles, [&](const std::array<int, 3>& t) {
     return glm::dot(normal, glm::cross(quad[t[1]] - quad[t[0]], quad[t[2]] - quad[t[0]])) >= 0.0;
   });
 }

@@ -49,7 +49,7 @@ class Cursor {
     return value;
   }
   std::string text() {
-    const auto end = std::find(bytes_.begin(), bytes_.end(), uint8_t{0});
+    const auto end = std::ranges::find(bytes_, uint8_t{0});
     const Bytes taken = take(static_cast<size_t>(end - bytes_.begin()));
     take(1);
     return {taken.begin(), taken.end()};
@@ -82,7 +82,7 @@ class ExrLayout {
     const auto chunks = static_cast<uint64_t>((height_ + rows - 1) / rows);
     Cursor table(file_, table_);
     const Bytes entries = table.take(8 * chunks);
-    if (std::any_of(entries.begin(), entries.end(), [](uint8_t byte) { return byte != 0; })) {
+    if (std::ranges::any_of(entries, [](uint8_t byte) { return byte != 0; })) {
       return;
     }
     uint64_t at = table_ + 8 * chunks;

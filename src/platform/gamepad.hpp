@@ -21,7 +21,7 @@ struct GamepadState {
   bool directionPad = false;  // any of its four
 
   bool down(GamepadButton button) const { return buttons[static_cast<size_t>(button)]; }
-  bool used() const;  // anything is pressed or pushed
+  bool used() const { return *this != GamepadState{}; }  // anything is pressed or pushed
   bool operator==(const GamepadState&) const = default;
 };
 

@@ -20,8 +20,8 @@ bool canBeGripped(const ScreenRect& window, const ScreenRect& area) {
 }  // namespace
 
 std::optional<ScreenRect> rescuedWindow(const ScreenRect& window, std::span<const ScreenRect> workAreas) {
-  if (workAreas.empty() || std::any_of(workAreas.begin(), workAreas.end(),
-                                       [&](const ScreenRect& area) { return canBeGripped(window, area); })) {
+  if (workAreas.empty() ||
+      std::ranges::any_of(workAreas, [&](const ScreenRect& area) { return canBeGripped(window, area); })) {
     return std::nullopt;
   }
   const ScreenRect& area = workAreas.front();

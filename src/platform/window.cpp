@@ -308,10 +308,6 @@ bool Window::takeResized() {
   return std::exchange(resized_, false);
 }
 
-bool Window::takeActivity() {
-  return std::exchange(active_, false);
-}
-
 std::optional<GamepadState> Window::gamepad() const {
   GLFWgamepadstate state{};
   if (!glfwGetGamepadState(GLFW_JOYSTICK_1, &state)) {
@@ -357,10 +353,6 @@ void Window::dropFiles(const std::vector<std::filesystem::path>& files) {
   if (callbacks_.drop) {
     callbacks_.drop(files);
   }
-}
-
-void Window::setCallbacks(WindowCallbacks callbacks) {
-  callbacks_ = std::move(callbacks);
 }
 
 std::vector<const char*> Window::requiredInstanceExtensions() const {

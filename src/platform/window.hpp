@@ -128,7 +128,7 @@ class Window {
   bool paused() const;  // iconified, or without a pixel
   bool takeResized();   // whether the framebuffer changed its size since the last call
   // Says whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
-  bool takeActivity();
+  bool takeActivity() { return std::exchange(active_, false); }
   std::optional<GamepadState> gamepad() const;  // the first one, if there is any
   float contentScale() const { return contentScale_; }
   // Call when monitors came, went or changed: moves a window that none shows to one that does, and ends full screen on
@@ -139,7 +139,7 @@ class Window {
   void setTitle(const std::string& title);
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text
-  void setCallbacks(WindowCallbacks callbacks);
+  void setCallbacks(WindowCallbacks callbacks) { callbacks_ = std::move(callbacks); }
   // Handles files as if they had been dropped on the window.
   void dropFiles(const std::vector<std::filesystem::path>& files);
 

@@ -7,7 +7,6 @@
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
-#include "geometry/convex_mesh.hpp"
 #include "geometry/mesh_clusters.hpp"
 #include "geometry/triangulate.hpp"
 

@@ -25,7 +25,7 @@ namespace {
 
 // Paths in MTL files often come from Windows.
 fs::path relativeTo(const fs::path& file, std::string name) {
-  std::replace(name.begin(), name.end(), '\\', '/');
+  std::ranges::replace(name, '\\', '/');
   return (file.parent_path() / name).lexically_normal();
 }
 
@@ -65,7 +65,7 @@ int wordsOf(std::string_view option) {
   if (option == "-o" || option == "-s" || option == "-t") {
     return 3;
   }
-  return option == "-mm" ? 2 : std::find(one.begin(), one.end(), option) != one.end() ? 1 : -1;
+  return option == "-mm" ? 2 : std::ranges::find(one, option) != one.end() ? 1 : -1;
 }
 
 // Returns the file name after the options. It may hold blanks.

@@ -215,8 +215,7 @@ std::vector<SettingEntry> readSettings(const TableReader& file) {
   for (auto& [key, entry] : byKey) {
     entries.push_back(std::move(entry));
   }
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const SettingEntry& a, const SettingEntry& b) { return a.line < b.line; });
+  std::ranges::stable_sort(entries, [](const SettingEntry& a, const SettingEntry& b) { return a.line < b.line; });
   return entries;
 }
 

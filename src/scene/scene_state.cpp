@@ -130,8 +130,8 @@ SceneState evaluate(const Scene& scene, double timeSeconds) {
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     addInstances(scene, static_cast<int>(i), timeSeconds, state.instances);
   }
-  std::stable_sort(state.instances.begin(), state.instances.end(),
-                   [](const InstanceState& a, const InstanceState& b) { return a.mesh < b.mesh; });
+  std::ranges::stable_sort(state.instances,
+                           [](const InstanceState& a, const InstanceState& b) { return a.mesh < b.mesh; });
   for (const PointLight& light : scene.lights) {
     state.lights.push_back(lightState(light, timeSeconds));
   }
@@ -151,7 +151,7 @@ CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera) {
 }
 
 bool moves(const Scene& scene) {
-  const auto any = [](const auto& list, const auto& test) { return std::any_of(list.begin(), list.end(), test); };
+  const auto any = [](const auto& list, const auto& test) { return std::ranges::any_of(list, test); };
   const glm::dvec3 still(0.0);
   return scene.camera.orbitSpeed != 0.0 || any(scene.objects, [&](const Object& o) { return o.spin != still; }) ||
          any(scene.lights, [](const PointLight& l) { return l.orbit && l.orbit->speed != 0.0; }) ||

@@ -48,7 +48,7 @@ TableReader::TableReader(const std::filesystem::path& file, std::string label, c
     : TableReader(file, std::move(label), table, line) {
   const toml::key* first = nullptr;
   for (const auto& [key, value] : table_) {
-    const bool isKnown = std::find(known.begin(), known.end(), key.str()) != known.end();
+    const bool isKnown = std::ranges::find(known, key.str()) != known.end();
     if (!isKnown && (first == nullptr || key.source().begin.line < first->source().begin.line)) {
       first = &key;
     }
@@ -80,6 +80,12 @@ void TableReader::failAt(const toml::node& node, std::string_view key, std::stri
   throwInputError(file_, lineOf(node.source(), line_), fullKey(key), wrong, right);
 }
 
+void TableReader::expect(bool fits, const toml::node& node, std::string_view key, std::string_view right) const {
+  if (!fits) {
+    failAt(node, key, fmt::format("is {}", typeName(node)), right);
+  }
+}
+
 const toml::node& TableReader::required(std::string_view key, std::string_view right) const {
   const toml::node* node = table_.get(key);
   if (node == nullptr) {
@@ -89,9 +95,7 @@ const toml::node& TableReader::required(std::string_view key, std::string_view r
 }
 
 double TableReader::numberOf(const toml::node& node, std::string_view key, const Range& range) const {
-  if (!node.is_number()) {
-    failAt(node, key, fmt::format("is {}", typeName(node)), range.text());
-  }
+  expect(node.is_number(), node, key, range.text());
   const double value = node.value<double>().value();
   if (!range.contains(value)) {
     failAt(node, key, fmt::format("is {}", value), range.text());
@@ -103,9 +107,7 @@ std::vector<double> TableReader::numbersOf(const toml::node& node, std::string_v
                                            const Range& range) const {
   const std::string right = fmt::format("an array of {} numbers is needed", count);
   const toml::array* array = node.as_array();
-  if (array == nullptr) {
-    failAt(node, key, fmt::format("is {}", typeName(node)), right);
-  }
+  expect(array != nullptr, node, key, right);
   if (array->size() != count) {
     failAt(node, key, fmt::format("has {} elements", array->size()), right);
   }
@@ -132,9 +134,7 @@ int64_t TableReader::integer(std::string_view key, int64_t fallback, int64_t low
     return fallback;
   }
   const std::string right = fmt::format("an integer {} .. {} is needed", low, high);
-  if (!node->is_integer()) {
-    failAt(*node, key, fmt::format("is {}", typeName(*node)), right);
-  }
+  expect(node->is_integer(), *node, key, right);
   const int64_t value = node->as_integer()->get();
   if (value < low || value > high) {
     failAt(*node, key, fmt::format("is {}", value), right);
@@ -147,21 +147,13 @@ bool TableReader::boolean(std::string_view key, bool fallback) const {
   if (node == nullptr) {
     return fallback;
   }
-  if (!node->is_boolean()) {
-    failAt(*node, key, fmt::format("is {}", typeName(*node)), "true or false is needed");
-  }
+  expect(node->is_boolean(), *node, key, "true or false is needed");
   return node->as_boolean()->get();
-}
-
-std::string TableReader::text(std::string_view key, const std::string& fallback) const {
-  return has(key) ? text(key) : fallback;
 }
 
 std::string TableReader::text(std::string_view key) const {
   const toml::node& node = required(key, "a string is needed");
-  if (!node.is_string()) {
-    failAt(node, key, fmt::format("is {}", typeName(node)), "a string is needed");
-  }
+  expect(node.is_string(), node, key, "a string is needed");
   return node.as_string()->get();
 }
 
@@ -181,17 +173,15 @@ glm::dvec2 TableReader::vec2(std::string_view key, const Range& range) const {
 
 glm::dvec3 TableReader::numberOrVec3(std::string_view key, const glm::dvec3& fallback) const {
   const toml::node* node = table_.get(key);
-  if (node != nullptr && !node->is_number() && !node->is_array()) {
-    failAt(*node, key, fmt::format("is {}", typeName(*node)), "a number or an array of 3 numbers is needed");
+  if (node != nullptr) {
+    expect(node->is_number() || node->is_array(), *node, key, "a number or an array of 3 numbers is needed");
   }
   return node != nullptr && node->is_number() ? glm::dvec3(numberOf(*node, key, kAny)) : vec3(key, fallback);
 }
 
 std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
   const toml::node& node = required(key, "an array of points is needed");
-  if (!node.is_array()) {
-    failAt(node, key, fmt::format("is {}", typeName(node)), "an array of points [x, y, z] is needed");
-  }
+  expect(node.is_array(), node, key, "an array of points [x, y, z] is needed");
   std::vector<glm::dvec3> points;
   for (size_t i = 0; i < node.as_array()->size(); ++i) {
     points.push_back(vec3Of((*node.as_array())[i], elementKey(key, i), kCoordinate));
@@ -204,7 +194,7 @@ size_t TableReader::choice(std::string_view key, size_t fallback, std::span<cons
     return fallback;
   }
   const std::string value = text(key);
-  const auto found = std::find(choices.begin(), choices.end(), value);
+  const auto found = std::ranges::find(choices, value);
   if (found == choices.end()) {
     fail(key, fmt::format("is '{}'", value), nearestKeyAdvice(value, choices));
   }
@@ -213,8 +203,8 @@ size_t TableReader::choice(std::string_view key, size_t fallback, std::span<cons
 
 const toml::table* TableReader::tableOf(std::string_view key) const {
   const toml::node* node = table_.get(key);
-  if (node != nullptr && !node->is_table()) {
-    failAt(*node, key, fmt::format("is {}", typeName(*node)), "a table is needed");
+  if (node != nullptr) {
+    expect(node->is_table(), *node, key, "a table is needed");
   }
   return node == nullptr ? nullptr : node->as_table();
 }
@@ -237,14 +227,10 @@ std::vector<TableReader> TableReader::tables(std::string_view key, std::span<con
   }
   const std::string right = fmt::format("write [[{}]] above each", key);
   const toml::array* array = node->as_array();
-  if (array == nullptr) {
-    failAt(*node, key, fmt::format("is {}", typeName(*node)), right);
-  }
+  expect(array != nullptr, *node, key, right);
   for (size_t i = 0; i < array->size(); ++i) {
     const toml::node& element = (*array)[i];
-    if (!element.is_table()) {
-      failAt(element, elementKey(key, i), fmt::format("is {}", typeName(element)), right);
-    }
+    expect(element.is_table(), element, elementKey(key, i), right);
     const std::string name = (*element.as_table())["name"].value_or(std::string());
     std::string label = name.empty() ? elementKey(fullKey(key), i) : fmt::format("{}[{}]", fullKey(key), name);
     readers.emplace_back(file_, std::move(label), *element.as_table(), lineOf(element.source(), line_), known);

@@ -34,7 +34,7 @@ class TableReader {
   double number(std::string_view key, double fallback, const Range& range = kAny) const;
   int64_t integer(std::string_view key, int64_t fallback, int64_t low, int64_t high) const;
   bool boolean(std::string_view key, bool fallback) const;
-  std::string text(std::string_view key, const std::string& fallback) const;
+  std::string text(std::string_view key, const std::string& fallback) const { return has(key) ? text(key) : fallback; }
   std::string text(std::string_view key) const;
   glm::dvec3 vec3(std::string_view key, const glm::dvec3& fallback, const Range& range = kAny) const;
   glm::dvec3 vec3(std::string_view key, const Range& range = kAny) const;
@@ -57,6 +57,7 @@ class TableReader {
  private:
   std::string fullKey(std::string_view key) const;
   const toml::table* tableOf(std::string_view key) const;
+  void expect(bool fits, const toml::node& node, std::string_view key, std::string_view right) const;
   const toml::node& required(std::string_view key, std::string_view right) const;
   double numberOf(const toml::node& node, std::string_view key, const Range& range) const;
   std::vector<double> numbersOf(const toml::node& node, std::string_view key, size_t count, const Range& range) const;

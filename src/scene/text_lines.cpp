@@ -91,7 +91,7 @@ void LineReader::fail(std::string_view key, const std::string& wrong, const std:
 }
 
 std::string_view LineReader::takeLine() {
-  const auto end = std::find_if(rest_.begin(), rest_.end(), [](char c) { return c == '\n' || c == '\r'; });
+  const auto end = std::ranges::find_if(rest_, [](char c) { return c == '\n' || c == '\r'; });
   const std::string_view line = rest_.substr(0, end - rest_.begin());
   rest_.remove_prefix(line.size());
   rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<size_t>(1, rest_.size()));

@@ -9,12 +9,8 @@ namespace speculum {
 
 namespace fs = std::filesystem;
 
-namespace {
-
 // No scene written by hand is larger.
 constexpr uintmax_t kLargestFile = 16u << 20;
-
-}  // namespace
 
 std::string readTomlText(const fs::path& file, std::string_view kind) {
   return readInputText(file, fmt::format("a {} is needed", kind), kLargestFile);

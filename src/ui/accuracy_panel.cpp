@@ -97,7 +97,7 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
 }
 
 bool isOnFront(const AccuracyView& accuracy, int point) {
-  return std::find(accuracy.front.begin(), accuracy.front.end(), point) != accuracy.front.end();
+  return std::ranges::find(accuracy.front, point) != accuracy.front.end();
 }
 
 void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy, int hovered) {
@@ -171,7 +171,7 @@ void plot(PanelContext& ui) {
 void frontSlider(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   const int last = static_cast<int>(accuracy.front.size()) - 1;
-  const auto place = std::find(accuracy.front.begin(), accuracy.front.end(), accuracy.current);
+  const auto place = std::ranges::find(accuracy.front, accuracy.current);
   const bool onFront = place != accuracy.front.end();
   int index = onFront ? static_cast<int>(place - accuracy.front.begin()) : 0;
   const std::string text = onFront ? accuracy.points[accuracy.current].name : "not on the front";
@@ -194,8 +194,7 @@ void budget(PanelContext& ui) {
     if (ImGui::Checkbox(findSettingField(key)->label, &active)) {
       value = active ? usual : 0.0;
     }
-    recordWidget(ui, key);
-    tip(settingHelp(key).c_str());
+    recordWidget(ui, key, settingHelp(key));
     if (active) {
       ImGui::SameLine();
       ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
@@ -241,13 +240,10 @@ void differenceView(PanelContext& ui) {
 void accuracy(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   if (!accuracy.measuring) {
-    if (button(ui, "Measure this view", "accuracy.measure", "Runs in the background while you go on.")) {
-      ui.send(MeasureAccuracy{});
-    }
+    commandButton(ui, "Measure this view", "accuracy.measure", "Runs in the background while you go on.",
+                  MeasureAccuracy{});
   } else {
-    if (button(ui, "Cancel", "accuracy.cancel", "")) {
-      ui.send(CancelMeasurement{});
-    }
+    commandButton(ui, "Cancel", "accuracy.cancel", "", CancelMeasurement{});
     ImGui::SameLine();
     ImGui::ProgressBar(static_cast<float>(accuracy.progress), ImVec2(-1.0f, 0.0f), accuracy.stage.c_str());
   }

@@ -37,7 +37,7 @@ void effects(PanelContext& ui) {
       ImGui::TextWrapped("%s", text.c_str());
       ImGui::PopStyleColor();
       if (on) {
-        tip((std::to_string(effect.pipelines) + " pipelines").c_str());
+        tip(std::to_string(effect.pipelines) + " pipelines");
       }
     }
   }

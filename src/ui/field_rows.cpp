@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "scene/scene_fields.hpp"
-#include "ui/panels.hpp"
+#include "scene/scene_loader.hpp"
 #include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
@@ -20,8 +20,8 @@ constexpr double farthest = 1e15;  // metres and degrees; docs/scene_format.md, 
 // Makes a label of a key: "casts_light" becomes "Casts light", "orbit.speed" in degrees per second "Orbit speed
 // (deg/s)".
 std::string labelOf(std::string path, std::string_view unit) {
-  std::replace_if(
-      path.begin(), path.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
+  std::ranges::replace_if(
+      path, [](char c) { return c == '_' || c == '.'; }, ' ');
   path[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(path[0])));
   return unit.empty() ? path : path + " (" + std::string(unit) + ")";
 }
@@ -85,10 +85,69 @@ template <typename Value>
 constexpr bool isNumbers = std::is_same_v<Value, double> || std::is_same_v<Value, int> ||
                            std::is_same_v<Value, glm::dvec2> || std::is_same_v<Value, glm::dvec3>;
 
+// Draws a button between a vertex's numbers and its label.
+bool vertexButton(PanelContext& ui, const char* label, const std::string& key, bool enabled, const char* about) {
+  ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::BeginDisabled(!enabled);
+  const bool pressed = ImGui::Button(label, {ImGui::GetFrameHeight(), 0.0f});
+  ImGui::EndDisabled();
+  recordWidget(ui, "edit." + key, about);
+  return pressed;
+}
+
+// Draws one row. Returns true if anything was changed.
+bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i) {
+  const std::string key = "polygon." + std::to_string(i);
+  ImGui::PushID(static_cast<int>(i));
+  const double low = -farthest;
+  const double high = farthest;
+  bool changed = ImGui::DragScalarN("##vertex", ImGuiDataType_Double, &vertices[i].x, 3, 0.01f, &low, &high, "%.6g",
+                                    ImGuiSliderFlags_AlwaysClamp);
+  recordWidget(ui, "edit." + key, "Metres. The polygon must stay planar and convex.");
+  const glm::dvec3 middle = 0.5 * (vertices[i] + vertices[(i + 1) % vertices.size()]);
+  if (vertexButton(ui, "+", key + ".add", true, "Adds a vertex halfway to the next one.")) {
+    vertices.insert(vertices.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
+    changed = true;
+  } else if (vertexButton(ui, "-", key + ".remove", vertices.size() > 3, "Removes this vertex.")) {
+    vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(i));
+    changed = true;
+  }
+  ImGui::PopID();
+  return changed;
+}
+
+// Edits the vertices of a polygon mirror, which become the mirror's once they are a valid polygon. Returns true if they
+// did.
+bool polygonRows(PanelContext& ui, std::vector<glm::dvec3>& vertices) {
+  PanelState::Polygon& polygon = ui.state.polygon;
+  const int selected = ui.view.edit.selected.index;
+  if (polygon.mirror != selected || polygon.taken != vertices) {
+    polygon = {.vertices = vertices, .taken = vertices, .mirror = selected};
+  }
+  ImGui::TextDisabled("Vertices (m), counter-clockwise from the front");
+  bool changed = false;
+  for (size_t i = 0; i < polygon.vertices.size(); ++i) {
+    changed = polygonVertex(ui, polygon.vertices, i) || changed;
+  }
+  if (changed) {
+    polygon.problem = mirrorPolygonProblem(polygon.vertices);
+    if (!polygon.problem) {
+      vertices = polygon.taken = polygon.vertices;
+    }
+  }
+  const bool applied = changed && !polygon.problem;
+  if (polygon.problem) {
+    coloredText(errorColor, "Not applied: " + *polygon.problem);
+    if (button(ui, "Revert", "edit.polygon.reset", "Returns to the mirror's vertices.")) {
+      polygon = {};
+    }
+  }
+  return applied;
+}
+
 class FieldRows {
  public:
-  explicit FieldRows(const RecordWidget& record, std::function<bool()> polygon = {})
-      : record_(record), polygon_(std::move(polygon)) {}
+  explicit FieldRows(PanelContext& ui) : ui_(ui) {}
 
   // Returns true if the user changed a field.
   template <Described Node>
@@ -113,7 +172,7 @@ class FieldRows {
     } else if constexpr (IsOptional<Value>::value) {
       return optionalRow(field, path, value);
     } else if constexpr (std::is_same_v<Value, std::vector<glm::dvec3>>) {
-      return polygon_();
+      return polygonRows(ui_, value);
     } else {
       const bool changed = valueWidget(field, labelOf(path, field.unit).c_str(), value);
       explain(path, field.text, isNumbers<Value>);
@@ -144,30 +203,25 @@ class FieldRows {
   }
 
   void explain(const std::string& path, std::string_view text, bool number) {
-    record_("edit." + path);
-    if (!ImGui::IsItemActive()) {
-      std::string about = std::string(text) + (number ? ". Drag, or click to type." : ".");
-      about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
-      tip(about.c_str());
-    }
+    std::string about = std::string(text) + (number ? ". Drag, or click to type." : ".");
+    about[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(about[0])));
+    recordWidget(ui_, "edit." + path, ImGui::IsItemActive() ? "" : about);
   }
 
-  const RecordWidget& record_;
-  std::function<bool()> polygon_;
+  PanelContext& ui_;
 };
 
 }  // namespace
 
-bool fieldRows(Object& object, const RecordWidget& record) {
-  return FieldRows(record).edit(object);
-}
-
-bool fieldRows(PointLight& light, const RecordWidget& record) {
-  return FieldRows(record).edit(light);
-}
-
-bool fieldRows(Mirror& mirror, const RecordWidget& record, const std::function<bool()>& polygon) {
-  return FieldRows(record, polygon).edit(mirror);
+bool fieldRows(PanelContext& ui, SceneNode& node) {
+  return std::visit(
+      [&](auto& fields) {
+        if constexpr (Described<std::decay_t<decltype(fields)>>) {
+          return FieldRows(ui).edit(fields);
+        }
+        return false;
+      },
+      node);
 }
 
 }  // namespace speculum::panels

@@ -41,13 +41,13 @@ void FrameHistory::add(uint64_t number, double frameMs, double cpuMs) {
 }
 
 void FrameHistory::addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes) {
-  const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const Row& r) { return r.number == number; });
+  const auto row = std::ranges::find(rows_, number, &Row::number);
   if (paused_ || row == rows_.end() || !std::isnan(row->gpuMs)) {
     return;
   }
   row->gpuMs = gpuMs;
   for (const auto& [name, ms] : passes) {
-    const size_t index = std::find(names_.begin(), names_.end(), name) - names_.begin();
+    const size_t index = std::ranges::find(names_, name) - names_.begin();
     if (index == names_.size()) {
       names_.push_back(name);
     }
@@ -74,7 +74,7 @@ std::vector<float> FrameHistory::series(Figure figure) const {
 std::vector<std::string> FrameHistory::passNames() const {
   std::vector<std::string> present;
   for (size_t i = 0; i < names_.size(); ++i) {
-    if (std::any_of(rows_.begin(), rows_.end(), [&](const Row& r) { return !std::isnan(passOf(r.passes, i)); })) {
+    if (std::ranges::any_of(rows_, [&](const Row& r) { return !std::isnan(passOf(r.passes, i)); })) {
       present.push_back(names_[i]);
     }
   }
@@ -82,7 +82,7 @@ std::vector<std::string> FrameHistory::passNames() const {
 }
 
 std::vector<float> FrameHistory::passSeries(const std::string& pass) const {
-  const size_t index = std::find(names_.begin(), names_.end(), pass) - names_.begin();
+  const size_t index = std::ranges::find(names_, pass) - names_.begin();
   std::vector<float> values;
   for (const Row& row : rows_) {
     values.push_back(static_cast<float>(passOf(row.passes, index)));
@@ -95,7 +95,7 @@ std::string FrameHistory::csv() const {
   std::vector<size_t> columns;
   std::string text = "frame,frame ms,CPU ms,GPU ms";
   for (const std::string& name : present) {
-    columns.push_back(std::find(names_.begin(), names_.end(), name) - names_.begin());
+    columns.push_back(std::ranges::find(names_, name) - names_.begin());
     text += "," + quoted(name + " ms");
   }
   for (const Row& row : rows_) {
@@ -109,7 +109,7 @@ std::string FrameHistory::csv() const {
 
 double percentile(std::span<const float> values, double share) {
   std::vector<float> known;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(known), [](float v) { return !std::isnan(v); });
+  std::ranges::copy_if(values, std::back_inserter(known), [](float v) { return !std::isnan(v); });
   if (known.empty()) {
     return unknown;
   }

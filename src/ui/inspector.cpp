@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <tuple>
 #include <utility>
 
-#include "ui/inspector_fields.hpp"
+#include "ui/field_rows.hpp"
 
 namespace speculum::panels {
 
@@ -23,8 +24,8 @@ void nodeList(PanelContext& ui) {
   int row = 0;
   for (const Selection& node : allNodes(*edit.scene)) {
     const bool selected = sameNode(node, edit.selected);
-    const bool other = std::any_of(edit.others.begin(), edit.others.end(),
-                                   [&](const Selection& selection) { return sameNode(selection, node); });
+    const bool other =
+        std::ranges::any_of(edit.others, [&](const Selection& selection) { return sameNode(selection, node); });
     ImGui::PushID(row);
     if (ImGui::Selectable(describe(*edit.scene, node).c_str(), selected || other)) {
       const ImGuiIO& io = ImGui::GetIO();
@@ -74,44 +75,94 @@ void modelChoice(PanelContext& ui) {
 }
 
 void addButtons(PanelContext& ui) {
-  if (button(ui, "Add mirror", "edit.add_mirror", "Adds a mirror in the middle of the view, facing it.")) {
-    ui.send(AddMirror{});
-  }
+  commandButton(ui, "Add mirror", "edit.add_mirror", "Adds a mirror in the middle of the view, facing it.",
+                AddMirror{});
   ImGui::SameLine();
-  if (button(ui, "Add light", "edit.add_light", "Adds a light in the middle of the view.")) {
-    ui.send(AddLight{});
-  }
+  commandButton(ui, "Add light", "edit.add_light", "Adds a light in the middle of the view.", AddLight{});
   const bool named = ui.state.model || !ui.state.modelFile.empty();
-  if (button(ui, "Add object", "edit.add_object", "Adds an object with the chosen model in the middle of the view.",
-             named)) {
-    ui.send(AddObject{ui.state.model.value_or(ui.state.modelFile)});
-  }
+  commandButton(ui, "Add object", "edit.add_object", "Adds an object with the chosen model in the middle of the view.",
+                AddObject{ui.state.model.value_or(ui.state.modelFile)}, named);
   ImGui::SameLine();
   modelChoice(ui);
 }
 
 void historyButtons(PanelContext& ui) {
   const EditView& edit = ui.view.edit;
-  const auto action = [&](const char* label, const char* key, const std::string& tip, bool enabled, Command command) {
-    if (button(ui, label, key, tip.c_str(), enabled)) {
-      ui.send(std::move(command));
-    }
-  };
   const bool any = static_cast<bool>(edit.selected);
-  action("Duplicate", "edit.duplicate", "Ctrl+D", any, DuplicateSelected{});
+  commandButton(ui, "Duplicate", "edit.duplicate", "Ctrl+D", DuplicateSelected{}, any);
   ImGui::SameLine();
-  action("Delete", "edit.delete", "Del", any, RemoveSelected{});
+  commandButton(ui, "Delete", "edit.delete", "Del", RemoveSelected{}, any);
   ImGui::SameLine();
-  action("Undo", "edit.undo", "Ctrl+Z   " + edit.undo, !edit.undo.empty(), Undo{});
+  commandButton(ui, "Undo", "edit.undo", "Ctrl+Z   " + edit.undo, Undo{}, !edit.undo.empty());
   ImGui::SameLine();
-  action("Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, !edit.redo.empty(), Redo{});
-  action("Save", "edit.save", "Ctrl+S   " + (edit.saveFile ? edit.saveFile->string() : "Asks for a file"), edit.unsaved,
-         Save{});
+  commandButton(ui, "Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, Redo{}, !edit.redo.empty());
+  commandButton(ui, "Save", "edit.save", "Ctrl+S   " + (edit.saveFile ? edit.saveFile->string() : "Asks for a file"),
+                Save{}, edit.unsaved);
   ImGui::SameLine();
-  action("Save as...", "edit.save_as", "Ctrl+Shift+S", true, AskWhereToSave{});
+  commandButton(ui, "Save as...", "edit.save_as", "Ctrl+Shift+S", AskWhereToSave{});
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : "saved");
+}
+
+// Draws a button for each mirror that the node was picked through; a click selects it.
+void throughButtons(PanelContext& ui) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Seen in:");
+  for (size_t i = 0; i < ui.view.edit.through.size(); ++i) {
+    const Selection mirror{Selection::Kind::mirror, ui.view.edit.through[i]};
+    ImGui::SameLine();
+    ImGui::PushID(static_cast<int>(i));  // a mirror may come twice
+    if (ImGui::SmallButton(speculum::describe(*ui.view.edit.scene, mirror).c_str())) {
+      ui.send(SelectNode{mirror});
+    }
+    recordWidget(ui, "edit.through." + std::to_string(i));
+    ImGui::PopID();
+    tip("Selects it.");
+  }
+}
+
+void gizmoMode(PanelContext& ui) {
+  for (const auto& [label, key, mode] :
+       {std::tuple("Move", "edit.move", GizmoMode::move), std::tuple("Rotate", "edit.rotate", GizmoMode::turn),
+        std::tuple("Scale", "edit.scale_handles", GizmoMode::scale)}) {
+    if (ImGui::RadioButton(label, ui.view.edit.mode == mode)) {
+      ui.send(SetGizmoMode{mode});
+    }
+    recordWidget(ui, key, "G switches between the handles. Hold Ctrl while dragging to snap.");
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
+void selectedNode(PanelContext& ui) {
+  const EditView& edit = ui.view.edit;
+  if (!edit.selected) {
+    ImGui::TextWrapped("Click an object, light or mirror in the picture, or choose it from the list.");
+    return;
+  }
+  if (!edit.others.empty()) {
+    ImGui::TextWrapped("%d more are selected. The fields show the first.", static_cast<int>(edit.others.size()));
+  }
+  if (!edit.through.empty()) {
+    throughButtons(ui);
+  }
+  if (edit.selected.kind == Selection::Kind::mirror) {
+    commandButton(ui, "Look out of mirror", "edit.look_out", "Looks out of the mirror (Shift+B).",
+                  LookFromMirror{MirrorSide::front});
+    ImGui::SameLine();
+    commandButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
+                  LookFromMirror{MirrorSide::back});
+  }
+  gizmoMode(ui);
+  ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
+  SceneNode node = nodeOf(*edit.scene, edit.selected);
+  const bool edited = fieldRows(ui, node);
+  ImGui::PopItemWidth();
+  if (edited) {
+    ui.state.editing = ImGui::IsAnyItemActive();
+    ui.send(EditNode{edit.selected, std::move(node), ui.state.editing});
+  }
 }
 
 }  // namespace

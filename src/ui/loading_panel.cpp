@@ -20,9 +20,7 @@ void loading(PanelContext& ui) {
     ImGui::Text("Loading %s", browser.loading.c_str());
     ImGui::ProgressBar(static_cast<float>(browser.loaded), ImVec2(-5.0f * unit, 0.0f));
     ImGui::SameLine();
-    if (button(ui, "Cancel", "loading.cancel", "")) {
-      ui.send(CancelLoading{});
-    }
+    commandButton(ui, "Cancel", "loading.cancel", "", CancelLoading{});
   }
   ImGui::End();
 }

@@ -42,8 +42,8 @@ void LogHistory::clear() {
 std::vector<LogLine> LogHistory::lines(LogLevel least, std::string_view part) const {
   const std::lock_guard lock(mutex_);
   std::vector<LogLine> chosen;
-  std::copy_if(lines_.begin(), lines_.end(), std::back_inserter(chosen),
-               [&](const LogLine& line) { return line.level >= least && contains(line.text, part); });
+  std::ranges::copy_if(lines_, std::back_inserter(chosen),
+                       [&](const LogLine& line) { return line.level >= least && contains(line.text, part); });
   return chosen;
 }
 

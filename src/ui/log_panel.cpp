@@ -8,8 +8,7 @@ void log(PanelContext& ui) {
   PanelState& state = ui.state;
   ImGui::SetNextItemWidth(11.0f * ImGui::GetFontSize());
   ImGui::InputTextWithHint("##filter", "Filter", state.logFilter.data(), state.logFilter.size());
-  recordWidget(ui, "log.filter");
-  tip("Shows only lines that contain this.");
+  recordWidget(ui, "log.filter", "Shows only lines that contain this.");
   ImGui::SameLine();
   int least = static_cast<int>(state.logLevel);
   ImGui::SetNextItemWidth(7.0f * ImGui::GetFontSize());
@@ -22,9 +21,7 @@ void log(PanelContext& ui) {
     ui.send(CopyText{logText(lines)});
   }
   ImGui::SameLine();
-  if (button(ui, "Clear", "log.clear", "")) {
-    ui.send(ClearLog{});
-  }
+  commandButton(ui, "Clear", "log.clear", "", ClearLog{});
   ImGui::Separator();
   ImGui::BeginChild("lines");
   for (const LogLine& line : lines) {

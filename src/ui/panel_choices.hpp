@@ -3,9 +3,9 @@
 #include <array>
 #include <string_view>
 
-#include "ui/theme.hpp"
-
 namespace speculum {
+
+enum class Theme { dark, light };
 
 // Open windows, theme and size of the panels; saved beside the layout in userConfigDir().
 struct PanelChoices {

@@ -193,7 +193,7 @@ bool PanelDock::begin(const char* name, bool* open, Edge edge, const glm::vec2& 
   panel.edge = edge;
   panel.ems = ems;
   panel.shown = true;
-  if (std::find(order_.begin(), order_.end(), &panel) == order_.end()) {
+  if (std::ranges::find(order_, &panel) == order_.end()) {
     order_.push_back(&panel);
     arrange(edge);
     panel.given = {};

@@ -11,11 +11,7 @@
 
 namespace speculum {
 
-namespace {
-
 constexpr float clickReach = 6.0f;  // pixels within which clicks repeat each other
-
-}  // namespace
 
 PanelWindows::PanelWindows()
     : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
@@ -138,8 +134,7 @@ void PanelWindows::windowChoices(PanelContext& ui) {
     for (const PanelName& panel : panelNames) {
       ImGui::TableNextColumn();
       ImGui::Checkbox(panel.name.data(), &(state_.choices.*panel.open));
-      panels::recordWidget(ui, "panel." + std::string(panel.name));
-      panels::tip(panel.about);
+      panels::recordWidget(ui, "panel." + std::string(panel.name), panel.about);
     }
     ImGui::EndTable();
   }
@@ -152,8 +147,8 @@ void PanelWindows::presentModes(PanelContext& ui) {
     if (ImGui::MenuItem(("Present: " + name).c_str(), nullptr, device.presentMode == i)) {
       ui.send(SetPresentMode{i});
     }
-    panels::recordWidget(ui, "present." + name);
-    panels::tip(
+    panels::recordWidget(
+        ui, "present." + name,
         "fifo waits for the screen and never tears, mailbox shows the newest picture at each refresh, immediate shows "
         "pictures at once and may tear.");
   }
@@ -232,8 +227,7 @@ WindowRect PanelWindows::freeRect() const {
 bool PanelWindows::closeTop() {
   const auto close = [&](const ImGuiWindow& window) {
     const std::string_view name = window.Name;
-    const auto panel =
-        std::find_if(panelNames.begin(), panelNames.end(), [&](const PanelName& p) { return p.name == name; });
+    const auto panel = std::ranges::find(panelNames, name, &PanelName::name);
     bool* open = name == panels::helpTitle        ? &state_.help
                  : name == panels::inspectorTitle ? &state_.inspector
                  : panel != panelNames.end()      ? &(state_.choices.*panel->open)

@@ -31,14 +31,12 @@ void bookmarks(PanelContext& ui) {
   }
   tip("Views that are saved with the scene. Shift+M goes to the next one.");
   ImGui::SameLine();
-  if (button(ui, "Bookmark view", "bookmark.add", "Saves the camera's position and direction with the scene (M).")) {
-    ui.send(AddBookmark{});
-  }
+  commandButton(ui, "Bookmark view", "bookmark.add", "Saves the camera's position and direction with the scene (M).",
+                AddBookmark{});
   if (shown >= 0) {
     ImGui::SameLine();
-    if (button(ui, "Remove", "bookmark.remove", "Removes the bookmark from the scene.")) {
-      ui.send(RemoveBookmark{static_cast<size_t>(shown)});
-    }
+    commandButton(ui, "Remove", "bookmark.remove", "Removes the bookmark from the scene.",
+                  RemoveBookmark{static_cast<size_t>(shown)});
   }
 }
 
@@ -48,7 +46,7 @@ void sceneChoice(PanelContext& ui) {
   const bool open = ImGui::BeginCombo("Scene", shown.name.c_str(), ImGuiComboFlags_HeightLargest);
   recordWidget(ui, "scene");
   if (!open) {
-    return tip((shown.file.string() + "\nWindow > Scenes shows pictures of all scenes.").c_str());
+    return tip(shown.file.string() + "\nWindow > Scenes shows pictures of all scenes.");
   }
   for (size_t i = 0; i < browser.scenes.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));  // names may repeat
@@ -70,9 +68,7 @@ void cameraMode(PanelContext& ui) {
     tip(about);
     ImGui::SameLine();
   }
-  if (button(ui, "Reset camera", "camera.reset", "Returns to the scene's camera.")) {
-    ui.send(ResetCamera{});
-  }
+  commandButton(ui, "Reset camera", "camera.reset", "Returns to the scene's camera.", ResetCamera{});
 }
 
 // Says what the passes that a setting acts on took in the last frame whose passes were timed.
@@ -96,8 +92,7 @@ std::string measuredHere(const FrameView& frame, std::string_view key) {
 }  // namespace
 
 void describe(PanelContext& ui, std::string_view key) {
-  recordWidget(ui, key);
-  tip((settingHelp(key) + measuredHere(ui.view.frame, key)).c_str());
+  recordWidget(ui, key, settingHelp(key) + measuredHere(ui.view.frame, key));
   const Settings& ofScene = ui.view.settings.ofScene;
   const SettingField& field = *findSettingField(key);
   if (sameSetting(field, ui.settings, ofScene)) {
@@ -116,34 +111,41 @@ void describe(PanelContext& ui, std::string_view key) {
   }
 }
 
-void tip(const char* text) {
+void tip(const std::string& text) {
   // A widget that the keyboard is at counts as hovered, but its tooltip would cover the next ones.
   const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
   if (!byKeyboard && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(text);
+    ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
   }
 }
 
-void recordWidget(PanelContext& ui, std::string_view key) {
+void recordWidget(PanelContext& ui, std::string_view key, const std::string& about) {
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 size = ImGui::GetItemRectSize();
   ui.state.widgets.emplace_back(key, PixelRect{static_cast<int>(low.x), static_cast<int>(low.y),
                                                static_cast<int>(size.x), static_cast<int>(size.y)});
+  if (!about.empty()) {
+    tip(about);
+  }
 }
 
-bool button(PanelContext& ui, const char* label, std::string_view key, const char* about, bool enabled) {
+bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& about, bool enabled) {
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label);
   ImGui::EndDisabled();
-  recordWidget(ui, key);
-  if (about[0] != '\0') {
-    tip(about);
-  }
+  recordWidget(ui, key, about);
   return pressed;
+}
+
+void commandButton(PanelContext& ui, const char* label, std::string_view key, const std::string& about, Command command,
+                   bool enabled) {
+  if (button(ui, label, key, about, enabled)) {
+    ui.send(std::move(command));
+  }
 }
 
 std::string mebibytes(uint64_t bytes) {
@@ -196,18 +198,16 @@ void scene(PanelContext& ui) {
   cameraMode(ui);
   bookmarks(ui);
   time(ui);
-  if (button(ui, "Copy command line", "copy",
-             "Copies a speculum render call that draws this view. Unsaved changes go into a copy of the scene.")) {
-    ui.send(CopyCommandLine{});
-  }
+  commandButton(ui, "Copy command line", "copy",
+                "Copies a speculum render call that draws this view. Unsaved changes go into a copy of the scene.",
+                CopyCommandLine{});
   ImGui::SameLine();
   if (button(ui, "Inspector", "edit.open", "Selects, moves, adds and deletes objects, lights and mirrors (F2).")) {
     ui.state.inspector = !ui.state.inspector;
   }
   ImGui::SameLine();
-  if (button(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.")) {
-    ui.send(TakeScreenshot{true});
-  }
+  commandButton(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.",
+                TakeScreenshot{true});
 }
 
 void settings(PanelContext& ui) {
@@ -219,9 +219,8 @@ void settings(PanelContext& ui) {
   if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
     settingRows(ui, "reflection.");
   }
-  if (button(ui, "Reset settings", "settings.reset", "Returns to the settings that the scene was opened with.")) {
-    ui.send(ResetSettings{});
-  }
+  commandButton(ui, "Reset settings", "settings.reset", "Returns to the settings that the scene was opened with.",
+                ResetSettings{});
 }
 
 }  // namespace speculum::panels

@@ -121,9 +121,9 @@ void statusLine(const StatusView& status, float width, float right);
 // it to the scene's value if it differs. The button is recorded as "reset." and the key.
 void describe(PanelContext& ui, std::string_view key);
 // Call after a widget: shows a tooltip while the pointer is on it.
-void tip(const char* text);
-// Call after a widget: records its rectangle by name.
-void recordWidget(PanelContext& ui, std::string_view key);
+void tip(const std::string& text);
+// Call after a widget: records its rectangle by name, and shows the tooltip unless it is empty.
+void recordWidget(PanelContext& ui, std::string_view key, const std::string& tip = {});
 std::string mebibytes(uint64_t bytes);  // without the unit
 std::string milliseconds(double ms);    // the same without the unit; "-" for NaN
 std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
@@ -131,8 +131,10 @@ std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
-// Draws a button, records it and shows its tooltip.
-bool button(PanelContext& ui, const char* label, std::string_view key, const char* tip, bool enabled = true);
+// Draws a button, records it and shows its tooltip. The second sends the command when it is pressed.
+bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, bool enabled = true);
+void commandButton(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, Command command,
+                   bool enabled = true);
 
 }  // namespace panels
 }  // namespace speculum

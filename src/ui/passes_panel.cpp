@@ -37,7 +37,7 @@ void depthResolution(const PassView& pass, ClipMethod inUse) {
     text +=
         std::string("\n") + name + ": " + metres(gapWith(*pass.resolution, clip)) + (clip == inUse ? "  (in use)" : "");
   }
-  tip(text.c_str());
+  tip(text);
 }
 
 // Draws text from the cell to the window's edge, over the empty cells to its right.
@@ -105,7 +105,7 @@ void passRow(PanelContext& ui, const PassNode& node) {
   }
   recordWidget(ui, "pass." + pass.name);
   if (hasTarget(pass)) {
-    tip((pass.name + "\nA click shows what it drew.").c_str());
+    tip(pass.name + "\nA click shows what it drew.");
   }
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);

@@ -42,7 +42,7 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
     return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
   });
   ImGui::TextUnformatted(shown.c_str());
-  tip(name.c_str());
+  tip(name);
   for (const double share : {0.5, 0.95}) {
     ImGui::TableNextColumn();
     const std::string text = milliseconds(percentile(values, share));
@@ -77,9 +77,7 @@ void performance(PanelContext& ui) {
   }
   recordWidget(ui, "performance.pause");
   ImGui::SameLine();
-  if (button(ui, "Clear", "performance.clear", "")) {
-    ui.send(ClearHistory{});
-  }
+  commandButton(ui, "Clear", "performance.clear", "", ClearHistory{});
   ImGui::SameLine();
   if (button(ui, "Copy as CSV", "performance.copy", "Copies all figures of the frames below.")) {
     ui.send(CopyText{history.csv()});

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "platform/folders.hpp"
-#include "ui/font.hpp"
+#include "platform/process.hpp"
 #include "ui/glfw_input.hpp"
 
 namespace speculum {
@@ -26,15 +26,30 @@ constexpr float edgeReach = 4.0f;  // screen coordinates around a window that be
 
 DescriptorPoolHandle createPool(Device& device) {
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 64};
-  const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                        .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
-                                        .maxSets = size.descriptorCount,
-                                        .poolSizeCount = 1,
-                                        .pPoolSizes = &size};
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  check(vkCreateDescriptorPool(device.get(), &info, nullptr, &pool), "vkCreateDescriptorPool for the panel");
-  device.setName(pool, "panel");
-  return DescriptorPoolHandle(device.get(), pool);
+  return device.create(vkCreateDescriptorPool,
+                       {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                        .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
+                        .maxSets = size.descriptorCount,
+                        .poolSizeCount = 1,
+                        .pPoolSizes = &size},
+                       "panel");
+}
+
+// Returns a sans serif font of the system whose digits are equally wide; empty if there is none.
+std::filesystem::path findFont() {
+  std::error_code none;
+  for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                           "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
+                           "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
+    if (std::filesystem::is_regular_file(file, none)) {
+      return file;
+    }
+  }
+  const ProcessResult found = runProcess({"fc-match", "-f", "%{file}", "sans-serif:fontformat=TrueType"});
+  return found.exitCode == 0 && std::filesystem::is_regular_file(found.output, none)
+             ? std::filesystem::path(found.output)
+             : std::filesystem::path();
 }
 
 void addFont(ImFontAtlas& atlas, float pixels) {
@@ -49,6 +64,24 @@ void addFont(ImFontAtlas& atlas, float pixels) {
   ImFontConfig builtIn;
   builtIn.SizePixels = pixels;
   atlas.AddFontDefault(&builtIn);
+}
+
+// Sets colors and sizes. `scale`: 1 for 96 dots an inch.
+void applyTheme(Theme theme, float scale) {
+  ImGuiStyle style;
+  theme == Theme::light ? ImGui::StyleColorsLight(&style) : ImGui::StyleColorsDark(&style);
+  style.WindowRounding = 6.0f;
+  style.FrameRounding = 3.0f;
+  style.GrabRounding = 3.0f;
+  style.FrameBorderSize = theme == Theme::light ? 1.0f : 0.0f;  // white on white
+  style.Colors[ImGuiCol_WindowBg].w = 0.94f;
+  style.Colors[ImGuiCol_PopupBg].w = 1.0f;
+  style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
+  style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_SliderGrab];  // progress, with text over it
+  const float disabled = theme == Theme::light ? 0.33f : 0.68f;
+  style.Colors[ImGuiCol_TextDisabled] = {disabled, disabled, disabled, 1.0f};
+  style.ScaleAllSizes(scale);
+  ImGui::GetStyle() = style;
 }
 
 }  // namespace
@@ -179,7 +212,7 @@ bool SimpleUI::takesPointer(double x, double y) const {
     return true;
   }
   const ImVec2 point(static_cast<float>(x), static_cast<float>(y));
-  return std::any_of(context.Windows.begin(), context.Windows.end(), [&](const ImGuiWindow* window) {
+  return std::ranges::any_of(context.Windows, [&](const ImGuiWindow* window) {
     ImRect reach = window->OuterRectClipped;
     reach.Expand((window->Flags & ImGuiWindowFlags_NoResize) == 0 ? edgeReach : 0.0f);
     return window->Active && !window->Hidden && (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&

@@ -13,12 +13,8 @@ float statusAlpha(double age) {
 
 namespace panels {
 
-namespace {
-
 constexpr float lines = 2.0f;       // of text, whatever there is to say
 constexpr float mostWidth = 0.75f;  // of the display
-
-}  // namespace
 
 float statusHeight() {
   return std::floor(lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().FramePadding.y);

@@ -56,8 +56,7 @@ void passChoice(PanelContext& ui, const PassView* shown) {
     }
     ImGui::EndCombo();
   }
-  recordWidget(ui, "targets.pass");
-  tip("Pass whose target is shown.");
+  recordWidget(ui, "targets.pass", "Pass whose target is shown.");
 }
 
 void controls(PanelContext& ui, const PassView* shown) {
@@ -80,8 +79,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     if (ImGui::RadioButton(choice.label, targets.kind == choice.kind)) {
       targets.kind = choice.kind;
     }
-    recordWidget(ui, std::string("targets.") + choice.name);
-    tip(choice.about);
+    recordWidget(ui, std::string("targets.") + choice.name, choice.about);
   }
   if (button(ui, "Fit", "targets.fit", "Shows the whole image.")) {
     targets.zoom = 0.0;
@@ -96,8 +94,7 @@ void controls(PanelContext& ui, const PassView* shown) {
     ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
     ImGui::SliderFloat("##half", &half, 0.1f, 1000.0f, "grey %.3g m", ImGuiSliderFlags_Logarithmic);
     targets.halfDistance = half;
-    recordWidget(ui, "targets.half");
-    tip("Distance that is shown half bright.");
+    recordWidget(ui, "targets.half", "Distance that is shown half bright.");
   }
 }
 
@@ -174,10 +171,9 @@ PixelRect inPixels(const Rect& rect) {
 // Returns the pass whose target is shown: the chosen one, or the main view if that is gone.
 const PassView* shownPass(PanelContext& ui) {
   const std::vector<PassView>& passes = ui.view.frame.passes;
-  const auto pass = std::find_if(passes.begin(), passes.end(),
-                                 [&](const PassView& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
-  const auto main =
-      std::find_if(passes.begin(), passes.end(), [](const PassView& p) { return p.kind == PassKind::main; });
+  const auto pass =
+      std::ranges::find_if(passes, [&](const PassView& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
+  const auto main = std::ranges::find(passes, PassKind::main, &PassView::kind);
   const auto shown = pass != passes.end() ? pass : main;
   ui.state.targets.path = shown != passes.end() ? std::optional(shown->path) : std::nullopt;
   return shown != passes.end() ? &*shown : nullptr;

@@ -7,11 +7,7 @@
 
 namespace speculum::panels {
 
-namespace {
-
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
-
-}  // namespace
 
 void time(PanelContext& ui) {
   const PlaybackView& playback = ui.view.playback;
@@ -21,22 +17,16 @@ void time(PanelContext& ui) {
   if (ImGui::SliderFloat("Time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(Seek{seconds});
   }
-  recordWidget(ui, "time");
-  tip("Time of the animation.");
-  if (button(ui, "<", "time.back", "Steps back by 1/60 s. Key: comma.")) {
-    ui.send(StepTime{-1});
-  }
+  recordWidget(ui, "time", "Time of the animation.");
+  commandButton(ui, "<", "time.back", "Steps back by 1/60 s. Key: comma.", StepTime{-1});
   ImGui::SameLine();
-  if (button(ui, ">", "time.on", "Steps forward by 1/60 s. Key: period.")) {
-    ui.send(StepTime{1});
-  }
+  commandButton(ui, ">", "time.on", "Steps forward by 1/60 s. Key: period.", StepTime{1});
   ImGui::SameLine();
   bool paused = playback.paused;
   if (ImGui::Checkbox("Pause", &paused)) {
     ui.send(SetPaused{paused});
   }
-  recordWidget(ui, "pause");
-  tip("Pauses the animation (Space). The picture then becomes exact.");
+  recordWidget(ui, "pause", "Pauses the animation (Space). The picture then becomes exact.");
   ImGui::SameLine();
   float speed = static_cast<float>(playback.speed);
   ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
@@ -44,8 +34,7 @@ void time(PanelContext& ui) {
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(SetTimeSpeed{speed});
   }
-  recordWidget(ui, "time.speed");
-  tip("Speed of the animation. Keys: [ halves it, ] doubles it.");
+  recordWidget(ui, "time.speed", "Speed of the animation. Keys: [ halves it, ] doubles it.");
 }
 
 }  // namespace speculum::panels

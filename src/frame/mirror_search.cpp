@@ -1,0 +1,280 @@
+#include "frame/mirror_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+#include <sstream>
+
+#include "frame/cube_face.hpp"
+#include "frame/mirror_sight.hpp"
+#include "frame/occlusion.hpp"
+#include "frame/pass_mask.hpp"
+
+namespace speculum {
+
+namespace {
+
+// A mirror that deserves a pass, if the budget reaches it.
+struct Candidate {
+  double priority = 0.0;
+  int parent = 0;                   // node
+  size_t draw = 0;                  // index into the parent's mirrors
+  std::vector<glm::dvec3> visible;  // world; visible region
+  double areaPx = 0.0;              // of the picture
+  glm::dvec3 throughput{1.0};
+  int order = 0;  // of discovery; settles ties so that plans are reproducible
+
+  bool operator<(const Candidate& other) const {
+    return priority != other.priority ? priority < other.priority : order > other.order;
+  }
+};
+
+// Bounds time and memory of a plan, whatever reflection.max_passes is: 25 000 passes of a few mirrors each, 1 200 of a
+// thousand, or 200 that show 200 others each.
+constexpr size_t mostWork = 2'500'000;
+
+double largest(const glm::dvec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+std::string number(double value) {
+  std::ostringstream out;
+  out.precision(3);
+  out << value;
+  return out.str();
+}
+
+class MirrorSearch {
+ public:
+  MirrorSearch(const Scene& scene, const SceneState& state, const Settings& settings, const FrameCache& cache,
+               FramePlan& plan)
+      : scene_(scene),
+        state_(state),
+        allSettings_(settings),
+        settings_(settings.reflection),
+        cache_(cache),
+        plan_(plan),
+        occlusion_(scene, state, settings, plan.projection) {}
+
+  std::vector<PassNode> nodes(const glm::ivec2& size) {
+    PassNode& root = nodes_.emplace_back();
+    root.pass.view = mainView(state_.camera, plan_.projection, size.x, size.y);
+    root.pass.areaPx = root.pass.view.rect.area();
+    fill(0);
+    while (!candidates_.empty()) {
+      const Candidate best = candidates_.top();
+      candidates_.pop();
+      expand(best);
+    }
+    return std::move(nodes_);
+  }
+
+ private:
+  void fill(int node);
+  void skipUnseen(const View& view, int mirror);
+  void skipBack(const View& view, int mirror, double height);
+  void consider(int node, Sight sight);
+  void propose(int node, Sight sight);
+  void expand(const Candidate& candidate);
+  bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
+
+  const Scene& scene_;
+  const SceneState& state_;
+  const Settings& allSettings_;
+  const ReflectionSettings& settings_;
+  const FrameCache& cache_;
+  FramePlan& plan_;
+  std::vector<PassNode> nodes_;
+  std::priority_queue<Candidate> candidates_;
+  Occlusion occlusion_;
+  int discovered_ = 0;
+  size_t work_ = 0;  // twice the mirrors looked at, and as much time and memory spent on what else a pass has
+};
+
+// Finds what is drawn in a node's view, and which of its mirrors are candidates for passes.
+void MirrorSearch::fill(int node) {
+  const View view = nodes_[node].pass.view;
+  const View readable = readableView(view, plan_.projection, allSettings_);
+  addVisibleInstances(readable, scene_, state_, allSettings_.debug.cullClusters, -1, nodes_[node].pass);
+  for (size_t i = 0; i < scene_.lights.size(); ++i) {
+    const PointLight& light = scene_.lights[i];
+    if (hasGlyph(light, allSettings_.effects) && sphereVisible(readable, state_.lights[i].position, light.radius)) {
+      nodes_[node].pass.lights.push_back(static_cast<int>(i));
+    }
+  }
+  // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
+  View drawn = readable;
+  widen(drawn, plan_.projection, 1);
+  const auto isOwn = [&](int mirror) { return !view.path.empty() && view.path.back() == mirror; };
+  // An image shows no mirror of its own mirror's plane.
+  const auto inOwnPlane = [&](int mirror) {
+    return !view.path.empty() && state_.mirrors[view.path.back()].plane == state_.mirrors[mirror].plane;
+  };
+  std::vector<Sight> sights;  // of the mirrors that are seen; a view may look at a thousand that are not
+  std::vector<int> seen;
+  for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
+    if (!inOwnPlane(i) && !behindEye(view, state_.mirrors[i].polygon)) {
+      Sight sight = sightOf(scene_, state_, view, drawn, i);
+      if (!sight.visible.empty()) {
+        sights.push_back(std::move(sight));
+        seen.push_back(i);
+      }
+    }
+  }
+  // Each mirror that is seen is kept with its polygon, and tested against the others.
+  work_ += 64 + 2 * scene_.mirrors.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
+           (state_.instances.size() + nodes_[node].pass.instances.size()) / 16 + state_.lights.size() / 8;
+  occlusion_.setView(view, nodes_[node].pass.instances, std::move(seen));
+  size_t next = 0;
+  for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
+    if (next < sights.size() && sights[next].draw.mirror == i) {
+      consider(node, std::move(sights[next++]));
+    } else if (!isOwn(i)) {
+      skipUnseen(view, i);
+    }
+  }
+}
+
+bool MirrorSearch::behindEye(const View& view, std::span<const glm::dvec3> polygon) const {
+  return std::ranges::all_of(polygon,
+                             [&](const glm::dvec3& p) { return (view.worldToView * (p - view.eye)).z >= 0.0; });
+}
+
+void MirrorSearch::skipUnseen(const View& view, int mirror) {
+  const MirrorState& placed = state_.mirrors[mirror];
+  if (behindEye(view, placed.polygon)) {
+    return skipMirror(plan_, view, mirror, SkipReason::behind);
+  }
+  const double height = heightAbove(placed, view.eye);
+  if (showsBack(scene_.mirrors[mirror], height)) {
+    return skipBack(view, mirror, height);
+  }
+  skipMirror(plan_, view, mirror, SkipReason::outside);
+}
+
+void MirrorSearch::skipBack(const View& view, int mirror, double height) {
+  skipMirror(plan_, view, mirror, SkipReason::backface, height == 0.0 ? "the eye is in its plane" : "");
+}
+
+void MirrorSearch::consider(int node, Sight sight) {
+  PlannedPass& pass = nodes_[node].pass;
+  const View& view = pass.view;
+  const int mirror = sight.draw.mirror;
+  const std::optional<std::string> occluder = occlusion_.hiddenBy(mirror, sight.draw.polygon);
+  if (sight.draw.back) {
+    if (sight.height < 0.0 && !occluder) {
+      pass.mirrors.push_back(std::move(sight.draw));
+    }
+    return skipBack(view, mirror, sight.height);
+  }
+  if (occluder) {
+    return skipMirror(plan_, view, mirror, SkipReason::hidden, "behind " + *occluder);
+  }
+  propose(node, std::move(sight));
+}
+
+// Adds a visible mirror to the draws, and makes it a candidate if it is worth a pass.
+void MirrorSearch::propose(int node, Sight sight) {
+  PlannedPass& pass = nodes_[node].pass;
+  const View& view = pass.view;
+  const int mirror = sight.draw.mirror;
+  const Mirror& material = scene_.mirrors[mirror];
+  const double area = screenArea(toClip(view, plan_.projection, sight.visible), plan_.width, plan_.height);
+  const glm::dvec3 throughput =
+      pass.channels * reflectanceBound(material, allSettings_.effects, sight.draw.plane, view.eye, sight.visible);
+  const bool deep = static_cast<int>(view.path.size()) >= settings_.maxDepth;
+  const bool reflects = !deep && largest(throughput) >= settings_.minThroughput;
+  sight.draw.scatters = scatters(material, allSettings_.effects, reflects);
+  sight.draw.blurs = reflects && !sight.draw.scatters && isRough(material, allSettings_.effects);
+  sight.draw.ripples = reflects && !sight.draw.scatters && isRippled(material, allSettings_.effects);
+  const bool needsPass = !sight.draw.scatters;
+  pass.mirrors.push_back(std::move(sight.draw));
+  if (deep) {
+    return skipMirror(plan_, view, mirror, SkipReason::maxDepth, "max_depth " + std::to_string(settings_.maxDepth));
+  }
+  if (needsPass && area < settings_.minPixels) {
+    return skipMirror(plan_, view, mirror, SkipReason::minPixels, number(area) + " px");
+  }
+  if (largest(throughput) < settings_.minThroughput) {
+    return skipMirror(plan_, view, mirror, SkipReason::minThroughput, number(largest(throughput)));
+  }
+  if (needsPass) {
+    candidates_.push({area * largest(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
+                      throughput, discovered_++});
+  }
+}
+
+void MirrorSearch::expand(const Candidate& candidate) {
+  const View& parent = nodes_[candidate.parent].pass.view;
+  const MirrorDraw& draw = nodes_[candidate.parent].pass.mirrors[candidate.draw];
+  if (static_cast<int>(nodes_.size()) > settings_.maxPasses) {
+    return skipMirror(plan_, parent, draw.mirror, SkipReason::maxPasses,
+                      "max_passes " + std::to_string(settings_.maxPasses));
+  }
+  if (work_ > mostWork) {
+    return skipMirror(plan_, parent, draw.mirror, SkipReason::maxPasses, "too many to plan");
+  }
+  const glm::dvec2 picture = nodes_[0].pass.view.pictureSize * settings_.scale;
+  const glm::dvec2 ratio = picture / parent.pictureSize;
+  const PixelRect& outer = parent.rect;
+  const int x0 = static_cast<int>(std::floor(outer.x * ratio.x));
+  const int y0 = static_cast<int>(std::floor(outer.y * ratio.y));
+  const int x1 = static_cast<int>(std::ceil((outer.x + outer.width) * ratio.x));
+  const int y1 = static_cast<int>(std::ceil((outer.y + outer.height) * ratio.y));
+  const PixelRect rect =
+      screenRect(toClip(parent, plan_.projection, candidate.visible), picture.x, picture.y, {x0, y0, x1 - x0, y1 - y0});
+  if (rect.empty()) {
+    return skipMirror(plan_, parent, draw.mirror, SkipReason::outside);
+  }
+  PassNode node;
+  node.pass.view = reflectedView(parent, draw.mirror, draw.plane, candidate.visible, rect, picture);
+  const bool readsBeside = draw.blurs || draw.ripples;
+  if (readsBeside) {
+    boundByRectangle(node.pass.view, plan_.projection);
+  }
+  node.pass.depth = static_cast<int>(parent.path.size());
+  node.pass.areaPx = candidate.areaPx * (picture.x / plan_.width) * (picture.y / plan_.height);
+  node.pass.throughput = largest(candidate.throughput);
+  node.pass.channels = candidate.throughput;
+  node.draw = candidate.draw;
+  // Beside its own pixels nothing can be reprojected.
+  const int interval = readsBeside ? 1 : settings_.updateInterval;
+  if (node.pass.depth == 0 && (interval > 1 || settings_.skipUnchanged)) {
+    const ReuseRequest request{node.pass.view, plan_.projection, candidate.visible,
+                               allSettings_,   interval,         candidate.order};
+    node.choice = chooseImage(cache_.images, request);
+    if (node.choice->image.cacheIndex < 0) {
+      node.pass.view = node.choice->image.view;
+    }
+  }
+  const int index = static_cast<int>(nodes_.size());
+  nodes_[candidate.parent].children.push_back(index);
+  nodes_.push_back(std::move(node));
+  fill(index);
+}
+
+}  // namespace
+
+std::vector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
+                                 const FrameCache& cache, const glm::ivec2& size, FramePlan& plan) {
+  return MirrorSearch(scene, state, settings, cache, plan).nodes(size);
+}
+
+View readableView(const View& view, const Projection& projection, const Settings& settings) {
+  View readable = view;
+  if (!view.path.empty()) {
+    Settings caching = settings;
+    caching.reflection.updateInterval = std::max(caching.reflection.updateInterval, 2);
+    widen(readable, projection, static_cast<int>(std::ceil(1.5 * lookupReach(caching, false))) + 1);
+  }
+  return readable;
+}
+
+void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, std::string detail) {
+  SkippedMirror skipped{mirror, view.path, static_cast<int>(view.path.size()), reason, std::move(detail)};
+  skipped.path.push_back(mirror);
+  plan.skipped.push_back(std::move(skipped));
+}
+
+}  // namespace speculum
