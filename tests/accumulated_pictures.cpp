@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{96, 54};
+constexpr PictureSize size{64, 36};
 
 Options shipped(const std::string& scene, int pictures) {
   Options options = headless(sourceFile("scenes/" + scene + ".toml"), size);
@@ -41,7 +41,7 @@ LinearImage single(Session& session, const SceneState& state, const Settings& me
 
 TEST(Accumulation, IsTheMeanOfItsPictures) {
   for (const int pictures : {3, 17}) {
-    Options options = shipped("gallery", pictures);
+    Options options = shipped(pictures == 3 ? "gallery" : "single_plane", pictures);
     set(options, {{"view.scale", pictures == 3 ? "1" : "0.5"}});
     QuietSession session(options);
     const SceneState state = evaluate(session.scene(), 0.0);
@@ -79,7 +79,9 @@ TEST(Accumulation, BeginsWithThePictureItself) {
 }
 
 TEST(Accumulation, CountsAllPicturesInItsFigures) {
-  Session session(shipped("single_plane", 1));
+  Options options = shipped("single_plane", 1);
+  options.size = {96, 54};
+  Session session(options);
   runFrames(session);
   const DrawnFrame one = session.lastFrame();
   EXPECT_EQ(one.pictures, 1);
@@ -115,7 +117,7 @@ TEST(Accumulation, EveryPictureIsCheckedBeforeSumming) {
 }
 
 TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
-  QuietSession session(shipped("gallery", 4));
+  QuietSession session(shipped("single_plane", 4));
   const Image8 picture = shown(session, 4);
   const SceneState state = evaluate(session.scene(), 0.0);
   const Settings settings = pictureSettings(session.settings());
@@ -137,6 +139,7 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {
     Options options = shipped("rough", 1);
+    options.size = {40, 23};
     set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "16"}});
     QuietSession session(options);
     shown(session, 16);  // 256 rays a pixel
@@ -166,17 +169,18 @@ struct Convergence {
 
 Convergence convergence(const std::string& scene) {
   Options options = shipped(scene, 1);
+  options.size = {48, 27};
   set(options, {{"reflection.max_passes", "100000"},
                 {"reflection.min_pixels", "0"},
                 {"reflection.min_throughput", "0"},
-                {"reflection.max_depth", "32"},
+                {"reflection.max_depth", fullTests() ? "32" : "4"},
                 {"effects.shadow_lookup", "traced"},
                 {"view.samples", "1"},
                 {"reflection.samples", "1"}});
   QuietSession session(options);
-  const std::optional<GroundTruth> truth =
-      traceGroundTruth(session.scene(), evaluate(session.scene(), 0.0),
-                       {.width = size.width, .height = size.height, .settings = session.settings()}, {});
+  const std::optional<GroundTruth> truth = traceGroundTruth(
+      session.scene(), evaluate(session.scene(), 0.0),
+      {.width = options.size.width, .height = options.size.height, .settings = session.settings()}, {});
   Convergence result{.floor = truth->floor.whole.flip};
   for (const int pictures : {1, 4, 16, 64}) {
     result.flip.push_back(errorsAgainst(*truth, shown(session, pictures), session.settings()).whole.flip);

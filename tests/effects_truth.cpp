@@ -76,13 +76,30 @@ std::string tracedEffectsOf(const Options& options, double time) {
   return names;
 }
 
-class ExactEffects : public testing::TestWithParam<Case> {};
+const std::string nearBall = "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.2, 0.6, 1.2]\nscale = 0.4\n";
+
+// All cases have these models.
+class ExactEffects : public testing::TestWithParam<Case> {
+ protected:
+  static void SetUpTestSuite() {
+    const Options options = truthOptions(corner("effects_models", nearBall), size, 3);
+    gpu_ = std::make_unique<Gpu>(options);
+    studio_ = std::make_unique<Studio>(*gpu_, options);
+  }
+  static void TearDownTestSuite() {
+    studio_.reset();
+    gpu_.reset();
+  }
+
+  static inline std::unique_ptr<Gpu> gpu_;
+  static inline std::unique_ptr<Studio> studio_;
+};
 
 TEST_P(ExactEffects, EqualTheRayTracer) {
   constexpr double time = 1.7;
   const std::filesystem::path file = corner("effects_" + std::string(GetParam().name), GetParam().rest);
   EXPECT_EQ(tracedEffectsOf(truthOptions(file, size, 3), time), GetParam().effects);
-  expectTruth(file, size, 3, trace(file, size, 3, time), time);
+  expectTruth(*studio_, file, trace(file, size, 3, time), time);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -108,9 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "base_color = [0.05, 0.2, 0.25]\n",
              "shadows ripple "},
         Case{"curved_mirror",
-             plainLight + wall +
-                 "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.2, 0.6, 1.2]\nscale = 0.4\n" +
-                 "mirror = { reflectance = [0.9, 0.8, 0.6], base_color = [0.1, 0, 0] }\n",
+             plainLight + wall + nearBall + "mirror = { reflectance = [0.9, 0.8, 0.6], base_color = [0.1, 0, 0] }\n",
              "curved "},
         Case{"curved_mirror_with_all",
              shadowLight + plainLight + wall + "casts_light = true\n" + pool + ripple +
@@ -134,10 +149,7 @@ TEST(ExactEffects, BothRenderPathsDrawTheSameBytes) {
 // Rays at every sample smooth the edges of shadows and of what curved mirrors show, which lowers the mean error against
 // the tracer.
 TEST(ExactEffects, RaysAtEverySampleReduceError) {
-  const std::filesystem::path file =
-      corner("effects_samples", shadowLight +
-                                    "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.2, 0.6, 1.2]\n"
-                                    "scale = 0.4\nmirror = {}\n");
+  const std::filesystem::path file = corner("effects_samples", shadowLight + nearBall + "mirror = {}\n");
   const Scene scene = loadScene(file);
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   const TraceResult reference =
@@ -248,7 +260,7 @@ TEST_P(RandomEffects, EqualTheRayTracer) {
   expectTruth(file, size, 3, trace(file, size, 3, 2.5), 2.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomEffects, testing::ValuesIn(sampledSeeds(25, 4)),
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomEffects, testing::ValuesIn(sampledSeeds(25, 6)),
                          testing::PrintToStringParamName());
 
 class RoughMirror : public testing::Test {
@@ -261,7 +273,7 @@ class RoughMirror : public testing::Test {
       const Scene scene = loadScene(file_);
       const RayTracer tracer(scene, evaluate(scene, 0.0));
       return *tracer.render(
-          {.width = small.width, .height = small.height, .samples = 1, .maxDepth = 3, .roughSamples = 4096});
+          {.width = small.width, .height = small.height, .samples = 1, .maxDepth = 3, .roughSamples = 1024});
     }();
     return traced;
   }

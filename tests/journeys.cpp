@@ -80,9 +80,6 @@ TEST_F(EditJourney, HandlesAreDraggedInAMirrorImage) {
   demo_->apply(SelectNode{});
   const Image8 moved = barePicture();
   EXPECT_NE(moved.rgba, before.rgba);
-  // By the printed letter of a German keyboard, where an American one has Y.
-  setKeyboard({"de"});
-  run(3);
   press("ctrl+z");
   EXPECT_EQ(ball().position.y, 1.0);
   demo_->apply(SelectNode{});
@@ -123,6 +120,15 @@ TEST_F(Journey, RandomResizesLeakNothing) {
     run(40);  // unused targets are freed after 30 frames
     demo_->renderer().waitIdle();
   };
+  setSetting("reflection.update_interval", "4");
+  int reused = 0;
+  for (int frame = 0; frame < 8; ++frame) {
+    ASSERT_TRUE(demo_->step());
+    const auto skipped = view().frame.skipped;
+    reused += std::any_of(skipped.begin(), skipped.end(), [](const auto& s) { return s.reason == "unchanged"; });
+    ASSERT_EQ(view().frame.passes.size(), 3u) << "the pass of a reused image stays in the list";
+  }
+  EXPECT_GE(reused, 4);
   resizeTo(1, 1);  // where mirrors are too small for passes, which is another pipeline
   settle();
   const auto objects = liveObjects();
@@ -197,46 +203,6 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
       std::find_if(files.begin(), files.end(), [](const auto& file) { return std::filesystem::is_directory(file); });
   ASSERT_NE(recording, files.end());
   EXPECT_TRUE(readImage8(*recording / "00001.png").rgba == bare.rgba) << "the message is in no picture";
-}
-
-TEST_F(Journey, MessagesAreSmall) {
-  press("space");
-  press("Tab");
-  EXPECT_FALSE(view().status.text.empty()) << "how the panels return";
-  press("Escape");
-  const Image8 before = picture();
-  press("ctrl+z");
-  ASSERT_EQ(view().status.text, "Nothing to undo");
-  const Image8 with = picture();
-  int right = 0;
-  int top = height;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (!std::equal(with.at(x, y), with.at(x, y) + 3, before.at(x, y))) {
-        right = std::max(right, x);
-        top = std::min(top, y);
-      }
-    }
-  }
-  EXPECT_LT(right, 200) << "no wider than it needs to be";
-  EXPECT_GT(right, 100);
-  EXPECT_GT(top, height - 40);
-}
-
-TEST_F(Journey, CopiedCommandDrawsTheSamePicture) {
-  press("space");
-  dragFrom(width - 100, 80, -80, 30);
-  setSetting("view.exposure", "0.5");
-  demo_->apply(SelectNode{{Selection::Kind::object, 0}});
-  demo_->apply(RemoveSelected{});
-  demo_->apply(StepTime{6});
-  const Image8 shown = barePicture();
-  click("copy");
-  const std::string command = demo_->window().clipboard();
-  const ProcessResult result = runProcess(
-      {"bash", "-c", "cd '" + home_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
-  ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
-  EXPECT_TRUE(readImage8(home_.path() / "journey.png").rgba == shown.rgba) << command;
 }
 
 TEST_F(Journey, GalleryShowsAndLoadsScenes) {
@@ -436,38 +402,16 @@ TEST_F(Journey, TargetsShowTexelsOfThePicture) {
     EXPECT_NEAR(plain.at(value.texel.x, value.texel.y)[i], 255.0 * srgbEncode(std::clamp(value.value[i], 0.0, 1.0)),
                 0.6);
   }
-  click("targets.depth");
-  moveTo(x, y);
-  run(5);
-  ASSERT_TRUE(view().frame.target.value && view().frame.target.value->depth);
-  EXPECT_NEAR(view().frame.target.value->metres, 6.0, 0.01) << "the mirror";
-  const Image8 depth = picture();
-  EXPECT_EQ(depth.at(x, y)[0], depth.at(x, y)[1]) << "grey";
-  EXPECT_EQ(depth.at(x, y)[1], depth.at(x, y)[2]);
-}
-
-TEST_F(Journey, ReusedImagesSurviveMovesAndResizes) {
-  setSetting("reflection.update_interval", "4");
-  int reused = 0;
-  for (int frame = 0; frame < 8; ++frame) {
-    ASSERT_TRUE(demo_->step());
-    const auto skipped = view().frame.skipped;
-    reused += std::any_of(skipped.begin(), skipped.end(), [](const auto& s) { return s.reason == "unchanged"; });
-    ASSERT_EQ(view().frame.passes.size(), 3u) << "the pass of a reused image stays in the list";
-  }
-  EXPECT_GE(reused, 4);
-  dragFrom(width - 100, 80, -40, 10);
-  for (int i = 0; i < 8; ++i) {
-    demo_->window().resize(width - 30 * i, height - 20 * (i % 5));
-    for (int frame = 0; frame < 3; ++frame) {
-      ASSERT_TRUE(demo_->step());
-    }
-  }
 }
 
 struct OwnShaders {
   explicit OwnShaders(const std::string& appended) { writeShaders(shaders.path(), "scene_shading.glsl", appended); }
-  Options options() const { return {.shaderDir = shaders.path()}; }
+  Options options() const {
+    Options options;
+    options.shaderDir = shaders.path();
+    options.settings = {{"debug.check_finite", "true"}};
+    return options;
+  }
   // As if edited a second later.
   void touch(const std::filesystem::path& file) const {
     std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(1));

@@ -22,10 +22,15 @@ const std::vector<std::string> keys{
 
 class RandomInput : public Journey {
  protected:
-  RandomInput() : random_(seed()) {
+  RandomInput() : Journey(wallScene, checked()), random_(seed()) {
     demo_->setGamepadSource([this] { return pad_; });
   }
 
+  static Options checked() {
+    Options options;
+    options.settings = {{"debug.check_finite", "true"}};
+    return options;
+  }
   static unsigned seed() {
     const char* given = std::getenv("SPECULUM_SEED");
     const unsigned seed = given ? static_cast<unsigned>(std::strtoul(given, nullptr, 10)) : defaultSeed;

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "app/demo.hpp"
+#include "driver.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
@@ -20,12 +21,13 @@ namespace speculum::testing_support {
 using Clock = std::chrono::steady_clock;
 
 inline constexpr int width = 900;
-inline constexpr int height = 700;
+inline constexpr int height = 520;
 
 // A window on a virtual display, driven by X events.
 class Journey : public testing::Test {
  protected:
   explicit Journey(const std::string& toml = wallScene, const Options& more = {}) : options_(more) {
+    keepDriverLoaded();
     // Settings and pictures of the user must neither be used nor written.
     for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_DATA_HOME", "HOME"}) {
       environment_.emplace_back(name, environment(name));
@@ -36,10 +38,12 @@ class Journey : public testing::Test {
     options_.size = {width, height};
     options_.validation = true;
     options_.presentMode = PresentMode::immediate;
-    // Drawing continuously lets run() count frames.
+    // Drawing everything in every frame lets run() count frames.
     // What moves has full quality, however slow the machine is.
     options_.settings.insert(options_.settings.begin(), {{"view.continuous", "true"},
-                                                         {"debug.check_finite", "true"},
+                                                         {"reflection.skip_unchanged", "false"},
+                                                         {"view.samples", "1"},
+                                                         {"reflection.samples", "1"},
                                                          {"quality.motion_ms", "0"},
                                                          {"quality.still_pictures", "1"}});
     start();

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "accuracy/image_metrics.hpp"
-#include "app/stats.hpp"
-#include "picture_support.hpp"
+#include "reuse_support.hpp"
+#include "scene_text.hpp"
 
 namespace speculum {
 namespace {
@@ -55,8 +55,8 @@ size = [3, 2]
 }
 
 Options optionsFor(const std::filesystem::path& file, const std::string& meshError,
-                   const std::vector<std::pair<std::string, std::string>>& more = {}, PictureSize pictureSize = small) {
-  Options options = headless(file, pictureSize);
+                   const std::vector<std::pair<std::string, std::string>>& more = {}) {
+  Options options = headless(file, small);
   set(options, {{"reflection.mesh_error", meshError}});
   set(options, more);
   return options;
@@ -68,8 +68,8 @@ struct Drawn {
   int64_t mainTriangles = 0;
 };
 
-Drawn drawn(const Options& options) {
-  QuietSession session(options);
+Drawn drawn(Session& session, const std::string& meshError) {
+  set(session, {{"reflection.mesh_error", meshError}});
   session.draw(0.0, true);
   session.finish();
   Drawn result{.picture = session.picture()};
@@ -83,9 +83,9 @@ Drawn drawn(const Options& options) {
 }
 
 TEST(LevelPictures, SettingTradesTrianglesForError) {
-  const std::filesystem::path file = objectsScene();
-  const Drawn exact = drawn(optionsFor(file, "0", {}, size));
-  EXPECT_EQ(drawn(headless(file, size)).picture.rgba, exact.picture.rgba) << "0 is the default";
+  QuietSession session(headless(objectsScene(), size));
+  EXPECT_EQ(session.settings().reflection.meshError, 0.0) << "the default";
+  const Drawn exact = drawn(session, "0");
   ASSERT_GT(exact.mirrorTriangles, 10000);
   double error = 0.0;
   int64_t triangles = exact.mirrorTriangles;
@@ -95,7 +95,7 @@ TEST(LevelPictures, SettingTradesTrianglesForError) {
     double rmse;   // of the whole picture
   };
   for (const Bound& bound : {Bound{"0.25", 0.6, 0.006}, {"0.5", 0.42, 0.011}, {"1", 0.3, 0.015}, {"4", 0.2, 0.03}}) {
-    const Drawn simplified = drawn(optionsFor(file, bound.meshError, {}, size));
+    const Drawn simplified = drawn(session, bound.meshError);
     const double rmse = compareImages(comparedImage(exact.picture), comparedImage(simplified.picture)).whole.rmse;
     EXPECT_EQ(simplified.mainTriangles, exact.mainTriangles);
     EXPECT_LE(static_cast<double>(simplified.mirrorTriangles), bound.share * static_cast<double>(exact.mirrorTriangles))
@@ -109,21 +109,16 @@ TEST(LevelPictures, SettingTradesTrianglesForError) {
 }
 
 TEST(LevelPictures, ShadowsKeepAllTriangles) {
-  const std::filesystem::path file =
-      objectsScene("[[light]]\nposition = [-1, 3, 3]\nintensity = 20\ncasts_shadow = true\n");
-  EXPECT_EQ(drawn(optionsFor(file, "4")).picture.rgba, drawn(optionsFor(file, "0")).picture.rgba);
-  const std::vector<std::pair<std::string, std::string>> without{{"effects.shadows", "false"}};
-  EXPECT_LT(drawn(optionsFor(file, "4", without)).mirrorTriangles,
-            drawn(optionsFor(file, "0", without)).mirrorTriangles / 2);
+  QuietSession session(
+      headless(objectsScene("[[light]]\nposition = [-1, 3, 3]\nintensity = 20\ncasts_shadow = true\n"), small));
+  set(session, {{"reflection.skip_unchanged", "false"}});
+  EXPECT_EQ(drawn(session, "4").picture.rgba, drawn(session, "0").picture.rgba);
+  set(session, {{"effects.shadows", "false"}});
+  EXPECT_LT(drawn(session, "4").mirrorTriangles, drawn(session, "0").mirrorTriangles / 2);
 }
 
 TEST(LevelPictures, BothRenderPathsDrawTheSameBytes) {
-  Options options = optionsFor(objectsScene(), "1");
-  const Drawn dynamic = drawn(options);
-  options.renderPath = RenderPath::renderPass;
-  const Drawn passes = drawn(options);
-  EXPECT_EQ(dynamic.picture.rgba, passes.picture.rgba);
-  EXPECT_EQ(dynamic.mirrorTriangles, passes.mirrorTriangles);
+  expectSameOnBothPaths(optionsFor(objectsScene(), "1"), {0.0});
 }
 
 // Objects and camera move, stop and come back: images of other levels are not taken for the same.
@@ -133,9 +128,7 @@ TEST(LevelPictures, SkippingWhatIsUnchangedChangesNoByte) {
   QuietSession rendering(optionsFor(file, "2", {{"reflection.skip_unchanged", "false"}}));
   const auto drawnAt = [](Session& session, double time, const char* meshError) {
     set(session, {{"reflection.mesh_error", meshError}});
-    session.draw(time, true);
-    session.finish();
-    return session.picture().rgba;
+    return picture(session, time).rgba;
   };
   double before = -1.0;
   std::map<std::pair<double, std::string>, std::vector<uint8_t>> rendered;
@@ -158,7 +151,9 @@ TEST(LevelPictures, CachedImagesOfSimplifiedObjectsAreQuiet) {
 }
 
 TEST(LevelPictures, MemoryFollowsTheSetting) {
-  Options options = optionsFor(objectsScene(), "0", {{"debug.check_finite", "false"}, {"reflection.max_depth", "1"}});
+  std::string knot = wallScene;
+  knot.replace(knot.find("sphere"), 6, "torus_knot");
+  Options options = optionsFor(writeScene("knot", knot), "0", {{"debug.check_finite", "false"}});
   options.size = {32, 18};
   QuietSession session(options);
   const auto bytesAfter = [&](const char* meshError, int frames) {

@@ -9,6 +9,7 @@
 #include "picture_support.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
+#include "studio.hpp"
 
 namespace speculum {
 namespace {
@@ -92,41 +93,61 @@ std::string toml(const World& world, const std::string& reflectance) {
   return out.str();
 }
 
-Image8 drawWorld(const std::string& name, const std::string& scene) {
-  return draw(headless(writeScene(name, scene), size));
-}
+// Draws worlds one after the other.
+class Worlds {
+ public:
+  explicit Worlds(const World& first) : studio_(gpu_, headless(write(first, "[1, 1, 1]"), size)) {}
+
+  // Without a mirror if `reflectance` is empty.
+  Image8 draw(const World& world, const std::string& reflectance) {
+    studio_.show(loadScene(write(world, reflectance)));
+    return studio_.fresh();
+  }
+  Image8 drawNothing() {
+    studio_.scene.objects.clear();
+    studio_.scene.mirrors.clear();
+    studio_.scene.lights.clear();
+    return studio_.fresh();
+  }
+
+ private:
+  static std::filesystem::path write(const World& world, const std::string& reflectance) {
+    return writeScene("world", toml(world, reflectance));
+  }
+
+  Gpu gpu_{headless("", size)};
+  Studio studio_;
+};
 
 class MirrorImage : public testing::TestWithParam<unsigned> {};
 
 // Pixels of the mirror are those that a black one leaves black: everything else has ambient light.
 TEST_P(MirrorImage, EqualsThePictureOfTheMirroredScene) {
   const World world = randomWorld(GetParam());
-  const std::string name = "mirror_image_" + std::to_string(GetParam());
-  const Image8 seen = drawWorld(name, toml(world, "[1, 1, 1]"));
-  const Image8 direct = drawWorld(name + "_direct", toml(mirrored(world), ""));
-  const std::vector<bool> mask = blackPixels(drawWorld(name + "_black", toml(world, "[0, 0, 0]")));
+  Worlds worlds(world);
+  const Image8 seen = worlds.draw(world, "[1, 1, 1]");
+  const Image8 direct = worlds.draw(mirrored(world), "");
+  const std::vector<bool> mask = blackPixels(worlds.draw(world, "[0, 0, 0]"));
   const size_t covered = static_cast<size_t>(std::count(mask.begin(), mask.end(), true));
   ASSERT_GE(covered, mask.size() * 3 / 10) << "the mirror is too small to judge by";
-  expectAlike(seen, direct, 1, name, mask);
+  expectAlike(seen, direct, 1, "mirror_image_" + std::to_string(GetParam()), mask);
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomPlanes, MirrorImage, testing::ValuesIn(sampledSeeds(20, 3)),
                          testing::PrintToStringParamName());
 
 TEST(MirrorImages, HideWhatIsBehindThePlane) {
-  for (unsigned seed = 100; seed < 105; ++seed) {
+  Worlds worlds(randomWorld(100));
+  for (unsigned seed = 100; seed < (fullTests() ? 105 : 102); ++seed) {
     World world = mirrored(randomWorld(seed));
     // Everything stands behind the mirror now, as near as 1 mm.
     for (Node& node : world.nodes) {
       node.position += world.mirror.normal * (-world.mirror.distance(node.position) - 1.0);
       node.scale *= 0.3;
     }
-    const std::string name = "behind_" + std::to_string(seed);
-    const Image8 seen = drawWorld(name, toml(world, "[1, 1, 1]"));
-    const std::vector<bool> mask = blackPixels(drawWorld(name + "_black", toml(world, "[0, 0, 0]")));
-    const Image8 empty = drawWorld(name + "_empty",
-                                   "[environment]\nbackground = [0.3, 0.5, 0.4]\n[camera]\nposition = "
-                                   "[0, 0, 0]\ntarget = [0, 0, -1]\n");
+    const Image8 seen = worlds.draw(world, "[1, 1, 1]");
+    const std::vector<bool> mask = blackPixels(worlds.draw(world, "[0, 0, 0]"));
+    const Image8 empty = worlds.drawNothing();
     ASSERT_GT(std::count(mask.begin(), mask.end(), true), 0);
     const PictureAgreement d = difference(seen, empty, 0, mask);
     // Nothing of the mirrored scene shows where the mirror is.
@@ -135,16 +156,16 @@ TEST(MirrorImages, HideWhatIsBehindThePlane) {
 }
 
 TEST(MirrorImages, AreTheSameBytesWhenRenderedTwice) {
-  const std::string scene = toml(randomWorld(7), "[0.9, 0.9, 0.9]");
-  EXPECT_EQ(drawWorld("twice_a", scene).rgba, drawWorld("twice_b", scene).rgba);
+  const World world = randomWorld(7);
+  EXPECT_EQ(Worlds(world).draw(world, "[0.9, 0.9, 0.9]").rgba, Worlds(world).draw(world, "[0.9, 0.9, 0.9]").rgba);
 }
 
 TEST(MirrorImages, ClippingMethodsAgreeAtModerateDistance) {
-  const std::filesystem::path scene = writeScene("clips", toml(randomWorld(3), "[1, 1, 1]"));
-  Options options = headless(scene, size);
-  const Image8 expected = draw(options);
-  set(options, {{"reflection.clip", "oblique"}});
-  expectAlike(draw(options), expected, 1, "clip_oblique");
+  Gpu gpu(headless("", size));
+  Studio studio(gpu, headless(writeScene("clips", toml(randomWorld(3), "[1, 1, 1]")), size));
+  const Image8 expected = studio.draw();
+  studio.settings.reflection.clip = ClipMethod::oblique;
+  expectAlike(studio.draw(), expected, 1, "clip_oblique");
 }
 
 }  // namespace

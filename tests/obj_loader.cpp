@@ -131,13 +131,6 @@ TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
   EXPECT_EQ(warnings(), "warning: m.obj: dropped 3 degenerate triangles\n");
 }
 
-TEST_F(ObjLoader, SliversAreKeptWithAWarning) {
-  const Mesh mesh =
-      load("v 0 0 0\nv 1 0 0\nv 0.5 1.1e-10 0\nv 0.5 0.9e-5 0\nv 0.5 1.1e-5 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
-  EXPECT_EQ(mesh.indices.size(), 9u);
-  EXPECT_NE(warnings().find("2 triangles are slivers"), std::string::npos) << warnings();
-}
-
 TEST_F(ObjLoader, QualityDoesNotDependOnSize) {
   for (const char* unit : {"1e-170", "1e-20", "1e13", "1e170"}) {
     const std::string u(unit);

@@ -37,8 +37,9 @@ TEST(TailBeyondTheDepthLimit, IsBoundedByTheReflectances) {
   }
   const auto file = writeScene("tail", text);
   const LinearImage whole = trace(file, size, 64).traced.image;
+  QuietSession session(truthOptions(file, size, 1));
   for (const int depth : {1, 2, 4}) {
-    QuietSession session(truthOptions(file, size, depth));
+    set(session, {{"reflection.max_depth", std::to_string(depth)}});
     session.draw(0.0, true);
     const LinearImage cut = session.radiance();
     const double bound = 0.1 * std::pow(reflectance, depth);

@@ -189,7 +189,7 @@ TEST(TimeSteps, SuspendDoesNotAdvanceAnimation) {
   Demo demo(windowOptions());
   ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > 2; }));
   const double before = demo.view().playback.time;
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
   const int drawn = demo.framesDrawn();
   ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > drawn; }));
   EXPECT_GE(demo.view().playback.time, before);

@@ -128,12 +128,6 @@ TEST_F(SliverTriangles, AreDroppedBelow1e10) {
   EXPECT_NE(log_.text().find("dropped 1 degenerate triangles"), std::string::npos) << log_.text();
 }
 
-TEST_F(SliverTriangles, NonFiniteVerticesAreDropped) {
-  const Mesh mesh = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 0 inf 0\nf 1 2 3\nf 1 2 4\nf 2 3 5\n");
-  EXPECT_EQ(mesh.indices.size(), 3u);
-  EXPECT_NE(log_.text().find("dropped 2 faces with vertices that are not finite"), std::string::npos) << log_.text();
-}
-
 TEST_F(SliverTriangles, HaveWildFloatNormals) {
   const Mesh mesh = load(sliver(1e-7));
   const auto corner = [&](int i) { return glm::vec3(mesh.center + mesh.vertices[mesh.indices[i]].position); };

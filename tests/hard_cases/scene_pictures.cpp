@@ -242,11 +242,11 @@ reflectance = [1, 1, 1]
 )");
 }
 
+constexpr PictureSize seamSize{640, 360};
+
 // Pixels that hold some of the background.
-int darkPixels(const std::filesystem::path& scene, const std::string& samples, const std::string& imageSamples) {
-  Options options = headless(scene, {640, 360});
-  set(options, {{"view.samples", samples}, {"reflection.samples", imageSamples}});
-  QuietSession session(options);
+int darkPixels(Session& session, const std::string& samples, const std::string& imageSamples) {
+  set(session, {{"view.samples", samples}, {"reflection.samples", imageSamples}});
   session.draw(0.0, true);
   const LinearImage radiance = session.radiance();
   return static_cast<int>(std::count_if(radiance.pixels.begin(), radiance.pixels.end(),
@@ -255,8 +255,9 @@ int darkPixels(const std::filesystem::path& scene, const std::string& samples, c
 
 TEST(SeamsOfMirrorsAndBodies, NoPixelShowsTheBackground) {
   for (unsigned view = 0; view < 5; ++view) {
+    QuietSession session(headless(seamScene(view), seamSize));
     for (const char* samples : {"1", "4"}) {
-      EXPECT_EQ(darkPixels(seamScene(view), samples, samples), 0) << samples << " samples, view " << view;
+      EXPECT_EQ(darkPixels(session, samples, samples), 0) << samples << " samples, view " << view;
     }
   }
 }
@@ -266,12 +267,13 @@ int darkPixelsBetween(double gapMetres) {
   writeQuad();
   const double h = 0.5 * gapMetres;
   const std::string mirror = "[[mirror]]\nreflectance = [1, 1, 1]\n";
-  return darkPixels(
+  QuietSession session(headless(
       writeScene("gap", "[environment]\nambient = [1, 1, 1]\n" + cameraText({0, 0, 1}, {0, 0, 0}, {0.2718, 1, 0}) +
                             objectText("quad.obj", {0, 0, 2}, {0, 180, 0}, 50, {1, 1, 1}) + mirror +
                             polygonText({{-5, -5, 0}, {-h, -5, 0}, {-h, 5, 0}, {-5, 5, 0}}) + mirror +
                             polygonText({{h, -5, 0}, {5, -5, 0}, {5, 5, 0}, {h, 5, 0}})),
-      "4", "4");
+      seamSize));
+  return darkPixels(session, "4", "4");
 }
 
 TEST(SeamsOfMirrorsAndBodies, OnlyRoundingGapsAreClosed) {
@@ -281,7 +283,8 @@ TEST(SeamsOfMirrorsAndBodies, OnlyRoundingGapsAreClosed) {
 }
 
 TEST(SeamsOfMirrorsAndBodies, AveragedImagesShowTheBackground) {
-  const int dark = darkPixels(seamScene(0), "4", "1");
+  QuietSession session(headless(seamScene(0), seamSize));
+  const int dark = darkPixels(session, "4", "1");
   EXPECT_GT(dark, 20) << "the naive way, samples that have no counterpart, should fail";
   std::printf("%d pixels\n", dark);
 }

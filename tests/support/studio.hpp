@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <gtest/gtest.h>
 
 #include "picture_support.hpp"
 

@@ -49,6 +49,12 @@ void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDep
               notBackground(truth.traced));
 }
 
+void expectTruth(Studio& studio, const std::filesystem::path& file, const Truth& truth, double time) {
+  studio.show(loadScene(file));
+  studio.time = time;
+  expectAlike(studio.fresh(), truth.picture, tolerance, "truth_" + file.stem().string(), notBackground(truth.traced));
+}
+
 std::vector<bool> notBackground(const TraceResult& traced) {
   std::vector<bool> counts;
   for (const uint8_t background : traced.backgroundMask) {

@@ -5,6 +5,7 @@
 
 #include "picture_support.hpp"
 #include "reference/ray_tracer.hpp"
+#include "studio.hpp"
 
 // The rasteriser against the ray tracer, one sample each.
 namespace speculum::testing_support {
@@ -23,6 +24,9 @@ Options truthOptions(const std::filesystem::path& file, PictureSize size, int ma
 // Expects every pixel that is not background within 2/255, except one in a thousand, and no 3x3 block wholly over.
 void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDepth, const Truth& truth,
                  double time = 0.0);
+
+// The same for a scene that a studio of truthOptions() can show.
+void expectTruth(Studio& studio, const std::filesystem::path& file, const Truth& truth, double time = 0.0);
 
 // Says of each pixel whether it shows anything but the background.
 std::vector<bool> notBackground(const TraceResult& traced);
