@@ -156,16 +156,6 @@ TEST(ExactEffects, EqualTheTracerFarFromOrigin) {
   expectTruth(file, size, 3, trace(file, size, 3));
 }
 
-TEST(ExactEffects, BothRenderPathsDrawTheSameBytes) {
-  const std::filesystem::path file =
-      corner("effects_paths", shadowLight + wall + "casts_light = true\n" + pool + ripple);
-  Options dynamic = headless(file, small);
-  dynamic.renderPath = RenderPath::dynamic;
-  Options passes = dynamic;
-  passes.renderPath = RenderPath::renderPass;
-  EXPECT_EQ(draw(dynamic).rgba, draw(passes).rgba);
-}
-
 // Rays at every sample smooth the edges of shadows and of what curved mirrors show, which lowers the mean error against
 // the tracer.
 TEST(ExactEffects, RaysAtEverySampleReduceError) {

@@ -165,15 +165,6 @@ size = [4, 2]
 casts_light = true
 )";
 
-TEST(EnvironmentMaps, BothRenderPathsDrawTheSameBytes) {
-  Options dynamic = mapped(room("paths", everything),
-                           {{"view.samples", "4"}, {"reflection.samples", "4"}, {"effects.environment_size", "64"}});
-  dynamic.size = {80, 60};
-  Options passes = dynamic;
-  passes.renderPath = RenderPath::renderPass;
-  EXPECT_EQ(draw(dynamic).rgba, draw(passes).rgba);
-}
-
 std::vector<std::string> mapPasses(Session& session, double time) {
   session.draw(time, true);
   session.finish();
