@@ -140,12 +140,6 @@ TEST(ExactEffects, EqualTheTracerFarFromOrigin) {
   expectTruth(file, size, 3, trace(file, size, 3));
 }
 
-TEST(ExactEffects, BothRenderPathsDrawTheSameBytes) {
-  const std::filesystem::path file =
-      corner("effects_paths", shadowLight + wall + "casts_light = true\n" + pool + ripple);
-  expectSameOnBothPaths(headless(file, small), {0.0});
-}
-
 // Rays at every sample smooth the edges of shadows and of what curved mirrors show, which lowers the mean error against
 // the tracer.
 TEST(ExactEffects, RaysAtEverySampleReduceError) {

@@ -166,13 +166,6 @@ size = [4, 2]
 casts_light = true
 )";
 
-TEST(EnvironmentMaps, BothRenderPathsDrawTheSameBytes) {
-  Options options = mapped(room("paths", everything),
-                           {{"view.samples", "4"}, {"reflection.samples", "4"}, {"effects.environment_size", "64"}});
-  options.size = {80, 60};
-  expectSameOnBothPaths(options, {0.0});
-}
-
 std::vector<std::string> mapPasses(Session& session, double time) {
   return drawnMaps(session, "environment of ", time);
 }

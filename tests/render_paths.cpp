@@ -1,5 +1,5 @@
-// Dynamic rendering and VkRenderPass give the same bytes for golden pictures. Effects, levels and reused images are
-// compared beside their own tests.
+// Dynamic rendering and VkRenderPass give the same bytes for golden pictures. Levels and reused images are compared
+// beside their own tests.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -15,12 +15,14 @@ using namespace testing_support;
 
 using Cases = std::map<std::string, std::vector<RegressCase>>;
 
-// By scene. Unless all run: the main view alone, mirrors side by side with textures, mirrors in mirrors.
+// By scene. Unless all run: the main view alone, mirrors side by side with textures, mirrors in mirrors, and the small
+// cases, which are those of effects.
 Cases goldenCases() {
   Cases cases;
   for (const RegressCase& golden : readCases(sourceFile("tests/golden/cases.toml"))) {
     const std::string scene = golden.scene.stem();
-    if (fullTests() || scene == "no_mirror" || scene == "gallery" || scene == "facing_mirrors") {
+    const bool small = golden.size.width <= 160;
+    if (fullTests() || small || scene == "no_mirror" || scene == "gallery" || scene == "facing_mirrors") {
       cases[scene].push_back(golden);
     }
   }
