@@ -158,12 +158,22 @@ const uint lookupFetch = 0;
 const uint lookupBilinear = 1;
 const uint lookupBox = 2;
 
-// A box of a hierarchy over triangles or items.
+// Nodes of hierarchies stand depth first, once for each octant of directions, in which the nearer child comes first. A
+// ray that meets a node's box goes on to the next node, a ray that misses it to the one after its subtree: `link`. In
+// a leaf it is what the leaf holds, with traceLeaf. Sides are those that rays of the octant meet first and last.
+
+// A box of the hierarchy over instances and mirrors.
+struct TraceTopNode {
+  vec3 near;  // trace space
+  uint link;  // leaf: an instance, or a mirror and itemMirror
+  vec3 far;
+  uint padding;
+};
+
+// A box of a mesh's hierarchy.
 struct TraceNode {
-  vec3 low;
-  uint first;  // leaf: first triangle or item; else: left child, the right one follows it
-  vec3 high;
-  uint count;  // triangles of a leaf, 1 item; 0: inner node
+  uint sides[3];  // x, y and z on the mesh's grid, near + 65536 * far
+  uint link;      // leaf: 8 * first triangle + count
 };
 
 struct TraceTriangle {
@@ -189,17 +199,20 @@ struct TraceTexture {
 };
 
 struct TraceInstance {
-  vec4 meshFromTrace[3];   // rows
+  vec4 meshFromTrace[3];  // rows
+  vec3 gridLow;           // grid of the boxes = (mesh space - gridLow) * gridScale
+  uint root;              // node
+  vec3 gridScale;
+  uint nodes;  // of an octant
   vec4 normalFromMesh[3];  // rows, xyz
   MaterialChange change;
   vec3 reflectance;  // of a curved mirror
   uint curved;       // one of the curved* constants
   vec3 baseColor;    // of a curved mirror
   float shininess;   // 0: the material's
-  uint root;           // node
   uint firstTriangle;  // of its mesh, in traceIndices / 3
   uint firstVertex;    // of its mesh
-  uint padding;
+  uint padding[2];
 };
 
 const uint curvedNone = 0;
@@ -240,12 +253,13 @@ struct LightPath {
 // Stands before the light paths in their buffer.
 struct TraceCounts {
   uint lightPaths;
-  uint items;
+  uint topNodes;  // of an octant
   uint roughSamples;
   uint padding;
 };
 
-const uint itemMirror = 0x80000000u;  // bit of an item that is a mirror, not an instance
+const uint traceLeaf = 0x80000000u;   // bits of a link
+const uint itemMirror = 0x40000000u;
 
 // Push constants of the display pass. Texel of the picture = pixel * lookup.xy + lookup.zw.
 struct DisplayConstants {
@@ -302,11 +316,11 @@ static_assert(offsetof(DrawConstants, handedness) == 28 && sizeof(DrawConstants)
 static_assert(offsetof(MirrorData, lookupScale) == 48 && offsetof(MirrorData, texelFromPixel) == 80 &&
               offsetof(MirrorData, rippleOrigin) == 160 && sizeof(MirrorData) == 176);
 static_assert(offsetof(EnvironmentData, high) == 32 && sizeof(EnvironmentData) == 80);
-static_assert(offsetof(TraceNode, high) == 16 && sizeof(TraceNode) == 32);
+static_assert(offsetof(TraceTopNode, far) == 16 && sizeof(TraceTopNode) == 32 && sizeof(TraceNode) == 16);
 static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48);
 static_assert(offsetof(TraceVertex, normal) == 16 && sizeof(TraceVertex) == 32);
-static_assert(offsetof(TraceInstance, change) == 96 && offsetof(TraceInstance, root) == 176 &&
-              sizeof(TraceInstance) == 192);
+static_assert(offsetof(TraceInstance, gridScale) == 64 && offsetof(TraceInstance, change) == 128 &&
+              offsetof(TraceInstance, firstTriangle) == 208 && sizeof(TraceInstance) == 224);
 static_assert(offsetof(TraceMirror, reflectance) == 64 && offsetof(TraceMirror, ripplePhase) == 112 &&
               sizeof(TraceMirror) == 128);
 static_assert(offsetof(LightPath, light) == 32 && sizeof(LightPath) == 48 && sizeof(TraceCounts) == 16);

@@ -13,12 +13,12 @@
 
 layout(constant_id = 0) const bool baseOnly = false;   // draws the diffuse layer under the reflection only
 layout(constant_id = 1) const bool reprojects = false; // the image is cached, and eye or mirror moved since
-layout(constant_id = 7) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
+layout(constant_id = 6) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
 // Specialisation constants: pixels run no code that their mirror does not need.
-layout(constant_id = 8) const uint shows = showsImage;
-layout(constant_id = 9) const uint lookup = lookupFetch;
-layout(constant_id = 10) const bool painted = true;    // its back, or its layer under the reflection, is not black
-layout(constant_id = 12) const bool ripples = false;   // the mirror is rippled, its image is that of a smooth one
+layout(constant_id = 7) const uint shows = showsImage;
+layout(constant_id = 8) const uint lookup = lookupFetch;
+layout(constant_id = 9) const bool painted = true;    // its back, or its layer under the reflection, is not black
+layout(constant_id = 11) const bool ripples = false;   // the mirror is rippled, its image is that of a smooth one
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 

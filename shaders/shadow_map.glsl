@@ -2,7 +2,7 @@
 // bias. Needs interface.glsl.
 #include "cube_face.glsl"
 
-layout(constant_id = 11) const uint shadowedLights = 0;  // bits of the pass's lights that have a map, if these are fixed
+layout(constant_id = 10) const uint shadowedLights = 0;  // bits of the pass's lights that have a map, if these are fixed
 
 layout(set = 2, binding = 0) uniform sampler2D shadowTexels;  // disparities from the light, 1/m; 0: nothing is there
 layout(set = 2, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMaps[mostShadowMaps]; };

@@ -1,24 +1,22 @@
 // Rays through the scene: a hierarchy of boxes over instances and mirrors, and one over the triangles of each mesh.
 // Needs interface.glsl and shading.glsl.
 
-layout(set = 2, binding = 0, std430) readonly buffer TraceNodes { TraceNode traceNodes[]; };
-layout(set = 2, binding = 1, std430) readonly buffer TraceTriangles { TraceTriangle traceTriangles[]; };
+layout(set = 2, binding = 0) uniform usamplerBuffer traceNodes;      // TraceNode
+layout(set = 2, binding = 1) uniform usamplerBuffer traceTriangles;  // TraceTriangle
 layout(set = 2, binding = 2, std430) readonly buffer TraceIndices { uint traceIndices[]; };
 layout(set = 2, binding = 3, std430) readonly buffer TraceVertices { TraceVertex traceVertices[]; };
 layout(set = 2, binding = 4, std430) readonly buffer TraceTextures { TraceTexture traceTextures[]; };
 layout(set = 2, binding = 5, std430) readonly buffer TraceTexels { uvec2 traceTexels[]; };      // rgba, half floats
-layout(set = 2, binding = 6, std430) readonly buffer TraceTopNodes { TraceNode traceTopNodes[]; };
-layout(set = 2, binding = 7, std430) readonly buffer TraceItems { uint traceItems[]; };  // instance, or mirror + itemMirror
-layout(set = 2, binding = 8, std430) readonly buffer TraceInstances { TraceInstance traceInstances[]; };
-layout(set = 2, binding = 9, std430) readonly buffer TraceMirrors { TraceMirror traceMirrors[]; };
-layout(set = 2, binding = 10, std430) readonly buffer TraceMirrorVertices { vec2 traceMirrorVertices[]; };  // local x, y
-layout(set = 2, binding = 11, std430) readonly buffer LightPaths {
+layout(set = 2, binding = 6) uniform usamplerBuffer traceTopNodes;  // TraceTopNode
+layout(set = 2, binding = 7, std430) readonly buffer TraceInstances { TraceInstance traceInstances[]; };
+layout(set = 2, binding = 8, std430) readonly buffer TraceMirrors { TraceMirror traceMirrors[]; };
+layout(set = 2, binding = 9) uniform usamplerBuffer traceMirrorEdges;  // from x, y; to x, y; local
+layout(set = 2, binding = 10, std430) readonly buffer LightPaths {
   TraceCounts traceCounts;
   LightPath lightPaths[];
 };
-
-// Entries of the stack: the depth of both hierarchies together.
-layout(constant_id = 2) const uint traceStackSize = 64;
+layout(set = 2, binding = 11) uniform usamplerBuffer traceInstanceTexels;
+layout(set = 2, binding = 12) uniform usamplerBuffer traceMirrorTexels;
 
 TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
   uint index = 3 * (traceInstances[instance].firstTriangle + triangle) + corner;
@@ -49,33 +47,46 @@ struct Hit {
   uint mirror;  // `none`: not a mirror
 };
 
-uint stackNodes[traceStackSize];
-float stackDistances[traceStackSize];
+// A ray prepared for the boxes of one hierarchy. It enters a box's slab of sides `near` and `far` at
+// near * inverse - nearOffset and leaves it at far * inverse - farOffset.
+struct BoxRay {
+  vec3 inverse;
+  vec3 nearOffset;
+  vec3 farOffset;
+  uint octant;
+};
 
-// Never misses because of rounding: Ize, "Robust BVH Ray Traversal" (2013).
-float enterBox(TraceNode node, vec3 origin, vec3 inverse, float tMax) {
-  vec3 a = (node.low - origin) * inverse;
-  vec3 b = (node.high - origin) * inverse;
-  vec3 low = min(a, b);
-  vec3 high = max(a, b);
-  float near = max(max(low.x, low.y), max(low.z, 0.0));
-  float far = min(min(high.x, high.y), min(high.z, tMax));
-  return near <= far * (1.0 + 5e-7) ? near : infinity;
+// Widens all boxes by what rounding may move the ray or their sides, and by `margin`.
+BoxRay boxRay(vec3 origin, vec3 direction, float margin) {
+  // A component of zero would give 0 * infinity, which is not a number.
+  vec3 size = abs(direction);
+  float least = max(1e-10 * max(size.x, max(size.y, size.z)), 1e-30);
+  vec3 inverse = 1.0 / mix(direction, vec3(least), lessThan(size, vec3(least)));
+  vec3 offset = origin * inverse;
+  vec3 reach = abs(inverse) * (1e-6 * abs(origin) + margin);
+  uvec3 below = uvec3(lessThan(inverse, vec3(0.0)));
+  return BoxRay(inverse, offset + reach, offset - reach, below.x + 2 * below.y + 4 * below.z);
 }
 
-// A component of zero would give 0 * infinity, which is not a number.
-vec3 safeInverse(vec3 d) {
-  return 1.0 / vec3(abs(d.x) < 1e-25 ? 1e-25 : d.x, abs(d.y) < 1e-25 ? 1e-25 : d.y, abs(d.z) < 1e-25 ? 1e-25 : d.z);
+// Unlike max() and min() these are one instruction of a CPU each, because they need not treat what is not a number.
+float larger(float a, float b) { return a > b ? a : b; }
+float smaller(float a, float b) { return a < b ? a : b; }
+
+bool meetsBox(vec3 near, vec3 far, BoxRay ray, float tMax) {
+  vec3 enters = near * ray.inverse - ray.nearOffset;
+  vec3 leaves = far * ray.inverse - ray.farOffset;
+  return larger(larger(enters.x, enters.y), larger(enters.z, 0.0)) <=
+         smaller(smaller(leaves.x, leaves.y), smaller(leaves.z, tMax));
 }
 
 vec3 permuted(vec3 p, uint along) { return along == 2 ? p.xyz : along == 0 ? p.yzx : p.zxy; }
 
 // Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection" (2013): neighbours evaluate a shared edge with the same
 // numbers. Weights of a, b, c in xyz, the parameter of the ray in w; below zero: no hit.
-vec4 meetTriangle(TraceTriangle triangle, vec3 origin, uint along, vec3 shear) {
-  vec3 a = permuted(triangle.a - origin, along);
-  vec3 b = permuted(triangle.b - origin, along);
-  vec3 c = permuted(triangle.c - origin, along);
+vec4 meetTriangle(vec3 corners[3], vec3 origin, uint along, vec3 shear) {
+  vec3 a = permuted(corners[0] - origin, along);
+  vec3 b = permuted(corners[1] - origin, along);
+  vec3 c = permuted(corners[2] - origin, along);
   a.xy -= shear.xy * a.z;
   b.xy -= shear.xy * b.z;
   c.xy -= shear.xy * c.z;
@@ -90,32 +101,33 @@ vec4 meetTriangle(TraceTriangle triangle, vec3 origin, uint along, vec3 shear) {
   return vec4(u, v, w, shear.z * (u * a.z + v * b.z + w * c.z)) / area;
 }
 
+vec4 mirrorTexel(uint mirror, uint i) { return uintBitsToFloat(texelFetch(traceMirrorTexels, int(8 * mirror + i))); }
+
 // Returns the parameter at which the ray meets the mirror's polygon, from either side; below zero if it does not.
 float meetMirror(uint mirror, vec3 origin, vec3 direction) {
-  vec3 fromMirror = origin - traceMirrors[mirror].origin;
-  vec3 normal = traceMirrors[mirror].normal;
-  float towards = dot(normal, direction);
-  float t = -dot(normal, fromMirror) / (abs(towards) < 1e-30 ? 1e-30 : towards);
+  vec4 place = mirrorTexel(mirror, 0);
+  vec4 normal = mirrorTexel(mirror, 1);
+  vec3 fromMirror = origin - place.xyz;
+  float towards = dot(normal.xyz, direction);
+  float t = -dot(normal.xyz, fromMirror) / (abs(towards) < 1e-30 ? 1e-30 : towards);
   vec3 p = fromMirror + t * direction;
-  vec2 local = vec2(dot(p, traceMirrors[mirror].axisX), dot(p, traceMirrors[mirror].axisY));
-  uint first = traceMirrors[mirror].firstVertex;
-  uint count = traceMirrors[mirror].vertexCount;
-  vec2 from = traceMirrorVertices[first + count - 1];
-  for (uint i = 0; i < count; ++i) {
-    vec2 to = traceMirrorVertices[first + i];
-    vec2 edge = to - from;
-    if (edge.x * (local.y - from.y) - edge.y * (local.x - from.x) < 0.0) {
-      return -1.0;
+  vec2 local = vec2(dot(p, mirrorTexel(mirror, 2).xyz), dot(p, mirrorTexel(mirror, 3).xyz));
+  uint first = floatBitsToUint(place.w);
+  uint last = first + floatBitsToUint(normal.w);
+  for (uint i = first;;) {
+    vec4 side = uintBitsToFloat(texelFetch(traceMirrorEdges, int(i)));
+    vec2 edge = side.zw - side.xy;
+    t = edge.x * (local.y - side.y) - edge.y * (local.x - side.x) < 0.0 ? -1.0 : t;
+    ++i;
+    if (i >= last || t < 0.0) {
+      return t;
     }
-    from = to;
   }
-  return t;
 }
 
-// A ray in the space of one hierarchy.
+// A ray in the space of one mesh.
 struct LocalRay {
   vec3 origin;
-  vec3 inverse;
   uint along;  // axis of its largest component
   vec3 shear;
 };
@@ -124,101 +136,123 @@ LocalRay localRay(vec3 origin, vec3 direction) {
   vec3 size = abs(direction);
   uint along = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
   vec3 d = permuted(direction, along);
-  return LocalRay(origin, safeInverse(direction), along, vec3(d.xy / d.z, 1.0 / d.z));
+  return LocalRay(origin, along, vec3(d.xy / d.z, 1.0 / d.z));
 }
 
-LocalRay meshRay(uint instance, vec3 origin, vec3 direction) {
-  vec4 rows[3] = traceInstances[instance].meshFromTrace;
-  return localRay(timesPoint(rows, origin), timesDirection(rows, direction));
-}
+uvec4 instanceTexel(uint instance, uint i) { return texelFetch(traceInstanceTexels, int(14 * instance + i)); }
+
+uvec4 triangleTexel(uint slot, uint i) { return texelFetch(traceTriangles, int(3 * slot + i)); }
 
 #ifdef RAY_QUERY
 #include "trace_ray_query.glsl"
 #else
+vec4[3] meshRows(uint instance) {
+  return vec4[3](uintBitsToFloat(instanceTexel(instance, 0)), uintBitsToFloat(instanceTexel(instance, 1)),
+                 uintBitsToFloat(instanceTexel(instance, 2)));
+}
+
+vec4 meetSlot(uint slot, LocalRay ray, out uint triangle) {
+  uvec4 a = triangleTexel(slot, 0);
+  triangle = a.w;
+  vec3 corners[3] = vec3[3](uintBitsToFloat(a.xyz), uintBitsToFloat(triangleTexel(slot, 1).xyz),
+                            uintBitsToFloat(triangleTexel(slot, 2).xyz));
+  return meetTriangle(corners, ray.origin, ray.along, ray.shear);
+}
+
+// Follows the ray through a mesh. A loop's result is a variable that every step keeps or replaces, here and below:
+// lavapipe of Mesa 22.3 changes other values for pixels that have left the loop while their neighbours go on.
+void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip, bool any, inout Hit hit) {
+  vec4 rows[3] = meshRows(instance);
+  vec3 meshOrigin = timesPoint(rows, origin);
+  vec3 meshDirection = timesDirection(rows, direction);
+  uvec4 low = instanceTexel(instance, 3);
+  uvec4 scale = instanceTexel(instance, 4);
+  vec3 gridScale = uintBitsToFloat(scale.xyz);
+  LocalRay ray = localRay(meshOrigin, meshDirection);
+  BoxRay boxes = boxRay((meshOrigin - uintBitsToFloat(low.xyz)) * gridScale, meshDirection * gridScale, 0.05);
+  uint node = low.w + boxes.octant * scale.w;
+  uint last = node + scale.w;
+  for (;;) {
+    uint leaf = 0;
+    for (;;) {
+      uvec4 box = texelFetch(traceNodes, int(node));
+      bool meets = meetsBox(vec3(ivec3(box.xyz & 0xffffu)), vec3(ivec3(box.xyz >> 16)), boxes, hit.t);
+      bool isLeaf = (box.w & traceLeaf) != 0;
+      node = meets || isLeaf ? node + 1 : box.w;
+      leaf = meets && isLeaf ? box.w : leaf;
+      if (leaf != 0 || node == last) {
+        break;
+      }
+    }
+    uint slot = (leaf & ~traceLeaf) >> 3;
+    uint end = slot + (leaf & 7);
+    for (;;) {
+      uint triangle;
+      vec4 met = meetSlot(slot, ray, triangle);
+      bool own = instance == skip.instance && (triangle == skip.triangle || met.w < near);
+      if (slot < end && met.w > 0.0 && met.w < hit.t && !own) {
+        hit.t = met.w;
+        hit.instance = instance;
+        hit.slot = slot;
+        hit.mirror = none;
+      }
+      ++slot;
+      if (slot >= end) {
+        break;
+      }
+    }
+    if (node == last || (any && hit.instance != none)) {
+      break;
+    }
+  }
+}
+
 // Finds the first surface that the ray meets before tMax, or with `any` one of them. In trace space.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
-  if (traceCounts.items == 0) {
+  if (traceCounts.topNodes == 0 || gl_HelperInvocation) {
     return hit;
   }
-  LocalRay ray = localRay(origin, direction);
   float near = skip.near / max(length(direction), 1e-30);
-  uint instance = none;  // instance whose mesh is searched; none: the top hierarchy
-  uint used = 0;
-  uint base = 0;  // entries of the stack that belong to the top
-  uint current = 0;
-  float enter = 0.0;
+  BoxRay boxes = boxRay(origin, direction, 0.0);
+  uint node = boxes.octant * traceCounts.topNodes;
+  uint last = node + traceCounts.topNodes;
   for (;;) {
-    if (enter < hit.t) {
-      TraceNode node;
-      if (instance == none) {
-        node = traceTopNodes[current];
-      } else {
-        node = traceNodes[current];
-      }
-      if (node.count == 0) {
-        uint left = node.first;
-        uint right = node.first + 1;
-        float leftEnter;
-        float rightEnter;
-        if (instance == none) {
-          leftEnter = enterBox(traceTopNodes[left], ray.origin, ray.inverse, hit.t);
-          rightEnter = enterBox(traceTopNodes[right], ray.origin, ray.inverse, hit.t);
-        } else {
-          leftEnter = enterBox(traceNodes[left], ray.origin, ray.inverse, hit.t);
-          rightEnter = enterBox(traceNodes[right], ray.origin, ray.inverse, hit.t);
-        }
-        bool swap = rightEnter < leftEnter;
-        float later = swap ? leftEnter : rightEnter;
-        if (later < infinity) {
-          stackNodes[used] = swap ? left : right;
-          stackDistances[used] = later;
-          ++used;
-        }
-        current = swap ? right : left;
-        enter = swap ? rightEnter : leftEnter;
-        continue;
-      }
-      if (instance == none) {
-        uint item = traceItems[node.first];
-        if ((item & itemMirror) == 0) {
-          instance = item;
-          ray = meshRay(instance, origin, direction);
-          base = used;
-          current = traceInstances[instance].root;
-          continue;
-        }
-        uint mirror = item & ~itemMirror;
-        if (mirror != skip.mirror && mirror != skip.secondMirror) {
-          float t = meetMirror(mirror, origin, direction);
-          if (t > 0.0 && t < hit.t) {
-            hit = Hit(t, none, 0, vec3(0.0), mirror);
-          }
-        }
-      } else {
-        for (uint i = node.first; i < node.first + node.count; ++i) {
-          vec4 met = meetTriangle(traceTriangles[i], ray.origin, ray.along, ray.shear);
-          bool own = instance == skip.instance && (traceTriangles[i].triangle == skip.triangle || met.w < near);
-          if (met.w > 0.0 && met.w < hit.t && !own) {
-            hit = Hit(met.w, instance, i, met.xyz, none);
-          }
-        }
-      }
-      if (any && (hit.instance != none || hit.mirror != none)) {
-        return hit;
+    uint item = 0;
+    for (;;) {
+      uvec4 box = texelFetch(traceTopNodes, int(2 * node));
+      vec3 far = uintBitsToFloat(texelFetch(traceTopNodes, int(2 * node + 1)).xyz);
+      bool meets = meetsBox(uintBitsToFloat(box.xyz), far, boxes, hit.t);
+      bool isLeaf = (box.w & traceLeaf) != 0;
+      node = meets || isLeaf ? node + 1 : box.w;
+      item = meets && isLeaf ? box.w : item;
+      if (item != 0 || node == last) {
+        break;
       }
     }
-    if (used == base && instance != none) {
-      instance = none;
-      base = 0;
-      ray = localRay(origin, direction);
+    uint index = item & ~(traceLeaf | itemMirror);
+    if ((item & itemMirror) != 0) {
+      if (index != skip.mirror && index != skip.secondMirror) {
+        float t = meetMirror(index, origin, direction);
+        if (t > 0.0 && t < hit.t) {
+          hit.t = t;
+          hit.instance = none;
+          hit.mirror = index;
+        }
+      }
+    } else if (item != 0) {
+      traceMesh(index, origin, direction, near, skip, any, hit);
     }
-    if (used == 0) {
-      return hit;
+    if (node == last || (any && (hit.instance != none || hit.mirror != none))) {
+      break;
     }
-    --used;
-    current = stackNodes[used];
-    enter = stackDistances[used];
   }
+  if (!any && hit.instance != none) {
+    vec4 rows[3] = meshRows(hit.instance);
+    uint triangle;
+    LocalRay ray = localRay(timesPoint(rows, origin), timesDirection(rows, direction));
+    hit.weights = meetSlot(hit.slot, ray, triangle).xyz;
+  }
+  return hit;
 }
 #endif

@@ -1,10 +1,10 @@
 // traceRay() by ray queries. The hierarchies are the device's; what a ray ignores and how it meets a mirror is as in
 // trace.glsl.
 
-layout(set = 2, binding = 12) uniform accelerationStructureEXT traceStructure;
+layout(set = 2, binding = 13) uniform accelerationStructureEXT traceStructure;
 
 bool ignores(Skip skip, uint instance, uint slot, float t, float near) {
-  return instance == skip.instance && (traceTriangles[slot].triangle == skip.triangle || t < near);
+  return instance == skip.instance && (triangleTexel(slot, 0).w == skip.triangle || t < near);
 }
 
 // Finds the first surface that the ray meets before tMax, or with `any` one of them. In trace space.

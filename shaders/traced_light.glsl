@@ -1,103 +1,111 @@
 // Shadows, and light by way of mirrors that cast it. Needs trace.glsl.
 
-layout(constant_id = 3) const bool shadows = false;
-layout(constant_id = 4) const bool castsLight = false;
-layout(constant_id = 5) const bool perSample = false;  // one invocation for each sample, and rays through it
-
-// A light, or its image in a mirror, as it illuminates a point.
-struct Incoming {
-  vec3 toLight;  // from the point
-  float radius;
-  vec3 irradiance;  // at 1 m, with the mirror's reflectance
-  bool castsShadow;
-  int legs;  // straight lines on the way; 0: no light arrives
-  vec3 origin[2];  // trace space
-  vec3 direction[2];
-  float tMax[2];
-  Skip skip[2];
-};
+layout(constant_id = 2) const bool shadows = false;
+layout(constant_id = 3) const bool castsLight = false;
+layout(constant_id = 4) const bool perSample = false;  // one invocation for each sample, and rays through it
 
 vec3 mirrorReflectance(uint mirror, float cosine) {
   return reflectanceAt(traceMirrors[mirror].reflectance, traceMirrors[mirror].schlick, cosine);
 }
 
-Incoming directLight(LightData light, vec3 position, vec3 tracePosition, Skip self) {
-  Incoming incoming;
-  incoming.toLight = light.position - position;
-  incoming.radius = light.radius;
-  incoming.irradiance = light.irradiance;
-  incoming.castsShadow = light.castsShadow != 0;
-  incoming.legs = 1;
-  incoming.origin[0] = tracePosition;
-  incoming.direction[0] = incoming.toLight;
-  incoming.tMax[0] = 1.0;
-  incoming.skip[0] = self;
-  incoming.origin[1] = tracePosition;
-  incoming.direction[1] = incoming.toLight;
-  incoming.tMax[1] = 1.0;
-  incoming.skip[1] = self;
-  return incoming;
+// A light, or its image in a mirror, as it illuminates a point.
+struct Incoming {
+  bool arrives;
+  vec3 toLight;  // from the point
+  float radius;
+  vec3 irradiance;  // at 1 m, with the mirror's reflectance
+  bool castsShadow;
+  uint mirror;     // `none`: the light itself
+  float crossing;  // part of the way to the image that leads to the mirror; 1 without
+};
+
+Incoming directLight(LightData light, vec3 position) {
+  return Incoming(true, light.position - position, light.radius, light.irradiance, light.castsShadow != 0, none, 1.0);
 }
 
-// Returns the light that reaches the point by way of a mirror, if the straight line to the light's image crosses the
-// mirror.
+// Light reaches a point by way of a mirror if the straight line to the light's image crosses the mirror.
 Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
-  Incoming incoming;
   uint mirror = path.mirror;
-  vec3 normal = traceMirrors[mirror].normal;
-  float pointHeight = dot(normal, tracePosition - traceMirrors[mirror].origin);
-  float lightHeight = dot(normal, path.light - traceMirrors[mirror].origin);
+  vec3 normal = mirrorTexel(mirror, 1).xyz;
+  vec3 origin = mirrorTexel(mirror, 0).xyz;
+  float pointHeight = dot(normal, tracePosition - origin);
+  float lightHeight = dot(normal, path.light - origin);
   bool sameSide = pointHeight > 0.0 ? lightHeight > 0.0
                                     : traceMirrors[mirror].twoSided != 0 && pointHeight < 0.0 && lightHeight < 0.0;
-  incoming.toLight = path.image - tracePosition;
-  float crossing = meetMirror(mirror, tracePosition, incoming.toLight);
+  vec3 toLight = path.image - tracePosition;
+  float crossing = meetMirror(mirror, tracePosition, toLight);
   bool arrives = sameSide && self.mirror != mirror && crossing > 0.0 && crossing < 1.0;
-  vec3 bounce = tracePosition + crossing * incoming.toLight;
-  incoming.radius = path.radius;
-  incoming.irradiance =
-      path.irradiance * mirrorReflectance(mirror, abs(dot(normal, safeNormalize(incoming.toLight))));
-  incoming.castsShadow = path.castsShadow != 0;
-  incoming.legs = arrives ? 2 : 0;
-  incoming.origin[0] = tracePosition;
-  incoming.direction[0] = incoming.toLight;
-  incoming.tMax[0] = crossing;
-  incoming.skip[0] = Skip(self.instance, self.triangle, self.mirror, mirror, self.near);
-  incoming.origin[1] = bounce;
-  incoming.direction[1] = path.light - bounce;
-  incoming.tMax[1] = 1.0;
-  incoming.skip[1] = Skip(none, none, mirror, none, 0.0);
+  vec3 reflectance = mirrorReflectance(mirror, abs(dot(normal, safeNormalize(toLight))));
+  return Incoming(arrives, toLight, path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror, crossing);
+}
+
+Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
+  Incoming incoming;
+  if (i < view.lightCount) {
+    incoming = directLight(lights[view.firstLight + i], surface.position);
+  } else {
+    incoming = mirroredLight(lightPaths[i - view.lightCount], tracePosition, self);
+  }
   return incoming;
 }
 
-bool unobstructed(Incoming incoming) {
-  for (int leg = 0; leg < incoming.legs; ++leg) {
-    Hit hit = traceRay(incoming.origin[leg], incoming.direction[leg], incoming.tMax[leg], incoming.skip[leg], true);
+// Follows the light back, by way of its mirror.
+bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
+  Skip skip = self;
+  skip.secondMirror = incoming.mirror;
+  vec3 origin = tracePosition;
+  vec3 direction = incoming.toLight;
+  float tMax = incoming.crossing;
+  bool last = incoming.mirror == none;
+  bool hidden = false;
+  for (;;) {
+    Hit hit = traceRay(origin, direction, tMax, skip, true);
     if (hit.instance != none || hit.mirror != none) {
-      return false;
+      hidden = true;
     }
+    if (hidden || last) {
+      break;
+    }
+    origin += incoming.crossing * direction;
+    direction = lightPaths[i - view.lightCount].light - origin;
+    tMax = 1.0;
+    skip = Skip(none, none, incoming.mirror, none, 0.0);
+    last = true;
   }
-  return true;
+  return !hidden;
 }
 
 // Returns surfaceRadiance() with shadows and with the lights' images in mirrors. `self` identifies the surface.
+// First come all lights up to one that may be hidden, then its rays: a driver that runs both sides of every branch,
+// such as lavapipe, follows none for the others.
 vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);
   vec3 radiance = surface.emission + view.ambient * surface.diffuse;
-  for (uint i = 0; i < paths; ++i) {
-    Incoming incoming;
-    if (i < view.lightCount) {
-      incoming = directLight(lights[view.firstLight + i], surface.position, tracePosition, self);
-    } else {
-      incoming = mirroredLight(lightPaths[i - view.lightCount], tracePosition, self);
+  uint next = 0;
+  for (;;) {
+    uint waiting = none;
+    vec3 arriving = vec3(0.0);
+    while (next < paths && waiting == none) {
+      Incoming incoming = incomingLight(next, surface, tracePosition, self);
+      vec3 lit = lightRadiance(incoming.toLight, incoming.radius, incoming.irradiance, surface, toViewer);
+      if (incoming.arrives && max(lit.r, max(lit.g, lit.b)) > 0.0) {
+        if (shadows && incoming.castsShadow) {
+          waiting = next;
+          arriving = lit;
+        } else {
+          radiance += lit;
+        }
+      }
+      ++next;
     }
-    if (incoming.legs == 0) {
-      continue;
+    if (shadows && waiting != none) {
+      if (unobstructed(waiting, incomingLight(waiting, surface, tracePosition, self), tracePosition, self)) {
+        radiance += arriving;
+      }
     }
-    vec3 arriving = lightRadiance(incoming.toLight, incoming.radius, incoming.irradiance, surface, toViewer);
-    bool dark = max(arriving.r, max(arriving.g, arriving.b)) <= 0.0;
-    if (!dark && (!shadows || !incoming.castsShadow || unobstructed(incoming))) {
-      radiance += arriving;
+    if (next >= paths) {
+      break;
     }
   }
   return bounded(radiance);

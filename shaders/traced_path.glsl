@@ -81,22 +81,22 @@ vec3 facetNormal(uint instance, uint triangle) {
 }
 
 Bounce objectBounce(Hit hit, vec3 traceOrigin, vec3 direction) {
-  TraceTriangle triangle = traceTriangles[hit.slot];
-  TraceVertex a = vertexOf(hit.instance, triangle.triangle, 0);
-  TraceVertex b = vertexOf(hit.instance, triangle.triangle, 1);
-  TraceVertex c = vertexOf(hit.instance, triangle.triangle, 2);
+  uint triangle = triangleTexel(hit.slot, 0).w;
+  TraceVertex a = vertexOf(hit.instance, triangle, 0);
+  TraceVertex b = vertexOf(hit.instance, triangle, 1);
+  TraceVertex c = vertexOf(hit.instance, triangle, 2);
   vec3 w = hit.weights;
-  vec3 geometric = facetNormal(hit.instance, triangle.triangle);
+  vec3 geometric = facetNormal(hit.instance, triangle);
   vec3 normal = safeNormalize(normalFromMesh(hit.instance, w.x * a.normal + w.y * b.normal + w.z * c.normal));
   bool away = dot(geometric, direction) > 0.0;
-  MaterialData material = materials[triangle.material];
+  MaterialData material = materials[triangleTexel(hit.slot, 1).w];
   Surface surface = objectSurface(traceOrigin + hit.t * direction - view.traceOffset.xyz, away ? -normal : normal,
                                   material, traceInstances[hit.instance].change, traceInstances[hit.instance].shininess);
   if (material.hasTexture != 0) {
     vec2 uv = w.x * vec2(a.u, a.v) + w.y * vec2(b.u, b.v) + w.z * vec2(c.u, c.v);
     surface.diffuse *= textureColor(material.textureIndex, uv);
   }
-  Skip self = Skip(hit.instance, triangle.triangle, none, none, nearOf(surface.position));
+  Skip self = Skip(hit.instance, triangle, none, none, nearOf(surface.position));
   Bounce bounce = Bounce(surface, self, false, away ? -geometric : geometric, vec3(0.0), 0.0);
   applyCurvedMirror(hit.instance, direction, bounce);
   return bounce;

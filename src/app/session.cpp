@@ -138,7 +138,7 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
                                  device.limits().maxViewportDimensions[1]}));
   tracesRays_ =
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
-  largestBuffer_ = device.limits().maxStorageBufferRange;
+  largestBuffer_ = largestTexelBuffer(device);
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,

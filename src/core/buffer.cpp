@@ -5,9 +5,20 @@
 
 namespace speculum {
 
+namespace {
+
+constexpr VkDeviceSize texelBytes = 16;
+
+}  // namespace
+
+VkDeviceSize largestTexelBuffer(const Device& device) {
+  return std::min<VkDeviceSize>(device.limits().maxStorageBufferRange,
+                                texelBytes * device.limits().maxTexelBufferElements);
+}
+
 Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferMemory memory,
                const std::string& name)
-    : bytes_(std::max<VkDeviceSize>(bytes, 4)) {
+    : bytes_(std::max<VkDeviceSize>(bytes, texelBytes)) {
   buffer_ = device.create(vkCreateBuffer,
                           {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                            .size = bytes_,
@@ -21,6 +32,14 @@ Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, Buf
                                    : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
   memory_ = Memory(device, requirements, properties, name, (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0);
   check(vkBindBufferMemory(device.get(), buffer_.get(), memory_.get(), 0), "bind the memory of " + name);
+  if (usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT) {
+    texels_ = device.create(vkCreateBufferView,
+                            {.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                             .buffer = buffer_.get(),
+                             .format = VK_FORMAT_R32G32B32A32_UINT,
+                             .range = VK_WHOLE_SIZE},
+                            name);
+  }
   if (memory == BufferMemory::host) {
     void* data = nullptr;
     check(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &data), "map the memory of " + name);

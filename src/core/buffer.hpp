@@ -12,7 +12,10 @@ enum class BufferMemory {
   device,  // filled once through Uploader
 };
 
-// A buffer with memory of its own. `bytes` 0 is allowed and becomes 4: Vulkan has no empty buffers.
+// Upper bound of the bytes of a buffer that shaders read as storage or as texels.
+VkDeviceSize largestTexelBuffer(const Device& device);
+
+// A buffer with memory of its own. `bytes` 0 is allowed and becomes 16: Vulkan has no empty buffers.
 class Buffer {
  public:
   Buffer() = default;
@@ -24,6 +27,8 @@ class Buffer {
   std::byte* mapped() const { return mapped_; }         // null in BufferMemory::device
   VkDeviceAddress address() const { return address_; }  // 0 without VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT
   VkDescriptorBufferInfo descriptor() const { return {buffer_.get(), 0, VK_WHOLE_SIZE}; }
+  // Texels of four 32-bit integers; null without VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT.
+  VkBufferView texels() const { return texels_.get(); }
 
   // Writes into a host buffer. Throws std::out_of_range past its end.
   void write(std::span<const std::byte> data, VkDeviceSize offset = 0) const;
@@ -35,6 +40,7 @@ class Buffer {
  private:
   Memory memory_;  // freed after the buffer, and thereby unmapped
   BufferHandle buffer_;
+  BufferViewHandle texels_;
   VkDeviceSize bytes_ = 0;
   std::byte* mapped_ = nullptr;
   VkDeviceAddress address_ = 0;

@@ -23,9 +23,9 @@ DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<co
 DescriptorPoolHandle DescriptorAllocator::createPool() const {
   constexpr uint32_t sets = 64;
   std::vector<VkDescriptorPoolSize> sizes{
-      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets},          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, sets},
-      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets},          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, sets},
-      {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16 * sets},
+      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets},       {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, sets},
+      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets},       {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, sets},
+      {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 2 * sets}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16 * sets},
   };
   if (device_->caps().rayQueries) {
     sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, sets});
@@ -78,6 +78,15 @@ DescriptorWriter& DescriptorWriter::buffer(uint32_t binding, VkDescriptorType ty
                      .descriptorCount = 1,
                      .descriptorType = type,
                      .pBufferInfo = &buffers_.emplace_back(info)});
+  return *this;
+}
+
+DescriptorWriter& DescriptorWriter::texels(uint32_t binding, VkBufferView view) {
+  writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                     .dstBinding = binding,
+                     .descriptorCount = 1,
+                     .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
+                     .pTexelBufferView = &texels_.emplace_back(view)});
   return *this;
 }
 

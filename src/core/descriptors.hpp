@@ -42,12 +42,14 @@ class DescriptorAllocator {
 class DescriptorWriter {
  public:
   DescriptorWriter& buffer(uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo& info);
+  DescriptorWriter& texels(uint32_t binding, VkBufferView view);
   DescriptorWriter& image(uint32_t binding, const VkDescriptorImageInfo& info, uint32_t element = 0);  // with sampler
   DescriptorWriter& structure(uint32_t binding, VkAccelerationStructureKHR structure);
   void update(Device& device, VkDescriptorSet set);
 
  private:
   std::deque<VkDescriptorBufferInfo> buffers_;
+  std::deque<VkBufferView> texels_;
   std::deque<VkDescriptorImageInfo> images_;
   std::deque<std::pair<VkWriteDescriptorSetAccelerationStructureKHR, VkAccelerationStructureKHR>> structures_;
   std::vector<VkWriteDescriptorSet> writes_;

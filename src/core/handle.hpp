@@ -22,6 +22,7 @@ void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR st
   X(FenceHandle, VkFence, VK_OBJECT_TYPE_FENCE, vkDestroyFence)                                         \
   X(MemoryHandle, VkDeviceMemory, VK_OBJECT_TYPE_DEVICE_MEMORY, vkFreeMemory)                           \
   X(BufferHandle, VkBuffer, VK_OBJECT_TYPE_BUFFER, vkDestroyBuffer)                                     \
+  X(BufferViewHandle, VkBufferView, VK_OBJECT_TYPE_BUFFER_VIEW, vkDestroyBufferView)                    \
   X(ImageHandle, VkImage, VK_OBJECT_TYPE_IMAGE, vkDestroyImage)                                         \
   X(ImageViewHandle, VkImageView, VK_OBJECT_TYPE_IMAGE_VIEW, vkDestroyImageView)                        \
   X(SamplerHandle, VkSampler, VK_OBJECT_TYPE_SAMPLER, vkDestroySampler)                                 \

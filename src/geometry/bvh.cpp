@@ -124,7 +124,6 @@ struct Bvh::Builder {
     if (count == 1 || (count <= leafSize && leafIsCheaper)) {
       bvh.nodes_[nodeIndex].first = first;
       bvh.nodes_[nodeIndex].count = count;
-      bvh.depth_ = std::max(bvh.depth_, depth);
       return;
     }
     uint32_t left = partition(first, count, centers, split);

@@ -82,7 +82,6 @@ class Bvh {
   const std::vector<uint32_t>& order() const { return order_; }
   Bounds bounds() const { return nodes_.empty() ? Bounds{} : nodes_[0].box; }
   std::span<const Node> nodes() const { return nodes_; }  // the root first; none without primitives
-  int depth() const { return depth_; }                    // inner nodes above the deepest leaf
 
   // Calls leaf(first, count, tMax) for every leaf that the ray may meet before tMax, near ones first. `leaf` lowers
   // tMax as it finds hits, and returns true to end the traversal.
@@ -93,7 +92,6 @@ class Bvh {
   struct Builder;
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_;
-  int depth_ = 0;
 };
 
 template <typename Leaf>

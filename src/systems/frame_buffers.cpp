@@ -5,15 +5,15 @@
 
 namespace speculum {
 
-FrameBuffers::FrameBuffers(Device& device, std::span<const char* const> names, std::string advice)
-    : device_(device), names_(names), advice_(std::move(advice)) {
+FrameBuffers::FrameBuffers(Device& device, std::span<const char* const> names, std::string advice, bool texels)
+    : device_(device), names_(names), advice_(std::move(advice)), texels_(texels) {
   for (std::vector<Buffer>& buffers : buffers_) {
     buffers.resize(names_.size());
   }
 }
 
 void FrameBuffers::checkSize(size_t kind, uint64_t bytes) const {
-  const uint64_t limit = device_.limits().maxStorageBufferRange;
+  const uint64_t limit = texels_ ? largestTexelBuffer(device_) : device_.limits().maxStorageBufferRange;
   if (bytes > limit) {
     throw std::runtime_error("a frame has " + std::to_string(bytes >> 20) + " MiB of " + names_[kind] +
                              ", the device takes " + std::to_string(limit >> 20) + " (" + advice_ + ")");
@@ -24,10 +24,10 @@ void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::b
   checkSize(kind, data.size());
   Buffer& buffer = buffers_[frame.index][kind];
   if (!buffer || buffer.bytes() < data.size()) {
-    buffer = Buffer(
-        device_, data.size() + data.size() / 2,
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-        BufferMemory::host, names_[kind]);
+    const VkBufferUsageFlags other = texels_ ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
+                                             : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+    buffer = Buffer(device_, data.size() + data.size() / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | other,
+                    BufferMemory::host, names_[kind]);
   }
   buffer.write(data);
 }

@@ -13,8 +13,9 @@ namespace speculum {
 // flight. A buffer that is too small is replaced by one with half as much again.
 class FrameBuffers {
  public:
-  // `names` of the kinds, with static lifetime. `advice` says how to make a scene's frames smaller.
-  FrameBuffers(Device& device, std::span<const char* const> names, std::string advice);
+  // `names` of the kinds, with static lifetime. `advice` says how to make a scene's frames smaller. With `texels`
+  // shaders may read them as texels too.
+  FrameBuffers(Device& device, std::span<const char* const> names, std::string advice, bool texels = false);
 
   // Throws std::runtime_error with the advice if the device takes no buffer of that size, as write() does. Call it
   // before much memory is filled.
@@ -33,6 +34,7 @@ class FrameBuffers {
   Device& device_;
   std::span<const char* const> names_;
   std::string advice_;
+  bool texels_;
   std::array<std::vector<Buffer>, framesInFlight> buffers_;
 };
 

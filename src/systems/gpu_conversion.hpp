@@ -3,7 +3,6 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "geometry/bvh.hpp"
 #include "scene/scene.hpp"
 #include "shaders/gpu_data.h"
 
@@ -29,9 +28,5 @@ struct RippleConstants {
   float phase;  // radians
 };
 RippleConstants rippleConstants(const Ripple& ripple, double time);
-
-// Appends a hierarchy's nodes. Its primitives stand in `order()` from `firstPrimitive` on. Boxes grow by a millionth of
-// their coordinates, so that what they hold stays inside when it becomes float.
-void appendNodes(const Bvh& hierarchy, uint32_t firstPrimitive, std::vector<gpu::TraceNode>& nodes);
 
 }  // namespace speculum

@@ -74,7 +74,7 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.frag = shading == Shading::average ? "mirror_average_shadowed.frag" : "mirror_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
   }
-  desc.fragConstants.resize(6, 0);
+  desc.fragConstants.resize(5, 0);
   desc.fragConstants.insert(
       desc.fragConstants.end(),
       {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows), static_cast<uint32_t>(variant.lookup),

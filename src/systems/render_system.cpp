@@ -67,9 +67,9 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     addConstants(variant.trace, desc.fragConstants);
     desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
   }
-  desc.fragConstants.resize(6, 0);
+  desc.fragConstants.resize(5, 0);
   desc.fragConstants.push_back(variant.lightCount);
-  desc.fragConstants.resize(11, 0);
+  desc.fragConstants.resize(10, 0);
   desc.fragConstants.push_back(variant.shadowedLights);
   addVertexInput(desc);
   return desc;

@@ -16,11 +16,13 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array bufferNames = {"trace boxes",   "trace items",           "trace instances",
-                                    "trace mirrors", "trace mirror vertices", "light paths"};
+constexpr std::array bufferNames = {"trace boxes", "trace instances", "trace mirrors", "trace mirror edges",
+                                    "light paths"};
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
-constexpr uint32_t frameDataBindings = 4;
-constexpr uint32_t structureBinding = 12;  // in trace_ray_query.glsl
+constexpr uint32_t structureBinding = 13;  // in trace_ray_query.glsl
+// Bindings of trace.glsl that are texels: nodes and triangles; boxes, edges, instances and mirrors of the frame.
+constexpr std::array<bool, structureBinding> readsTexels = {true,  true,  false, false, false, false, true,
+                                                            false, false, true,  false, true,  true};
 
 void setMirror(const std::optional<ObjectMirror>& mirror, const EffectSettings& effects, gpu::TraceInstance& data) {
   if (mirror && effects.curved) {
@@ -78,7 +80,7 @@ void retireIfAny(std::optional<T>& object, RetireQueue& retired) {
 
 void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants) {
   constants.resize(2, 0);
-  constants.insert(constants.end(), {variant.stackSize, variant.shadows, variant.castsLight, variant.perSample});
+  constants.insert(constants.end(), {variant.shadows, variant.castsLight, variant.perSample});
 }
 
 std::string tracingShader(const std::string& name, const TraceVariant& variant) {
@@ -86,19 +88,23 @@ std::string tracingShader(const std::string& name, const TraceVariant& variant) 
 }
 
 TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
-    : device_(device), uploader_(uploader), scene_(scene), buffers_(device, bufferNames, "fewer copies of objects") {}
+    : device_(device),
+      uploader_(uploader),
+      scene_(scene),
+      buffers_(device, bufferNames, "fewer copies of objects", true) {}
 
 void TraceFrame::create() {
-  static_assert(storageBuffers == frameDataBindings + sceneBindings + kindCount);
-  nothing_ = Buffer(device_, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host, "no trace scene");
+  nothing_ = Buffer(device_, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                    BufferMemory::host, "no trace scene");
   if (layout_) {
     return;
   }
-  static_assert(structureBinding == sceneBindings + kindCount);
   std::vector<DescriptorBinding> bindings;
   for (uint32_t i = 0; i < structureBinding; ++i) {
     bindings.push_back(
-        {.binding = i, .type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, .stages = VK_SHADER_STAGE_FRAGMENT_BIT});
+        {.binding = i,
+         .type = readsTexels[i] ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+         .stages = VK_SHADER_STAGE_FRAGMENT_BIT});
   }
   if (device_.caps().rayQueries) {
     bindings.push_back({.binding = structureBinding,
@@ -111,7 +117,6 @@ void TraceFrame::create() {
 void TraceFrame::release(RetireQueue& retired) {
   retireIfAny(structures_, retired);
   retireIfAny(traceScene_, retired);
-  stackSize_ = 1;
   retired.retire(std::exchange(nothing_, {}));
   buffers_.retire(retired);
 }
@@ -140,7 +145,6 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   variant_.hardware = rays_.hardware;
   instances_.clear();
   topNodes_.clear();
-  items_.clear();
   if (effects.traces()) {
     addInstances(state, settings);
   }
@@ -148,10 +152,9 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
     addHierarchy(state);
   }
   buffers_.write(frame, topNodes, topNodes_);
-  buffers_.write(frame, items, items_);
   buffers_.write(frame, instances, instances_);
   buffers_.write(frame, mirrors, mirrors_);
-  buffers_.write(frame, mirrorVertices, mirrorVertices_);
+  buffers_.write(frame, mirrorEdges, mirrorEdges_);
   buffers_.write(frame, lightPaths, lightPathBytes(state, settings, effects));
   allocateSet(frame);
 }
@@ -216,13 +219,21 @@ void TraceFrame::prepareStructures(Frame& frame, const SceneState& state, RayMet
 void TraceFrame::allocateSet(Frame& frame) {
   set_ = frame.descriptors->allocate(layout_.get());
   DescriptorWriter writer;
-  constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  std::array<const Buffer*, structureBinding> bound{};
   for (uint32_t i = 0; i < sceneBindings; ++i) {
-    const Buffer& buffer = traceScene_ ? traceScene_->buffer(static_cast<TraceScene::Kind>(i)) : nothing_;
-    writer.buffer(i, storage, buffer.descriptor());
+    bound[i] = traceScene_ ? &traceScene_->buffer(static_cast<TraceScene::Kind>(i)) : &nothing_;
   }
   for (uint32_t i = 0; i < kindCount; ++i) {
-    writer.buffer(sceneBindings + i, storage, buffers_.buffer(frame, i).descriptor());
+    bound[sceneBindings + i] = &buffers_.buffer(frame, i);
+  }
+  bound[sceneBindings + kindCount] = &buffers_.buffer(frame, instances);
+  bound[sceneBindings + kindCount + 1] = &buffers_.buffer(frame, mirrors);
+  for (uint32_t i = 0; i < structureBinding; ++i) {
+    if (readsTexels[i]) {
+      writer.texels(i, bound[i]->texels());
+    } else {
+      writer.buffer(i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, bound[i]->descriptor());
+    }
   }
   if (rays_.hardware) {
     writer.structure(structureBinding, structures_->top(frame));
@@ -246,7 +257,10 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings)
     const Object& object = scene_.objects[instance.object];
     const TraceScene::MeshRange& mesh = traceScene_->meshes()[instance.mesh];
     gpu::TraceInstance data = instanceData(instance, object, state.camera.eye);
+    data.gridLow = mesh.grid.low;
     data.root = mesh.root;
+    data.gridScale = mesh.grid.scale;
+    data.nodes = mesh.nodes;
     data.firstTriangle = mesh.firstTriangle;
     data.firstVertex = mesh.firstVertex;
     setMirror(object.mirror, settings.effects, data);
@@ -270,25 +284,18 @@ void TraceFrame::addHierarchy(const SceneState& state) {
     found.push_back(static_cast<uint32_t>(i) | gpu::itemMirror);
   }
   const Bvh top(boxes, 1);
-  appendNodes(top, 0, topNodes_);
-  for (const uint32_t i : top.order()) {
-    items_.push_back(found[i]);
-  }
-  // One entry for each level, of the top and of the deepest mesh; rounded up, for fewer pipelines.
-  const int depth = top.depth() + traceScene_->depth();
-  stackSize_ = std::max(stackSize_, static_cast<uint32_t>(depth + 8) / 8 * 8);
-  variant_.stackSize = stackSize_;
+  appendTopNodes(top, found, topNodes_);
 }
 
 void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
   mirrors_.clear();
-  mirrorVertices_.clear();
+  mirrorEdges_.clear();
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
     const Mirror& mirror = scene_.mirrors[i];
     const MirrorState& placed = state.mirrors[i];
     const double alpha = settings.effects.roughness ? mirror.roughness * mirror.roughness : 0.0;
     mirrors_.push_back({.origin = glm::vec3(placed.origin - state.camera.eye),
-                        .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
+                        .firstVertex = static_cast<uint32_t>(mirrorEdges_.size()),
                         .normal = glm::vec3(placed.normal),
                         .vertexCount = static_cast<uint32_t>(placed.polygon.size()),
                         .axisX = glm::vec3(placed.axisX),
@@ -306,9 +313,15 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
       mirrors_.back().rippleSlope = ripple.slope;
       mirrors_.back().ripplePhase = ripple.phase;
     }
-    for (const glm::dvec3& p : placed.polygon) {
+    const auto localOf = [&](const glm::dvec3& p) {
       const glm::dvec3 local = p - placed.origin;
-      mirrorVertices_.emplace_back(glm::dvec2(glm::dot(local, placed.axisX), glm::dot(local, placed.axisY)));
+      return glm::vec2(glm::dot(local, placed.axisX), glm::dot(local, placed.axisY));
+    };
+    glm::vec2 from = localOf(placed.polygon.back());
+    for (const glm::dvec3& p : placed.polygon) {
+      const glm::vec2 to = localOf(p);
+      mirrorEdges_.emplace_back(from, to);
+      from = to;
     }
   }
 }
@@ -316,7 +329,7 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
 std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const Settings& settings,
                                                   const TracedEffects& effects) const {
   const gpu::TraceCounts header{.lightPaths = static_cast<uint32_t>(effects.mirroredLights.size()),
-                                .items = static_cast<uint32_t>(items_.size()),
+                                .topNodes = static_cast<uint32_t>(topNodes_.size() / 8),
                                 .roughSamples = static_cast<uint32_t>(settings.effects.roughSamples)};
   std::vector<gpu::LightPath> paths;
   for (const MirroredLight& mirrored : effects.mirroredLights) {

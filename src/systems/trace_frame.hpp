@@ -18,8 +18,7 @@ struct TraceVariant {
   bool shadows = false;
   bool castsLight = false;
   bool perSample = false;
-  bool hardware = false;   // rays are ray queries
-  uint32_t stackSize = 1;  // entries; only without ray queries
+  bool hardware = false;  // rays are ray queries
 
   auto operator<=>(const TraceVariant&) const = default;
 };
@@ -36,7 +35,7 @@ class TraceFrame {
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
   // Storage buffers that a fragment shader reads, with those of FrameData.
-  static constexpr uint32_t storageBuffers = 16;  // 4 + 6 of the scene + 6 of the frame
+  static constexpr uint32_t storageBuffers = 11;  // 4 + 4 of the scene + 3 of the frame
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if no effect is called for.
@@ -49,7 +48,7 @@ class TraceFrame {
   RayUse rays() const;     // of the present frame
 
  private:
-  enum Kind { topNodes, items, instances, mirrors, mirrorVertices, lightPaths, kindCount };
+  enum Kind { topNodes, instances, mirrors, mirrorEdges, lightPaths, kindCount };
 
   void create();
   void release(RetireQueue& retired);
@@ -72,14 +71,12 @@ class TraceFrame {
   RayUse rays_;
   Buffer nothing_;  // bound instead of a scene whose triangles no ray meets
   FrameBuffers buffers_;
-  std::vector<gpu::TraceNode> topNodes_;
-  std::vector<uint32_t> items_;
+  std::vector<gpu::TraceTopNode> topNodes_;
   std::vector<gpu::TraceInstance> instances_;
   std::vector<gpu::TraceMirror> mirrors_;
-  std::vector<glm::vec2> mirrorVertices_;
+  std::vector<glm::vec4> mirrorEdges_;  // from x, y to x, y of the mirror
   TraceVariant variant_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
-  uint32_t stackSize_ = 1;   // only grows, so that pipelines stay
   int idleFrames_ = 0;       // without any effect
   int sceneIdleFrames_ = 0;  // without one that traces rays
   bool refused_ = false;     // there was no memory for acceleration structures

@@ -6,7 +6,6 @@
 
 #include "core/acceleration_structure.hpp"
 #include "geometry/bvh.hpp"
-#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 
@@ -55,10 +54,10 @@ uint64_t largestTraceBuffer(const Scene& scene, size_t instances) {
     texels += texture.texels.size();
   }
   // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle.
-  return std::max({2 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle),
+  return std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle),
                    vertices * sizeof(gpu::TraceVertex), texels * sizeof(uint64_t),
                    instances * sizeof(gpu::TraceInstance),
-                   2 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceNode)});
+                   16 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceTopNode)});
 }
 
 TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
@@ -75,14 +74,15 @@ TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
   }
   const auto upload = [&](Kind kind, const auto& values, const char* name) {
     const std::span data = std::as_bytes(std::span(values));
-    if (data.size() > device.limits().maxStorageBufferRange) {
+    if (data.size() > largestTexelBuffer(device)) {
       throw std::runtime_error(std::string("the scene has ") + std::to_string(data.size() >> 20) + " MiB of " + name +
-                               ", the device takes " + std::to_string(device.limits().maxStorageBufferRange >> 20) +
+                               ", the device takes " + std::to_string(largestTexelBuffer(device) >> 20) +
                                " (smaller models, or effects.* = false for what needs rays)");
     }
     const bool built = kind == triangles && device.caps().rayQueries;
-    buffers_[kind] =
-        uploader.buffer(data, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | (built ? structureInputUsage : 0), name);
+    const VkBufferUsageFlags usage = kind == nodes || kind == triangles ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
+                                                                        : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    buffers_[kind] = uploader.buffer(data, usage | (built ? structureInputUsage : 0), name);
   };
   upload(nodes, content.nodes, "trace nodes");
   upload(triangles, content.triangles, "trace triangles");
@@ -102,13 +102,14 @@ uint64_t TraceScene::bytes() const {
 
 void TraceScene::add(const Mesh& mesh, Content& content) {
   const Bvh hierarchy = hierarchyOf(mesh);
-  depth_ = std::max(depth_, hierarchy.depth());
   const auto firstSlot = static_cast<uint32_t>(content.triangles.size());
-  meshes_.push_back({.root = static_cast<uint32_t>(content.nodes.size()),
+  meshes_.push_back({.grid = traceGrid(hierarchy.bounds()),
+                     .root = static_cast<uint32_t>(content.nodes.size()),
+                     .nodes = static_cast<uint32_t>(hierarchy.nodes().size()),
                      .firstTriangle = firstSlot,
                      .triangles = static_cast<uint32_t>(mesh.indices.size() / 3),
                      .firstVertex = static_cast<uint32_t>(content.vertices.size())});
-  appendNodes(hierarchy, firstSlot, content.nodes);
+  appendMeshNodes(hierarchy, meshes_.back().grid, firstSlot, content.nodes);
   const std::vector<uint32_t> materials = materialsOf(mesh, content.materials);
   for (const uint32_t triangle : hierarchy.order()) {
     const uint32_t* index = &mesh.indices[size_t{triangle} * 3];

@@ -2,7 +2,7 @@
 
 #include "core/uploader.hpp"
 #include "scene/scene.hpp"
-#include "shaders/gpu_data.h"
+#include "systems/trace_hierarchy.hpp"
 
 namespace speculum {
 
@@ -15,7 +15,9 @@ class TraceScene {
  public:
   // Offsets of a mesh in the buffers.
   struct MeshRange {
+    TraceGrid grid;
     uint32_t root = 0;           // node
+    uint32_t nodes = 0;          // of an octant
     uint32_t firstTriangle = 0;  // a third of its first index; also its first slot in `triangles`
     uint32_t triangles = 0;
     uint32_t firstVertex = 0;
@@ -27,7 +29,6 @@ class TraceScene {
 
   const std::vector<MeshRange>& meshes() const { return meshes_; }
   const Buffer& buffer(Kind kind) const { return buffers_[kind]; }
-  int depth() const { return depth_; }  // of the deepest hierarchy
   uint64_t bytes() const;
 
  private:
@@ -36,7 +37,6 @@ class TraceScene {
 
   std::vector<MeshRange> meshes_;
   std::array<Buffer, kindCount> buffers_;
-  int depth_ = 0;
 };
 
 }  // namespace speculum

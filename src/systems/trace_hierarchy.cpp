@@ -1,0 +1,104 @@
+#include "systems/trace_hierarchy.hpp"
+
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+constexpr int octants = 8;  // bit i: rays fall along axis i
+constexpr double steps = 65535.0;
+
+// Says whether rays of the octant tend to meet the first box later than the second.
+bool isLater(const Bounds& first, const Bounds& second, int octant) {
+  const glm::dvec3 apart = first.center() - second.center();
+  const glm::dvec3 size = glm::abs(apart);
+  const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+  return (apart[axis] > 0.0) == ((octant >> axis & 1) == 0);
+}
+
+// Calls emit(node, next) depth first, what lies nearer first. `next` is the place of the node after the subtree, in
+// nodes of the octant.
+template <typename Emit>
+void visitInOrder(const Bvh& hierarchy, int octant, Emit&& emit) {
+  const std::span nodes = hierarchy.nodes();
+  std::vector<uint32_t> sizes(nodes.size(), 1);
+  for (size_t i = nodes.size(); i-- > 0;) {
+    if (nodes[i].count == 0) {
+      sizes[i] += sizes[nodes[i].first] + sizes[nodes[i].first + 1];
+    }
+  }
+  std::vector<uint32_t> stack;
+  if (!nodes.empty()) {
+    stack.push_back(0);
+  }
+  for (uint32_t place = 0; !stack.empty(); ++place) {
+    const uint32_t i = stack.back();
+    stack.pop_back();
+    emit(nodes[i], place + sizes[i]);
+    if (nodes[i].count == 0) {
+      const uint32_t left = nodes[i].first;
+      const uint32_t later = isLater(nodes[left].box, nodes[left + 1].box, octant) ? left : left + 1;
+      stack.push_back(later);
+      stack.push_back(later == left ? left + 1 : left);
+    }
+  }
+}
+
+uint32_t sideOf(double low, double high, bool falls) {
+  const auto near = static_cast<uint32_t>(std::clamp(std::floor(low), 0.0, steps));
+  const auto far = static_cast<uint32_t>(std::clamp(std::ceil(high), 0.0, steps));
+  return falls ? far | near << 16 : near | far << 16;
+}
+
+}  // namespace
+
+TraceGrid traceGrid(const Bounds& bounds) {
+  TraceGrid grid;
+  const glm::dvec3 size = bounds.high - bounds.low;
+  const double largest = std::max({size.x, size.y, size.z, 1e-30});
+  for (int axis = 0; axis < 3; ++axis) {
+    // A margin for rounding to float; axes along which a mesh is flat get steps no finer than floats.
+    const double width = std::max(size[axis], 1e-3 * largest);
+    grid.low[axis] = static_cast<float>(bounds.low[axis] - 1e-3 * width);
+    grid.scale[axis] = static_cast<float>(steps / (1.002 * width));
+  }
+  return grid;
+}
+
+void appendMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle,
+                     std::vector<gpu::TraceNode>& nodes) {
+  for (int octant = 0; octant < octants; ++octant) {
+    const auto first = static_cast<uint32_t>(nodes.size());
+    visitInOrder(hierarchy, octant, [&](const Bvh::Node& node, uint32_t next) {
+      const glm::dvec3 low = (node.box.low - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
+      const glm::dvec3 high = (node.box.high - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
+      gpu::TraceNode& added = nodes.emplace_back();
+      for (int axis = 0; axis < 3; ++axis) {
+        added.sides[axis] = sideOf(low[axis], high[axis], (octant >> axis & 1) != 0);
+      }
+      added.link = node.count > 0 ? gpu::traceLeaf | (firstTriangle + node.first) << 3 | node.count : first + next;
+    });
+  }
+}
+
+void appendTopNodes(const Bvh& hierarchy, std::span<const uint32_t> links, std::vector<gpu::TraceTopNode>& nodes) {
+  for (int octant = 0; octant < octants; ++octant) {
+    const auto first = static_cast<uint32_t>(nodes.size());
+    visitInOrder(hierarchy, octant, [&](const Bvh::Node& node, uint32_t next) {
+      const glm::dvec3 reach = glm::max(glm::abs(node.box.low), glm::abs(node.box.high));
+      const double margin = 1e-6 * std::max({reach.x, reach.y, reach.z});
+      const glm::vec3 low(node.box.low - margin);
+      const glm::vec3 high(node.box.high + margin);
+      gpu::TraceTopNode& added = nodes.emplace_back();
+      for (int axis = 0; axis < 3; ++axis) {
+        const bool falls = (octant >> axis & 1) != 0;
+        added.near[axis] = falls ? high[axis] : low[axis];
+        added.far[axis] = falls ? low[axis] : high[axis];
+      }
+      added.link = node.count > 0 ? gpu::traceLeaf | links[hierarchy.order()[node.first]] : first + next;
+    });
+  }
+}
+
+}  // namespace speculum
