@@ -16,6 +16,8 @@ using namespace testing_support;
 
 std::vector<RegressCase> goldenCases() {
   std::vector<RegressCase> cases = readCases(sourceFile("tests/golden/cases.toml"));
+  // Leaves out, for time, cases that share the picture of another.
+  std::erase_if(cases, [](const RegressCase& golden) { return golden.picture.stem() != golden.name; });
   for (RegressCase& golden : cases) {
     if (!fullTests() && golden.size.width > 160) {
       golden.size = {160, 90};
