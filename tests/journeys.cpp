@@ -196,13 +196,29 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   press("Tab");
   press("F10");
   press("F10");
-  EXPECT_NE(view().status.text.find("recorded "), std::string::npos);
+  EXPECT_NE(view().status.text.find("Recorded "), std::string::npos);
   // Pictures and recordings of one second share a name, so their order tells nothing.
   const std::vector<std::filesystem::path> files = pictures();
   const auto recording =
       std::find_if(files.begin(), files.end(), [](const auto& file) { return std::filesystem::is_directory(file); });
   ASSERT_NE(recording, files.end());
   EXPECT_TRUE(readImage8(*recording / "00001.png").rgba == bare.rgba) << "the message is in no picture";
+}
+
+TEST_F(Journey, CopiedCommandDrawsTheSamePicture) {
+  press("space");
+  dragFrom(width - 100, 80, -80, 30);
+  setSetting("view.exposure", "0.5");
+  demo_->apply(SelectNode{{Selection::Kind::object, 0}});
+  demo_->apply(RemoveSelected{});
+  demo_->apply(StepTime{6});
+  const Image8 shown = barePicture();
+  click("copy");
+  const std::string command = demo_->window().clipboard();
+  const ProcessResult result = runProcess(
+      {"bash", "-c", "cd '" + home_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
+  ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
+  EXPECT_TRUE(readImage8(home_.path() / "journey.png").rgba == shown.rgba) << command;
 }
 
 TEST_F(Journey, GalleryShowsAndLoadsScenes) {

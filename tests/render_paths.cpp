@@ -22,7 +22,9 @@ Cases goldenCases() {
   for (const RegressCase& golden : readCases(sourceFile("tests/golden/cases.toml"))) {
     const std::string scene = golden.scene.stem();
     const bool small = golden.size.width <= 160;
-    if (fullTests() || small || scene == "no_mirror" || scene == "gallery" || scene == "facing_mirrors") {
+    const bool ownPicture = golden.picture.stem() == golden.name;  // others draw a scene with other settings
+    if (fullTests() || (small && ownPicture) || scene == "no_mirror" || scene == "gallery" ||
+        scene == "facing_mirrors") {
       cases[scene].push_back(golden);
     }
   }
@@ -38,8 +40,9 @@ TEST_P(RenderPaths, GiveTheSameBytes) {
   QuietSession dynamic(options);
   options.renderPath = RenderPath::renderPass;
   QuietSession passes(options);
-  for (size_t i = 0; i < (fullTests() ? cases.size() : 2); ++i) {
+  for (size_t i = 0; i < (fullTests() ? cases.size() : std::min<size_t>(cases.size(), 2)); ++i) {
     const auto drawn = [&](Session& session) {
+      session.setSettings(settingsOf(session.scene()));
       set(session, caseOptions(cases[i], options).settings);
       session.restart();
       session.draw(cases[i].time, true);

@@ -338,6 +338,19 @@ TEST_F(Saving, OtherWindowsKeepTheirRecords) {
   EXPECT_EQ(edit().prompt, Prompt::none);
 }
 
+TEST_F(Saving, UnansweredOfferIsMadeAgain) {
+  removeBall();
+  workspace_->keepUnsavedWork();
+  start();
+  const fs::path kept = edit().proposedFile;
+  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  waitFor([&] { return scene().file.filename() == "no_mirror.toml"; });
+  send(Quit{});
+  start();
+  EXPECT_EQ(edit().prompt, Prompt::recovery);
+  EXPECT_EQ(edit().proposedFile, kept);
+}
+
 TEST_F(Saving, UndrawableStepIsTakenBack) {
   EXPECT_FALSE(workspace_->takeBack("no memory")) << "nothing to take back";
   removeBall();

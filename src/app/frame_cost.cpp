@@ -62,7 +62,10 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
       const bool rough = settings.roughness && scene.mirrors[static_cast<size_t>(draw.mirror)].roughness > 0.0;
       const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
                                      pass.view.pictureSize.y);
-      (rough ? work.roughRays : work.rippleRays) += area * reflected * (rough ? settings.roughSamples : 1);
+      const bool rippled = settings.ripple && scene.mirrors[static_cast<size_t>(draw.mirror)].ripple;
+      // Ripples are followed at every sample, whatever effects.per_sample is, and rough mirrors once a pixel.
+      const double rays = area * (1.0 + toLights) * (rippled ? samples : 1.0);
+      (rough ? work.roughRays : work.rippleRays) += rays * (rough ? settings.roughSamples : 1);
     }
   }
   for (const int i : pass.instances) {
@@ -131,10 +134,12 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   const bool shadowMaps = effects.shadowLookup == ShadowLookup::map &&
                           (from.effects.shadowLookup == ShadowLookup::traced || !effects.castsLight);
   work.lightRays *= shadowMaps ? 0.0 : rays;
-  work.rippleRays *= effects.rippleLookup == ReflectionSource::image ? 0.0 : rays;
+  work.rippleRays *=
+      effects.rippleLookup == ReflectionSource::image ? 0.0 : squared(view) * to.view.samples / from.view.samples;
   work.curvedRays *= effects.curvedLookup == CurvedLookup::environment ? 0.0 : rays;
-  work.roughRays *=
-      effects.roughLookup == ReflectionSource::image ? 0.0 : rays * effects.roughSamples / from.effects.roughSamples;
+  work.roughRays *= effects.roughLookup == ReflectionSource::image
+                        ? 0.0
+                        : squared(view) * effects.roughSamples / from.effects.roughSamples;
   work.viewSamples = to.view.samples;
   work.mirrorSamples = to.reflection.samples;
   return work;

@@ -167,7 +167,7 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   using E = EffectSettings;
-  replace(rays.shadows || rays.ripple || rays.curved, [](E& effects) { effects.perSample = false; });
+  replace(rays.shadows || rays.castsLight || rays.curved, [](E& effects) { effects.perSample = false; });
   replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowLookup = ShadowLookup::map; });
   simplify(0.5, 0.0);
   for (const auto& samples : {+[](Settings& s) -> int& { return s.reflection.samples; },

@@ -128,21 +128,21 @@ void accept(const CaseFiles& files, Outcome& outcome) {
   outcome.message = "wrote " + picture.string();
 }
 
-// Replaces the expected pictures of failed cases whose names match. Of cases that share a picture the first gives it.
+// Replaces the expected pictures of failed cases whose names match. Of cases that share a picture the first writes it.
 void acceptAll(const Options& options, RegressRun& run) {
-  std::map<std::filesystem::path, std::string> givers;
+  std::map<std::filesystem::path, std::string> writers;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
     const std::string& name = run.cases[i].name;
-    if (outcome.picture.empty()) {
+    if (outcome.picture.empty() || outcome.verdict == Verdict::skipped || outcome.verdict == Verdict::error) {
       continue;
     }
-    const auto [giver, first] = givers.emplace(outcome.picture, name);
+    const auto [writer, first] = writers.emplace(outcome.picture, name);
     if (!outcome.replaceable || !matches(*options.update, name)) {
       continue;
     }
     if (!first) {
-      outcome.message += fmt::format("; the picture is that of case '{}' too, which gives it", giver->second);
+      outcome.message += fmt::format("; not written: case '{}' writes this picture", writer->second);
       continue;
     }
     try {

@@ -138,7 +138,7 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
                                  device.limits().maxViewportDimensions[1]}));
   tracesRays_ =
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
-  largestBuffer_ = largestTexelBuffer(device);
+  bufferLimits_ = traceBufferLimits(device.limits());
 }
 
 FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
@@ -148,7 +148,8 @@ FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, cons
                      " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
                      " pixels a side)");
   }
-  limits_.tracesRays = tracesRays_ && largestTraceBuffer(scene, state.instances.size()) <= largestBuffer_;
+  const TraceBufferBytes needed = largestTraceBuffers(scene, state.instances.size());
+  limits_.tracesRays = tracesRays_ && needed.texels <= bufferLimits_.texels && needed.storage <= bufferLimits_.storage;
   FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, cache, picture);
   if (!fitted.message.empty() && message_.empty()) {
     spdlog::warn("{}", fitted.message);

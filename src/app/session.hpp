@@ -11,6 +11,7 @@
 #include "frame/memory_fit.hpp"
 #include "scene/scene_loader.hpp"
 #include "systems/scene_renderer.hpp"
+#include "systems/trace_scene.hpp"
 
 namespace speculum {
 
@@ -54,8 +55,8 @@ class BudgetPlanner {
 
  private:
   TargetLimits limits_;
-  bool tracesRays_ = true;      // the device, if the scene fits
-  uint64_t largestBuffer_ = 0;  // bytes
+  bool tracesRays_ = true;  // the device, if the scene fits
+  TraceBufferBytes bufferLimits_;
   std::string message_;
 };
 

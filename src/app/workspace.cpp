@@ -330,6 +330,9 @@ void Workspace::takeChosenFile() {
 
 // Opens a scene, after the prompt about unsaved changes if there are any.
 void Workspace::open(const fs::path& file) {
+  if (edit_.prompt == Prompt::recovery && file != recovery_) {
+    recovery_.reset();  // not answered: the next start asks again
+  }
   document_->closeOpenPrompt();
   if (document_->confirmDiscard(settings_.current, OpenScene{file})) {
     Options options = options_;
@@ -569,6 +572,9 @@ void Workspace::keepUnsavedWork() noexcept {
     const fs::path file = document_->savedOrCopy(settings());
     if (file != scene().file) {
       recordRecovery(file);
+      if (file != recovery_ && edit_.prompt != Prompt::recovery) {
+        forgetRecoveryOfThis();  // this copy has its changes too
+      }
       recovery_ = file;
       spdlog::error("unsaved changes are kept in {}", file.string());
     }

@@ -12,6 +12,7 @@ void addMirror(const Mirror& material, const MirrorState& mirror, int index, con
   const double height = glm::dot(mirror.normal, face.view.eye - mirror.origin);
   MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
   draw.back = height < 0.0 && !material.twoSided;
+  draw.layer = height < 0.0 ? mirror.backLayer : mirror.frontLayer;
   draw.polygon = visiblePart(drawn, mirror.polygon);
   if (height == 0.0 || draw.polygon.empty()) {
     return;

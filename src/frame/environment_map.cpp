@@ -104,7 +104,7 @@ std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState
                        .settings = settings};
     map.projection.focal = static_cast<double>(map.size - 2 * environmentBorder) / map.size;
     map.projection.aspect = 1.0;
-    map.projection.near = std::min(state.camera.near, map.projection.near);
+    map.projection.near = nearOf(state);
     for (const FaceAxes& axes : faceAxes()) {
       map.faces.push_back(faceOf(scene, state, map, axes));
     }

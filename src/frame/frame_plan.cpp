@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
-#include <sstream>
 
 #include "frame/cube_face.hpp"
 #include "frame/environment_map.hpp"
@@ -22,10 +20,7 @@ class Planner {
   Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
           const FrameCache& cache, int picture)
       : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), cache_(cache) {
-    // A larger `near` gains nothing, because depth is near / distance in a float, and loses the order of all that is
-    // nearer, which is clamped to one depth.
-    const double near = std::min(state.camera.near, Projection().near);
-    plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, near);
+    plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, nearOf(state));
     plan_.width = width;
     plan_.height = height;
     plan_.picture = picture;

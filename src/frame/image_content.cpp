@@ -59,7 +59,7 @@ class Numbers {
   // A cached image is compared by itself; a mirror without an image shows the background.
   void add(const MirrorDraw& draw) {
     addAll(draw.cached.has_value(), draw.mirror, draw.back, draw.scatters, draw.blurs, draw.ripples, draw.polygon,
-           draw.plane);
+           draw.plane, draw.layer);
   }
 
   std::vector<uint64_t> take() { return std::move(numbers_); }

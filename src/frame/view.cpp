@@ -53,6 +53,21 @@ std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3
 
 }  // namespace
 
+// A mirror's view sees only what lies behind the mirror, farther than the eye is from the mirror's plane.
+double nearOf(const SceneState& state) {
+  const glm::dvec3& eye = state.camera.eye;
+  double near = std::min(state.camera.near, Projection().near);
+  for (const MirrorState& mirror : state.mirrors) {
+    near = std::min(near, 0.5 * std::abs(glm::dot(mirror.normal, eye - mirror.origin)));
+  }
+  for (const InstanceState& instance : state.instances) {
+    const double outside = glm::length(eye - instance.center) - instance.radius;
+    near = std::min(near, std::max(0.5 * outside, 0.001 * instance.radius));
+  }
+  constexpr double smallest = 1e-20;  // depth has to stay a float
+  return std::max(near, smallest);
+}
+
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height) {
   View view;
   view.eye = camera.eye;

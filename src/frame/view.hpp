@@ -26,6 +26,11 @@ struct View {
   bool mirrored() const { return path.size() % 2 == 1; }
 };
 
+// Distance from the camera, in metres, up to which depth keeps no order: so near that what is drawn is farther, but at
+// most the camera's near and 1 mm, because GPUs draw faster with depths that are not tiny. Within a thousandth of the
+// radius of an object around the eye there may be no order.
+double nearOf(const SceneState& state);
+
 // The camera's view of a picture of `width` x `height` pixels.
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height);
 

@@ -14,7 +14,7 @@ namespace speculum {
 struct Projection {
   double focal = 1.0;      // cot(vertical fov / 2)
   double aspect = 1.0;     // width / height
-  double near = 1e-12;     // metres
+  double near = 0.001;     // metres
   glm::dvec2 offset{0.0};  // shift of the picture, in device coordinates
 
   Projection() = default;

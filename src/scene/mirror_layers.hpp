@@ -6,8 +6,8 @@
 
 namespace speculum {
 
-// Sets the planes and layers of mirrors that have none yet. Mirrors count as being in one plane if rounding explains
-// how far they are apart.
+// Sets plane and layers of all mirrors, whose layers are 0 before. Mirrors count as being in one plane if rounding
+// explains how far they are apart.
 void findLayers(std::span<const Mirror> mirrors, std::span<MirrorState> states);
 
 }  // namespace speculum

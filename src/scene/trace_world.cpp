@@ -125,7 +125,7 @@ std::optional<double> TraceWorld::meetPolygon(const Ray& ray, const ShearedRay& 
                                               double tMax) const {
   const MirrorState& plane = mirrors_[mirrors_[mirror].plane];
   const double t = glm::dot(plane.polygon[0] - ray.origin, plane.normal) / glm::dot(ray.direction, plane.normal);
-  if (!(t > ray.tMin && t <= tMax)) {
+  if (!(t > ray.tMin && t <= tMax && t < ray.tMax)) {
     return std::nullopt;
   }
   bool left = false;
@@ -204,7 +204,7 @@ std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip) co
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
     for (uint32_t i = first; i < first + count; ++i) {
       const auto hit = meet(items_[i], ray, sheared, tMax, skip);
-      if (hit && (!best || hit->t < best->t || covers(*hit, *best))) {
+      if (hit && (!best || hit->t < best->t || (hit->t == best->t && covers(*hit, *best)))) {
         best = hit;
         tMax = hit->t;
       }

@@ -1,5 +1,6 @@
 #include "systems/frame_buffers.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -12,11 +13,14 @@ FrameBuffers::FrameBuffers(Device& device, std::span<const char* const> names, s
   }
 }
 
+uint64_t FrameBuffers::largest() const {
+  return texels_ ? largestTexelBuffer(device_) : device_.limits().maxStorageBufferRange;
+}
+
 void FrameBuffers::checkSize(size_t kind, uint64_t bytes) const {
-  const uint64_t limit = texels_ ? largestTexelBuffer(device_) : device_.limits().maxStorageBufferRange;
-  if (bytes > limit) {
+  if (bytes > largest()) {
     throw std::runtime_error("a frame has " + std::to_string(bytes >> 20) + " MiB of " + names_[kind] +
-                             ", the device takes " + std::to_string(limit >> 20) + " (" + advice_ + ")");
+                             ", the device takes " + std::to_string(largest() >> 20) + " (" + advice_ + ")");
   }
 }
 
@@ -26,8 +30,8 @@ void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::b
   if (!buffer || buffer.bytes() < data.size()) {
     const VkBufferUsageFlags other = texels_ ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
                                              : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-    buffer = Buffer(device_, data.size() + data.size() / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | other,
-                    BufferMemory::host, names_[kind]);
+    buffer = Buffer(device_, std::min<uint64_t>(data.size() + data.size() / 2, largest()),
+                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | other, BufferMemory::host, names_[kind]);
   }
   buffer.write(data);
 }

@@ -31,6 +31,8 @@ class FrameBuffers {
   void retire(RetireQueue& retired);
 
  private:
+  uint64_t largest() const;  // bytes that the device takes
+
   Device& device_;
   std::span<const char* const> names_;
   std::string advice_;

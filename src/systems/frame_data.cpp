@@ -374,7 +374,7 @@ namespace {
 // Pixels: the error of vertices snapped to 1/256 of a pixel. A wider fringe shows at recursion depth 32.
 constexpr double fringeWidth = 1.0 / 256.0;
 // Depth behind everything but the background.
-constexpr double fringeDepth = 1e-37;
+constexpr double fringeDepth = 1e-25;
 
 // Triangles of a convex polygon in clip space.
 void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygon) {
@@ -396,10 +396,6 @@ void addTriangles(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> 
     vertices.insert(vertices.end(), {far(clip[i]), far(outer[next]), far(clip[next])});
   }
 }
-
-}  // namespace
-
-namespace {
 
 // Moves a mirror behind those that cover it in its plane, by more than rounding moves the depth of any pixel of them:
 // 16 steps of a float at the largest depth. Stays in front of whatever is twice as far.

@@ -348,7 +348,7 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const bool imagesShown = !plan.reused.empty() || plan.mainReused;
   const bool shadowMaps = !plan.shadowMaps.empty();
   renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured);
-  mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown);
+  mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.traces());
   pointLightSystem_.endFrame(
       (plan.mainReused && !plan.main.lights.empty()) ||
       std::any_of(plan.reused.begin(), plan.reused.end(), [](const auto& p) { return !p.lights.empty(); }));

@@ -42,7 +42,11 @@ Bvh hierarchyOf(const Mesh& mesh) {
 
 }  // namespace
 
-uint64_t largestTraceBuffer(const Scene& scene, size_t instances) {
+TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits) {
+  return {.texels = uint64_t{16} * limits.maxTexelBufferElements, .storage = limits.maxStorageBufferRange};
+}
+
+TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
   uint64_t triangles = 0;
   uint64_t vertices = 0;
   uint64_t texels = 0;
@@ -53,11 +57,13 @@ uint64_t largestTraceBuffer(const Scene& scene, size_t instances) {
   for (const Texture& texture : scene.textures) {
     texels += texture.texels.size();
   }
-  // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle.
-  return std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle),
-                   vertices * sizeof(gpu::TraceVertex), texels * sizeof(uint64_t),
-                   instances * sizeof(gpu::TraceInstance),
-                   16 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceTopNode)});
+  // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle. Buffers of a
+  // frame are read in both ways.
+  const uint64_t ofFrame = std::max(instances * sizeof(gpu::TraceInstance),
+                                    16 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceTopNode));
+  return {
+      .texels = std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle), ofFrame}),
+      .storage = std::max({vertices * sizeof(gpu::TraceVertex), texels * sizeof(uint64_t), ofFrame})};
 }
 
 TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
@@ -74,14 +80,17 @@ TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
   }
   const auto upload = [&](Kind kind, const auto& values, const char* name) {
     const std::span data = std::as_bytes(std::span(values));
-    if (data.size() > largestTexelBuffer(device)) {
+    const bool asTexels = kind == nodes || kind == triangles;
+    const TraceBufferBytes limits = traceBufferLimits(device.limits());
+    const uint64_t limit = asTexels ? limits.texels : limits.storage;
+    if (data.size() > limit) {
       throw std::runtime_error(std::string("the scene has ") + std::to_string(data.size() >> 20) + " MiB of " + name +
-                               ", the device takes " + std::to_string(largestTexelBuffer(device) >> 20) +
+                               ", the device takes " + std::to_string(limit >> 20) +
                                " (smaller models, or effects.* = false for what needs rays)");
     }
     const bool built = kind == triangles && device.caps().rayQueries;
-    const VkBufferUsageFlags usage = kind == nodes || kind == triangles ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
-                                                                        : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    const VkBufferUsageFlags usage =
+        asTexels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     buffers_[kind] = uploader.buffer(data, usage | (built ? structureInputUsage : 0), name);
   };
   upload(nodes, content.nodes, "trace nodes");

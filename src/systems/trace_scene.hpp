@@ -6,8 +6,14 @@
 
 namespace speculum {
 
-// Upper bound of the size of any buffer for a scene's rays. `instances` counts all copies.
-uint64_t largestTraceBuffer(const Scene& scene, size_t instances);
+// Bytes of the largest buffer for rays that shaders read as texels, and as storage.
+struct TraceBufferBytes {
+  uint64_t texels = 0;
+  uint64_t storage = 0;
+};
+TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits);
+// Upper bounds for a scene. `instances` counts all copies.
+TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances);
 
 // Buffers for rays that stay the same while a scene is shown: triangles under hierarchies of boxes, attributes of their
 // vertices, texels. Uploads are finished when the constructor returns.
@@ -24,7 +30,7 @@ class TraceScene {
   };
   enum Kind { nodes, triangles, indices, vertices, textures, texels, kindCount };
 
-  // Throws std::runtime_error if the device's storage buffers cannot hold it.
+  // Throws std::runtime_error if the device's buffers cannot hold it.
   TraceScene(Device& device, Uploader& uploader, const Scene& scene);
 
   const std::vector<MeshRange>& meshes() const { return meshes_; }

@@ -57,7 +57,9 @@ void editMenu(PanelContext& ui) {
   item(ui, "Add light", AddLight{});
   if (menu(ui, "Add object")) {
     for (const std::filesystem::path& model : edit.models) {
+      ImGui::PushID(model.c_str());  // names may repeat
       item(ui, model.stem().c_str(), AddObject{model}, true, "");
+      ImGui::PopID();
     }
     ImGui::EndMenu();
   }

@@ -115,7 +115,7 @@ void passRow(PanelContext& ui, const PassNode& node) {
   if (pass.reused) {
     tip("The image of an earlier frame is reused. The time is that of rendering it.");
   } else if (!pass.timed) {
-    tip("Time of an earlier frame.");
+    tip(std::isnan(pass.gpuMs) ? "Not timed yet." : "Time of an earlier frame.");
   }
   figure(std::to_string(pass.draws));
   figure(pass.areaPx > 0.0 ? fmt::format("{:.0f}", pass.areaPx) : "");
@@ -156,7 +156,7 @@ void skippedOutline(const PanelContext& ui) {
 void header() {
   static constexpr std::array<const char*, 5> about{
       "The main view and, below the view that each is seen in, the mirror images.",
-      "GPU time of the pass. Grey: of an earlier frame.", "Draw calls.", "Pixels that the pass renders.",
+      "GPU time of the pass. Grey: of an earlier frame.", "Draw calls.", "Texels of the mirror's image that are seen.",
       "Smallest distance between surfaces that the pass still keeps in order."};
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < static_cast<int>(about.size()); ++column) {
