@@ -18,7 +18,7 @@ VkDeviceSize largestTexelBuffer(const Device& device) {
 
 Buffer::Buffer(Device& device, VkDeviceSize bytes, VkBufferUsageFlags usage, BufferMemory memory,
                const std::string& name)
-    : bytes_(std::max<VkDeviceSize>(bytes, texelBytes)) {
+    : bytes_(std::max<VkDeviceSize>(bytes, usage & VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT ? texelBytes : 4)) {
   buffer_ = device.create(vkCreateBuffer,
                           {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                            .size = bytes_,

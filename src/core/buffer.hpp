@@ -15,7 +15,8 @@ enum class BufferMemory {
 // Upper bound of the bytes of a buffer that shaders read as storage or as texels.
 VkDeviceSize largestTexelBuffer(const Device& device);
 
-// A buffer with memory of its own. `bytes` 0 is allowed and becomes 16: Vulkan has no empty buffers.
+// A buffer with memory of its own. `bytes` 0 is allowed and becomes 4, or 16 for texels: Vulkan has no empty
+// buffers.
 class Buffer {
  public:
   Buffer() = default;
