@@ -15,7 +15,7 @@ namespace {
 
 constexpr double warmup = 2.0;  // seconds
 constexpr double pathSeconds = 8.0;
-// Of a path. In full quality they take long in scenes with traced effects.
+// Pictures of each path that are drawn once more in full quality, which takes long in scenes with traced effects.
 const int comparedPictures = std::getenv("PACE_PICTURES") ? std::atoi(std::getenv("PACE_PICTURES")) : 6;
 
 // Sticks of a gamepad at a time: what drives the camera.

@@ -55,8 +55,8 @@ struct MirrorState {
   glm::dvec3 axisX{1.0, 0.0, 0.0};   // world, unit; for ripples
   glm::dvec3 axisY{0.0, 1.0, 0.0};
   int plane = 0;  // first mirror of the same plane; its own index if there is none before it
-  // Of mirrors that overlap in one plane, those that reflect are in front of backs, then those listed first. A mirror's
-  // layer is 0, or one more than the largest layer of those that cover it.
+  // Where mirrors of one plane overlap, a side that reflects covers a back; otherwise the mirror listed first covers. A
+  // layer is 0, or one more than the largest layer of the mirrors that cover this one.
   int frontLayer = 0;  // seen from its front
   int backLayer = 0;
 };
