@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ctime>
 #include <functional>
 
 #include "frame/frame_plan.hpp"
 #include "platform/machine.hpp"
+#include "processor_time.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
 
@@ -46,9 +46,9 @@ TEST(PlanLimits, FewMirrorsPlanBoundedPasses) {
 // docs/scene_format.md states the bounds.
 void expectPlanned(const std::string& text, const std::string& kind) {
   ASSERT_LE(camera.size() + text.size(), 65'536u);
-  const std::clock_t start = std::clock();  // of the processor: other programs take none of it
+  const double start = testing_support::processorSeconds();
   planOf(text);
-  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 10.0) << kind;
+  EXPECT_LT(testing_support::processorSeconds() - start, 10.0) << kind;
   EXPECT_LT(peakResidentBytes(), 512u << 20) << kind;
 }
 

@@ -1,4 +1,5 @@
-// Random input to the window for SPECULUM_SECONDS: no crash, no validation message, and afterwards it still works.
+// Random input to the window, at least for SPECULUM_SECONDS: no crash, no validation message, and afterwards it still
+// works.
 #include <cstdlib>
 #include <iostream>
 #include <random>
@@ -122,17 +123,17 @@ class RandomInput : public Journey {
 
 TEST_F(RandomInput, LeavesAWindowThatWorks) {
   const char* given = std::getenv("SPECULUM_SECONDS");
-  const double seconds = given ? std::strtod(given, nullptr) : fullTests() ? 60.0 : 6.0;
+  const double seconds = given ? std::strtod(given, nullptr) : 0.0;
+  const int enough = fullTests() ? 250 : 25;
   int actions = 0;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  while (Clock::now() < end) {
+  while (actions < enough || Clock::now() < end) {
     act();
     stepped(3);
     ++actions;
     ASSERT_EQ(demo_->device().validationMessages() + messages_, 0) << "after " << actions << " actions";
   }
   std::cout << actions << " actions, " << demo_->framesDrawn() << " frames, closed " << closed_ << " times\n";
-  EXPECT_GT(actions, 5);
   EXPECT_EQ(nonFinite_, 0u);
   pad_.reset();
   const int frames = demo_->framesDrawn();
