@@ -6,6 +6,7 @@
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"
+#include "frame/setting_fields.hpp"
 
 namespace speculum {
 
@@ -26,9 +27,13 @@ std::string keyOf(std::initializer_list<std::string_view> parts) {
 
 // Key of everything that the ground truth and its noise floor depend on.
 std::string truthKey(const SweepScene& scene, const Settings& settings) {
-  return keyOf({scene.identity, settingValue(settings, "view.clear_color"), settingValue(settings, "view.exposure"),
-                settingValue(settings, "view.tone_map"), std::to_string(scene.truthSamples),
-                scene.noiseFloor ? "floor" : "", "truth"});
+  std::string shown = settingValue(settings, "view.clear_color");
+  for (const SettingField& field : settingFields()) {
+    if (field.changes == FramePart::display) {
+      shown += ";" + settingValue(settings, field.key);
+    }
+  }
+  return keyOf({scene.identity, shown, std::to_string(scene.truthSamples), scene.noiseFloor ? "floor" : "", "truth"});
 }
 
 // Mean over the phases of an update interval; roots of a mean of squares are averaged as squares.

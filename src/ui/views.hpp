@@ -13,6 +13,8 @@
 
 namespace speculum {
 
+// Everything that panels show. A class of src/app fills each struct: the one whose view() or fill() has its type.
+
 struct PassView : PassId {
   std::string name;
   int framesAgo = 0;    // since it ran
