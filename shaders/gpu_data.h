@@ -60,8 +60,8 @@ struct LightData {
 const uint noShadowMap = 0xffffffffu;
 const uint mostShadowMaps = 16;
 
-// Windows of a shadow map's faces: texel of the target = metres right and down in the plane one metre before the
-// light * xy + zw.
+// Windows of a shadow map's faces. The point (x, y) of the plane one metre before the light, in metres right and down,
+// has the texel (x, y) * face.xy + face.zw in the target.
 struct ShadowMapData {
   vec4 faces[6];
 };
@@ -116,7 +116,7 @@ struct MirrorData {
   vec3 axisX;         // of its ripples
   float waveNumber;   // 1/m
   vec3 axisY;
-  float rippleSlope;  // of waves that rise towards `normal`
+  float rippleSlope;  // steepest; below 0 if waves rise against `normal`
   vec3 rippleOrigin;  // relative
   float ripplePhase;  // radians
 };
@@ -158,9 +158,9 @@ const uint lookupFetch = 0;
 const uint lookupBilinear = 1;
 const uint lookupBox = 2;
 
-// Nodes of hierarchies stand depth first, once for each octant of directions, in which the nearer child comes first. A
-// ray that meets a node's box goes on to the next node, a ray that misses it to the one after its subtree: `link`. In
-// a leaf it is what the leaf holds, with traceLeaf. Sides are those that rays of the octant meet first and last.
+// A hierarchy's nodes are stored depth first, in one copy for each octant of ray directions, the nearer child first. A
+// ray that meets a node's box goes on to the next node; a ray that misses it goes to `link`, the node after the
+// subtree. A leaf's `link` is traceLeaf plus what the leaf holds. Rays of the octant enter at `near` sides.
 
 // A box of the hierarchy over instances and mirrors.
 struct TraceTopNode {

@@ -105,7 +105,7 @@ float disparityNow(Reprojection r, float then) {
   return ahead > 1e-6 ? clamp(then * r.direction.z / ahead, 0.0, r.nearest) : r.nearest;
 }
 
-// Improves a guess by the disparity of the texel that it leads to.
+// Improves a guess: replaces it by the disparity stored in the texel that it leads to.
 float refined(Reprojection r, ivec2 last, float disparity) {
   for (int i = 0; i < 3; ++i) {
     disparity = disparityNow(r, valueAt(clamp(ivec2(floor(texelAt(r, disparity))), ivec2(0), last)).a);
@@ -113,9 +113,9 @@ float refined(Reprojection r, ivec2 last, float disparity) {
   return disparity;
 }
 
-// Finds the image's point that lies on this fragment's ray. The candidates are on a line in the image, from where the
-// mirror's surface was to where infinity was; the first whose disparity leads back to it is the one. If there is none,
-// something hid what is seen now, and the farthest candidate fills the gap.
+// Finds the point of the image that lies on this fragment's ray, and returns its disparity. The candidates lie on a
+// line in the image, from the mirror's surface to infinity; the first one whose stored disparity leads back to its own
+// texel is the point. If there is none, something hid what is seen now, and the farthest candidate fills the gap.
 float foundDisparity(Reprojection r, ivec2 last) {
   float span = distance(texelAt(r, r.nearest), texelAt(r, 0.0));
   int steps = int(clamp(ceil(span), 1.0, 32.0));
@@ -139,9 +139,9 @@ float foundDisparity(Reprojection r, ivec2 last) {
   return filling;
 }
 
-// Filters by a box as wide as a pixel and at least as a texel, which is bilinear at the view's resolution. Each value
-// is weighted by the distance of its own point from the ray: beside a silhouette, far points have moved by another
-// length than near ones and would leave an outline. If none has weight, the farthest fills the gap.
+// Filters by a box as wide as a pixel, or as a texel if that is wider; at the view's resolution this is bilinear. Each
+// value is weighted by the distance of its own point from the ray: beside a silhouette, far points have moved by
+// another length than near ones and would leave an outline. If no value has weight, the farthest fills the gap.
 vec4 reprojected(float nearest) {
   ivec2 last = mirror.imageSize - 1;
   Reprojection r = reprojection(nearest);
@@ -204,9 +204,9 @@ vec3 imageAlong(vec3 direction, Origin origin) {
 
 const int marchSteps = 16;
 
-// Follows the reflected ray behind the mirror in steps that are equally long on the screen, and returns the first surface
-// of the image that lies between two steps. If there is none, returns the farthest value on the way. Beyond the image
-// its edge is read.
+// Follows the reflected ray behind the mirror in steps of equal length on the screen. Returns the radiance of the first
+// surface in the image that lies between two steps; if there is none, that of the farthest surface on the way. Beyond
+// the image its edge is read.
 vec3 imageMetBy(vec3 direction, vec3 position) {
   vec3 behind = direction - 2.0 * dot(direction, mirror.normal) * mirror.normal;
   vec3 axis = cross(view.rayX, view.rayY.xyz);
@@ -231,8 +231,8 @@ vec3 imageMetBy(vec3 direction, vec3 position) {
   return farthest.rgb;
 }
 
-// Returns what a rippled or rough mirror reflects, looked up in the image of the smooth mirror: along the ray that its
-// ripples reflect, or the mean over microfacets.
+// Returns what a rippled or rough mirror reflects, looked up in the image of the smooth mirror: along the ray that the
+// ripples reflect, or as the mean over microfacets.
 vec4 lookedUpBeside(vec3 ray, vec3 position, vec3 normal) {
   vec3 incoming = safeNormalize(ray);
   vec4 sharp = reflected();

@@ -5,7 +5,7 @@ layout(constant_id = 5) const uint lightCount = manyLights;  // view.lightCount,
 
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
-const float radianceMax = 1e30;  // leaves room for sums, and times 0 it is 0
+const float radianceMax = 1e30;  // sums stay finite, and unlike infinity it gives 0 times 0
 const float shareMax = 65472.0;  // largest value of a layer: the sum of two rounds to halfMax at most
 
 struct Surface {
@@ -68,7 +68,7 @@ vec3 lightRadiance(LightData light, Surface surface, vec3 toViewer) {
   return lightRadiance(light.position - surface.position, light.radius, light.irradiance, surface, toViewer);
 }
 
-// Keeps what is not a number, for debug.check_finite to find; min() need not.
+// Limits radiance to radianceMax. Keeps NaN for debug.check_finite to find, which min() need not.
 vec3 bounded(vec3 radiance) { return mix(radiance, vec3(radianceMax), greaterThan(radiance, vec3(radianceMax))); }
 
 #ifdef SHADOW_MAPS
@@ -147,7 +147,7 @@ vec4 storable(vec3 radiance, float disparity) {
   vec4 value = vec4(radiance, disparity);
   vec4 stored = clamp(value, 0.0, halfMax);
   if (view.checksFinite != 0) {
-    // clamp() hides what is not a number. By its bits, because compilers may take isnan() for false.
+    // Puts back the NaN that clamp() hides. Finds it by its bits, because compilers may take isnan() for false.
     stored = mix(stored, value, greaterThan(floatBitsToUint(value) & 0x7fffffffu, uvec4(0x7f800000u)));
   }
   return stored;

@@ -14,8 +14,8 @@ const float shadowBias = 0.5;          // texels
 vec3 receiver;
 vec3 receiverNormal;
 
-// Sets the receiver of a triangle from the interpolated position, which some drivers put off the triangle's plane where
-// it covers a pixel in part: the plane follows from the pixel's centre. Needs uniform control flow.
+// Sets the receiver from a triangle's interpolated position. Where the triangle covers a pixel in part, some drivers
+// put that position off its plane, so the plane is derived from pixel centres. Needs uniform control flow.
 void setReceiver(vec3 position, vec3 shadingNormal) {
   vec3 center = rayThrough(gl_FragCoord.xy) / max(gl_FragCoord.w, 1e-30);
   vec3 facet = cross(dFdx(center), dFdy(center));

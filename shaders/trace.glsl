@@ -68,7 +68,7 @@ BoxRay boxRay(vec3 origin, vec3 direction, float margin) {
   return BoxRay(inverse, offset + reach, offset - reach, below.x + 2 * below.y + 4 * below.z);
 }
 
-// Unlike max() and min() these are one instruction of a CPU each, because they need not treat what is not a number.
+// Maximum and minimum without care for NaN: one CPU instruction each, unlike max() and min().
 float larger(float a, float b) { return a > b ? a : b; }
 float smaller(float a, float b) { return a < b ? a : b; }
 
@@ -81,8 +81,8 @@ bool meetsBox(vec3 near, vec3 far, BoxRay ray, float tMax) {
 
 vec3 permuted(vec3 p, uint along) { return along == 2 ? p.xyz : along == 0 ? p.yzx : p.zxy; }
 
-// Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection" (2013): neighbours evaluate a shared edge with the same
-// numbers. Weights of a, b, c in xyz, the parameter of the ray in w; below zero: no hit.
+// Intersects by Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection" (2013): neighbours evaluate a shared edge
+// with the same numbers. Returns the weights of a, b, c in xyz and the ray's parameter in w, negative without a hit.
 vec4 meetTriangle(vec3 corners[3], vec3 origin, uint along, vec3 shear) {
   vec3 a = permuted(corners[0] - origin, along);
   vec3 b = permuted(corners[1] - origin, along);
@@ -159,8 +159,8 @@ vec4 meetSlot(uint slot, LocalRay ray, out uint triangle) {
   return meetTriangle(corners, ray.origin, ray.along, ray.shear);
 }
 
-// Follows the ray through a mesh. A loop's result is a variable that every step keeps or replaces, here and below:
-// lavapipe of Mesa 22.3 changes other values for pixels that have left the loop while their neighbours go on.
+// Follows the ray through a mesh. In the loops here and below, each iteration sets or keeps the variables that hold the
+// result: lavapipe of Mesa 22.3 changes others for pixels that have left a loop while their neighbours go on.
 void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip, bool any, inout Hit hit) {
   vec4 rows[3] = meshRows(instance);
   vec3 meshOrigin = timesPoint(rows, origin);
@@ -207,7 +207,7 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
   }
 }
 
-// Finds the first surface that the ray meets before tMax, or with `any` one of them. In trace space.
+// Finds the first surface that a ray in trace space meets before tMax; with `any`, one of them.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
   if (traceCounts.topNodes == 0 || gl_HelperInvocation) {

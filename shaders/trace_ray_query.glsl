@@ -1,5 +1,5 @@
-// traceRay() by ray queries. The hierarchies are the device's; what a ray ignores and how it meets a mirror is as in
-// trace.glsl.
+// traceRay() by ray queries, with the device's hierarchies. Rays ignore the same surfaces and meet mirrors in the same
+// way as in trace.glsl.
 
 layout(set = 2, binding = 13) uniform accelerationStructureEXT traceStructure;
 
@@ -7,16 +7,16 @@ bool ignores(Skip skip, uint instance, uint slot, float t, float near) {
   return instance == skip.instance && (triangleTexel(slot, 0).w == skip.triangle || t < near);
 }
 
-// Finds the first surface that the ray meets before tMax, or with `any` one of them. In trace space.
+// Finds the first surface that a ray in trace space meets before tMax; with `any`, one of them.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
   vec3 size = abs(direction);
   float largest = max(size.x, max(size.y, size.z));
   if (!(largest > 0.0 && largest < infinity && tMax > 0.0)) {
-    return hit;  // what a query would be undefined for
+    return hit;  // with these values a query would be undefined
   }
   float near = skip.near / max(length(direction), 1e-30);
-  // Only the object that the ray starts on needs its candidates looked at.
+  // Only a ray that starts on an object has to look at candidates.
   uint flags = (any ? gl_RayFlagsTerminateOnFirstHitEXT : 0) | (skip.instance == none ? gl_RayFlagsOpaqueEXT : 0);
   rayQueryEXT query;
   rayQueryInitializeEXT(query, traceStructure, flags, 0xff, origin, 0.0, direction, tMax);

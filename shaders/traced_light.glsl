@@ -1,4 +1,4 @@
-// Shadows, and light by way of mirrors that cast it. Needs trace.glsl.
+// Shadows by rays, and light that mirrors cast onto surfaces. Needs trace.glsl.
 
 layout(constant_id = 2) const bool shadows = false;
 layout(constant_id = 3) const bool castsLight = false;
@@ -23,7 +23,8 @@ Incoming directLight(LightData light, vec3 position) {
   return Incoming(true, light.position - position, light.radius, light.irradiance, light.castsShadow != 0, none, 1.0);
 }
 
-// Light reaches a point by way of a mirror if the straight line to the light's image crosses the mirror.
+// Returns the light that a mirror casts onto a point. It arrives if the straight line to the light's image crosses the
+// mirror.
 Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
   uint mirror = path.mirror;
   vec3 normal = mirrorTexel(mirror, 1).xyz;
@@ -49,7 +50,7 @@ Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
   return incoming;
 }
 
-// Follows the light back, by way of its mirror.
+// Says whether nothing blocks the light on its way to the point. An image's light comes by way of its mirror.
 bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
   Skip skip = self;
   skip.secondMirror = incoming.mirror;
@@ -76,8 +77,8 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
 }
 
 // Returns surfaceRadiance() with shadows and with the lights' images in mirrors. `self` identifies the surface.
-// First come all lights up to one that may be hidden, then its rays: a driver that runs both sides of every branch,
-// such as lavapipe, follows none for the others.
+// The inner loop passes over lights until one needs rays, which are followed after it: a driver that runs both sides of
+// every branch, such as lavapipe, then follows no rays for the other lights.
 vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);

@@ -34,7 +34,7 @@ class Accumulation {
 
   Renderer& renderer_;
   DescriptorSetLayoutHandle layout_;
-  PipelineVariants<bool> pipelines_;  // one
+  PipelineVariants<bool> pipelines_;  // only one
   SamplerHandle sampler_;
   std::array<Image, 2> images_;  // one is read where the other is written: not every device blends 32-bit floats
   size_t current_ = 0;

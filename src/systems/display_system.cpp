@@ -10,7 +10,7 @@ namespace speculum {
 
 namespace {
 
-// Area in which a target is shown, and the texel for a pixel of the display: pixel * xy + zw.
+// Area in which a target is shown, and its lookup: texel = display pixel * xy + zw.
 struct Placement {
   VkRect2D area;
   glm::vec4 lookup;
@@ -153,7 +153,7 @@ void DisplaySystem::setCover(const Image8& picture) {
     }
     texels[i] = glm::packHalf4x16(linear);
   }
-  // Validation layer 1.3.239 forgets the fences of frames in flight when an upload's is waited for.
+  // Waits for frames in flight: validation layer 1.3.239 forgets their fences when it sees the wait for an upload's.
   renderer_.waitIdle();
   const VkExtent2D extent{static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height)};
   cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extent, colorFormat, false, "cover");

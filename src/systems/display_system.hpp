@@ -37,8 +37,8 @@ class DisplaySystem {
   // See SceneRenderer::setCover.
   void setCover(const Image8& picture);
 
-  // Records the display pass. It shows the image of setCover(), or else `radiance`: `size` texels, the sum of so many
-  // pictures.
+  // Records the display pass. It shows the image of setCover(), or else `radiance`, which has `size` texels and is the
+  // sum of `pictures` pictures.
   RecordedPass record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings,
                       int pictures);
   // Record a pass that shows the target of debug.pass; nothing if no part of it lies in the area.

@@ -14,7 +14,7 @@ class EnvironmentTargets {
   std::span<const EnvironmentMap> cached() const { return cached_; }
   void restart();  // drops the cached maps
 
-  // Takes the targets of the plan's maps, at the start of its frame; those of other maps become free.
+  // Takes targets for the plan's maps and frees those of other maps. Call it at the start of the plan's frame.
   void prepare(const FramePlan& plan, RetireQueue& retired);
   OffScreen& operator[](size_t map) { return *targets_[map]; }
   void endFrame(const FramePlan& plan, RetireQueue& retired);

@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// Distance between the results of targets: no device requires offsets of descriptors to be multiples of more.
+// Distance in bytes between results of targets: no device requires a larger alignment of descriptor offsets.
 constexpr VkDeviceSize place = 256;
 constexpr VkDeviceSize targetBytes = 2 * place;
 constexpr uint32_t groupWidth = 16;
@@ -124,7 +124,7 @@ void FiniteWatch::release() {
 }
 
 void FiniteWatch::collect() {
-  // Read the older frame first.
+  // Reads the older frame first.
   const bool firstIsOlder = slots_[0].frame < slots_[1].frame;
   read(slots_[firstIsOlder ? 0 : 1]);
   read(slots_[firstIsOlder ? 1 : 0]);
@@ -152,7 +152,7 @@ void FiniteWatch::read(Slot& slot) {
     }
   }
   if (!found.empty()) {
-    // The first finding of a frame is mostly the cause of those that follow.
+    // Reports only the first finding of a frame, which usually causes those that follow.
     const std::pair<PassId, bool> first(found.front().id, found.front().samples);
     if (std::find(reported_.begin(), reported_.end(), first) == reported_.end()) {
       reported_.push_back(first);

@@ -157,7 +157,7 @@ VkDescriptorType FrameData::typeOf(uint32_t kind) {
                                                : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-// No stage has more than the four storage buffers that every device takes.
+// Gives no stage more than the four storage buffers that every device supports.
 VkShaderStageFlags FrameData::stagesOf(uint32_t kind) {
   constexpr VkShaderStageFlags vertex = VK_SHADER_STAGE_VERTEX_BIT;
   constexpr VkShaderStageFlags fragment = VK_SHADER_STAGE_FRAGMENT_BIT;
@@ -383,9 +383,9 @@ void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygo
   }
 }
 
-// The polygon as triangles, and around it a fringe that shows only where the background would. Where mirrors share an
-// edge, or end at a body, rounding may part them by a sample; there the fringe of one of them is seen. Widening the
-// mirror itself would be worse: it would hide what it ends at, and its image has nothing to show beyond its edge.
+// Adds the polygon as triangles, and around it a fringe that is seen only instead of the background. Where mirrors
+// share an edge, or end at a body, rounding may leave a gap of one sample; the fringe of one of them fills it. Widening
+// the mirror itself would be worse: it would hide what it ends at, and its image has nothing to show beyond its edge.
 void addTriangles(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size) {
   addFan(vertices, clip);
   const std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
@@ -397,8 +397,8 @@ void addTriangles(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> 
   }
 }
 
-// Moves a mirror behind those that cover it in its plane, by more than rounding moves the depth of any pixel of them:
-// 16 steps of a float at the largest depth. Stays in front of whatever is twice as far.
+// Moves a mirror behind those that cover it in its plane, by 16 steps of a float at the largest depth: more than
+// rounding moves the depth of any of their pixels. The mirror stays in front of whatever is twice as far.
 void moveBack(std::vector<glm::dvec4>& clip, int layer, double largestDepth) {
   constexpr double step = 0x1p-20;
   for (glm::dvec4& v : clip) {

@@ -54,7 +54,7 @@ struct MirrorRange {
   bool rough = false;
   bool fresnel = false;
   bool base = false;     // there is a diffuse layer under the reflection
-  bool painted = false;  // that layer or the back, whichever is seen, is not black
+  bool painted = false;  // the visible one of diffuse layer and back is not black
 };
 
 // Draws of one pass: indices into the buffers of FrameData.
@@ -140,7 +140,7 @@ gpu::InstanceData instanceData(const InstanceState& instance, const View& view, 
 // Sign of the determinant of the instance's transform.
 float handednessOf(const InstanceState& instance);
 
-// Value of `lightCount` in shading.glsl for a scene with so many lights.
+// Returns the value of `lightCount` in shading.glsl for the scene's lights.
 uint32_t fixedLightCount(const Scene& scene);
 
 // Returns the projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. The

@@ -7,8 +7,8 @@ namespace speculum {
 
 namespace {
 
-constexpr uint32_t granularity = 64;  // texels: a mirror that moves a little finds its image again
-constexpr uint64_t wasteAllowed = 4;  // times the requested area
+constexpr uint32_t granularity = 64;  // texels; sizes are rounded up, so a mirror that moves a little keeps its target
+constexpr uint64_t wasteAllowed = 4;  // largest area of a target, in times the requested area
 
 uint32_t roundedUp(uint32_t size) {
   return (size + granularity - 1) / granularity * granularity;

@@ -116,7 +116,7 @@ std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mir
   return {Shading::ownSample};
 }
 
-// Sets only what the shader of this shading reads, so that mirrors that differ elsewhere share a pipeline.
+// Sets only what this shading's shader reads, so that mirrors that differ in other ways share a pipeline.
 MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading) {
   Variant variant{.shading = shading};
   switch (shading) {

@@ -126,7 +126,7 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
   fitDepth(retired);
 }
 
-// Shrinks depth images, which otherwise only grow, and drops idle ones. The first serves as long as there are targets.
+// Shrinks depth images, which otherwise only grow, and drops idle ones. Keeps the first while there are targets.
 void MirrorTargets::fitDepth(RetireQueue& retired) {
   size_t used = depths_.size();
   for (Depth& depth : depths_) {

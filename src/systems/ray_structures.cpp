@@ -10,7 +10,7 @@ namespace speculum {
 
 namespace {
 
-// Updates keep a hierarchy whose boxes overlap more and more while things move.
+// Updates in a row before a new build: they keep the hierarchy, whose boxes overlap more and more while things move.
 constexpr int mostUpdates = 60;
 
 StructureInput trianglesInput(const TraceScene& trace, const TraceScene::MeshRange& mesh) {
@@ -76,7 +76,7 @@ VkAccelerationStructureInstanceKHR mirrorInstance(const MirrorState& mirror, con
                     mirror.origin - eye + middle.x * mirror.axisX + middle.y * mirror.axisY, index, box);
 }
 
-// Bound of the distance between the eye and anything that rays meet.
+// Returns an upper bound of the distance between the eye and anything that rays meet.
 double reachOf(const SceneState& state) {
   double reach = 0.0;
   for (const InstanceState& instance : state.instances) {
@@ -141,7 +141,7 @@ std::vector<VkAccelerationStructureInstanceKHR> RayStructures::instances(const S
                                meshes_[instance.mesh]));
     }
   }
-  // Rounding moves a ray by some 1e-7 of the largest coordinate; the shader meets the polygon itself.
+  // Allows for rounding, which moves a ray by some 1e-7 of the largest coordinate. The shader tests the polygon itself.
   const double pad = 1e-5 * reachOf(state);
   for (size_t i = 0; i < state.mirrors.size(); ++i) {
     all.push_back(mirrorInstance(state.mirrors[i], eye, pad, i, mirror_));

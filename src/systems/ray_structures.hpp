@@ -20,8 +20,8 @@ class RayStructures {
   // Says whether single precision can hold and invert all transforms, and 24 bits all indices.
   static bool canHold(const SceneState& state);
 
-  // Records what makes the frame's structure: nothing while no transform has changed, an update where transforms have,
-  // or else a build.
+  // Records an update of the frame's structure if transforms have changed, or a build if it cannot be updated; nothing
+  // if all transforms are the same.
   void build(const Frame& frame, const SceneState& state);
 
   VkAccelerationStructureKHR top(const Frame& frame) const { return tops_[frame.index].structure.get(); }

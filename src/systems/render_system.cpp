@@ -77,13 +77,13 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
 
 namespace {
 
-// Indices of a mesh's part at the batch's level.
+// Returns the indices of a mesh's part at the batch's level.
 IndexRange partRange(const Scene& scene, const SceneResources::GpuMesh& mesh, size_t part, const Batch& batch) {
   return batch.level < 0 ? IndexRange{mesh.parts[part].firstIndex, mesh.parts[part].indexCount}
                          : levelsOf(scene.meshes[batch.mesh]).levels[batch.level].parts[part];
 }
 
-// The indices of a part that a batch draws.
+// Returns those indices of the part that the batch draws.
 std::vector<IndexRange> drawnRanges(const IndexRange& part, const Batch& batch) {
   if (batch.ranges.empty()) {
     return {part};

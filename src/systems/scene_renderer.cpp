@@ -23,7 +23,7 @@ std::array<float, 4> clearColor(const Environment& environment) {
   return {color.r, color.g, color.b, 0.0f};  // infinitely far
 }
 
-// Places the picture's plane so that the target's corner is that of the view's rectangle.
+// Places the picture so that the target's corner shows the corner of the view's rectangle.
 PassViewport viewportOf(const View& view) {
   const glm::dvec2 size = overscan(view) * view.pictureSize;
   const glm::dvec2 corner = 0.5 * (view.pictureSize - size) - glm::dvec2(view.rect.x, view.rect.y);
@@ -157,7 +157,7 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
     DescriptorWriter().image(0, environmentTargets_[i].descriptor()).update(device_, mapSets_.back());
   }
   if (settings.debug.checkFinite) {
-    watch_.begin(frame, plan.maps.size() + plan.passes.size() + 2);  // the main view's samples and their mean
+    watch_.begin(frame, plan.maps.size() + plan.passes.size() + 2);  // 2: the main view's samples and their mean
   } else {
     watch_.release();
   }
@@ -209,7 +209,7 @@ void SceneRenderer::recordMap(const FrameInfo& info, size_t map, size_t firstFac
     pass.name = desc.name;
     pass.areaPx = planned.faces[face].areaPx;
     drawScene(info, firstFace + face, desc, std::move(pass));
-    // Count each draw once: curved mirrors seen in the face are entered already.
+    // Counts each draw once: drawScene() has entered the curved mirrors seen in the face.
     ledger_[EffectKind::curved].draws = drawsBefore + recorded_.back().draws;
   }
   checkTarget(info, recorded_.back(), target, {3 * size.width, 2 * size.height});
@@ -257,7 +257,7 @@ void SceneRenderer::recordMirrors(const FrameInfo& info) {
   }
 }
 
-// Releases and checks images after the whole range, because its barriers stand around it.
+// Releases and checks images after the whole range, because barriers are recorded only before and after it.
 void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& range) {
   const std::vector<PassTargets> targets = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
   std::vector<PassDesc> descs;
@@ -401,7 +401,7 @@ OffScreen& SceneRenderer::targetOf(const FramePlan& plan, int pass) {
   return pass == static_cast<int>(plan.passes.size()) ? *main_ : mirrorTargets_[static_cast<size_t>(pass)];
 }
 
-// Enters the costs that are not entered draw by draw.
+// Enters in the ledger the costs that are not entered with each draw.
 void SceneRenderer::finishLedger(const FrameInfo& info) {
   const Settings& settings = info.settings;
   const TracedEffects& effects = info.plan.effects;

@@ -39,7 +39,7 @@ std::vector<Share> sharesOf(int texel, int count, int size) {
   return shares;
 }
 
-// The texture with sides of at most `largest` texels, each the mean of what it covers.
+// Returns the texture with sides of at most `largest` texels, each the mean of the texels that it covers.
 Texture shrunk(const Texture& texture, int largest) {
   Texture small{
       .source = texture.source, .width = std::min(texture.width, largest), .height = std::min(texture.height, largest)};
@@ -96,7 +96,7 @@ void SceneResources::upload(Frame& frame, bool enabled, bool drawn) {
   const bool textured = enabled && !scene_.textures.empty();
   const bool uploads = !materials_ || textured != textured_ || (drawn && textures_.empty());
   if (uploads) {
-    // An upload waits for its own fence; frames in flight are waited for first, as in DisplaySystem::setCover.
+    // Waits for frames in flight before the upload, which waits only for its own fence.
     check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
   }
   if (!materials_ || textured != textured_) {

@@ -20,7 +20,8 @@ constexpr std::array bufferNames = {"trace boxes", "trace instances", "trace mir
                                     "light paths"};
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
 constexpr uint32_t structureBinding = 13;  // in trace_ray_query.glsl
-// Bindings of trace.glsl that are texels: nodes and triangles; boxes, edges, instances and mirrors of the frame.
+// Bindings of trace.glsl that are texel buffers: the scene's nodes and triangles; the frame's nodes, edges, instances
+// and mirrors.
 constexpr std::array<bool, structureBinding> readsTexels = {true,  true,  false, false, false, false, true,
                                                             false, false, true,  false, true,  true};
 
@@ -47,7 +48,7 @@ gpu::TraceInstance instanceData(const InstanceState& instance, const Object& obj
   return data;
 }
 
-// Bounds of a box about the mesh's centre, in trace space.
+// Returns the bounds of the mesh's box in trace space.
 Bounds boundsOf(const InstanceState& instance, const Mesh& mesh, const glm::dvec3& eye) {
   const glm::dvec3 center = instance.worldFromMesh.translation - eye;
   glm::dvec3 reach(0.0);
@@ -163,7 +164,7 @@ void TraceFrame::prepareScene(Frame& frame, bool traces) {
   if (traces) {
     sceneIdleFrames_ = 0;
     if (!traceScene_) {
-      // An upload waits for its own fence; frames in flight are waited for first, as in SceneRenderer::setCover.
+      // Waits for frames in flight before the upload, which waits only for its own fence.
       check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
       traceScene_.emplace(device_, uploader_, scene_);
     }

@@ -23,13 +23,13 @@ struct TraceVariant {
   auto operator<=>(const TraceVariant&) const = default;
 };
 
-// Appends `variant` to a fragment shader's constants, of which there are at most two.
+// Appends `variant` to a fragment shader's own constants. There may be at most two of these.
 void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants);
 // Returns the file of a fragment shader that traces rays: NAME.frag, or NAME_ray_query.frag.
 std::string tracingShader(const std::string& name, const TraceVariant& variant);
 
-// Buffers of the scene that rays meet, with the positions of the present frame. Nothing exists before a frame calls for
-// them, and all are released after some frames without a call.
+// Buffers that rays are traced in, with the positions of the present frame. They are made when a frame first has a
+// traced effect, and released after some frames without one.
 class TraceFrame {
  public:
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
@@ -80,7 +80,7 @@ class TraceFrame {
   int idleFrames_ = 0;       // without any effect
   int sceneIdleFrames_ = 0;  // without one that traces rays
   bool refused_ = false;     // there was no memory for acceleration structures
-  bool warned_ = false;      // that effects.rays = hardware does not hold
+  bool warned_ = false;      // the log says that effects.rays = hardware is not followed
 };
 
 }  // namespace speculum

@@ -6,10 +6,10 @@ namespace speculum {
 
 namespace {
 
-constexpr int octants = 8;  // bit i: rays fall along axis i
+constexpr int octants = 8;  // bit i of an octant: directions are negative along axis i
 constexpr double steps = 65535.0;
 
-// Says whether rays of the octant tend to meet the first box later than the second.
+// Says whether rays of the octant usually meet the first box later than the second.
 bool isLater(const Bounds& first, const Bounds& second, int octant) {
   const glm::dvec3 apart = first.center() - second.center();
   const glm::dvec3 size = glm::abs(apart);
@@ -17,8 +17,8 @@ bool isLater(const Bounds& first, const Bounds& second, int octant) {
   return (apart[axis] > 0.0) == ((octant >> axis & 1) == 0);
 }
 
-// Calls emit(node, next) depth first, what lies nearer first. `next` is the place of the node after the subtree, in
-// nodes of the octant.
+// Calls emit(node, next) depth first, the nearer child first. `next` is the index of the node after the subtree, among
+// the nodes of the octant.
 template <typename Emit>
 void visitInOrder(const Bvh& hierarchy, int octant, Emit&& emit) {
   const std::span nodes = hierarchy.nodes();

@@ -19,7 +19,7 @@ TraceGrid traceGrid(const Bounds& bounds);
 // Append the nodes for all octants, `hierarchy.nodes().size()` for each. Boxes only grow by rounding.
 void appendMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle,
                      std::vector<gpu::TraceNode>& nodes);
-// `links` are those of the hierarchy's primitives, in the order before it was built.
+// `links` has one for each primitive, in the primitives' order before the hierarchy was built.
 void appendTopNodes(const Bvh& hierarchy, std::span<const uint32_t> links, std::vector<gpu::TraceTopNode>& nodes);
 
 }  // namespace speculum

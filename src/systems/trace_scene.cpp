@@ -57,8 +57,8 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
   for (const Texture& texture : scene.textures) {
     texels += texture.texels.size();
   }
-  // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle. Buffers of a
-  // frame are read in both ways.
+  // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle. The frame's
+  // buffers are read as texels and as storage, so both limits apply to them.
   const uint64_t ofFrame = std::max(instances * sizeof(gpu::TraceInstance),
                                     16 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceTopNode));
   return {

@@ -6,13 +6,13 @@
 
 namespace speculum {
 
-// Bytes of the largest buffer for rays that shaders read as texels, and as storage.
+// Sizes of the largest buffers for rays: of those that shaders read as texels, and as storage.
 struct TraceBufferBytes {
   uint64_t texels = 0;
   uint64_t storage = 0;
 };
 TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits);
-// Upper bounds for a scene. `instances` counts all copies.
+// Returns upper bounds for a scene. `instances` counts all copies.
 TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances);
 
 // Buffers for rays that stay the same while a scene is shown: triangles under hierarchies of boxes, attributes of their

@@ -12,7 +12,7 @@ WatchedDepth::WatchedDepth(Renderer& renderer, VkDescriptorSetLayout displayLayo
 
 void WatchedDepth::prepare(PassDesc& pass, RetireQueue& retired) {
   Device& device = renderer_.device();
-  // The size is the color's, because a framebuffer has one size.
+  // The depth image is as large as the color image, because a framebuffer has one size.
   const VkExtent2D wanted = pass.targets.color->extent();
   const VkExtent2D has = image_.extent();
   const VkSampleCountFlagBits samples = pass.targets.samples();
