@@ -29,11 +29,11 @@ struct Box {
 // One box per instance, then one per mirror, in scene order.
 std::vector<Box> boxesOf(const Scene& scene, const SceneState& state);
 
-// Adds the instances that the view may see, but for `without`, with only their visible clusters if `cullClusters`.
+// Adds the instances that the view may see, except `without`. With `cullClusters`, adds only their visible clusters.
 void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
                          PlannedPass& pass);
 
-// Where a face is seen from, and how.
+// Point and projection from which a face is seen.
 struct CubeFace {
   glm::dvec3 center;  // world
   FaceAxes axes;
@@ -43,7 +43,7 @@ struct CubeFace {
 
 View viewOf(const CubeFace& face);
 
-// Plans a face with the instances in it, but for `without`, and mirrors without an image, as at reflection.max_depth.
+// Plans a face with its instances, except `without`, and with mirrors that have no image, as at reflection.max_depth.
 PlannedPass planFace(const CubeFace& face, const Scene& scene, const SceneState& state, bool cullClusters,
                      int without = -1);
 

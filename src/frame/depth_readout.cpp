@@ -9,9 +9,9 @@ namespace speculum {
 
 namespace {
 
-// Distance from the eye to which a sphere reaches within the cone. In a direction at angle a from its centre, at
-// distance d, it reaches to d cos a + sqrt(r^2 - d^2 sin^2 a), which falls with a. The plane that the centre is
-// farthest beyond gives the least a.
+// Returns the distance from the eye to which a sphere reaches within the cone. Its centre is at distance d. In a
+// direction at angle a from the centre it reaches to d cos a + sqrt(r^2 - d^2 sin^2 a), which falls with a. The
+// smallest a within the cone follows from the plane that the centre is farthest beyond.
 double reach(const View& view, const glm::dvec3& center, double radius) {
   double beyond = 0.0;
   for (const glm::dvec3& normal : view.cone) {
@@ -40,7 +40,7 @@ glm::dvec3 directionTo(const View& view, const Projection& projection, const glm
     }
   }
   const glm::dvec3 seen = view.worldToView * d;
-  constexpr double steepest = 1e-3;  // cosine; nothing that far from the axis is in a picture
+  constexpr double steepest = 1e-3;  // cosine of the largest angle to the axis; a picture shows nothing beyond it
   return seen.z < -steepest * glm::length(seen) ? glm::normalize(seen) : middleOf(view, projection);
 }
 

@@ -6,8 +6,8 @@
 
 namespace speculum {
 
-// Smallest gap between two parallel surfaces that depth keeps in order on every pixel where a pass sees farthest, for
-// each clip method. geometry/depth_resolution.hpp derives it.
+// Smallest gap between two parallel surfaces that the depth test keeps in order on every pixel, at the farthest point
+// that a pass sees, for each clip method. geometry/depth_resolution.hpp derives it.
 struct DepthReadout {
   double distance = 0.0;  // metres from the pass's eye, along the reflected path
   // Metres along the line of sight. Empty if no gap is kept in order, or if the view has no such projection.

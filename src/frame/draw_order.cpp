@@ -8,8 +8,8 @@ namespace speculum {
 
 namespace {
 
-// Metres to the far end of the bounding sphere: a room, which begins nearer to the eye than the objects in it, comes
-// after them.
+// Returns the distance in metres to the far end of the bounding sphere. A room begins nearer to the eye than the
+// objects in it but ends behind them, so it is drawn after them.
 double distanceOf(const View& view, const InstanceState& instance) {
   return glm::length(instance.center - view.eye) + instance.radius;
 }

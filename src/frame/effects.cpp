@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// Collects what at least one pass of the plan draws, or one that a cached image replaces.
+// Nodes that at least one pass of the plan draws. Passes that cached images replace count too.
 struct Visible {
   std::set<int> instances;
   std::set<int> lights;

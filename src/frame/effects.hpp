@@ -22,20 +22,20 @@ enum class EffectKind {
   count
 };
 
-// An effect, whether something visible calls for it, and what that is, or why nothing does.
+// An effect. `why` names what visible thing calls for it, or says why nothing does.
 struct Effect {
   std::string name;
   bool calledFor = false;
   std::string why;
 };
 
-// Settings that leave an effect out of the picture, at least one.
+// Returns the settings (at least one) that leave an effect out of the picture.
 std::vector<SettingChange> settingsWithout(EffectKind effect);
 
-// Says whether something with a texture is drawn, or seen in an image that is reused.
+// Says whether an object with a texture is drawn, or seen in a reused image.
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);
 
-// All effects, in the order of EffectKind.
+// Returns all effects, in the order of EffectKind.
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
                               const FramePlan& plan);
 

@@ -10,8 +10,9 @@ namespace speculum {
 
 namespace {
 
-// Box that surrounds boxes[own]. Each side lies at the near face of the farthest box there, such as a wall, or at the
-// far face of a box that encloses the object, such as a room. Without either it lies at the end of the scene.
+// Returns the box that surrounds boxes[own]. Each side lies at the near face of the farthest box on that side, such as
+// a wall, or at the far face of a box that encloses the object, such as a room; without either, at the end of the
+// scene.
 Box boxAround(size_t own, std::span<const Box> boxes) {
   const Box& inner = boxes[own];
   Box all = inner;
@@ -52,7 +53,7 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
   return face;
 }
 
-// Instances of curved mirrors that the passes draw, ascending.
+// Returns the instances of curved mirrors that the passes draw, ascending.
 std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const PlannedPass* const> passes) {
   std::set<int> drawn;
   for (const PlannedPass* pass : passes) {

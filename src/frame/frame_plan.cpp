@@ -73,7 +73,7 @@ class Planner {
   std::vector<PassNode> nodes_;
 };
 
-// Finds the environment and shadow maps, and the effects that they and all passes call for, of reused images too.
+// Finds the environment and shadow maps, and the effects that maps and passes call for. Passes of reused images count.
 void Planner::findEffects() {
   std::vector<const PlannedPass*> passes;
   collect(0, passes);
@@ -104,9 +104,9 @@ void Planner::findShadows() {
   plan_.shadowMaps = shadowMaps(scene_, state_, allSettings_, readers);
 }
 
-// Chooses mesh levels. There are none where rays are traced: rays start on what is drawn and meet the full meshes,
-// which would shadow their own levels; so would shadow maps. There are none without clipping either: what is drawn may
-// then be nearer than the mirror, which the level's error is measured from.
+// Chooses mesh levels. Traced rays and shadow maps rule them out: rays start on what is drawn but meet full meshes, and
+// maps hold full meshes, so a level would stand in the shadow of its own mesh. Drawing without a clip plane rules them
+// out too: an object may then be nearer than the mirror, and a level's error is allowed for the mirror's distance.
 void Planner::simplify() {
   if (settings_.clip == ClipMethod::none || plan_.effects.traces() || plan_.effects.shadowMaps) {
     return;
@@ -130,7 +130,7 @@ ImageSurroundings Planner::surroundings() const {
   return around;
 }
 
-// Reuses the cached images that would come out the same if they were rendered.
+// Reuses the cached images that would be the same if they were rendered again.
 void Planner::reuseUnchanged() {
   const View& main = nodes_[0].pass.view;
   reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, allSettings_, state_);
@@ -151,7 +151,7 @@ void Planner::reuseUnchanged() {
   }
 }
 
-// Adds the passes of all that is seen in a node, then its own.
+// Adds the passes of a node's descendants, then its own.
 void Planner::collect(int node, std::vector<const PlannedPass*>& passes) const {
   for (const int child : nodes_[node].children) {
     collect(child, passes);
@@ -159,8 +159,8 @@ void Planner::collect(int node, std::vector<const PlannedPass*>& passes) const {
   passes.push_back(&nodes_[node].pass);
 }
 
-// Records depth first, so that an image lives no longer than until its parent is drawn. Returns the pass's index, -1
-// for the main view.
+// Adds a node's passes to the plan, depth first, so that an image is needed no longer than until its parent is drawn.
+// Returns the index of the node's pass, -1 for the main view.
 int Planner::record(int node) {
   std::vector<int> childPasses;
   for (const int child : nodes_[node].children) {
@@ -211,7 +211,7 @@ void Planner::reuseImage(MirrorDraw& draw, const PassNode& node) {
   plan_.cached.push_back(image);
 }
 
-// Drops the reasons of mirrors that are seen in reused images only.
+// Drops skipped mirrors that are seen only in reused images.
 void Planner::dropSkipsInReused() {
   std::vector<bool> reused(scene_.mirrors.size(), false);
   for (const CachedImage& image : plan_.cached) {
@@ -222,7 +222,7 @@ void Planner::dropSkipsInReused() {
   });
 }
 
-// Shows the complete mean again and draws nothing.
+// Makes the plan show the complete mean again and draw nothing.
 void Planner::reuseMean() {
   plan_.mainReused = true;
   plan_.reused = std::move(plan_.passes);

@@ -11,7 +11,7 @@ namespace speculum {
 
 namespace {
 
-// A list of numbers that is compared bit by bit: zero has two signs, which may be drawn differently.
+// A list of numbers that is compared bit by bit, because 0 and -0 may be drawn differently.
 class Numbers {
  public:
   void add(double value) { numbers_.push_back(std::bit_cast<uint64_t>(value)); }

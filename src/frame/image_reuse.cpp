@@ -14,8 +14,8 @@ bool serves(const CachedImage& image, const ReuseRequest& request) {
           covers(image, request.view, request.visible));
 }
 
-// Returns the margin, in pixels on each side, with which a new image serves until it is due if the motion since `image`
-// goes on.
+// Returns the margin, in pixels on each side, that a new image needs to serve until it is due, if the motion since
+// `image` goes on.
 int marginFor(const CachedImage& image, const ReuseRequest& request, int due) {
   constexpr double reserve = 1.25;  // motion is not quite even
   constexpr double least = 2.0;     // pixels
@@ -35,12 +35,13 @@ auto imageOf(std::span<const CachedImage> images, int mirror) {
   return std::ranges::find(images, mirror, &CachedImage::mirror);
 }
 
-// Compares debug.* too, which sameMirrorImages leaves out, so that a reused image is the same bit for bit.
+// Says whether settings draw the same image bit for bit. debug.* counts too, which sameMirrorImages leaves out.
 bool sameDrawing(const Settings& a, const Settings& b) {
   return sameMirrorImages(a, b) && a.debug == b.debug;
 }
 
-// Says whether settings make the same environment maps, in which mirrors show the background.
+// Says whether settings make the same environment maps. reflection.* has no part in that: mirrors in maps show the
+// background.
 bool sameMaps(const Settings& a, Settings b) {
   b.reflection = a.reflection;
   b.view.scale = a.view.scale;
@@ -96,7 +97,8 @@ ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest&
     cached.moved = !unmoved(*before, request.view, request.projection, request.visible);
     return cached;
   }
-  // New images, such as all of the first frame, become due in turn; an image rendered out of turn keeps its own.
+  // New images, such as all of the first frame, become due in different frames. An image that is rendered before it is
+  // due keeps its turn.
   const int due = left > 0 ? left : exists ? request.interval : request.interval - request.order % request.interval;
   ImageChoice fresh{.image = {.mirror = request.view.path.back(),
                               .view = request.view,

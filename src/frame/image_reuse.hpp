@@ -14,12 +14,12 @@ inline constexpr double largestMargin = 0.1;
 
 // A mirror seen directly, whose image may be reused and is cached.
 struct ReuseRequest {
-  const View& view;  // that the mirror makes, without a margin
+  const View& view;  // of the mirror's pass, without a margin
   const Projection& projection;
   std::span<const glm::dvec3> visible;  // world; visible region of the mirror
   const Settings& settings;
   int interval = 1;  // frames between two images
-  int order = 0;     // of the mirror's discovery, by which new images take turns
+  int order = 0;     // number of the mirror in order of discovery; new images become due in turn by it
 };
 
 struct ImageChoice {
@@ -40,8 +40,8 @@ void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, c
 void reuseMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
                const ImageSurroundings& around, const View& main);
 
-// Reuses the main view of the frame before, which may be null, if a plan whose passes are known would draw the same
-// with images that were there before.
+// Reuses the main view `before` of the last frame (null: none) if the plan, whose passes must be complete, would draw
+// the same main view with the same images.
 void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around);
 
 }  // namespace speculum

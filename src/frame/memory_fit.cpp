@@ -25,7 +25,7 @@ uint64_t pixels(const PixelRect& rect) {
   return static_cast<uint64_t>(rect.area());
 }
 
-// Pixels of the images that are reused.
+// Returns the pixels of the reused images.
 uint64_t cachedPixels(const FramePlan& plan) {
   uint64_t sum = 0;
   for (const CachedImage& image : plan.cached) {
@@ -34,7 +34,7 @@ uint64_t cachedPixels(const FramePlan& plan) {
   return sum;
 }
 
-// Most pixels of mirror images that are alive together: each from its own range of passes to its parent's.
+// Returns the most pixels of mirror images that exist at one time: each from its range of passes to its parent's.
 uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   uint64_t alive = cachedPixels(plan);
   uint64_t peak = alive;
@@ -52,7 +52,7 @@ uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   return peak;
 }
 
-// Pixels of the depth images, which the ranges use one after the other.
+// Returns the pixels of the depth images, which the ranges use one after the other.
 uint64_t depthPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   std::vector<uint64_t> largest;
   for (const PassRange& range : ranges) {

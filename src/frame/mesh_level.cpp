@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// Cosine of the angle between the axis and the line of sight farthest from it.
+// Returns the cosine of the largest angle between the view's axis and a line of sight.
 double leastCosine(const View& view, const Projection& projection) {
   double square = 0.0;
   for (const int x : {view.rect.x, view.rect.x + view.rect.width}) {
@@ -22,7 +22,7 @@ double leastCosine(const View& view, const Projection& projection) {
   return 1.0 / std::sqrt(1.0 + square);
 }
 
-// View depth in metres of the nearest point of the instance that is not clipped away.
+// Returns the view depth in metres of the instance's nearest point that is not clipped away.
 double nearestDepth(const View& view, double cosine, const InstanceState& instance, const Mesh& mesh) {
   const glm::dmat3 viewFromMesh = view.worldToView * instance.worldFromMesh.linear;
   const glm::dvec3 along(viewFromMesh[0].z, viewFromMesh[1].z, viewFromMesh[2].z);
@@ -52,7 +52,7 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
                         std::vector<IndexRange> seen) {
   LevelChoice best{.ranges = std::move(seen)};
   if (largestError <= 0.0) {
-    return best;  // without making levels that nothing uses
+    return best;  // levelsOf() would make levels that nothing uses
   }
   const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
   const auto end = std::ranges::upper_bound(levels, largestError, {}, &MeshLevel::error);

@@ -5,9 +5,9 @@
 
 namespace speculum {
 
-// Largest displacement of the mesh's points, in the mesh's unit, that the view sees as no more than `texels` of its
-// image; 0 where the mesh's box may reach the eye. A displacement d at view depth z is seen as at most f d / (z cos a),
-// with f the focal length in texels and a the angle between line of sight and axis.
+// Returns the largest displacement of the mesh's points, in the mesh's unit, that moves nothing by more than `texels`
+// in the view's image; 0 if the mesh's box may reach the eye. A displacement d at view depth z moves a point in the
+// image by at most f d / (z cos a), with f the focal length in texels and a the angle between line of sight and axis.
 double largestError(const View& view, const Projection& projection, const InstanceState& instance, const Mesh& mesh,
                     double texels);
 
@@ -29,8 +29,8 @@ double meshErrorIn(const View& view, const Settings& settings);
 void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, double texels,
                   const EffectSettings& effects, const Scene& scene, const SceneState& state);
 
-// Lists, as indices into Scene::meshes, the meshes of which a pass of the plan, or one that a cached image replaces,
-// draws a level. Each is listed once.
+// Returns the indices into Scene::meshes of meshes drawn as a level, each once. Passes that cached images replace count
+// too.
 std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state);
 
 // Index into MeshLevels::levels of what the pass draws for the instance; -1 for the mesh itself.

@@ -15,7 +15,7 @@ namespace speculum {
 
 namespace {
 
-// A mirror that deserves a pass, if the budget reaches it.
+// A mirror that gets a pass if the budget of passes suffices.
 struct Candidate {
   double priority = 0.0;
   int parent = 0;                   // node
@@ -89,10 +89,10 @@ class MirrorSearch {
   std::priority_queue<Candidate> candidates_;
   Occlusion occlusion_;
   int discovered_ = 0;
-  size_t work_ = 0;  // twice the mirrors looked at, and as much time and memory spent on what else a pass has
+  size_t work_ = 0;  // 2 for each mirror looked at, and other steps in proportion to their time and memory
 };
 
-// Finds what is drawn in a node's view, and which of its mirrors are candidates for passes.
+// Finds what a node's view draws, and which of its mirrors are candidates for passes.
 void MirrorSearch::fill(int node) {
   const View view = nodes_[node].pass.view;
   const View readable = readableView(view, plan_.projection, allSettings_);
@@ -238,7 +238,7 @@ void MirrorSearch::expand(const Candidate& candidate) {
   node.pass.throughput = largest(candidate.throughput);
   node.pass.channels = candidate.throughput;
   node.draw = candidate.draw;
-  // Beside its own pixels nothing can be reprojected.
+  // An image that is read beside a pixel's own texel cannot be reprojected.
   const int interval = readsBeside ? 1 : settings_.updateInterval;
   if (node.pass.depth == 0 && (interval > 1 || settings_.skipUnchanged)) {
     const ReuseRequest request{node.pass.view, plan_.projection, candidate.visible,

@@ -12,16 +12,16 @@ struct PassNode {
   std::optional<ImageChoice> choice;  // set for mirrors seen directly whose images are cached
 };
 
-// Finds the mirrors that deserve a pass, by the budget of passes; the first node is the main view of `size` texels.
-// Adds to plan.skipped why every other mirror has none. Reads the projection and the picture's size of `plan`.
+// Finds the mirrors that get a pass within the budget of passes. The first node is the main view of `size` texels.
+// Adds to plan.skipped why every other mirror has none. Reads the projection and the picture's size from `plan`.
 std::vector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
                                  const FrameCache& cache, const glm::ivec2& size, FramePlan& plan);
 
-// Widens the view by what look-ups read of its image beyond the visible region. Cached images are read farthest; all
-// views get that margin, so that the same is drawn in the same order with every update interval.
+// Widens the view by the distance at which look-ups read its image beyond the visible region. All views get the margin
+// of cached images, which is the widest, so that every update interval draws the same things in the same order.
 View readableView(const View& view, const Projection& projection, const Settings& settings);
 
-// Notes why a mirror in a view has no pass.
+// Adds to plan.skipped why a mirror in a view has no pass.
 void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, std::string detail = {});
 
 }  // namespace speculum

@@ -14,8 +14,8 @@ struct Sight {
   std::vector<glm::dvec3> visible;  // world; visible region
 };
 
-// Metres of the eye before the mirror's front; exactly 0 where rounding leaves no side to be on. Coordinates are
-// rounded, so that the threshold grows with their distance from the origin.
+// Returns the metres of the eye before the mirror's front; exactly 0 where rounding cannot tell the side. Coordinates
+// are rounded, so the threshold grows with their distance from the origin.
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye);
 
 // Says whether an eye `height` metres before the mirror's front sees no reflection, but its back or its edge.
@@ -34,8 +34,8 @@ glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects,
 bool isRough(const Mirror& mirror, const EffectSettings& effects);
 bool isRippled(const Mirror& mirror, const EffectSettings& effects);
 
-// Says whether rays show what an image of the mirror's plane cannot. At a limit of depth or throughput, where nothing
-// is reflected, only ripples count.
+// Says whether rays must show what an image of the mirror's plane cannot. At a limit of depth or throughput the mirror
+// reflects the background alone, so only ripples count.
 bool scatters(const Mirror& mirror, const EffectSettings& effects, bool reflects);
 
 }  // namespace speculum

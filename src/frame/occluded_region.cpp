@@ -8,7 +8,7 @@ namespace speculum {
 
 namespace {
 
-// Part of its distance by which a hidden point must be farther, so that the depth test is sure.
+// Relative distance by which a hidden point must lie beyond the occluder, so that the depth test is sure.
 constexpr double depthPart = 1e-4;
 constexpr double marginPixels = 1.0;
 
@@ -23,9 +23,9 @@ struct Axis {
   double pixel;
 };
 
-// Adds the half space on the left of the edge from a to b, seen from the eye, less a `margin` measured across the view
-// at unit depth. Returns the unit normal of the plane through eye and edge; nothing if the edge points at the eye or
-// `inside` is not on its left. All vectors start at the eye.
+// Adds the half space on the left of the edge from a to b, as seen from the eye, narrowed by `margin`, which is
+// measured across the view at unit depth. Returns the unit normal of the plane through eye and edge; nothing if the
+// edge points at the eye or `inside` is not on its left. All vectors start at the eye.
 std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, const glm::dvec3& b,
                                   const glm::dvec3& inside, double margin, const Axis& axis) {
   glm::dvec3 normal = glm::cross(b, a);
@@ -38,8 +38,8 @@ std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, c
   return region.back().at(inside) > 0.0 ? std::optional(normal) : std::nullopt;
 }
 
-// Directed edges of the outline of what faces the eye, by points. An edge belongs to it if just one of its triangles
-// faces the eye.
+// Returns the body's outline as seen from the eye: directed edges as pairs of indices into its points. An edge belongs
+// to it if just one of its triangles faces the eye.
 std::vector<std::pair<uint32_t, uint32_t>> outline(const BodyOccluder& body, const glm::dvec3& eye) {
   std::vector<int> facing;  // 1 if the triangle runs counter-clockwise from the eye, -1 if clockwise
   facing.reserve(body.normals.size());

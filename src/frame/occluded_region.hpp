@@ -47,8 +47,8 @@ struct BodyOccluder {
   double slack = 0.0;                // metres by which the points may stand elsewhere on the GPU
 };
 
-// Region behind a body. Of the points in `outline` the body hides those on a plane that isBefore() is true of, and
-// those `beyond` all of it.
+// Region behind a body. The body hides a point within `outline` if the point lies on a plane for which isBefore() is
+// true, or within `beyond`.
 struct BodyRegion {
   OccludedRegion outline;
   HalfSpace beyond;

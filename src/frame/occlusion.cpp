@@ -15,8 +15,8 @@ namespace {
 
 // Rounding of what is drawn on the GPU, as a part of its size; floats are off by 1e-7 of it.
 constexpr double roundingPart = 1e-5;
-// Mirrors and instances of a view that are tested. Testing all against each other takes time in the square of their
-// number, and those that look small hide little.
+// Largest numbers of a view's mirrors and of its instances that are tested. Testing all against each other takes time
+// in the square of their number, and those that look small hide little.
 constexpr size_t mostTested = 512;
 // Limits of the search for several occluders: pieces of the polygon that are not hidden yet, and occluders.
 constexpr size_t mostPieces = 24;
@@ -48,8 +48,8 @@ double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points)
   return radius;
 }
 
-// Filters occluders: keeps those that look large enough and stand before a corner or the middle of a polygon, as an
-// occluder of the whole polygon does.
+// Filters occluders at little cost: keeps those that look large enough and stand before a corner or the middle of the
+// polygon, as any occluder of the whole polygon does.
 class Prefilter {
  public:
   Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) : eye_(eye), polygon_(polygon) {
@@ -66,11 +66,11 @@ class Prefilter {
 
   bool include(const glm::dvec3& center, double radius) const {
     const glm::dvec3 fromEye = center - eye_;
-    // No point of another line is farther from the first one than the polygon's radius.
+    // Tests the first line alone at first: no point of another line is farther from it than the polygon's radius.
     return looksLarge(center, radius, radius) && lines_[0].meetsSphere(fromEye, radius + radius_) &&
            std::ranges::any_of(lines_, [&](const Sightline& line) { return line.meetsSphere(fromEye, radius); });
   }
-  // Says whether something of a radius, at the point of a sphere that is nearest to the eye, looks large enough.
+  // Says whether an occluder of `radius` looks large enough at that point of the sphere that is nearest to the eye.
   bool looksLarge(const glm::dvec3& center, double sphereRadius, double radius) const {
     const glm::dvec3 fromEye = center - eye_;
     const double large = radius + width_ * sphereRadius;
@@ -257,7 +257,7 @@ void Occlusion::setView(const View& view, std::span<const int> instances, std::v
   if (mirrors_.empty() || !skips(view)) {
     return;
   }
-  // Keeps those of the widest angle, in their order.
+  // Keeps those that fill the widest angles at the eye, in their order.
   const auto keepLargest = [&](std::vector<int>& candidates, const auto& sphereOf) {
     if (candidates.size() > mostTested) {
       const auto angle = [&](int i) {
@@ -284,7 +284,7 @@ std::optional<std::string> Occlusion::hiddenBy(int mirror, std::span<const glm::
   return found.whole ? nameOfOccluder(*found.whole) : hiddenTogether(found.parts, polygon);
 }
 
-// Takes the regions away from the polygon one after the other, until no piece is left.
+// Cuts the occluded regions off the polygon one after the other, until no piece is left.
 std::optional<std::string> Occlusion::hiddenTogether(std::span<const Occluder> occluders,
                                                      std::span<const glm::dvec3> polygon) const {
   std::vector<std::vector<glm::dvec3>> pieces = {{polygon.begin(), polygon.end()}};

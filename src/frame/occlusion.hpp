@@ -28,7 +28,7 @@ class Occlusion {
   std::optional<std::string> hiddenBy(int mirror, std::span<const glm::dvec3> polygon);
 
  private:
-  // What an occluder hides in a view, worked out when it is first needed.
+  // Region that an occluder hides in a view, computed when it is first needed.
   template <typename Region>
   struct OfView {
     int view = -1;  // number of the view
@@ -49,7 +49,7 @@ class Occlusion {
     int index = 0;  // of the mirror or instance
   };
   struct Occluders {
-    // Adds the part of a region on the inner side of `also`, if any, unless no corner of the polygon is in it. Returns
+    // Adds a region, cut by the half space `also` if there is one, unless no corner of the polygon lies in it. Returns
     // whether it holds all of the polygon.
     bool add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of, const glm::dvec3& eye,
              std::span<const glm::dvec3> polygon);

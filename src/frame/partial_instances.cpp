@@ -18,7 +18,7 @@ struct LocalPlane {
   double offset = 0.0;
 };
 
-// Planes of the view that cut the mesh's bounding box. Planes that have all of it on their visible side are left out.
+// Returns the view's planes that cut the mesh's bounding box; planes with all of the box on their visible side are not.
 std::vector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent) {
   std::vector<LocalPlane> planes;
   const auto add = [&](const glm::dvec3& normal, double distance) {

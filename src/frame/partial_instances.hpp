@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// An instance of which a view sees only some of the mesh's clusters.
+// An instance that a view sees only in part: some of its mesh's clusters.
 struct PartialInstance {
   int instance = 0;                // index into SceneState::instances
   std::vector<IndexRange> ranges;  // indices that are drawn; ascending and disjoint

@@ -7,7 +7,7 @@ namespace speculum {
 
 namespace {
 
-// Device coordinates of the rectangle's corners, in the plane z = 0.
+// Returns the rectangle's corners in device coordinates, with z = 0.
 std::vector<glm::dvec3> corners(const View& view) {
   const glm::dvec2 step = 2.0 / view.pictureSize;
   const double x0 = view.rect.x * step.x - 1.0;
@@ -17,9 +17,9 @@ std::vector<glm::dvec3> corners(const View& view) {
   return {{x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0}};
 }
 
-// Says whether edges are long and corners sharp enough, in pixels, that no triangle of the polygon's fan loses its area
-// when the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. A draw with such a triangle need not draw the
-// others: lavapipe leaves out all of them.
+// Says whether the polygon's edges are long enough and its corners far enough from straight that no triangle of its fan
+// loses its area when the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. If a draw has such a triangle,
+// lavapipe leaves out the others too.
 bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
   constexpr double shortest = 1.0 / 8.0;
   constexpr double flattest = 1.0 / 32.0;
@@ -39,8 +39,8 @@ bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
 
 // At the screen's resolution a pixel reads one texel. The mask holds all samples of that texel, because a driver may
 // shade at another point where only some of them pass the depth test. At other resolutions, and in cached images, a
-// pixel reads a box about its centre, which may lie half a pixel outside the edge: as wide as a pixel and at least as a
-// texel, and half a texel more on each side for the samples.
+// pixel reads a box about its centre, which may lie half a pixel outside the edge. The box is as wide as a pixel, or as
+// a texel if that is wider, and half a texel more on each side for the samples.
 double lookupReach(const Settings& settings, bool standardLocations) {
   const ReflectionSettings& r = settings.reflection;
   if (r.scale != 1.0 || r.updateInterval > 1) {
@@ -69,7 +69,7 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
     if (length2 == 0.0) {
       continue;
     }
-    // Where a cut would leave a badly shaped polygon, it is made farther out, or not at all: the mask may be larger.
+    // Moves the cut outwards until the polygon is well shaped, or makes none: the mask may be larger than needed.
     for (const double outwards : {0.0, 0.25, 0.5, 1.0}) {
       const double moved = offset + outwards * glm::length(perPixel);
       const auto inside = [&](const glm::dvec3& p) { return glm::dot(line, p) + moved >= 0.0; };

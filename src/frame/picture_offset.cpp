@@ -25,8 +25,7 @@ glm::dvec2 pictureOffset(int index, const Settings& settings) {
   if (index == 0) {
     return glm::dvec2(0.0);
   }
-  // Leading bits of Sobol's first two dimensions for each bit of the index; the first point is the cell beyond the
-  // centre.
+  // Leading bits of Sobol's first two dimensions by bit of the index. The centre is a corner of the first cell.
   constexpr std::array<glm::ivec2, 6> directions = {{{4, 4}, {2, 6}, {1, 5}, {0, 7}, {0, 4}, {0, 6}}};
   glm::ivec2 cell(4, 4);
   for (size_t bit = 0; bit < directions.size(); ++bit) {

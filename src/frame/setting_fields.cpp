@@ -25,7 +25,7 @@ constexpr auto& valueIn(Settings& settings) {
   return (settings.*Group).*Member;
 }
 
-// The group of settings that a member pointer is of.
+// Finds the group of settings that a member pointer belongs to.
 template <typename Group>
 constexpr auto groupOf = nullptr;
 template <>

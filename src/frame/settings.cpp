@@ -164,7 +164,7 @@ bool takesText(const SettingField& field) {
          std::holds_alternative<AutomaticSetting>(field.kind);
 }
 
-// Says whether all settings that change `last`, or a part of the frame before it, are equal.
+// Says whether all settings are equal that change the part `last` of a frame or an earlier part.
 bool sameUpTo(FramePart last, const Settings& a, const Settings& b) {
   return std::ranges::all_of(
       settingFields(), [&](const SettingField& field) { return field.changes > last || sameSetting(field, a, b); });

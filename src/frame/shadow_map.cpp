@@ -27,7 +27,7 @@ struct Window {
   }
 };
 
-// Part of the face in which the box is seen: all of it if the box reaches behind the light.
+// Returns the part of the face in which the box is seen: the whole face if the box reaches behind the light.
 Window windowOf(const Box& box, const glm::dvec3& center, const FaceAxes& axes) {
   const glm::dvec3 right = glm::cross(axes.forward, axes.up);
   Window seen{glm::dvec2(1e300), glm::dvec2(-1e300)};
@@ -69,7 +69,7 @@ Window onGrid(Window window) {
   return window;
 }
 
-// The window is the image without its border.
+// Returns the projection of an image that shows the window within its border.
 Projection projectionOf(const Window& window, int size, double near) {
   const glm::dvec2 scale =
       2.0 / (window.high - window.low) * static_cast<double>(size - 2 * shadowBorder) / static_cast<double>(size);
@@ -81,7 +81,7 @@ Projection projectionOf(const Window& window, int size, double near) {
   return projection;
 }
 
-// Directions, in world space, to the corners of the view's rectangle.
+// Returns the world directions from the eye to the corners of the view's rectangle.
 std::array<glm::dvec3, 4> cornerRays(const View& view, const Projection& projection) {
   const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
   std::array<glm::dvec3, 4> rays;
@@ -111,7 +111,7 @@ bool mayMeet(const View& a, std::span<const glm::dvec3> raysOfA, const View& b, 
   return !separates(a, b, raysOfB) && !separates(b, a, raysOfA);
 }
 
-// Columns and rows of maps in their target, which is about a square.
+// Returns columns and rows of maps in their target, so that it is about a square.
 glm::ivec2 gridOf(size_t maps) {
   const int count = static_cast<int>(maps);
   const int columns = static_cast<int>(std::ceil(std::sqrt(2.0 * count / 3.0)));
@@ -161,7 +161,7 @@ class FacePlanner {
   }
 
  private:
-  // Says whether something that the pass draws, and that light falls on, is in the face.
+  // Says whether the face contains something that the pass draws and that the light may fall on.
   bool hasReceiver(const ShadowFace& face, const PlannedPass& pass) const {
     const std::vector<int>& drawn = face.pass.instances;
     return std::ranges::any_of(pass.instances, [&](int i) { return std::ranges::binary_search(drawn, i); }) ||

@@ -10,7 +10,7 @@ namespace speculum {
 // Texels on each side of a face's window: a look-up reads one beyond its own, and rounding may move it.
 inline constexpr int shadowBorder = 2;
 
-// A pass whose surfaces look shadows up, and the view of everything that is read of its image.
+// A pass whose surfaces look shadows up, and its view, widened by what look-ups read around it.
 struct ShadowReader {
   const PlannedPass* pass = nullptr;
   View readable;

@@ -84,7 +84,7 @@ class Collector {
       return;
     }
     effects_.shadows = nameOf("light", scene_.lights[static_cast<size_t>(lights.front())].name, lights.front());
-    // A light that mirrors bounce has shadows on both legs of its way, which no map of the light shows.
+    // Light that a mirror reflects is shadowed before and after the mirror, which no map of the light shows.
     effects_.shadowMaps =
         settings_.shadowLookup == ShadowLookup::map && lights.size() <= mostShadowMaps && !effects_.castsLight;
     effects_.shadowRays = !effects_.shadowMaps || reflectsRays();
@@ -118,8 +118,8 @@ class Collector {
 
   bool twoSided(const MirroredLight& path) const { return scene_.mirrors[path.mirror].twoSided; }
 
-  // The light's mirror image shines through the mirror's polygon as through a window: it lights only objects that meet
-  // the cone through that window.
+  // Says whether the reflected light reaches something drawn. The light's mirror image shines through the mirror's
+  // polygon as through a window, and lights only objects that meet the cone through it.
   bool reachesSomething(const MirroredLight& path) const {
     if (lit_.mirrors || reflectsRays()) {
       return true;

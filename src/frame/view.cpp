@@ -9,11 +9,11 @@ namespace speculum {
 
 namespace {
 
-// Angle at the eye below which an edge bounds nothing: rounding turns the plane through it by more than 1e-7, and what
-// it bounds is no wider than rounding.
+// Angle at the eye below which an edge is taken to point at the eye and bounds nothing: rounding turns the plane
+// through a shorter edge by more than 1e-7.
 constexpr double shortestEdge = 1e-9;
 
-// Planes through the eye and the polygon's edges, turned inwards. An edge that points at the eye bounds nothing.
+// Returns inward normals of the planes through the eye and the polygon's edges; skips edges that point at the eye.
 std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
   glm::dvec3 inside(0.0);
   for (const glm::dvec3& p : polygon) {
@@ -33,7 +33,7 @@ std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::
   return cone;
 }
 
-// The polygon cut by the clip plane alone.
+// Returns the polygon cut by the clip plane alone.
 std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
   if (!view.clip) {
     return {polygon.begin(), polygon.end()};
@@ -53,7 +53,8 @@ std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3
 
 }  // namespace
 
-// A mirror's view sees only what lies behind the mirror, farther than the eye is from the mirror's plane.
+// Stays below the eye's distance from each mirror's plane, because a mirror's view sees what lies behind that plane,
+// and below the distance of each object.
 double nearOf(const SceneState& state) {
   const glm::dvec3& eye = state.camera.eye;
   double near = std::min(state.camera.near, Projection().near);
@@ -95,8 +96,8 @@ void boundByRectangle(View& view, const Projection& projection) {
   }
 }
 
-// A plane's line on the screen is nx / fx x - ny / fy y - nz = 0 in device coordinates without offset; it moves by its
-// gradient's length for each pixel.
+// In device coordinates without offset, a plane's line on the screen is nx / fx x - ny / fy y - nz = 0. A pixel
+// outwards changes the constant by the gradient's length in pixels.
 void widen(View& view, const Projection& projection, int pixels) {
   const glm::dvec2 step = 2.0 / view.pictureSize;
   for (glm::dvec3& normal : view.cone) {
@@ -111,7 +112,7 @@ void widen(View& view, const Projection& projection, int pixels) {
 glm::dvec2 overscan(const View& view) {
   const glm::dvec2 low(view.rect.x, view.rect.y);
   const glm::dvec2 high = low + glm::dvec2(view.rect.width, view.rect.height) - view.pictureSize;
-  // Rectangles are rounded up to whole pixels and may so exceed a picture size that is not whole; floor() ignores that.
+  // Rectangles are whole pixels and so may exceed a picture size that is not whole; floor() drops the excess.
   const glm::dvec2 beyond = glm::max(-low, glm::floor(high));
   return 1.0 + 2.0 * glm::max(beyond, 0.0) / view.pictureSize;
 }
@@ -131,7 +132,7 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
 }
 
 std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
-  // Most mirrors of a view that shows many lie beyond one plane; these cost no memory.
+  // Tests single planes first, which takes no memory: most mirrors of a large scene lie beyond one of them.
   const auto beyond = [&](const Plane& plane) {
     return std::ranges::all_of(polygon, [&](const glm::dvec3& p) { return plane.distance(p) < 0.0; });
   };

@@ -26,9 +26,9 @@ struct View {
   bool mirrored() const { return path.size() % 2 == 1; }
 };
 
-// Distance from the camera, in metres, up to which depth keeps no order: so near that what is drawn is farther, but at
-// most the camera's near and 1 mm, because GPUs draw faster with depths that are not tiny. Within a thousandth of the
-// radius of an object around the eye there may be no order.
+// Returns the distance from the camera, in metres, within which the depth test keeps no order: smaller than that of
+// anything drawn, at most the camera's near and 1 mm, and no smaller than needed, because GPUs are slow with tiny
+// depths. Within 1/1000 of its radius, an object around the eye may be drawn out of order.
 double nearOf(const SceneState& state);
 
 // The camera's view of a picture of `width` x `height` pixels.

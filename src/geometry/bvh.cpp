@@ -97,7 +97,7 @@ struct Bvh::Builder {
     return best;
   }
 
-  // Number of primitives moved to the front of the range; 0 or `count` when the split does not separate anything.
+  // Returns the number of primitives moved to the front of the range; 0 or `count` if the split separates nothing.
   uint32_t partition(uint32_t first, uint32_t count, const Bounds& centers, const Split& split) {
     if (split.axis < 0) {
       return 0;

@@ -13,7 +13,7 @@ namespace speculum {
 
 namespace {
 
-// Finds the edges; nothing unless each has two triangles.
+// Returns the edges; nothing unless each has two triangles.
 std::optional<std::vector<ConvexMesh::Edge>> edgesOf(const std::vector<ConvexMesh::Triangle>& triangles) {
   std::map<std::pair<uint32_t, uint32_t>, size_t> known;
   std::vector<ConvexMesh::Edge> edges;
@@ -38,7 +38,7 @@ std::optional<std::vector<ConvexMesh::Edge>> edgesOf(const std::vector<ConvexMes
   return closed ? std::optional(edges) : std::nullopt;
 }
 
-// Scales the points so that the longest side of their box is 1; none if all points are the same.
+// Scales the points so that the longest side of their box is 1; returns none if all points are the same.
 std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
   Bounds box;
   for (const glm::dvec3& p : points) {

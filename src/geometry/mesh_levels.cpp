@@ -95,9 +95,9 @@ class LevelVertices {
 };
 
 // One part of a mesh and its simplified triangles. Vertices of equal position are one point where the surface is
-// smooth, whether its normals are interpolated or those of its faces. Across hard edges and seams of texture
-// coordinates points stay apart, and meshoptimizer keeps those in which three or more sides meet: a slab that loses its
-// corners becomes thinner, and objects below it would show through.
+// smooth, with interpolated or with face normals. Across hard edges and seams of texture coordinates they stay several
+// points. meshoptimizer keeps points where three or more such edges meet: without its corners a slab becomes thinner,
+// and objects below it show through.
 class SimplifiedPart {
  public:
   // `firstPoint`: number of the first point, above those of the parts before.
@@ -182,7 +182,7 @@ class SimplifiedPart {
     return corners;
   }
 
-  // Distance, in indices, of the vertices or triangles that are measured: large parts are sampled.
+  // Returns the step between the vertices or triangles that are measured: large parts are sampled.
   static size_t stride(size_t count) { return 1 + count / mostMeasured; }
 
   void add(Deviation& deviation, const std::vector<uint32_t>& indices) const {
@@ -192,7 +192,7 @@ class SimplifiedPart {
     }
   }
 
-  // Returns the point among `coincident`, which share a position, on the same smooth surface, or a new one.
+  // Returns the point on the same smooth surface as `vertex` among those of one position, or a new point.
   uint32_t pointFor(const Vertex& vertex, std::vector<uint32_t>& coincident) {
     constexpr double smooth = 0.77;  // cosine; bevels are steeper
     for (const uint32_t point : coincident) {

@@ -28,8 +28,8 @@ bool touchesEyePlane(std::span<const glm::dvec4> clip) {
   return std::ranges::any_of(clip, [](const glm::dvec4& v) { return !(v.w > eyePlane); });
 }
 
-// Start and end in pixels, rounded outwards and padded. Clamps before it converts, because a vertex may project to any
-// double.
+// Returns start and end in pixels, rounded outwards and padded. Clamps before the conversion to int, because a vertex
+// may project to any double.
 std::pair<int, int> paddedRange(double low, double high, int start, int size) {
   const double end = static_cast<double>(start) + size;
   const double from = std::clamp(std::floor(low) - 1.0, static_cast<double>(start), end);

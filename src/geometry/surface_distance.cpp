@@ -28,7 +28,7 @@ double toSegment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3&
   return square(point - (a + t * along));
 }
 
-// Distance to the plane where the foot of the perpendicular lies inside all edges, else to the nearest edge.
+// Returns the distance to the plane if the foot of the perpendicular lies inside all edges, else to the nearest edge.
 double toTriangle(const glm::dvec3& point, const glm::dvec3* corner) {
   const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
   const double area = square(normal);

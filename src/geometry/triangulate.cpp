@@ -33,8 +33,8 @@ class EarClipper {
   }
 
  private:
-  // Progress of the search for a vertex inside the triangle of a vertex and its neighbours. While the neighbours stay,
-  // vertices found outside stay outside, so that repeated searches of a vertex test each other vertex once.
+  // Progress of a vertex's search for others inside the triangle of it and its neighbours. Vertices found outside stay
+  // outside until a neighbour changes, so repeated searches test each other vertex once.
   struct Search {
     int before = -1;
     int after = -1;
@@ -73,7 +73,7 @@ class EarClipper {
 
   int follower(int vertex) const { return vertex + 1 == static_cast<int>(points_.size()) ? 0 : vertex + 1; }
 
-  // Starts at the second vertex, which makes fans of convex polygons. Without any ear the second vertex is cut off.
+  // Starts at the second vertex, which makes fans of convex polygons. If there is no ear, takes the second vertex.
   size_t findEar() {
     for (size_t k = 0; k < left_.size(); ++k) {
       const size_t i = (k + 1) % left_.size();
@@ -95,7 +95,7 @@ double squaredLength(const glm::dvec3& v) {
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
-// A diagonal outside of a quad that is not convex would cover what the quad leaves free.
+// Says whether the triangles' diagonal lies inside the quad, which need not be convex.
 bool isInside(std::span<const glm::dvec3> quad, const std::array<std::array<int, 3>, 2>& triangles) {
   const glm::dvec3 normal = newellVector(quad);
   return std::ranges::all_of(triangles, [&](const std::array<int, 3>& t) {

@@ -46,7 +46,7 @@ struct TriangleShape {
 TriangleShape shapeOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a;
   const glm::dvec3 ac = c - a;
-  // Relative to the largest component, so that neither squares nor products leave the range of a double.
+  // Divides by the largest component, so that neither squares nor products leave the range of a double.
   const double scale = std::max(largestComponent(ab), largestComponent(ac));
   if (!(scale > 0.0) || !std::isfinite(scale)) {
     return {};
@@ -71,7 +71,7 @@ void rebase(Mesh& mesh) {
     vertex.position -= mesh.center;
     mesh.radius = std::max(mesh.radius, length(vertex.position));
   }
-  // Far from the limits of floats, whose products they are part of. Other models keep their numbers as they are.
+  // Scales only models of extreme sizes; the bounds leave room for products of floats. Others keep their numbers.
   constexpr double largestRadius = 1e12;
   if (mesh.radius > largestRadius || mesh.radius < 1.0 / largestRadius) {
     mesh.unit = std::exp2(std::floor(std::log2(mesh.radius)));
@@ -83,8 +83,8 @@ void rebase(Mesh& mesh) {
   }
 }
 
-// Finds the faces and the convex mesh that may hide mirrors. Objects that hide mirrors, such as walls, doors and
-// cupboards, have few triangles or a few large ones.
+// Finds the occluders that may hide mirrors: flat faces and a convex mesh. Objects that hide mirrors, such as walls,
+// doors and cupboards, have few triangles or a few large ones.
 void findOccluders(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;
@@ -129,7 +129,8 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners) {
   }
 }
 
-// A texture repeats, so whole numbers can be taken off where a float would lose the fraction.
+// Returns whole numbers to subtract from texture coordinates so large that a float would lose the fraction. The texture
+// repeats, so it looks the same.
 glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
   constexpr double nearEnough = 4096.0;
   glm::dvec2 largest(0.0);

@@ -32,7 +32,7 @@ bool inOnePlane(const Placed& a, const Placed& b) {
   return std::ranges::all_of(b.state->polygon, [&](const auto& p) { return std::abs(plane.distance(p)) <= slack; });
 }
 
-// Says whether the line of an edge of `a` has all of `b` outside it.
+// Says whether the line through an edge of `a` separates `b` from `a`, except for `slack` metres.
 bool edgeParts(const Placed& a, const Placed& b, double slack) {
   const std::vector<glm::dvec3>& polygon = a.state->polygon;
   for (size_t i = 0; i < polygon.size(); ++i) {

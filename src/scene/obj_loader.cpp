@@ -106,8 +106,8 @@ class ObjReader {
     mesh_.addFace(corners_);
   }
 
-  // A single name with blanks, or several names, of which the first that is there counts. A backslash keeps a blank
-  // behind it; any other separates folders.
+  // Reads the file that the line names: one name with blanks, or the first existing one of several names. A backslash
+  // before a blank keeps the blank; any other separates folders.
   void readMaterials(const LineReader& line) {
     const std::string_view names = line.argument();
     if (names.find(' ') != std::string_view::npos && materials_.isThere(names)) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Paths in MTL files often come from Windows.
+// Returns the path relative to the MTL file's folder. Replaces backslashes, because such files often come from Windows.
 fs::path relativeTo(const fs::path& file, std::string name) {
   std::ranges::replace(name, '\\', '/');
   return (file.parent_path() / name).lexically_normal();
@@ -86,12 +86,12 @@ std::string checkedNumber(const LineReader& line, double value, const Range& ran
   if (!range.contains(value)) {
     line.fail(line.keyword(), fmt::format("is {}", value), range.text());
   }
-  // No number of a material makes a difference beyond; the parser rounds the largest doubles to infinity.
+  // No number of a material makes a difference beyond 1e38, and the parser rounds the largest doubles to infinity.
   return ' ' + fmt::to_string(std::clamp(value, -1e38, 1e38));
 }
 
-// Returns the line of a color, given by three numbers or by one for all three. Colors as spectra or CIE XYZ are left
-// out with a warning.
+// Returns the line of a color, given by three numbers or by one for all three. Leaves out spectra and CIE XYZ colors,
+// with a warning.
 std::string checkedColor(const fs::path& file, LineReader& line, const Range& range) {
   const std::vector<std::string_view>& tokens = line.tokens();
   if (tokens.size() > 1 && (tokens[1] == "spectral" || tokens[1] == "xyz")) {
@@ -120,7 +120,7 @@ struct MaterialLines {
 
 struct CheckedMtl {
   std::string text;                            // for the parser: the lines that are used, without comments and options
-  std::map<std::string, MaterialLines> lines;  // by material, the last one of a name
+  std::map<std::string, MaterialLines> lines;  // by material name; the last material of a name counts
 };
 
 CheckedMtl checkMtl(const fs::path& file, std::string_view text) {

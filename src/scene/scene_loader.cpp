@@ -23,7 +23,7 @@ fs::path modelFile(const Scene& scene, const std::string& model) {
   const fs::path named = scene.file.parent_path() / model;
   fs::path file = named.lexically_normal();
   std::error_code error;
-  // The two differ where a symbolic link to a folder is followed by "..".
+  // The paths name different files if ".." follows a symbolic link to a folder.
   if (fs::exists(named, error) && !fs::equivalent(named, file, error)) {
     file = named;
   }
@@ -101,7 +101,7 @@ void checkCount(const TableReader& table, const Object& object, int earlier) {
   }
 }
 
-// Farther vertices are no floats once they are projected; rays to and from a curved mirror square their distance.
+// Returns the metres within which projected vertices are still floats; rays to and from a curved mirror square them.
 double largestExtent(const Object& object) {
   return object.mirror ? 1e18 : 1e35;
 }
@@ -179,7 +179,7 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
   std::string text = readTomlText(file, "scene file");
   const toml::table root = parseToml(file, text, "scene file");
   const TableReader reader(file, "", root, 1, kKeys);
-  // Errors of the file come first, before models take their time.
+  // Reads the file first, so that its errors are reported before models are loaded, which takes long.
   Scene scene = readScene(reader, file, std::move(text));
   ModelProgress models(scene, progress);
   size_t index = 0;

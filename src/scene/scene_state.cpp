@@ -38,7 +38,8 @@ LightState lightState(const PointLight& light, double time) {
           rotationAboutAxis(orbit.axis, productModulo(orbit.speed, time, 360.0)) * (light.position - orbit.center)};
 }
 
-// Unit direction of the first edge with a length, projected into the plane, off which vertices may lie a little.
+// Returns the unit direction of the first edge with a length, projected into the plane: vertices may lie a little off
+// it.
 glm::dvec3 firstEdge(const std::vector<glm::dvec3>& polygon, const glm::dvec3& normal) {
   for (size_t i = 1; i < polygon.size(); ++i) {
     const glm::dvec3 edge = polygon[i] - polygon[i - 1];

@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace fs = std::filesystem;
 
-// No scene written by hand is larger.
+// Bytes; no scene written by hand is larger.
 constexpr uintmax_t kLargestFile = 16u << 20;
 
 std::string readTomlText(const fs::path& file, std::string_view kind) {

@@ -11,12 +11,12 @@ namespace speculum {
 
 namespace {
 
-// Bytes of the character beyond ASCII that the text begins with; 0 if it is not UTF-8, as names of files need not be.
+// Returns the bytes of the non-ASCII character at the text's beginning; 0 if it is not UTF-8, as in some file names.
 size_t sequenceLength(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned lead = byte(0);
   const size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  // Neither longer than needed, nor half of a pair of UTF-16, nor beyond U+10FFFF.
+  // Refuses encodings longer than needed, halves of UTF-16 pairs, and characters beyond U+10FFFF.
   const unsigned low = lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
   const unsigned high = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
   bool valid = lead >= 0xc2 && lead <= 0xf4 && byte(1) >= low && byte(1) <= high;

@@ -119,8 +119,8 @@ bool TraceWorld::covers(const SceneHit& hit, const SceneHit& other) const {
   return hit.kind == HitKind::mirror && other.kind == HitKind::mirror && layer(hit) < layer(other);
 }
 
-// Takes the distance of the first mirror of the plane for all mirrors of that plane, so that they are met at the same
-// one.
+// Uses the distance of the first mirror of the plane for all mirrors of that plane, so that rounding does not order
+// them.
 std::optional<double> TraceWorld::meetPolygon(const Ray& ray, const ShearedRay& sheared, int mirror,
                                               double tMax) const {
   const MirrorState& plane = mirrors_[mirrors_[mirror].plane];
