@@ -18,7 +18,8 @@ double milliseconds(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Assumes that each of a pixel's `count` bounces lets the same share of its `throughput` through.
+// Returns the root mean square throughput beyond each depth. Assumes that each of a pixel's `count` bounces lets the
+// same share of its throughput through.
 std::vector<double> throughputBeyond(const TraceResult& trace) {
   std::vector<double> squares;
   double pixels = 0.0;

@@ -20,7 +20,7 @@ constexpr int glyphHeight = 5;
 constexpr int barHeight = 10;
 constexpr int margin = 3;
 
-// Rows of three bits, the top one first, the leftmost pixel the highest bit.
+// Bitmaps of the characters in glyphNames: rows of three bits, the top one first, the leftmost pixel the highest bit.
 constexpr std::string_view glyphNames = "0123456789.e-";
 constexpr std::array<std::array<uint8_t, glyphHeight>, 13> glyphs = {{{7, 5, 5, 5, 7},
                                                                       {2, 6, 2, 2, 7},

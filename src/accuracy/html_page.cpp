@@ -6,7 +6,7 @@ namespace speculum {
 
 namespace {
 
-// JSON that may stand in an HTML script element: nothing in it can end the element or begin a comment.
+// Returns JSON for an HTML script element: nothing in it can end the element or begin a comment.
 std::string escapedForScript(const nlohmann::ordered_json& json) {
   std::string text;
   for (const char c : json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {

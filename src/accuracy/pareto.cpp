@@ -22,7 +22,7 @@ std::string comparison(const SweepPoint& chosen, const SweepPoint& best) {
   return fmt::format("the most accurate is '{}' with {:.3g} in {}", best.name, best.whole.flip, timeText(costMs(best)));
 }
 
-// One candidate per error, by ascending error: the first, unless a later one is cheaper beyond the spread.
+// Returns one candidate for each error, by ascending error: the first, unless a later one is cheaper beyond the spread.
 std::vector<int> onePerError(const std::vector<FrontCandidate>& candidates) {
   std::vector<int> order(candidates.size());
   std::iota(order.begin(), order.end(), 0);

@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 constexpr int mostShown = 12;
 constexpr int pictureQuality = 88;
 constexpr int legendQuality = 95;
-// Characters that all pictures of a report may take, for pictures of up to 640x360; in proportion for larger ones.
+// Characters that all pictures of a report together may take. Grows in proportion for pictures larger than 640x360.
 constexpr double pictureBudget = 1.42e6;
 constexpr double budgetPixels = 640.0 * 360.0;
 
@@ -51,7 +51,7 @@ size_t sizeOf(const ordered_json& picture) {
   return picture.is_null() ? 0 : picture["uri"].get_ref<const std::string&>().size();
 }
 
-// Embeds points while the budget lasts, at least the first. All heat maps have the same legend.
+// Embeds pictures of points up to the budget, at least of the first. All heat maps have the same legend.
 ordered_json picturesJson(const SweepResults& results, const std::filesystem::path& folder) {
   ordered_json pictures = {{"reference", nullptr}, {"legend", nullptr}, {"shown", ordered_json::array()}};
   if (const auto reference = pictureIn(folder, results.truthPicture)) {

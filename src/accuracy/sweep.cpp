@@ -12,8 +12,8 @@ namespace speculum {
 
 namespace {
 
-// Multiples of the noise floor and of the error left at the greatest depth below which a fit takes no point: there
-// other errors dominate, and a difference of squares is noise.
+// Least error of a point that a fit takes, in multiples of the noise floor and of the error left at the greatest depth:
+// below them other errors dominate, and a difference of squares is noise.
 constexpr double leastFloors = 2.0;
 constexpr double leastRests = 1.02;
 
@@ -36,7 +36,7 @@ std::string truthKey(const SweepScene& scene, const Settings& settings) {
   return keyOf({scene.identity, shown, std::to_string(scene.truthSamples), scene.noiseFloor ? "floor" : "", "truth"});
 }
 
-// Mean over the phases of an update interval; roots of a mean of squares are averaged as squares.
+// Returns the mean over the phases of an update interval. Averages roots of mean squares as squares.
 ImageMetrics meanMetrics(const std::vector<ImageMetrics>& all) {
   ImageMetrics mean{.pixels = all.front().pixels};
   const double share = 1.0 / static_cast<double>(all.size());

@@ -11,7 +11,7 @@ namespace speculum {
 namespace {
 
 constexpr size_t mostConfigurations = 1000;
-constexpr int longestInterval = 16;  // it takes 1.5 times its square of frames to see every age of every image
+constexpr int longestInterval = 16;  // to see every image at every age takes 1.5 times its square of frames
 
 std::string shortName(const SweepPlanner::Changes& changes) {
   std::string name;

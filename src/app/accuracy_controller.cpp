@@ -38,7 +38,7 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
     setResults(readSweepResults(options.sweepResults));
     Settings scratch;
     for (size_t i = 0; i < results_.points.size(); ++i) {
-      applyPoint(static_cast<int>(i), scratch);  // so that none fails later
+      applyPoint(static_cast<int>(i), scratch);  // throws now if a point cannot be applied
     }
     view_.about = aboutText(results_);
     budget_ = {loaded.quality.budgetMs, loaded.quality.maxError};
@@ -92,11 +92,11 @@ void AccuracyController::cancel() {
   }
   sweep_.cancel();
   if (results_.points.empty()) {
-    budget_ = {};  // so that one that is set says again what it needs
+    budget_ = {};  // a budget that is set asks again for the measurement that it needs
   }
 }
 
-// A rough measurement first, then the whole one in its place.
+// Shows a rough measurement at first, and the whole one when it is complete.
 void AccuracyController::takeResults() {
   if (const auto status = sweep_.progress(); status && status->rough && rough_ != status->rough) {
     rough_ = status->rough;

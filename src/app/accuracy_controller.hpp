@@ -24,11 +24,11 @@ class AccuracyController {
   void applyPoint(int point, Settings& settings) const;
   void showDifference(bool shown) { view_.showsDifference = shown; }
 
-  // Call before a frame: takes finished results, from which a budget that is set chooses.
+  // Call before a frame. Takes finished results; a budget that is set then chooses a point of them.
   void beforeFrame(Settings& settings);
   // Applies the choice of quality.* if that differs from what was applied last.
   void followBudget(Settings& settings);
-  // Takes a budget that undo brought back together with the settings that it had chosen: it chooses none.
+  // Takes a budget that undo restored together with the settings that it had chosen, without choosing again.
   void acceptBudget(const Settings& settings) { budget_ = {settings.quality.budgetMs, settings.quality.maxError}; }
   // Call after a frame is drawn. `image` returns its pixels.
   void afterFrame(const ShownPicture& shown, const std::function<Image8()>& image);
@@ -53,7 +53,7 @@ class AccuracyController {
     std::shared_ptr<const SweepResults> rough;  // null until it is measured
   };
   BackgroundJob<SweepResults, Status> sweep_;
-  std::shared_ptr<const SweepResults> rough_;  // that is shown, or was
+  std::shared_ptr<const SweepResults> rough_;  // last one shown
   DifferenceView difference_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point stageBegan_;

@@ -113,7 +113,7 @@ void CameraController::turn(double yawDegrees, double pitchDegrees) {
   const double height = glm::degrees(std::asin(std::clamp(glm::dot(glm::normalize(turned), up), -1.0, 1.0)));
   const double limit = std::max(glm::degrees(std::asin(steepest)), std::abs(height));
   const double rise = orbit ? pitchDegrees : -pitchDegrees;
-  const double above = floor_ + 10.0 * spec_.near - glm::dot(target_, up);  // of the lowest eye over the target
+  const double above = floor_ + 10.0 * spec_.near - glm::dot(target_, up);  // height of the lowest eye over the target
   const double lowest = orbit ? glm::degrees(std::asin(std::clamp(above / glm::length(arm), -1.0, 1.0))) : -90.0;
   const double pitch = std::clamp(height + rise, std::max(-limit, std::min(lowest, height)), limit) - height;
   const glm::dmat3 turn = rotationAboutAxis(yaw * right, orbit ? -pitch : pitch) * yaw;
@@ -186,8 +186,8 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
   const glm::dvec3 up = glm::normalize(spec_.up);
   glm::dvec3 forward = mirror.normal;
   if (std::abs(glm::dot(forward, up)) > steepest) {
-    // A floor's or a ceiling's normal does not define what is up in the picture, so the view leans in the camera's
-    // direction.
+    // The normal of a floor or a ceiling does not define what is up in the picture, so the view leans towards the
+    // camera's direction.
     const glm::dvec3 back = glm::transpose(last_.worldToView)[2];
     const glm::dvec3 level = -back + glm::dot(back, up) * up;
     forward = glm::normalize(forward + lean * (glm::length(level) > 1e-6 ? glm::normalize(level) : mirror.axisX));

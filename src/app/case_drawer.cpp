@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// A check that the program makes of itself. The first that fails is the outcome's message.
+// Adds the result of a check that failed `count` times. The first check that fails gives the outcome's message.
 void addCheck(Outcome& outcome, const std::string& label, uint64_t count, const std::string& detail = {}) {
   if (count > 0) {
     outcome.figures.push_back({label, std::to_string(count), "0", true});
@@ -68,7 +68,7 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
   for (int i = 1; i < options_.repeat; ++i) {
     const Image8 again = draw(subject, outcome);
     if (again.rgba != actual.rgba) {
-      // Shows the two pictures of this driver, whatever is expected.
+      // Compares two pictures of this driver byte for byte, whatever tolerance the case has.
       subject.mask.reset();
       subject.tolerance = {.maxDiff = 0, .share = 0.0, .block = false};
       outcome.verdict = Verdict::failed;

@@ -97,7 +97,7 @@ int speculumMain(int argc, const char* const* argv) {
     }
     return result;
   } catch (const std::exception& error) {
-    // Bad usage, bad input and a missing GPU all end here: nothing was done, and the line says what would help.
+    // Bad usage, bad input and a missing GPU end here: nothing was done, and the message says what would help.
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }

@@ -14,9 +14,9 @@ namespace speculum {
 
 namespace {
 
-constexpr double longestStep = 0.1;  // seconds: the animation does not make up for a pause of the program
-constexpr double idleSeconds = 0.1;  // between looks at a window in which nothing changes
-constexpr int timedInterval = 16;    // frames: timing each pass slows a frame
+constexpr double longestStep = 0.1;  // seconds of animation in a frame, however long the program was held up
+constexpr double idleSeconds = 0.1;  // interval at which an idle window polls for changes
+constexpr int timedInterval = 16;    // interval in frames: timing each pass slows a frame
 
 double milliseconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
@@ -99,7 +99,7 @@ void Demo::updateUi(double seconds) {
   workspace_.advance(seconds);
 }
 
-// Before the first picture of a scene, which may take long.
+// Draws the panels alone before a scene's first picture, which may take long.
 void Demo::presentPanels() {
   workspace_.setPictureText("Drawing " + workspace_.scene().file.filename().string() + "...");
   updateUi(0.0);
@@ -114,7 +114,8 @@ void Demo::endWithPanels(Frame& frame) {
   renderer_.endFrame(frame);
 }
 
-// Call it while the exception is handled: it goes on unless taking back the last step can help.
+// Ends the frame with the panels alone, after taking back the user's last step, which may have caused the exception.
+// Call it while the exception is handled: rethrows it if there is no such step.
 void Demo::abandonFrame(Frame& frame, const std::string& why) {
   if (!workspace_.takeBack(why)) {
     throw;
@@ -263,7 +264,7 @@ bool Demo::idle() {
   return ui_->wantsFrames() || working_ || workspace_.statusFades();
 }
 
-// The window stays while the prompt about unsaved changes is open.
+// Says whether to close the window. It stays open while there is a prompt about unsaved changes.
 bool Demo::shouldClose() {
   if (!window_.shouldClose() || closeAfterPrompt_) {
     return window_.shouldClose();
@@ -300,7 +301,7 @@ glm::ivec2 Demo::pictureSize() const {
   return {static_cast<int>(extent.width), static_cast<int>(extent.height)};
 }
 
-// All of it where the panels leave too little.
+// Returns the part of the picture that no panel covers; the whole picture if that part is too small.
 PixelRect Demo::freePicture() const {
   const glm::ivec2 size = pictureSize();
   const VkExtent2D window = window_.size();
@@ -316,7 +317,7 @@ void Demo::setPresentMode(size_t index) {
   renderer_.setPresentMode(renderer_.presentModes().at(index));
 }
 
-// Call before the panels are made, whose callbacks then run first and pass all events on.
+// Call before the panels are made. Their callbacks then run first and pass all events on.
 void Demo::installInput() {
   WindowCallbacks callbacks;
   callbacks.key = [this](const KeyEvent& event) { handleKey(event); };

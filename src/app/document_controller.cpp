@@ -15,12 +15,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Copies with unsaved changes.
+// Returns the folder of copies with unsaved changes.
 fs::path viewsFolder() {
   return userCacheDir() / "views";
 }
 
-// Says whether the file stands among those that come with the program, or among copies.
+// Says whether the file lies in the folder of shipped scenes or in that of copies.
 bool isShipped(const fs::path& file) {
   const fs::path scenes = dataDirectory("scenes");
   const std::array folders{scenes, scenes.parent_path() / "models", viewsFolder()};
@@ -63,7 +63,7 @@ DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::
   findSaveFile();
 }
 
-// Call when the scene has another file. It touches the disk.
+// Call when the scene has another file. It accesses the disk.
 void DocumentController::findSaveFile() {
   const fs::path file = editor_.document().usualFile();
   saveFile_ = !isShipped(file) && isWritable(file) ? std::optional(file) : std::nullopt;
@@ -125,7 +125,7 @@ void DocumentController::askWhatToOpen(const fs::path& folder) {
 }
 
 std::optional<Command> DocumentController::saveAs(const fs::path& file, const Settings& settings) {
-  proposed_ = proposed_.parent_path() / file;  // a bare name means the folder that is suggested
+  proposed_ = proposed_.parent_path() / file;  // a bare name goes into the suggested folder
   return saveTo(proposed_, settings) ? discard(settings) : std::nullopt;
 }
 
@@ -179,7 +179,7 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
   std::error_code none;
   fs::create_directories(folder, none);
   const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, settings));
-  // Names the copy by its content, so that commands copied earlier stay right.
+  // Names the copy by its content, so that commands copied earlier still draw the same picture.
   Fingerprint fingerprint;
   fingerprint.add(std::string_view(text));
   const fs::path file = folder / (loaded_.scene.file.stem().string() + "-" + fingerprint.hex() + ".toml");

@@ -16,12 +16,12 @@ class DocumentController {
   const SceneEditor& editor() const { return editor_; }
 
   // Says whether the scene may be replaced: true if nothing is unsaved or the user has discarded the changes. Otherwise
-  // shows the prompt, and keeps a command to carry out once it is answered.
+  // shows the prompt, and keeps the command `then` to carry out once it is answered.
   bool confirmDiscard(const Settings& settings, std::optional<Command> then);
   bool prompting() const { return prompt_ != Prompt::none; }
   void forgetDiscard() { discarded_.reset(); }  // the next confirmDiscard() prompts again
 
-  // Says whether there are changes to save, of the settings too. A copy that was kept after a failure counts as one.
+  // Says whether scene or settings have unsaved changes. A copy that was kept after a failure counts as one.
   bool hasUnsaved(const Settings& settings) const;
 
   // Answers to a prompt. Each returns the command that waited for it, if any.

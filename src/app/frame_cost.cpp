@@ -12,20 +12,20 @@ namespace speculum {
 
 namespace {
 
-// Milliseconds for a texel without light, a pass, a triangle, a texel, each further sample of a texel, and a ray.
+// Milliseconds for a texel without lighting, a pass, a triangle, a texel, each further sample of a texel, and a ray.
 constexpr std::array<double, 6> cpuPrices{8e-6, 0.3, 1e-4, 8e-5, 6e-5, 1e-3};
 constexpr std::array<double, 6> gpuPrices{1e-7, 0.03, 2e-6, 2e-6, 5e-7, 1e-5};
 constexpr size_t rayKind = 5;
 
-// Standard deviations, relative.
+// Relative standard deviations.
 constexpr double speedGuess = 1.0;    // of the device's speed at first
-constexpr double priceGuess = 0.5;    // of each price besides
-constexpr double rayGuess = 1.5;      // of that of rays, which depends on the scene and on hardware
+constexpr double priceGuess = 0.5;    // of each price, in addition
+constexpr double rayGuess = 1.5;      // of a ray's price instead, which depends on scene and hardware
 constexpr double speedDrift = 0.015;  // from frame to frame
 constexpr double priceDrift = 0.004;
 constexpr double frameNoise = 0.1;
 constexpr double noiseMs = 0.2;
-constexpr double speedJump = 0.3;  // after several surprises in a row
+constexpr double speedJump = 0.3;  // drift of speed after surprisesOfAJump
 
 constexpr int surprisesOfAJump = 3;
 constexpr double surprise = 1.5;      // deviations
@@ -45,11 +45,11 @@ double trianglesOf(const PlannedPass& pass, const Scene& scene, const SceneState
   return indices / 3.0;
 }
 
-// Adds the rays of a pass with `texels`, whose pixels have `samples` of them.
+// Adds the rays of a pass with this number of texels, each of `samples` samples.
 void addRays(FrameWork& work, const PlannedPass& pass, double texels, int samples, const FramePlan& plan,
              const Scene& scene, const SceneState& state, const EffectSettings& settings) {
   const TracedEffects& effects = plan.effects;
-  const double points = settings.perSample ? samples : 1.0;  // a texel that send rays
+  const double points = settings.perSample ? samples : 1.0;  // of a texel, from which rays start
   const double toLights = effects.shadowRays ? static_cast<double>(shadowLights(scene).size()) +
                                                    2.0 * static_cast<double>(effects.mirroredLights.size())
                                              : 0.0;
@@ -63,7 +63,7 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
       const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
                                      pass.view.pictureSize.y);
       const bool rippled = settings.ripple && scene.mirrors[static_cast<size_t>(draw.mirror)].ripple;
-      // Ripples are followed at every sample, whatever effects.per_sample is, and rough mirrors once a pixel.
+      // Rays follow ripples at every sample, whatever effects.per_sample is, and rough mirrors once a pixel.
       const double rays = area * (1.0 + toLights) * (rippled ? samples : 1.0);
       (rough ? work.roughRays : work.rippleRays) += rays * (rough ? settings.roughSamples : 1);
     }
@@ -130,7 +130,7 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   const auto points = [](const Settings& settings) { return settings.effects.perSample ? settings.view.samples : 1.0; };
   const double rays = squared(view) * points(to) / points(from);
   const EffectSettings& effects = to.effects;
-  // Rays to lights in spite of maps are for light off mirrors.
+  // If shadows were looked up in maps, all rays to lights were for light that mirrors cast, and these stay.
   const bool shadowMaps = effects.shadowLookup == ShadowLookup::map &&
                           (from.effects.shadowLookup == ShadowLookup::traced || !effects.castsLight);
   work.lightRays *= shadowMaps ? 0.0 : rays;

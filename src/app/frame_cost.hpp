@@ -8,14 +8,14 @@ namespace speculum {
 
 // Amounts of work in a frame, computed from its plan before it is drawn.
 struct FrameWork {
-  double plainTexels = 0.0;   // written without light: by the display pass, and of shadow maps
+  double plainTexels = 0.0;   // written without lighting: by the display pass, and those of shadow maps
   double passes = 0.0;        // all
   double mirrorPasses = 0.0;  // of mirrors
   double triangles = 0.0;
   double mainTexels = 0.0;
   double mirrorTexels = 0.0;
   double mapTexels = 0.0;  // of environment maps
-  // Rays, about: from what is drawn to lights, and from mirrors of each kind with those that their hits send to lights.
+  // Estimated rays: from drawn surfaces to lights, and from mirrors of each kind, with the rays from hits to lights.
   double lightRays = 0.0;
   double rippleRays = 0.0;
   double curvedRays = 0.0;
@@ -25,15 +25,15 @@ struct FrameWork {
 };
 
 FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& state, const Settings& settings);
-// Estimates the work of a frame planned with settings `from` if it were planned with `to`, from the numbers of texels,
-// samples, passes and rays alone: maps that are looked up instead of rays cost nothing, and rays that `from` lacks are
-// not known.
+// Estimates the work with settings `to` of a frame that was planned with settings `from`. Scales the numbers of texels,
+// samples, passes and rays alone, so maps looked up instead of rays cost nothing, and effects whose rays `from` lacks
+// cost none.
 FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to);
 
-// Predicts milliseconds of a frame as a sum over its kinds of work, each with a price that it learns from frames: a
-// Kalman filter over the factors between the prices and a guess for the kind of device. What changes the speed of the
-// whole device, such as other programs, is learned as one factor, so that few frames correct the prices of work that
-// they hardly had.
+// Predicts milliseconds of a frame as a sum over its kinds of work, each with a price. A Kalman filter learns from
+// frames the factors between these prices and a guess for the kind of device. The factors are correlated at first: what
+// slows the whole device, such as another program, changes all of them, so few frames correct the prices even of work
+// that they hardly had.
 class CostModel {
  public:
   explicit CostModel(bool cpuDevice);

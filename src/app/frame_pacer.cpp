@@ -8,7 +8,7 @@ namespace speculum {
 
 namespace {
 
-// Panels show a change in one frame, settle in a second, and show figures that are two frames old.
+// After a change panels need a frame to show it, another to settle, and two more because their figures are that old.
 constexpr int framesAfterChange = 4;
 constexpr int longestInterval = 3600;  // frames: a map with a longer interval is meant to stay as it is
 

@@ -26,7 +26,7 @@ FittedPlan FramePlanner::plan(Frame& frame, SceneRenderer& sceneRenderer, const 
     sceneRenderer.uploadTextures(frame, state, fitted.settings, fitted.plan);
   } catch (const OutOfMemoryError& error) {
     if (refused_) {
-      throw;  // it is not for textures
+      throw;  // textures are left out already, so the memory is missing for something else
     }
     refused_ = {asked, "drawn without textures until a setting is changed: " + std::string(error.what())};
     if (refused_->problem != known) {

@@ -7,8 +7,8 @@
 
 namespace speculum {
 
-// Plans the frames of the window so that they fit the device's memory. Textures for which there is no memory are left
-// out until a setting changes, because that may free memory.
+// Plans the frames of the window so that they fit the device's memory. Leaves out textures if there is no memory for
+// them, until a setting changes, which may free memory.
 class FramePlanner {
  public:
   explicit FramePlanner(const Device& device) : planner_(device) {}

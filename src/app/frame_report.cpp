@@ -14,9 +14,9 @@ namespace speculum {
 
 namespace {
 
-constexpr double smoothing = 0.05;    // of the times shown, at least
-constexpr double settlingMs = 500.0;  // a frame that takes longer is shown as it is
-constexpr size_t awaitedFrames = 4;   // at most, until the GPU's times have come
+constexpr double smoothing = 0.05;    // smallest weight of a frame in the times shown
+constexpr double settlingMs = 500.0;  // a frame that takes longer is shown without averaging
+constexpr size_t awaitedFrames = 4;   // frames whose GPU times may still arrive
 
 TargetView targetOf(const FramePlan& plan, const PlannedPass& pass, const Settings& settings,
                     bool standardSampleLocations) {
@@ -69,8 +69,8 @@ const PlannedPass* seenIn(const FramePlan& plan, const std::vector<int>& path) {
   return parent.empty() ? &plan.main : mirrorPass(plan, parent);
 }
 
-// Returns the visible region of a mirror in pixels of the picture, with which views in mirrors line up too. Empty if
-// the plan has no pass for it.
+// Returns the visible region of a mirror in pixels of the picture; views in mirrors have the same pixels. Empty if the
+// plan has no pass for it.
 std::vector<glm::vec2> outlineOf(const FramePlan& plan, const std::vector<int>& path, int width, int height) {
   std::vector<glm::vec2> outline;
   const PlannedPass* parent = path.empty() ? nullptr : seenIn(plan, path);
@@ -158,7 +158,7 @@ bool FrameReport::drewScene(uint64_t frame) const {
   return std::ranges::any_of(drawn_, [&](const DrawnFrame& drawn) { return drawn.number == frame; });
 }
 
-// Lists passes whose images are reused too, because a list that changes from frame to frame cannot be read.
+// Lists passes of reused images too, because nobody can read a list that changes from frame to frame.
 void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& timings,
                                std::span<const RecordedPass> passes, std::span<const RecordedPass> timed) {
   const FramePlan& plan = frame.plan;
@@ -181,7 +181,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     if (row == rows.end()) {
       PassView fresh{pass, pass.name};
       const auto before = std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == pass; });
-      fresh.gpuMs = before == view_.passes.end() ? std::nan("") : before->gpuMs;  // few frames have passes timed
+      fresh.gpuMs = before == view_.passes.end() ? std::nan("") : before->gpuMs;  // only some frames time passes
       fresh.timed = before != view_.passes.end() && before->timed;
       row = rows.insert(rows.begin() + index, std::move(fresh));
     }
@@ -195,7 +195,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     index = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
-  // Times are of an earlier frame, whose plan may have differed.
+  // The times belong to an earlier frame, whose plan may have differed.
   const size_t times = drewScene(timings.frame) ? std::min(timed.size(), timings.passes.size()) : 0;
   if (times > 0) {
     view_.timedGpuMs = timings.gpuMs;

@@ -31,7 +31,7 @@ class FrameReport {
   std::optional<DebugView> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
                                   bool standardSampleLocations);
 
-  // update()'s parts that need no device. `passes` of this frame, `timed` of the frame that the timings are of.
+  // Parts of update() that need no device. `passes` belong to this frame, `timed` to the frame that was timed.
   void updateTimes(const RecordedFrame& frame, const FrameTimings& timings);
   void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> passes,
                     std::span<const RecordedPass> timed);

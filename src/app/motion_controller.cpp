@@ -7,22 +7,22 @@ namespace speculum {
 
 namespace {
 
-// Shares of the budget. Between the last two the level stays.
-constexpr double aim = 0.85;         // after going down
+// Shares of the budget. Between roomToRaise and tooMuch the level stays.
+constexpr double aim = 0.85;         // largest share that a level may take when it is lowered
 constexpr double roomToRaise = 0.8;  // largest share that a better level may take
-constexpr double tooMuch = 0.95;
-constexpr double farBelow = 0.5;  // a better level within this is tried at once
+constexpr double tooMuch = 0.95;     // a frame beyond it lowers the level
+constexpr double farBelow = 0.5;     // a better level predicted to take less is tried at once
 
 constexpr double leastPatience = 0.25;  // seconds
 constexpr double mostPatience = 4.0;
-constexpr double settled = 1.0;  // seconds at a better level after which it counts as right
+constexpr double settled = 1.0;  // seconds at a better level after which raising it was no mistake
 constexpr size_t mostPending = 8;
 constexpr int longestInterval = 60;  // frames
 
 }  // namespace
 
-// Returns the first level from `first` on that is predicted to take at most `ms`, by the work of level `planned`, else
-// the last level.
+// Returns the first level from `first` on that is predicted to take at most `ms`, else the last level. Estimates the
+// levels' work from `work`, which was planned at level `planned`.
 size_t MotionController::fittingLevel(std::span<const MotionLevel> levels, size_t first, size_t planned,
                                       const FrameWork& work, double ms) const {
   const auto fits = [&](const MotionLevel& level) {

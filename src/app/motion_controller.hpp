@@ -10,10 +10,10 @@
 
 namespace speculum {
 
-// Keeps the frames of a moving picture within a budget: chooses for each one of several levels, the first of which has
-// the settings that the user chose and each further one costs less. It goes down, by as many levels as needed, as soon
-// as a frame is predicted to take longer, and up by one level after a while in which that level would have fitted. It
-// needs no device; see docs/window.md.
+// Keeps the frames of a moving picture within a budget by choosing a level for each. The first level has the settings
+// that the user chose; each further one costs less. The controller goes down, by as many levels as needed, as soon as a
+// frame is predicted to take longer, and up by one level after a while in which that level would have fitted. It needs
+// no device. docs/window.md describes it for users.
 class MotionController {
  public:
   // Plans a frame with these settings and returns its work.
@@ -27,7 +27,7 @@ class MotionController {
   // Call when the picture stands still: the next moving frame may have any level.
   void stand() { moving_ = false; }
 
-  // Call when frame `number` was drawn, at any level or standing still, unless its time is unusual.
+  // Call when frame `number` was drawn, moving or still, unless it did unusual work that `work` does not contain.
   void drawn(uint64_t number, const FrameWork& work);
   // Call with the time of frame `number` once it is known. Frames without drawn() are ignored.
   void finished(uint64_t number, double ms);
@@ -49,7 +49,7 @@ class MotionController {
   double patience_ = 0.0;         // seconds at a level before a better one is tried
   double sinceChange_ = 0.0;      // seconds
   bool raised_ = false;           // the last change was to a better level
-  bool refused_ = false;          // since then a better level did not fit once it was planned
+  bool refused_ = false;          // since the last change, a better level was planned and did not fit
   std::deque<double> predicted_;  // milliseconds of the last frames, one update interval
 };
 

@@ -14,7 +14,7 @@ using PlacedNode = std::pair<Selection, SceneNode>;
 // Moves, turns or scales the selected nodes together by a handle, from press to release.
 class NodeDrag {
  public:
-  // `nodes` are where they were at the press; all turn about the pivot of the first, and move away from it as it grows.
+  // `nodes` stand where they were at the press. All turn about the pivot of the first, and scaling moves them from it.
   NodeDrag(GizmoDrag gizmo, const Scene& scene, const SceneState& state, std::span<const Selection> nodes,
            const glm::dvec2& pixel);
 

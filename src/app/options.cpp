@@ -25,7 +25,7 @@ PictureSize parseSize(const std::string& text) {
   return *size;
 }
 
-// Arguments as text; they are checked after parsing, where messages can say what would be right.
+// Arguments as text. They are checked after parsing, where messages can say what would be right.
 struct Raw {
   std::string size;
   std::string camera;
@@ -172,7 +172,7 @@ std::vector<std::pair<std::string, std::string>> parseSettings(const std::string
   return settings;
 }
 
-// The arguments of `bench` for one of the runs that are compared.
+// Returns the arguments of `bench` for one of the runs that are compared.
 std::vector<std::string> benchArguments(int argc, const char* const* argv) {
   std::vector<std::string> kept;
   for (int i = 1; i < argc; ++i) {
@@ -200,7 +200,7 @@ void applyRaw(const Raw& raw, Options& options) {
     throw UsageError(fmt::format("--time: {} is out of range ({} seconds of animation, such as 2.5)", options.time,
                                  kTime.shortText()));
   }
-  // A range check accepts NaN, and no error is above a NaN.
+  // Finds NaN, which passes range checks because no comparison with it holds.
   if (!std::isfinite(options.fps)) {
     throw UsageError("--fps: not a finite number (pictures per second, such as 30)");
   }

@@ -50,7 +50,7 @@ struct Options {
   std::filesystem::path againstBinary;  // bench: another speculum to measure in turn; empty: none
   std::vector<std::pair<std::string, std::string>> againstSettings;  // bench: settings to measure in turn; may be none
   int benchRounds = 7;                                               // bench: runs of each of the two
-  std::vector<std::string> benchArguments;  // those of bench without what it is measured against, and without --json
+  std::vector<std::string> benchArguments;  // of bench, without --json and what it is measured against
   std::filesystem::path cases;              // regress
   std::string filter = "*";                 // of the cases' names
   int jobs = 0;                             // worker processes; 0: by the processor

@@ -40,7 +40,7 @@ FittedPlan Pace::plan(const Request& request, const Planner& plan) {
   return planStill(request, counted);
 }
 
-// Plans the frame so that it keeps the budget. Sets text_ to what that gives up.
+// Plans the frame within the budget, and sets text_ to what the picture gives up for that.
 FittedPlan Pace::planWithinBudget(const Request& request, const Planner& plan) {
   FittedPlan fitted;
   Settings chosen = request.chosen;
@@ -78,7 +78,8 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
   if (picture_ < 0) {
     FittedPlan first = plan(settings, 0);
     picture_ = 0;
-    // A slow frame would only delay the mean, whose pictures have one sample.
+    // Draws this frame in full quality if it is fast; a slow one would only delay the mean, whose pictures have one
+    // sample.
     if (request.budgetMs <= 0.0 || controller_.predict(work_) <= request.budgetMs) {
       return first;
     }
@@ -107,8 +108,8 @@ void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
   }
 }
 
-// Learns the time of a frame. On a CPU device drawing competes with the program for the cores, so a frame takes the sum
-// of both, or less where they overlap; elsewhere it takes as long as the slower one. Waiting for the monitor does not
+// Learns the time of a frame. On a CPU device, drawing and the program share the cores, so a frame takes the sum of
+// their times, or less where they overlap; on a GPU it takes the longer of the two. Waiting for the monitor does not
 // count.
 void Pace::finished(const FrameTimings& timings) {
   const auto found = std::ranges::find(drawn_, timings.frame, &Drawn::number);

@@ -14,7 +14,7 @@ namespace speculum {
 // pictures with offsets (view.accumulate), one in each frame.
 class Pace {
  public:
-  // `sampleCounts`: those that the device has, as a sum.
+  // `sampleCounts`: bits of the sample counts that the device supports, as VkSampleCountFlags.
   Pace(bool cpuDevice, unsigned sampleCounts)
       : cpuDevice_(cpuDevice), sampleCounts_(sampleCounts), controller_(cpuDevice) {}
 
@@ -43,8 +43,8 @@ class Pace {
     std::span<const MotionLevel> front;  // as motionLevels takes it
     bool simplifies = false;             // likewise
   };
-  // Plans the frame. Calls `plan` a few times with settings and the number of a picture of their mean, last for the
-  // plan that it returns.
+  // Plans the frame. Calls `plan` a few times with settings and the number of a picture in their mean; returns the plan
+  // of the last call.
   using Planner = std::function<FittedPlan(const Settings&, int picture)>;
   FittedPlan plan(const Request& request, const Planner& plan);
 
@@ -80,7 +80,7 @@ class Pace {
   std::string text_;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
-  int picture_ = -1;  // next picture of the mean; -1: one in full quality, or a draft, comes first
+  int picture_ = -1;  // next picture of the mean; -1: a picture in full quality, or a draft, comes first
   int pictures_ = 0;  // in the mean
 };
 

@@ -15,8 +15,8 @@ class PointerController {
   // Handles a press or release. `overPanels` says that the event belongs to the panels. Returns true if a click may
   // have selected something.
   bool button(const MouseButtonEvent& event, bool overPanels, SceneEditor& editor, const CurrentView& view);
-  // Handles a move to `position` (screen coordinates of the window); `pixelsPerUnit` are the picture's pixels for one
-  // of them, `height` is the window's. With `snap`, drags go in steps.
+  // Handles a move to `position` (screen coordinates of the window). A unit of them is `pixelsPerUnit` pixels of the
+  // picture; `height` is the window's, in the same units. With `snap`, drags go in steps.
   void move(const glm::dvec2& position, const glm::dvec2& pixelsPerUnit, double height, bool snap, SceneEditor& editor,
             CameraController& camera);
   void cancel();  // call when another scene is shown

@@ -38,7 +38,7 @@ Progress::~Progress() {
 void Progress::set(double done) {
   done_ = done;
   const Clock::time_point now = Clock::now();
-  // Work that is reported at once was done earlier, and is left out of the pace.
+  // Leaves work that is reported at once out of the pace, because an earlier run did it.
   if (seconds(now - created_) < atOnce) {
     before_ = done;
     start_ = now;

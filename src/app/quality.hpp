@@ -16,10 +16,10 @@ struct QualityChoice {
   std::string why;
 };
 
-// Chooses from the file of --sweep-results for quality.budget_ms and quality.max_error, sets `settings` to the chosen
-// point, except for keys of --set, and prints the choice on stderr. Warns if the sweep is of
-// another scene or size. Returns nothing without bounds. Throws UsageError for bounds of --set without a sweep,
-// InputError for a file that is not a sweep's.
+// Chooses a point from the file of --sweep-results by quality.budget_ms and quality.max_error, sets `settings` to it,
+// except for keys of --set, and prints the choice on stderr. Warns if the sweep is of another scene or size. Returns
+// nothing without bounds. Throws UsageError for bounds of --set without a sweep, InputError for a file that is not a
+// sweep's.
 std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
                                            Settings& settings);
 

@@ -5,7 +5,7 @@
 
 namespace speculum {
 
-// Records, in the user's settings, of copies in which sessions that failed kept their unsaved changes.
+// Records in the user's configuration: copies in which failed sessions kept their unsaved changes.
 void recordRecovery(const std::filesystem::path& copy);
 bool hasRecovery(const std::filesystem::path& copy);
 // Returns the copy of the newest record, if it is still there.

@@ -53,7 +53,7 @@ int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
   CaseDrawer drawer(options);
   for (std::string line; std::getline(std::cin, line);) {
     const nlohmann::json outcome = drawer.outcomeOf(cases.at(std::stoul(line)));
-    // Begins a line of its own, since a driver may have printed a part of one.
+    // Starts on a new line, because a driver may have printed part of one.
     std::printf("\n%s%s\n", std::string(workerReplyMark).c_str(),
                 outcome.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     std::fflush(stdout);
@@ -61,10 +61,10 @@ int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
   return 0;
 }
 
-// The page puts quotes around words where the shell needs them.
+// Words of a shell command. The page puts quotes around those that need them.
 using Words = std::vector<std::string>;
 
-// The options of this run that change pictures.
+// Returns the options of this run that change pictures.
 Words drawOptions(const Options& options) {
   Words words;
   for (const auto& [key, value] : options.settings) {

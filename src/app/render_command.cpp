@@ -195,7 +195,7 @@ int runBench(const Options& options) {
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
   if (!isSet(options, "reflection.skip_unchanged")) {
-    // All frames have the same time, so that none after the first would render a mirror.
+    // All frames have the same time, so with reuse only the first would render mirror images.
     Settings settings = session.settings();
     settings.reflection.skipUnchanged = false;
     session.setSettings(settings);

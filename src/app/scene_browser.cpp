@@ -114,7 +114,7 @@ std::vector<Image8> SceneBrowser::thumbnails() const {
     } catch (const std::runtime_error& error) {
       spdlog::warn("{}", error.what());
     }
-    // A large picture would not leave enough of the texture to the fonts.
+    // Drops a large picture, which would leave too little of the shared texture for the fonts.
     const bool fits = picture.width <= largestThumbnail && picture.height <= largestThumbnail;
     pictures.push_back(fits ? std::move(picture) : Image8());
   }

@@ -25,7 +25,7 @@ class SceneBrowser {
   // Returns the first of the files that can be opened. Throws InputError if there is none.
   static std::filesystem::path choose(const std::vector<std::filesystem::path>& files);
   void cancelLoading() { load_.cancel(); }
-  bool busy() const { return load_.busy(); }  // loading, or with a scene or an error that nobody has taken
+  bool busy() const { return load_.busy(); }  // true until a loaded scene or an error is taken
   bool loaded() const { return load_.hasResult(); }
   std::unique_ptr<LoadedScene> takeLoaded() { return load_.takeResult().value_or(nullptr); }
   std::optional<std::string> takeError() { return load_.takeError(); }

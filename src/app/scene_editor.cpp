@@ -14,7 +14,7 @@ namespace {
 constexpr double armPixels = 92.0;     // of the handles
 constexpr double handleReach = 7.0;    // pixels within which one is gripped
 constexpr double sameSpot = 4.0;       // pixels within which a click repeats the last one
-constexpr double objectAhead = 2.5;    // half diagonals of a model, to stand before it and not in it
+constexpr double objectAhead = 2.5;    // least distance of an added object in half diagonals: the eye is outside it
 constexpr double farthestAhead = 4.0;  // metres from the eye to where nodes are added
 
 glm::dvec3 anchorOf(const SceneNode& node) {
@@ -232,7 +232,8 @@ void SceneEditor::beginChange() {
   beforeChange_();
 }
 
-// Returns a point on the way to what the middle of the picture shows.
+// Returns a point on the line to what the middle of the picture shows, at `part` of its distance and at least `least`
+// metres away.
 glm::dvec3 SceneEditor::pointAhead(const SceneView& view, double part, double least) {
   const glm::dvec2 middle = 0.5 * view.picture.view().pictureSize;
   const std::vector<Picked> found = picker().at(view.state, view.picture, middle, {.maxDepth = 0});
@@ -259,7 +260,7 @@ void SceneEditor::addObject(const SceneView& view, int mesh) {
   select(document_.addObject(mesh, pointAhead(view, 0.9, objectAhead * size)));
 }
 
-// On the side where the copy is in sight; the usual one if neither is.
+// Returns the side (1 or -1) on which a copy is in sight, the usual one (1) if neither is.
 double SceneEditor::sideInSight(const SceneView& view, const Selection& node, const PixelRect& free) const {
   const glm::dvec3 pivot = pivotOf(document_.scene(), view.state, node);
   const glm::dvec3 before = anchorOf(nodeOf(document_.scene(), node));
@@ -321,8 +322,7 @@ void SceneEditor::redo() {
   }
 }
 
-// Undoes or redoes a step. Undoes or redoes a step. Nodes stay selected together as long as all of them keep their
-// indices.
+// Undoes or redoes a step. Nodes stay selected together as long as all of them keep their indices.
 void SceneEditor::step(void (SceneDocument::*way)()) {
   beforeChange_();
   const uint64_t structure = document_.structureRevision();

@@ -42,7 +42,7 @@ const Bookmark& bookmarkNamed(const std::string& name, const Scene& scene) {
 std::filesystem::path findScene(const std::string& wanted) {
   namespace fs = std::filesystem;
   const fs::path path = wanted.empty() ? "gallery.toml" : fs::path(wanted);
-  // A folder of a scene's name, say of its pictures, must not hide the scene.
+  // A folder with the scene's name, for example of its pictures, must not hide the scene.
   if (!wanted.empty() && fs::exists(path) && !fs::is_directory(path)) {
     return path;
   }
@@ -130,8 +130,8 @@ int exitCodeOfChecks(int validationMessages, uint64_t nonFinite) {
 }
 
 BudgetPlanner::BudgetPlanner(const Device& device) {
-  // The rest is for meshes, textures and other programs. The budget is read once, so that plans of equal frames are
-  // equal.
+  // Leaves a quarter for meshes, textures and other programs. Reads the budget only once, so that plans of equal frames
+  // are equal.
   limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
   limits_.largestSide =
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],

@@ -16,7 +16,7 @@
 namespace speculum {
 
 // Finds the scene file of --scene: a path, a path within the program's data, or a shipped scene's name. Throws
-// UsageError.
+// UsageError if there is none.
 std::filesystem::path findScene(const std::string& wanted);
 
 // A scene with its settings: defaults, [settings], --set, and a sweep's choice for the bounds of quality.*.
@@ -55,7 +55,7 @@ class BudgetPlanner {
 
  private:
   TargetLimits limits_;
-  bool tracesRays_ = true;  // the device, if the scene fits
+  bool tracesRays_ = true;  // the device can, if its buffers can hold the scene
   TraceBufferBytes bufferLimits_;
   std::string message_;
 };
@@ -65,10 +65,10 @@ class BudgetPlanner {
 struct DrawnFrame {
   SceneState state;
   FramePlan plan;     // of the last picture
-  Settings settings;  // that the plan was made with
+  Settings settings;  // of the plan
   int pictures = 0;
   double cpuMs = 0.0;    // planning and recording
-  double frameMs = 0.0;  // from begin to the GPU's end
+  double frameMs = 0.0;  // from its beginning until the GPU has finished
   std::vector<RecordedPass> passes;
   FrameTimings timings;  // of `passes`, by index
   EffectLedger ledger;

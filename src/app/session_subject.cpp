@@ -13,7 +13,7 @@ std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
   session_.setSettings(settings);
   const int interval = settings.reflection.updateInterval;
   std::vector<Image8> pictures;
-  // After one interval every mirror has its turn, and n frames in a row show each mirror at every age.
+  // After one interval mirrors become due in turn, so n frames in a row show each mirror at every age.
   for (int last = interval > 1 ? interval : 0; last < (interval > 1 ? 2 * interval : 1); ++last) {
     session_.restart();
     for (int frame = 0; frame <= last; ++frame) {

@@ -27,7 +27,8 @@ std::string SettingsHistory::labelOf(const Step& step) {
   return label;
 }
 
-// A new step of the document makes the ones that were undone stale: they follow steps that it lacks.
+// Says whether the next step is one of the settings. Undone steps are stale after a new step of the document, because
+// they follow steps that it lacks.
 bool SettingsHistory::isNext(UndoWay way, const SceneDocument& document) const {
   if (way == UndoWay::back) {
     return !undo_.empty() && undo_.back().position >= document.position();

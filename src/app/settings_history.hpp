@@ -18,8 +18,8 @@ class SettingsHistory {
 
   // Label of the next step that way; empty: none.
   std::string label(UndoWay way, const SceneDocument& document) const;
-  // True if the next step is one of the settings, which is taken; else it is the document's. Other settings than those
-  // of the step stay: a measurement may have chosen them since.
+  // Takes the next step and returns true if it is one of the settings; returns false if it is the document's. Changes
+  // only the settings of the step, because a measurement may have chosen others since.
   bool step(UndoWay way, const SceneDocument& document, Settings& settings);
 
  private:

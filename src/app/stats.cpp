@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The mirror's name, or its index as a number.
+// Returns the mirror's name, or its index as a number.
 ordered_json mirrorJson(const Scene& scene, int mirror) {
   const std::string& name = scene.mirrors[mirror].name;
   return name.empty() ? ordered_json(mirror) : ordered_json(name);
@@ -32,7 +32,8 @@ ordered_json metres(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-// Depth resolution of the mirror pass with that path; null for other passes and where only the background is seen.
+// Returns the depth resolution of the mirror pass with that path; null for other passes and where only the background
+// is seen.
 ordered_json depthJson(const Session& session, const std::vector<int>& path) {
   const DrawnFrame& frame = session.lastFrame();
   const PlannedPass* pass = mirrorPass(frame.plan, path);

@@ -76,7 +76,7 @@ SweepContext sweepContext(Session& session) {
           .effects = effectsAskedFor(session.scene())};
 }
 
-// Another build, shader or driver changes the identity, so that everything is measured again.
+// Returns a text that changes with build, shaders, driver and what is measured, so that old figures are not reused.
 std::string sweepIdentity(Session& session, const Options& options) {
   Fingerprint fingerprint;
   addFile(fingerprint, executablePath());

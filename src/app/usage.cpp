@@ -78,7 +78,7 @@ std::string unknownArgument(const CLI::App& app) {
   }
   const bool commanded = !app.get_subcommands().empty();
   const CLI::App& used = commanded ? *app.get_subcommands().front() : app;
-  // Without a command the first word was meant to be one, and the following ones are its arguments.
+  // Takes the first word for a misspelt command, and the following ones for its arguments.
   if (!commanded && !isOption(left.front())) {
     return "'" + left.front() + "' is not a command (" + advice(left.front(), commandNames(app)) + ")";
   }

@@ -12,10 +12,10 @@ namespace speculum {
 // Returns the options that were given about the device and its shaders.
 std::vector<std::string> deviceArguments(const Options& options);
 
-// Returns a shell command of `speculum render` that draws the view of `options` with `settings` to the same bytes: with
-// scene, size, time, camera, device, and every setting that is not the scene's own. quality.* is left out, because it
-// has been applied to the others already, and view.continuous, because it is the window's. `file` has what the picture
-// shows: the scene's own file or a copy with the same [settings].
+// Returns a shell command of `speculum render` that draws the view of `options` with `settings` to the same bytes. It
+// has scene, size, time, camera, device, and every setting that is not the scene's own, but neither quality.*, whose
+// choice is among the other settings already, nor view.continuous, which only the window uses. `file` holds the scene
+// that the picture shows: the scene's own file or a copy with the same [settings].
 std::string viewCommand(const Options& options, const std::filesystem::path& file, const Scene& scene,
                         const Settings& settings);
 

@@ -26,7 +26,7 @@ int mirrorOfInterest(int last, size_t count, const Selection& selected, std::spa
   return mirror >= 0 && mirror < static_cast<int>(count) ? mirror : count > 0 ? 0 : -1;
 }
 
-// Along the camera's up, of all objects and mirrors.
+// Returns the lowest height of all objects and mirrors along the camera's up.
 double lowestHeight(const Scene& scene) {
   const SceneState state = evaluate(scene, 0.0);
   const glm::dvec3 up = glm::normalize(scene.camera.up);

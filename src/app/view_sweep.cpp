@@ -41,7 +41,8 @@ void multiply(Spread& spread, double factor) {
   }
 }
 
-// A view that was measured before is there at once. The oldest views go.
+// Returns the folder in which a view's measurement is kept, so that measuring the view again takes no time. Removes the
+// oldest ones.
 std::filesystem::path storeFolder(Session& session, const SweepRequest& request) {
   namespace fs = std::filesystem;
   constexpr size_t mostViews = 20;

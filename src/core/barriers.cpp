@@ -32,7 +32,7 @@ constexpr VkAccessFlags colorAccess = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_A
 
 constexpr Scope colorWrites{colorStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr Scope colorUses{colorStage, colorAccess};
-// Includes shaders that sampled a color before it was copied or checked.
+// Also waits for shaders that sampled a color before it is copied or checked.
 constexpr Scope colorWritesAndSamplings{colorStage | sampleStage, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr Scope depthWrites{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 constexpr Scope depthUses{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | depthWrites.access};
@@ -45,7 +45,7 @@ constexpr Scope drawReads{VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE
                           VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
                               VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT};
 constexpr Scope hostReads{VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT};
-// Includes what was copied into the buffers that a build reads.
+// Also waits for copies into the buffers that a build reads.
 constexpr Scope builds{VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR | transferStage,
                        VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR |
                            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};

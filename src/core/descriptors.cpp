@@ -54,7 +54,7 @@ VkDescriptorSet DescriptorAllocator::allocate(VkDescriptorSetLayout layout) {
       ++setsInCurrent_;
       return set;
     }
-    // A set that does not fit into an empty pool fits into none.
+    // Gives up if the set does not fit into an empty pool: it would fit into no other.
     if (setsInCurrent_ == 0 || (result != VK_ERROR_OUT_OF_POOL_MEMORY && result != VK_ERROR_FRAGMENTED_POOL)) {
       throwVulkanError(result, "allocate a descriptor set");
     }

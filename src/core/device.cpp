@@ -211,7 +211,7 @@ void Device::setObjectName(VkObjectType type, uint64_t object, std::string_view 
                                              .objectType = type,
                                              .objectHandle = object,
                                              .pObjectName = text.c_str()};
-    functions_.setName(device_.get(), &info);  // an object can do without a name
+    functions_.setName(device_.get(), &info);  // ignores failure: the name is for debugging only
   }
 }
 

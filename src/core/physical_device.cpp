@@ -84,7 +84,7 @@ uint64_t largestLocalHeap(VkPhysicalDevice device) {
   return bytes;
 }
 
-// Chooses the queue families, one for everything where there is one. Says what is missing.
+// Chooses the queue families, a single one for everything if there is one. Returns what is missing, if anything.
 std::optional<std::string> chooseQueueFamilies(PhysicalDevice& device, VkSurfaceKHR surface) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, nullptr);
@@ -173,7 +173,7 @@ std::string listOf(const std::vector<PhysicalDevice>& devices) {
   return text;
 }
 
-// Returns the place among the types, the best of which is the first.
+// Returns the rank of a type of device; 0 is the best.
 int rank(VkPhysicalDeviceType type) {
   constexpr std::array types = {VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU,
                                 VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU};

@@ -8,7 +8,7 @@ namespace {
 
 VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits samples, bool load, bool store,
                                    VkImageLayout layout) {
-  // Barriers move images between layouts; a render pass leaves them as they are.
+  // Keeps the layout: barriers change layouts, not render passes.
   return {.format = format,
           .samples = samples,
           .loadOp = load ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,

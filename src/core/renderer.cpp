@@ -99,7 +99,7 @@ std::optional<uint32_t> Renderer::acquireImage(Slot& slot) {
   if (const std::optional<uint32_t> image = swapChain_->acquire(slot.acquired.get())) {
     return image;
   }
-  // One that went stale gets another chance in this frame.
+  // Recreates a swapchain that just became stale and tries once more in this frame.
   return swapChain_->stale() && swapChain_->recreate() ? swapChain_->acquire(slot.acquired.get()) : std::nullopt;
 }
 

@@ -25,8 +25,8 @@ bool isSpirv(const std::vector<uint8_t>& code) {
   return magic == spirvMagic;
 }
 
-// Sources in a make rule "output: source include include", lines joined by backslashes. All begin with the folder,
-// whose own blanks nothing marks.
+// Returns the sources in a make rule "output: source include include" whose lines are joined by backslashes. Finds
+// each by the folder that it begins with, because blanks in the folder's name are not escaped.
 std::vector<fs::path> sourcesIn(const fs::path& depfile, const fs::path& folder) {
   const auto content = readFileIfAny(depfile);
   std::vector<fs::path> sources;

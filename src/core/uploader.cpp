@@ -47,7 +47,7 @@ void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
   check(vkQueueSubmit(device_.queue(), 1, &submit, fence_.get()), "submit an upload");
   const VkFence fence = fence_.get();
   if (const VkResult result = vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX); result != VK_SUCCESS) {
-    vkDeviceWaitIdle(device_.get());  // what `record` used may die now
+    vkDeviceWaitIdle(device_.get());  // after this, the caller may destroy the objects that `record` used
     throwVulkanError(result, "wait for an upload");
   }
   check(vkResetFences(device_.get(), 1, &fence), "reset the upload fence");

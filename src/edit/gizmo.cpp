@@ -282,7 +282,8 @@ std::optional<glm::dvec3> GizmoDrag::moveAt(const glm::dvec2& pixel) const {
   return handle_ == Grip::moveView || isPlane(handle_) ? by : axis_ * glm::dot(axis_, by);
 }
 
-// The handle's length more is one size more; all axes grow to the right and upwards.
+// Returns the factor of a drag: moving by the handle's length adds 1. The handle of all axes grows to the right and
+// upwards.
 std::optional<double> GizmoDrag::factorAt(const glm::dvec2& pixel) const {
   if (handle_ == Grip::scaleAll) {
     const glm::dvec2 by = pixel - pressed_;
@@ -292,7 +293,7 @@ std::optional<double> GizmoDrag::factorAt(const glm::dvec2& pixel) const {
   return by ? std::optional(1.0 + glm::dot(axis_, *by) / (arm_ * picture_.metresPerPixel(pivot_))) : std::nullopt;
 }
 
-// Degrees; unbounded if pixels are counted.
+// Returns degrees; they have no bound if pixels are counted.
 std::optional<double> GizmoDrag::angleAt(const glm::dvec2& pixel) const {
   if (onScreen_) {
     return glm::degrees(glm::dot(pixel - pressed_, screen_) / arm_);

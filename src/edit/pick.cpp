@@ -31,7 +31,8 @@ bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
   });
 }
 
-// Starts at the reflected eye and reaches the mirror at the same t, so that no offset off the surface is needed.
+// Returns the reflected ray. It starts at the reflected eye and reaches the mirror at the same t, so that it needs no
+// offset off the surface.
 Ray reflectedRay(const Ray& ray, const Plane& plane, double t) {
   return {reflectPoint(ray.origin, plane), reflectionLinear(plane.normal) * ray.direction, t};
 }

@@ -42,7 +42,7 @@ class SceneDocument {
   Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer) { return add(newMirror(position, viewer)); }
   Selection addLight(const glm::dvec3& position, const glm::dvec3& viewer) { return add(newLight(position, viewer)); }
   Selection addObject(int mesh, const glm::dvec3& position) { return add(newObject(scene_, mesh, position)); }
-  // Beside the node, on the other side for -1. Throws std::out_of_range for what does not exist.
+  // Puts the copy beside the node, on the other side for -1. Throws std::out_of_range if there is no such node.
   Selection duplicate(const Selection& selection, double side = 1.0);
   void remove(const Selection& selection);  // nothing is selected afterwards
   // Several different nodes in one step. Their copies stay together; the first is selected, all are returned in the
@@ -58,7 +58,7 @@ class SceneDocument {
   bool canRedo() const { return !redo_.empty(); }
   std::string undoLabel() const { return undo_.empty() ? "" : undo_.back().label; }  // "move object 'teapot'"
   std::string redoLabel() const { return redo_.empty() ? "" : redo_.back().label; }
-  // Steps that were taken and not undone, and steps that were ever taken.
+  // position() counts steps that were taken and not undone, changes() all steps ever taken.
   size_t position() const { return dropped_ + undo_.size(); }
   uint64_t changes() const { return changes_; }
   void clearRedo() { redo_.clear(); }

@@ -33,7 +33,7 @@ bool sameFolder(const fs::path& a, const fs::path& b) {
          fs::weakly_canonical(a, error).parent_path() == fs::weakly_canonical(b, error).parent_path();
 }
 
-// Keeps paths as they were written where they are still right.
+// Sets the models' paths for a scene in `file`. Keeps those that are still right as the user wrote them.
 void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::path& file, SceneContent& content) {
   const bool moved = !sameFolder(loaded.file, file);
   for (size_t i = 0; i < content.objects.size(); ++i) {

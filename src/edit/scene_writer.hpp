@@ -16,7 +16,7 @@ class SaveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Text of the scene file with the edited content and changed settings, of which an empty value takes the key out.
+// Returns the scene file's text with edited content and changed settings; an empty value takes a setting's key out.
 // `loaded` has the original text and file, `meshes` the models of Object::mesh. Unchanged values keep their text,
 // comments and order; paths of models are relative to the folder of `file`. Throws SaveError if the text would not read
 // back as exactly this content.

@@ -206,7 +206,7 @@ void TomlEditor::remove(TomlNode& node) {
       removeSection(*node.section);
     }
     for (const auto& child : node.children) {
-      // Statements under a header go with it.
+      // Removing a header also removes the statements under it.
       if (!node.section || !child->statement) {
         remove(*child);
       }
@@ -214,7 +214,7 @@ void TomlEditor::remove(TomlNode& node) {
   }
 }
 
-// Returns the end of a section with the comments that follow it directly, unless they belong to a header right below.
+// Returns the end of a section, including comments right after it unless they belong to a header right below.
 size_t TomlEditor::contentEnd(const TomlSection& section) const {
   size_t end = section.end;
   while (end < text_.size() && line(end).starts_with('#')) {

@@ -29,7 +29,7 @@ class TomlEditor {
   // Adds an element at the end of the file's array `list`, which the text may lack.
   void addElement(const std::string& list, const std::vector<KeyText>& keys);
   void setValue(const TomlNode& value, const std::string& text) { edits_.push_back({value.value.value(), text}); }
-  // Adds a key to the last of `tables`, a path of nested tables of which only the last may be missing from the text.
+  // Adds a key to the last of `tables`, a path of nested tables. Only the last may be missing from the text.
   void addKey(const std::vector<TomlNode*>& tables, const std::string& key, const std::string& text);
   void remove(TomlNode& node);
 

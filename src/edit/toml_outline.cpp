@@ -59,7 +59,7 @@ class Outliner {
   }
 
  private:
-  // Columns count code points.
+  // Returns the byte at a line and column. Columns count code points.
   size_t offset(const toml::source_position& position) const {
     size_t at = lines_.at(position.line - 1);
     for (uint32_t column = 1; column < position.column; ++column) {
@@ -149,7 +149,7 @@ class Outliner {
     }
   }
 
-  // `key = value` in lines of its own.
+  // Adds the range of `key = value` on lines of its own.
   void addStatement(TomlNode& node, const toml::key& key, const toml::node& source) {
     if (!section_) {
       return;

@@ -153,8 +153,8 @@ SceneNode scaled(const SceneNode& node, const glm::dvec3& factors, const glm::dm
   return result;
 }
 
-// The third column of Ry Rx Rz is (cos p sin y, -sin p, cos p cos y), its second row (cos p sin r, cos p cos r, -sin
-// p). With the roll taken off, the first column is (cos y, 0, -sin y) at every pitch.
+// Returns the angles p, y, r of Ry Rx Rz. Its third column is (cos p sin y, -sin p, cos p cos y), its second row (cos p
+// sin r, cos p cos r, -sin p). Without the roll, the first column is (cos y, 0, -sin y) at every pitch.
 glm::dvec3 pitchYawRoll(const glm::dmat3& rotation, const glm::dvec3& near) {
   constexpr double lock = 1e-7;  // cosine of the pitch, below which rounding alone would decide the roll
   const double cosine = std::hypot(rotation[0].y, rotation[1].y);

@@ -72,8 +72,8 @@ class ExrLayout {
     }
   }
 
-  // Rows that a writer never listed, because it was interrupted or does not seek: the table is filled from the chunks,
-  // which follow each other.
+  // Fills the table from the chunks, which follow each other, if the writer left it empty because it was interrupted or
+  // does not seek.
   void completeTable(std::vector<uint8_t>& bytes) const {
     if (tiled_) {
       return;
@@ -151,7 +151,7 @@ class ExrLayout {
     cover(0, 0);
   }
 
-  // Counts pixels that memory is needed for.
+  // Adds to the number of pixels that need memory.
   void cover(int64_t width, int64_t height) {
     covered_ += width * height;
     require(covered_ <= mostPixels && covered_ * std::max<int64_t>(channels_, 1) <= mostValues,
@@ -225,7 +225,7 @@ class ExrLayout {
     }
   }
 
-  // `data` is positioned at a chunk's size. Data of as many bytes as the pixels have is not packed.
+  // Checks a chunk's data. `data` stands at the chunk's size; data as large as the pixels is not compressed.
   void checkData(Cursor data, int64_t pixels) const {
     const int64_t needed = pixels * pixelSize_;
     const auto size = data.value<int32_t>();

@@ -45,7 +45,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input inpu
   if (::pipe2(ends, O_CLOEXEC) != 0) {
     throw std::runtime_error("no pipe could be made for " + arguments.front());
   }
-  // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
+  // Uses a socket and not a pipe, because writing to a socket whose reader is gone need not raise SIGPIPE.
   int inputEnds[2] = {-1, -1};
   if (input == Input::pipe && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, inputEnds) != 0) {
     throw std::runtime_error("no pipe could be made for " + arguments.front());

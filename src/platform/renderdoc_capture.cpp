@@ -11,7 +11,7 @@ namespace speculum {
 
 namespace {
 
-// Null where RenderDoc is not loaded.
+// Returns RenderDoc's interface; null if RenderDoc is not loaded.
 const RenderDocApi* loadedApi() {
   void* library = ::dlopen("librenderdoc.so", RTLD_NOW | RTLD_NOLOAD);
   const auto getApi = library ? reinterpret_cast<GetRenderDocApi>(::dlsym(library, "RENDERDOC_GetAPI")) : nullptr;
@@ -38,7 +38,7 @@ void captureWithRenderDoc(const std::filesystem::path& file, const std::function
     throw std::runtime_error(
         "--capture: RenderDoc is not loaded (install it and set ENABLE_VULKAN_RENDERDOC_CAPTURE=1 for the command)");
   }
-  // RenderDoc appends what it likes to the name.
+  // RenderDoc appends its own suffix to the name.
   api->setCaptureFilePathTemplate(std::filesystem::absolute(file).replace_extension().c_str());
   api->startFrameCapture(nullptr, nullptr);
   draw();

@@ -26,7 +26,7 @@ static_assert(static_cast<int>(Key::leftBracket) == GLFW_KEY_LEFT_BRACKET &&
                   static_cast<int>(Key::rightControl) == GLFW_KEY_RIGHT_CONTROL,
               "codes of Key are GLFW's");
 
-// The character on a key; empty for keys without one.
+// Returns the character on a key; empty for keys without one.
 std::string_view printedOn(int code, int scancode) {
   const bool character = code >= GLFW_KEY_SPACE && code <= GLFW_KEY_WORLD_2;
   const char* name = character ? glfwGetKeyName(code, scancode) : nullptr;
@@ -53,7 +53,7 @@ std::vector<ScreenRect> workAreas() {
   return areas;
 }
 
-// GLFW reports monitors without naming a window.
+// All windows: GLFW reports changes of monitors without naming a window.
 std::vector<Window*>& openWindows() {
   static std::vector<Window*> windows;
   return windows;
@@ -155,7 +155,7 @@ void Window::installCallbacks() {
     of(w)->active_ = true;
     if (const auto& key = of(w)->callbacks_.key) {
       const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
-      // Each call of glfwGetKeyName may write over what the last one gave.
+      // Copies the name, because the next call of glfwGetKeyName may overwrite it.
       const std::string printed(printedOn(code, scancode));
       key({keyMeant(static_cast<Key>(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE,
            action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0, control});
@@ -255,7 +255,7 @@ void Window::setFullScreen(bool on) {
   }
   covers_ = false;
   if (!on) {
-    // The monitor may be gone meanwhile.
+    // The monitor of the old place may be gone.
     return setPlace(rescuedWindow(windowed_, workAreas()).value_or(windowed_));
   }
   windowed_ = place();

@@ -96,8 +96,8 @@ struct WindowOptions {
   bool visible = true;
 };
 
-// Makes windows be opened by "x11" or "wayland". Call before there is a window. GLFW before 3.4 is built for one of
-// them; throws std::runtime_error if that is the other.
+// Makes GLFW open windows by "x11" or "wayland". Call it before the first window. GLFW before 3.4 is built for only one
+// of them; throws std::runtime_error if that is the other.
 void chooseWindowPlatform(const std::string& platform);
 
 // A window of the desktop. Use it from the main thread only.
@@ -132,8 +132,8 @@ class Window {
   bool takeActivity() { return std::exchange(active_, false); }
   std::optional<GamepadState> gamepad() const;  // the first one, if there is any
   float contentScale() const { return contentScale_; }
-  // Call when monitors came, went or changed: moves a window that none shows to one that does, and ends full screen on
-  // a monitor that is gone. `workAreas`: of the monitors that are there.
+  // Call when monitors came, went or changed. Moves a window that no monitor shows onto one, and ends full screen on a
+  // monitor that is gone. `workAreas` are those of the present monitors.
   void followMonitors(std::span<const ScreenRect> workAreas);
   void followContentScale(float scale);  // call when the window is on a monitor of another scale
   bool keyDown(Key key) const;

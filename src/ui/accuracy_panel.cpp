@@ -17,7 +17,7 @@ constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
 constexpr float gridOpacity = 0.16f;
 constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
 
-// Logarithmic axes that fit the points, in screen coordinates.
+// A plot with logarithmic axes that fit the points, in screen coordinates.
 struct Plot {
   ImVec2 corner;  // top left
   ImVec2 size;
@@ -51,7 +51,7 @@ Plot plotOf(const AccuracyView& accuracy, const ImVec2& corner, const ImVec2& si
   return plot;
 }
 
-// Calls draw() with 1, 2 and 5 times powers of ten.
+// Calls draw() with 1, 2 and 5 times each power of ten in the range.
 template <typename Draw>
 void forTicks(double low, double high, const Draw& draw) {
   const int last = static_cast<int>(std::floor(std::log10(high)));

@@ -17,8 +17,7 @@ namespace {
 
 constexpr double farthest = 1e15;  // metres and degrees; docs/scene_format.md, Limits
 
-// Makes a label of a key: "casts_light" becomes "Casts light", "orbit.speed" in degrees per second "Orbit speed
-// (deg/s)".
+// Makes a label from a key: "casts_light" becomes "Casts light", and "orbit.speed" with its unit "Orbit speed (deg/s)".
 std::string labelOf(std::string path, std::string_view unit) {
   std::ranges::replace_if(
       path, [](char c) { return c == '_' || c == '.'; }, ' ');
@@ -26,7 +25,7 @@ std::string labelOf(std::string path, std::string_view unit) {
   return unit.empty() ? path : path + " (" + std::string(unit) + ")";
 }
 
-// Returns a format with the decimals that a drag by a pixel changes.
+// Returns a format whose decimals show a drag by one pixel.
 const char* formatOf(double step) {
   return step >= 1.0 ? "%.0f" : step >= 0.1 ? "%.2f" : step >= 0.001 ? "%.3f" : "%.4f";
 }
@@ -39,7 +38,7 @@ bool dragNumbers(const Field& field, const char* label, double* values, int coun
                             formatOf(field.step), ImGuiSliderFlags_AlwaysClamp);
 }
 
-// Keeps scales from zero, which the loader refuses.
+// Edits a scale but never sets it to zero, which the loader refuses.
 template <typename Field>
 bool scaleWidget(const Field& field, const char* label, glm::dvec3& scale) {
   glm::dvec3 edited = scale;
@@ -116,8 +115,8 @@ bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i
   return changed;
 }
 
-// Edits the vertices of a polygon mirror, which become the mirror's once they are a valid polygon. Returns true if they
-// did.
+// Edits copies of a polygon mirror's vertices, and hands them to the mirror once they are a valid polygon. Returns true
+// if it did.
 bool polygonRows(PanelContext& ui, std::vector<glm::dvec3>& vertices) {
   PanelState::Polygon& polygon = ui.state.polygon;
   const int selected = ui.view.edit.selected.index;

@@ -19,7 +19,7 @@ std::vector<InputEvent> InputQueue::take() {
   bool moved = false;
   while (!events_.empty()) {
     const InputEvent event = events_.front();
-    // Typed letters come as text, so that frames may skip their keys.
+    // Letters also come as text, so a frame may skip their keys.
     const bool pressed = event.down && (event.kind == Kind::button || (event.kind == Kind::key && event.command));
     const bool drops = moved && event.kind == Kind::button && !event.down;
     if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased) || drops) {

@@ -45,7 +45,7 @@ void modelChoice(PanelContext& ui) {
   const std::vector<std::filesystem::path>& models = ui.view.edit.models;
   std::optional<std::filesystem::path>& chosen = ui.state.model;
   if (std::exchange(ui.state.modelsOf, ui.view.edit.scene) != ui.view.edit.scene) {
-    // A plain shape, rather than the frame or room that scenes begin with.
+    // Suggests a plain shape instead of the scene's first model, which often is a frame or a room.
     const auto plain = std::ranges::find(models, "sphere", [](const std::filesystem::path& m) { return m.stem(); });
     chosen = models.empty() ? std::nullopt : std::optional(plain != models.end() ? *plain : models.front());
   }
@@ -56,7 +56,7 @@ void modelChoice(PanelContext& ui) {
   recordWidget(ui, "edit.model");
   if (open) {
     for (size_t i = 0; i <= models.size(); ++i) {
-      ImGui::PushID(static_cast<int>(i));  // names may repeat
+      ImGui::PushID(static_cast<int>(i));  // models may have equal names
       const auto model = i < models.size() ? std::optional(models[i]) : std::nullopt;
       const std::string name = model ? model->stem().string() : fileName;
       if (ImGui::Selectable(name.c_str(), model == chosen)) {

@@ -1,4 +1,4 @@
-// The menus at the window's top, but for the one of its panels.
+// The menus at the window's top, except the one that opens panels.
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -101,7 +101,7 @@ void menus(PanelContext& ui) {
   }
 }
 
-// At the right edge, where there is room.
+// Shows the frame time at the right edge if there is room.
 void frameTime(const PanelContext& ui) {
   const FrameView& frame = ui.view.frame;
   const double ms = frame.frameMs;

@@ -12,7 +12,7 @@ namespace speculum {
 
 namespace {
 
-constexpr float lowest = 12.0f;  // least height of a window, in sizes of the font, where there is room
+constexpr float lowest = 12.0f;  // least height of a window in sizes of the font, if the display has room
 
 float margin() {
   return std::floor(0.8f * ImGui::GetFontSize());
@@ -30,7 +30,7 @@ bool apart(const glm::vec2& a, const glm::vec2& b) {
   return glm::distance(a, b) > 0.5f;
 }
 
-// Says whether the widget is an edge by which the user sizes the present window.
+// Says whether the active widget is an edge of the present window, which the user drags to resize it.
 bool holdsEdge(ImGuiID active) {
   ImGuiWindow* window = ImGui::GetCurrentWindow();
   bool held = false;

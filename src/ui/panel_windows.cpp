@@ -177,8 +177,8 @@ void PanelWindows::sideWindows(PanelContext& ui) {
   }
 }
 
-// The window has no background, because the renderer draws the target below it: this version of ImGui's Vulkan backend
-// draws no texture but its font.
+// Shows the Targets window without a background, because the renderer draws the target below it: this version of
+// ImGui's Vulkan backend draws no texture but its font.
 void PanelWindows::targetsWindow(PanelContext& ui) {
   bool& open = state_.choices.targets;
   if (open) {
@@ -206,7 +206,7 @@ void PanelWindows::toggleInspector() {
   visible_ = visible_ || state_.inspector;
 }
 
-// Where it opens under the pointer, a further click is meant for the picture.
+// Opens the inspector, which ignores the pointer until it moves: a further click at the same place is for the picture.
 void PanelWindows::openInspector() {
   if (!std::exchange(state_.inspector, true)) {
     const ImVec2 pointer = ImGui::GetIO().MousePos;

@@ -71,7 +71,7 @@ void cameraMode(PanelContext& ui) {
   commandButton(ui, "Reset camera", "camera.reset", "Returns to the scene's camera.", ResetCamera{});
 }
 
-// Says what the passes that a setting acts on took in the last frame whose passes were timed.
+// Returns a text with the time of the passes that a setting acts on, from the last frame whose passes were timed.
 std::string measuredHere(const FrameView& frame, std::string_view key) {
   const SettingField& field = *findSettingField(key);
   if (field.changes >= FramePart::display || std::holds_alternative<ColorSetting>(field.kind)) {
@@ -112,7 +112,7 @@ void describe(PanelContext& ui, std::string_view key) {
 }
 
 void tip(const std::string& text) {
-  // A widget that the keyboard is at counts as hovered, but its tooltip would cover the next ones.
+  // A widget with the keyboard's focus counts as hovered, but its tooltip would cover the next widgets.
   const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
   if (!byKeyboard && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
     ImGui::BeginTooltip();
@@ -160,7 +160,7 @@ void coloredText(const glm::vec3& color, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-// Over the picture, so that no panel moves.
+// Draws the message over the picture, so that no panel moves.
 void message(PanelContext& ui, const WindowRect& picture) {
   std::string& dismissed = ui.state.dismissedMessage;
   if (ui.view.message.empty()) {

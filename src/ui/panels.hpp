@@ -26,7 +26,7 @@ struct PanelState {
     std::optional<std::vector<int>> path;  // mirrors from the eye of the pass that is shown
     enum class Kind { color, depth, mask } kind = Kind::color;
     double zoom = 0.0;       // pixels of the display a texel; 0: as large as fits
-    double shownZoom = 1.0;  // the same, never 0
+    double shownZoom = 1.0;  // zoom that is in use, never 0
     double halfDistance = 5.0;
     glm::dvec2 center{0.0};             // texel in the middle
     std::optional<glm::ivec2> pointed;  // texel under the pointer
@@ -39,7 +39,7 @@ struct PanelState {
   // Vertices of the selected mirror while they are typed, which may not be a valid polygon yet.
   struct Polygon {
     std::vector<glm::dvec3> vertices;    // world, metres
-    std::vector<glm::dvec3> taken;       // the mirror's when `vertices` were last equal to them
+    std::vector<glm::dvec3> taken;       // the mirror's vertices when both were last equal
     int mirror = -1;                     // index into Scene::mirrors
     std::optional<std::string> problem;  // why `vertices` are not a valid polygon: one line
   } polygon;
@@ -108,7 +108,7 @@ void prompts(PanelContext& ui);                             // over all others, 
 // Drawn over the picture, behind all windows.
 void passOutline(const PanelContext& ui);  // around the mirror of the pass or skipped row under the pointer
 void editOverlay(const OverlayView& overlay);
-// Draws with the background's list, but not over the target that the Targets window shows.
+// Draws behind all windows, but not over the target that the Targets window shows.
 void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
 
 // Draws the status line at the lower left edge of the display, which PanelDock keeps free, up to `right`, where windows

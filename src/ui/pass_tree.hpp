@@ -15,12 +15,12 @@ struct PassNode {
   std::vector<PassNode> children;
 };
 
-// The main view first, with every mirror pass below the one that it is seen in, then the passes that are no view.
-// Mirrors whose parent is not listed are left out, and skipped ones likewise. A mirror whose image is reused is listed
-// with the pass that rendered it, not among the skipped ones.
+// Returns the main view, with every mirror pass below the pass that it is seen in, and then the passes that are no
+// view. Leaves out mirrors, with a pass or skipped, whose parent is not listed. A mirror whose image is reused is
+// listed with the pass that rendered it, not among the skipped ones.
 std::vector<PassNode> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped);
 
-// The last mirror of a pass's name, which says enough where its parents are in sight.
+// Returns the last mirror in a pass's name, which is enough in a tree that shows its parents.
 std::string pathEnd(const std::string& name);
 
 }  // namespace speculum

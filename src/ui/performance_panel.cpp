@@ -13,7 +13,7 @@ namespace speculum::panels {
 
 namespace {
 
-constexpr size_t fewest = 60;  // frames across a graph
+constexpr size_t fewest = 60;  // least number of frames across a graph
 
 // Draws a graph from 0 up; frames without a figure leave a gap.
 void graph(const char* name, std::vector<float> values, float height) {

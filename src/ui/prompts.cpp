@@ -69,7 +69,7 @@ void saveAs(PanelContext& ui) {
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
   if (ui.output.commands.size() == commands && enterPressed()) {
     ui.send(SaveAs{ui.state.saveAs});
-    ImGui::CloseCurrentPopup();  // it opens again, with the keyboard in the field, if that fails
+    ImGui::CloseCurrentPopup();  // if saving fails it opens again, with the keyboard in the field
   }
 }
 
@@ -113,7 +113,7 @@ void openFile(PanelContext& ui) {
   }
   recordWidget(ui, "open.typed");
   ImGui::TextDisabled("%s", files.folder.c_str());
-  const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // what stands above and below, and the menus
+  const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
   ImGui::BeginChild("files", {34.0f * em, std::min(20.0f * em, ImGui::GetIO().DisplaySize.y - others)}, true);
   if (ImGui::Selectable("..")) {
     chosen = files.folder.parent_path();

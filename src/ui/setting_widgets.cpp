@@ -13,7 +13,7 @@ namespace speculum::panels {
 
 namespace {
 
-constexpr double brightest = 65504.0;  // of a color that 16-bit targets hold
+constexpr double brightest = 65504.0;  // largest value in 16-bit float targets
 
 struct Widget {
   const SettingField& field;

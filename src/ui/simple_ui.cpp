@@ -73,11 +73,11 @@ void applyTheme(Theme theme, float scale) {
   style.WindowRounding = 6.0f;
   style.FrameRounding = 3.0f;
   style.GrabRounding = 3.0f;
-  style.FrameBorderSize = theme == Theme::light ? 1.0f : 0.0f;  // white on white
+  style.FrameBorderSize = theme == Theme::light ? 1.0f : 0.0f;  // light frames are white on white
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
   style.Colors[ImGuiCol_PopupBg].w = 1.0f;
   style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
-  style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_SliderGrab];  // progress, with text over it
+  style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_SliderGrab];  // progress bars have text over them
   const float disabled = theme == Theme::light ? 0.33f : 0.68f;
   style.Colors[ImGuiCol_TextDisabled] = {disabled, disabled, disabled, 1.0f};
   style.ScaleAllSizes(scale);
@@ -91,7 +91,7 @@ SimpleUI::Context::Context() {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
 #if IMGUI_VERSION_NUM < 18700
-  io.KeyMap[ImGuiKey_Tab] = -1;  // hides the panel instead of walking through it, as the arrow keys do as well
+  io.KeyMap[ImGuiKey_Tab] = -1;  // Tab hides the panel; the arrow keys move the focus
 #endif
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   io.ConfigDragClickToInputText = true;

@@ -13,7 +13,7 @@ float statusAlpha(double age) {
 
 namespace panels {
 
-constexpr float lines = 2.0f;       // of text, whatever there is to say
+constexpr float lines = 2.0f;       // lines of text that are kept free
 constexpr float mostWidth = 0.75f;  // of the display
 
 float statusHeight() {

@@ -65,7 +65,7 @@ struct FrameView {
   bool still = false;    // later frames drew the panels only
   double cpuMs = 0.0;
   double gpuMs = 0.0;
-  double timedGpuMs = 0.0;  // of the last frame whose passes were timed, which few are
+  double timedGpuMs = 0.0;  // of the last frame whose passes were timed; only some frames are
   FrameHistory history;
   uint64_t deviceBytes = 0;
   uint64_t budgetBytes = 0;
@@ -92,7 +92,7 @@ struct DeviceView {
   std::string driver;
   std::string vulkan;  // version
   std::string renderPath;
-  std::vector<int> samples;  // counts a pixel that it has, ascending
+  std::vector<int> samples;  // supported counts a pixel, ascending
   std::vector<FeatureView> features;
   std::vector<std::string> presentModes;  // that the window offers
   size_t presentMode = 0;                 // index into them
@@ -137,8 +137,8 @@ struct PlaybackView {
 
 // Drawn over the picture, in its pixels.
 struct OverlayView {
-  std::vector<PixelLine> outline;  // of the selected node, or of the image of it that was clicked
-  std::vector<PixelLine> itself;   // of the node itself, if its image was clicked
+  std::vector<PixelLine> outline;  // around the selected node, or its image that was clicked
+  std::vector<PixelLine> itself;   // around the node itself, if its image was clicked
   std::vector<GizmoShape> gizmo;
   Grip active = Grip::none;  // hovered or dragged
   std::string label;         // distance or angle of the drag
@@ -154,10 +154,10 @@ struct EditView {
   std::vector<Selection> others;  // selected together with it
   std::vector<int> through;       // mirrors that it was picked through, from the eye
   GizmoMode mode = GizmoMode::move;
-  std::vector<std::filesystem::path> models;  // that an object can be added of
+  std::vector<std::filesystem::path> models;  // models of objects that a user can add
   std::string undo;                           // label of the step; empty: none
   std::string redo;
-  bool unsaved = false;                           // there are changes to save, of the settings too
+  bool unsaved = false;                           // scene or settings have changes to save
   std::optional<std::filesystem::path> saveFile;  // file that Save writes; none: it asks for one
   Prompt prompt = Prompt::none;
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
