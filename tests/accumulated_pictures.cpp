@@ -52,7 +52,7 @@ TEST(Accumulation, IsTheMeanOfItsPictures) {
     const Image8 display = toDisplay(accumulated, mean.view.exposure, mean.view.toneMap);
     EXPECT_EQ(difference(session.picture(), display, 1).over, 0) << "neither exposure nor tone curve changes the sum";
     if (pictures == 17) {
-      continue;  // enlarged
+      continue;  // drawn at a lower scale and enlarged
     }
     std::vector<glm::dvec3> sum(accumulated.pixels.size(), glm::dvec3(0.0));
     for (int i = 0; i < pictures; ++i) {
@@ -103,7 +103,7 @@ TEST(Accumulation, CountsAllPicturesInItsFigures) {
   EXPECT_GT(five.timings.gpuMs, 2.0 * one.timings.gpuMs);
 }
 
-// A wrong value in one picture is found, although the mean would hide it.
+// The mean hides a wrong value in one picture, so pictures are checked before they are summed.
 TEST(Accumulation, EveryPictureIsCheckedBeforeSumming) {
   const std::filesystem::path shaders = sceneDirectory() / "shaders";
   std::filesystem::create_directories(shaders);

@@ -100,7 +100,7 @@ struct Window {
     return std::inner_product(chosen.begin(), chosen.end() - 1, chosen.begin() + 1, 0, std::plus(),
                               std::not_equal_to());
   }
-  // Says whether a level above the last ones would have kept to seven tenths of the budget.
+  // Says whether the next better level than the last one chosen would have taken less than 0.7 of the budget.
   bool wastes() const {
     std::mt19937 other(1);
     const Device quiet = [&] {
@@ -374,7 +374,7 @@ TEST(Movement, LastsAMomentAfterTheLastStep) {
   EXPECT_TRUE(movement.moving() && !movement.ending()) << "something else moves";
 }
 
-// Its frames take half a second whatever they draw.
+// Draws on a device whose frames take half a second whatever they draw.
 TEST(Pace, LowersOnlyWhatMoves) {
   Pace pace(true, 1 + 4);
   const Scene scene;

@@ -17,9 +17,9 @@ constexpr PictureSize small{160, 90};
 constexpr PictureSize tiny{64, 36};
 constexpr double frameSeconds = 1.0 / 30.0;
 
-// Nothing is seen but a mirror that is larger than the view; what it shows stands behind the camera, which turns about
-// the mirror's middle. Large and without fine textures, so that the error is of place, not of one more filtering.
-// `mirror` are further keys of the mirror.
+// A mirror fills the view and shows objects behind the camera, which turns about the mirror's middle. The objects are
+// large and have no fine textures, so that errors come from wrong positions and not from filtering once more. `mirror`
+// holds further keys of the mirror.
 std::filesystem::path wallScene(const std::string& name, const std::string& mirror = "") {
   return writeScene(name, R"(
 [environment]
@@ -125,9 +125,9 @@ class MovingCamera : public testing::TestWithParam<Lookup> {
   }
 };
 
-// Measured with lavapipe: 0.25 of the stale picture's error (own sample, layers), 0.27 (average, double), 0.33
-// (single), 0.40 (half), over all frames. Right after a fresh image it is more, because then little has moved, and
-// filtering the image once more costs as much as ever.
+// Measured with lavapipe over all frames: 0.25 of the stale picture's error (own sample, layers), 0.27 (average,
+// double), 0.33 (single), 0.40 (half). Right after a fresh image the share is larger: little has moved, while filtering
+// the image once more adds its usual error.
 TEST_P(MovingCamera, ReprojectionIsCloserThanStaleImages) {
   Options options = headless(wallScene(std::string("moving_") + GetParam().name, GetParam().mirror), size);
   set(options, settings(4));
@@ -142,7 +142,7 @@ TEST_P(MovingCamera, ReprojectionIsCloserThanStaleImages) {
     const LinearImage drawn = radiance(session, frame * frameSeconds);
     const LinearImage expected = radiance(fresh, frame * frameSeconds);
     if (mirrorPasses(session.sceneRenderer()) > 0) {
-      // With a margin, and beyond the border of the picture.
+      // A rendered image has a margin beyond the border of the picture, which must not change the picture.
       EXPECT_LT(rmse(drawn, expected), 0.001) << "frame " << frame;
       stale = expected;
       continue;
@@ -177,7 +177,7 @@ int directPasses(Session& session) {
       std::count_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.depth == 0; }));
 }
 
-// What is seen within them may differ by what margins show of it.
+// Counts only mirrors seen directly: margins may show more mirrors within them.
 TEST(CachedPictures, IntervalFourRendersAQuarterEachFrame) {
   for (const double step : {0.0, 0.002}) {
     Options options = withInterval(sourceFile("scenes/many_mirrors.toml"), 4, tiny);

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 
-// The frames of the other run take longer by more than any noise.
+// Compares with a run of 256 pictures a frame, which is slower by more than any noise.
 TEST_F(CommandLine, BenchComparesRunsInTurn) {
   const ProcessResult result =
       speculum({"bench", "--scene", scene_, "--size", "32x18", "--frames", "2", "--warmup", "0",

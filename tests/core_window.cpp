@@ -166,7 +166,7 @@ TEST(WindowOptions, FifoIsAlwaysOffered) {
   EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
 }
 
-// Characters as a German, a French, an American and a Russian keyboard have them.
+// Tests characters of German, French, American and Russian keyboards.
 TEST(WindowKeys, LettersFollowPrintFlyKeysFollowPlace) {
   EXPECT_EQ(keyMeant(Key::y, "z", true, "wasdqe"), Key::z);
   EXPECT_EQ(keyMeant(Key::z, "y", true, "wasdqe"), Key::y);
@@ -250,7 +250,7 @@ TEST(WindowMonitors, FullScreenEndsWithItsMonitor) {
   ASSERT_TRUE(sized(320, 200));
   window.setFullScreen(true);
   ASSERT_TRUE(sized(1280, 900));
-  // GLFW does this when a monitor goes, before it reports it.
+  // Does what GLFW does when a monitor goes, before it reports that.
   glfwSetWindowMonitor(window.native(), nullptr, 0, 0, 1280, 900, GLFW_DONT_CARE);
   ASSERT_FALSE(window.fullScreen());
   window.takeActivity();

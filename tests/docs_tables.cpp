@@ -16,7 +16,7 @@
 namespace speculum {
 namespace {
 
-// The default, then what else the setting takes.
+// Returns the setting's default, then its other values.
 std::string settingValues(const SettingField& field) {
   const std::string value = settingValue(Settings(), field.key);
   const std::string usual = value.empty() ? "" : "`" + value + "`";
@@ -33,7 +33,7 @@ std::string settingValues(const SettingField& field) {
   return usual + (usual.empty() ? "" : ", ") + settingRangeWithUnit(field);
 }
 
-// Measured costs stand in docs/performance.md alone.
+// Returns the list of a group's settings, without measured costs, which only docs/performance.md has.
 std::string settingsList(std::string_view group) {
   std::string list;
   for (const SettingField& field : settingFields()) {
@@ -103,7 +103,7 @@ void forEachRow(const std::string& prefix, const Visitor& visit) {
   });
 }
 
-// "required", the default or the shape; then the other choices, range and unit.
+// Returns "required", the default or the shape of the value, then other choices, range and unit.
 template <typename Field, typename Node>
 std::string fieldValue(const Field& field, const Node& node) {
   using Value = typename Field::Value;

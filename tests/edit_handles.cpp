@@ -58,7 +58,7 @@ TEST(GizmoHandles, HandlesAreHitWhereDrawn) {
       for (const glm::dvec2& p : shape.points) {
         middle += p / static_cast<double>(shape.points.size());
       }
-      // A point of a ring away from where it crosses another; the middle of any other handle.
+      // Takes a point of a ring where it crosses no other, or the middle of any other handle.
       const glm::dvec2 p = mode == GizmoMode::turn ? shape.points[shape.points.size() / 5] : middle;
       if (!shape.behind) {
         EXPECT_EQ(gizmo.at(picture, p, 6.0), shape.handle);
@@ -284,7 +284,7 @@ TEST(Outline, SurroundsAnObjectClosely) {
   for (const PixelLine& line : lines) {
     EXPECT_NEAR(glm::distance(line.a, glm::dvec2(450.0, 350.0)), radius, 3.0);
   }
-  // Its image is wider than the mirror, which cuts it.
+  // The image is wider than the mirror, so the mirror cuts it.
   const auto image =
       outlineOf(scene, state, sphere, picture.through(scene, state, std::vector<int>{0}).value(), points);
   ASSERT_FALSE(image.empty());

@@ -142,7 +142,7 @@ TEST_P(PickedScene, IsWhatThePixelShows) {
     if (largestDifference(at(0, 0), expected) < 0.003) {
       continue;
     }
-    // A pixel on an edge may show either side of it: floats there, doubles here.
+    // A pixel on an edge may show either side of it, because the rasteriser rounds to floats.
     ++edges;
     double nearest = 1.0;
     for (int n = 0; n < 9; ++n) {

@@ -79,8 +79,8 @@ using namespace testing_support;
 
 constexpr PictureSize size{64, 36};
 
-// `uncalled` has the effect where nothing visible needs it, `called` where something does, which takes more objects of
-// these kinds.
+// Two scenes with an effect: nothing visible needs it in `uncalled`, something does in `called`. That takes more Vulkan
+// objects of these kinds.
 struct Case {
   const char* effect;
   const char* uncalled;
@@ -110,7 +110,7 @@ model = "MODELS/teapot.obj"
 Options optionsFor(const std::filesystem::path& file,
                    const std::vector<std::pair<std::string, std::string>>& more = {}) {
   Options options = headless(file, size);
-  // The check has objects of its own.
+  // Switches off the check for finite values, which has objects of its own.
   set(options, {{"debug.check_finite", "false"}});
   set(options, more);
   return options;
@@ -165,7 +165,7 @@ nlohmann::ordered_json effectStats(Session& session, const std::string& effect) 
   return {};
 }
 
-// Draws one frame with and without the effect: nothing is made or drawn for it, and the pictures are the same.
+// Draws one frame with and without the effect. Expects that nothing is made or drawn for it and the pictures are equal.
 void expectFree(const Options& options, const std::string& effect) {
   const auto run = [](const Options& drawn) {
     counts = {};
@@ -289,7 +289,7 @@ TEST(Ledger, EachEffectReleasesItsOwn) {
   EXPECT_EQ(after.alive.at("Pipeline"), never.alive.at("Pipeline"));
 }
 
-// At a limit of depth a rough mirror reflects nothing that could be blurred.
+// At the depth limit a rough mirror has no reflection that could be blurred.
 TEST(Ledger, RoughnessWithoutReflectionCostsNothing) {
   expectFree(optionsFor(sceneWith("rough_deep",
                                   "[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\nroughness = 0.3\n"

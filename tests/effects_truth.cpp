@@ -55,7 +55,7 @@ double rootMeanSquare(const LinearImage& drawn, const LinearImage& reference, co
 struct Case {
   const char* name;
   std::string rest;
-  const char* effects;  // that are called for
+  const char* effects;  // effects that the scene calls for
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -161,7 +161,7 @@ TEST(ExactEffects, RaysAtEverySampleReduceError) {
   EXPECT_LT(each, 0.8 * once);
 }
 
-// Pixels at the horizon of a rough floor, whose centres may lie beyond it, never show its back.
+// Centres of pixels at a rough floor's horizon may lie beyond it. Such pixels must not show the floor's back.
 TEST(RoughFloor, ShowsNoBackAtTheHorizon) {
   const auto floor = [](const std::string& name, const std::string& back) {
     return writeScene(name,
@@ -285,8 +285,8 @@ class RoughMirror : public testing::Test {
   const Settings usual_ = session_.settings();
 };
 
-// The more rays, the smaller the error: a factor of 8 in rays is worth at least 1.8 in RMSE, where 8^0.5 is expected
-// until the noise of the reference is reached.
+// 8 times as many rays lower the RMSE by a factor of at least 1.8. Theory says 8^0.5, until the reference's own noise
+// dominates.
 TEST_F(RoughMirror, MoreRaysReduceError) {
   const double two = error({{"effects.rough_samples", "2"}});
   const double sixteen = error({{"effects.rough_samples", "16"}});

@@ -1,5 +1,5 @@
-// Curved mirrors that look up environment maps, against the ray tracer: the error falls along the size of the faces and
-// with the correction by a box. What they cost, and that they give it back, is in effects_ledger.cpp.
+// Curved mirrors that look up environment maps, against the ray tracer: larger faces and the correction by a box lower
+// the error. effects_ledger.cpp tests their cost and its release.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,8 +21,8 @@ std::string block(const char* position, const char* scale, const char* color, co
          "\nscale = " + scale + "\ncolor = " + color + "\n" + copies;
 }
 
-// A room with a pattern on its floor, ceiling and walls, and a ball off its middle; without highlights, which a map
-// shows as its centre sees them. `rest` adds to it.
+// A room with a pattern on its floor, ceiling and walls, and a ball off its middle. There are no highlights, because a
+// map shows them as seen from its centre. `rest` is added to the scene.
 std::filesystem::path room(const std::string& name, const std::string& rest = "") {
   const char* alongX = "copies = { count = 7, step = [0.8, 0, 0] }\n";
   const char* alongZ = "copies = { count = 7, step = [0, 0, 0.8] }\n";
@@ -227,7 +227,7 @@ TEST(EnvironmentMaps, ReuseChangesNoByte) {
       EXPECT_EQ(captures, 8) << "two maps in the four frames in which the king had turned";
     } else {
       EXPECT_LT(captures, 8);
-      // When nothing moves every map comes due, and the mirror that shows them is rendered after them.
+      // Nothing moves now. Every map becomes due, and the mirror that shows the maps is rendered after them.
       Session fresh(options);
       mapPasses(fresh, 0.2);
       EXPECT_EQ(pictures[6], fresh.picture().rgba);

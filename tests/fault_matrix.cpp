@@ -32,7 +32,7 @@ struct Fault {
   VkResult result = VK_SUCCESS;
   int call = 0;
 
-  // Recovery is possible and not only allowed. GLFW does not read lists again.
+  // Says whether the program must recover and may not end. GLFW does not read lists again.
   bool mustRecover() const {
     const bool ofSurface = function == "vkAcquireNextImageKHR" || function == "vkQueuePresentKHR" ||
                            function == "vkCreateSwapchainKHR" ||
@@ -72,7 +72,7 @@ class Faults : public FaultTest {
         kind,
         {"SPECULUM_FAULT=" + fault.function + " " + std::to_string(fault.call) + " " + std::to_string(fault.result)},
         isEarly(fault.function) ? Place::early : Place::outer);
-    // A warning says what is lower now.
+    // If the picture differs, a warning must say what was lowered.
     const bool whole = result.picture == picture_;
     const bool recovered = result.exitCode == 0 && (whole || result.lines == 1) && result.lines <= 1;
     const bool line = result.exitCode == 2 && result.lines == 1 && (whole || !result.picture) && !fault.mustRecover();
@@ -92,7 +92,7 @@ class Faults : public FaultTest {
       const int last = isEarly(function.name) ? 1 : calls[function.name];
       functions += last > 0;
       for (const VkResult result : function.results) {
-        // What comes last may be a call of the loader's own, which asks for counts.
+        // The last call may be the loader's own, which only asks for a count.
         for (int call = 1; call <= (result == VK_INCOMPLETE ? std::min(last, 1) : last);
              call += std::max(last - 1, 1)) {
           faults.push_back({function.name, result, call});

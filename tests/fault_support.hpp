@@ -27,8 +27,8 @@ class FaultTest : public testing::Test {
     std::string otherFiles;  // that were left beside the picture
   };
 
-  // Places of the layer: nearest to the program; between the validation layer and the driver, which the layer then
-  // lends its limits; before there is an instance, too.
+  // Places of the layer. outer: nearest to the program. inner: between the validation layer and the driver, so that
+  // validation sees the layer's limits. early: called also before there is an instance.
   enum class Place { outer, inner, early };
 
   // `variables`: NAME=VALUE of the environment.

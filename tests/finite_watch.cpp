@@ -138,8 +138,8 @@ size = [6, 6]
 )";
 const std::string hall = wall + rear;
 
-// The program's shaders, but the sky of one pass has one value that it should not have. The scenes have one light, so
-// that a view's first light is its index.
+// A folder with the program's shaders, changed so that the sky has one wrong value in one pass. The scenes have one
+// light, so a view's first light is the view's index.
 class BrokenSky {
  public:
   BrokenSky(int pass, int x, int y, int sample, const std::string& value) {
@@ -174,7 +174,7 @@ class BrokenPass : public Watch, public testing::WithParamInterface<std::tuple<R
   int samples() const { return std::get<1>(GetParam()); }
   bool negative() const { return std::get<2>(GetParam()); }
   int sample() const { return samples() - 1; }
-  // What is not a number passes where all radiance is bounded, which would hide it.
+  // Returns the wrong value. NaN goes through storable(), which must not hide it.
   std::string value() const {
     return negative() ? "-0.25" : "storable(vec3(uintBitsToFloat(0x7fc00000u | view.firstLight)), 0.0).g";
   }
@@ -189,7 +189,7 @@ class BrokenPass : public Watch, public testing::WithParamInterface<std::tuple<R
 };
 
 TEST_P(BrokenPass, IsNamedWithItsMirrorsAndPixel) {
-  // Passes are recorded in the order of views: the rear mirror's in the front one's, the front one's, the main view.
+  // Passes are recorded in this order: the rear mirror's seen in the front one, the front one's, the main view.
   const BrokenSky sky(0, 5, 3, sample(), value());
   Session session(watched(hall, "nested_" + name(), sky, path(), samples()));
   const FiniteWatch& watch = drawWatched(session);
@@ -215,7 +215,7 @@ TEST_P(BrokenPass, MainViewIsFoundInItsSamples) {
   EXPECT_EQ(found.pass, samples() > 1 ? "main view (samples)" : "main view");
   EXPECT_EQ(found.id.kind, PassKind::main);
   expectFinding(found, 60, 34);
-  // The mean of four samples is positive again, but never a number again.
+  // The mean of four samples hides a negative value but not NaN.
   EXPECT_EQ(watch.findings().size(), samples() > 1 && !negative() ? 2u : 1u);
 }
 
@@ -252,7 +252,7 @@ TEST_F(WatchedFrames, CachedImagesAreCheckedWhenRendered) {
     const FiniteWatch& watch = drawWatched(session);
     const bool fresh = !session.lastFrame().plan.passes.empty();
     rendered += fresh ? 1 : 0;
-    // Without mirror passes the first view is the main view's, which shows sky there, too.
+    // Without mirror passes the main view is the first view; it shows the sky at the same texel.
     ASSERT_EQ(watch.findingsFrame(), frame);
     EXPECT_EQ(watch.findings().front().pass, fresh ? "mirror front" : "main view");
     EXPECT_EQ(watch.findings().size(), 1u);

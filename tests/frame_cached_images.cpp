@@ -49,7 +49,7 @@ TEST(CachedImages, IntervalOneCachesNothing) {
 TEST(CachedImages, MirrorsTakeTurnsAfterTheFirstFrame) {
   for (const double step : {0.0, 0.002}) {
     PlanSequence sequence = withInterval(row(), 3);
-    std::map<int, std::vector<int>> frames;  // of each mirror's passes
+    std::map<int, std::vector<int>> frames;  // by mirror: frames in which it had a pass
     for (int frame = 0; frame < 15; ++frame) {
       sequence.next();
       ASSERT_EQ(sequence.plan.cached.size(), 6u);

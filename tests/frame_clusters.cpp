@@ -157,7 +157,7 @@ TEST(Clusters, ObjectsCutByThePictureArePartial) {
   const std::vector<IndexRange>& ranges = plan.main.partial[0].ranges;
   ASSERT_EQ(ranges.size(), 1u);
   EXPECT_EQ(ranges[0].first, 0u);
-  // The lowest 0.67 m of 2 m, and the rest of its last cluster.
+  // The view sees the lowest 0.67 m of 2 m. The last cluster of that part reaches beyond it.
   EXPECT_GE(ranges[0].count, 6u * 32u * 10u);
   EXPECT_LE(ranges[0].count, 6u * 32u * 13u);
   settings.debug.cullClusters = false;
@@ -165,7 +165,7 @@ TEST(Clusters, ObjectsCutByThePictureArePartial) {
 }
 
 TEST(Clusters, ObjectsSeenByBoxOnlyAreDropped) {
-  // A corner of the box, where the mesh has nothing: an L of clusters.
+  // The view sees a corner of the mesh's box that has no clusters.
   Scene scene = sceneOf({});
   Mesh& mesh = scene.meshes[0];
   std::erase_if(mesh.clusters, [](const MeshCluster& c) { return c.center.y > -0.5; });

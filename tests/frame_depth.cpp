@@ -102,8 +102,8 @@ TEST(DepthReadout, MirrorsAndGlyphsCount) {
   EXPECT_NEAR(readoutOf(lit, evaluate(lit, 0.0))->distance, 10.1, 1e-9);
 }
 
-// A large mirror `h` before an eye that looks at it that many degrees from straight, and a body where the line of
-// sight leads. Looked at straight, an oblique near plane is an ordinary one.
+// Returns the readout for a large mirror `h` metres before an eye that looks at it at `degrees` from the normal, and a
+// body where the line of sight leads. At 0 degrees an oblique near plane is an ordinary one.
 std::optional<DepthReadout> nearMirrorReadout(double h, double degrees) {
   Scene scene = mirrorScene();
   scene.mirrors[0].position = {0, 0, -h};

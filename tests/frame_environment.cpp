@@ -86,7 +86,7 @@ TEST(EnvironmentMap, NeedsNoRays) {
   EXPECT_TRUE(fitted.message.empty());
 }
 
-// Every direction is within a face, and what stands there is among what the face draws; the object itself is in none.
+// Every direction lies in a face that draws what stands there. No face draws the mirror itself.
 TEST(EnvironmentMap, FacesCoverAllDirections) {
   Frames frames(room());
   for (int i = 0; i < 40; ++i) {

@@ -1,4 +1,5 @@
-// Plans of what a small file can ask for: in time and memory that stay small, and checked before the work.
+// Plans for the largest work that a small scene file can ask for: time and memory stay small, and sizes are checked
+// before the work.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ void expectPlanned(const std::string& text, const std::string& kind) {
   EXPECT_LT(peakResidentBytes(), 512u << 20) << kind;
 }
 
-// As many mirrors as 64 KiB name, in a row, beside each other and anywhere.
+// Plans as many mirrors as 64 KiB of text can hold: all in one place, in a row, and anywhere.
 TEST(PlanLimits, ThousandsOfMirrorsPlanInShortTime) {
   for (const char* kind : {"same", "row", "anywhere"}) {
     std::string text;

@@ -54,7 +54,7 @@ TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
   EXPECT_NE(fitted.message.find("lowered reflection.scale to 2.5"), std::string::npos) << fitted.message;
 }
 
-// Then a mirror with ripples is a plane again, with a pass.
+// Without rays, a rippled mirror is drawn as a smooth one and has a pass.
 TEST(MemoryFit, TracedEffectsNeedADeviceThatCan) {
   Scene scene = wallScene();
   scene.mirrors[0].ripple = Ripple{.amplitude = 0.01};

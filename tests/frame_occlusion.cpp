@@ -68,7 +68,7 @@ class Occluders : public ::testing::Test {
     return object;
   }
 
-  // Somewhere beyond an occluder, towards a point of its surface or beside it.
+  // Returns a mirror somewhere beyond an occluder, in the direction of a point of its surface or beside it.
   Mirror mirrorBehind(const Scene& scene, const SceneState& state) {
     const InstanceState& instance = state.instances[engine_() % state.instances.size()];
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -95,7 +95,7 @@ class Occluders : public ::testing::Test {
     return points;
   }
 
-  // Plans a scene and checks all that is hidden in the main view; how many mirrors are.
+  // Plans a scene and checks all mirrors hidden in the main view. Returns their number.
   int check(const Scene& scene, const std::string& what) {
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planOf(scene);

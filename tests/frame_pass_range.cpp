@@ -58,7 +58,7 @@ TEST(PassRange, RangesHoldNoPassWithItsImages) {
 }
 
 TEST(PassRange, RangesCoverAtMostOnePicture) {
-  // Each covers more than half of the picture, the second beside and behind the first.
+  // Each mirror covers more than half of the picture; the second is beside and behind the first.
   const FramePlan plan = planOf({wall({-1, 0, -3}, 0, {6, 4}), wall({3, 0, -5}, 0, {8, 8})}, 1);
   ASSERT_EQ(plan.passes.size(), 2u);
   ASSERT_GT(plan.passes[0].view.rect.area() + plan.passes[1].view.rect.area(), 640 * 360);

@@ -158,7 +158,7 @@ TEST(FramePlan, TexelsFollowBothScales) {
     EXPECT_EQ(p.main.view.rect, (PixelRect{0, 0, static_cast<int>(drawn.x), static_cast<int>(drawn.y)}));
     EXPECT_EQ(drawn, glm::max(glm::round(texels), 1.0));
     EXPECT_EQ(p.main.areaPx, drawn.x * drawn.y);
-    // Whatever is drawn, it is the same mirrors for the same reasons, and the user picks among them.
+    // The scale changes resolutions, but neither the mirrors with passes nor the reasons of the others nor picking.
     ASSERT_EQ(p.passes.size(), whole.passes.size());
     EXPECT_EQ(p.skipped.size(), whole.skipped.size());
     for (size_t i = 0; i < p.passes.size(); ++i) {

@@ -41,7 +41,7 @@ TEST(Settings, EveryDescriptionIsWhole) {
   }
 }
 
-// A setting of another value: the next of a list, or a number a little above.
+// Returns settings in which one has another value: the next of a list, or a number a little above.
 Settings changed(const SettingField& field) {
   Settings settings;
   for (const char* value : {"true", "false", "2", "0.5", "1", "32", "oblique", "aces", "trilinear", "image",

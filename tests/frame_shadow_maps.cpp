@@ -112,7 +112,7 @@ TEST(ShadowMap, OnlyChangedFacesAreRendered) {
   EXPECT_EQ(frames.rendered(), resized);
 }
 
-// Whatever is drawn looks up a face that is rendered, within its window: random boxes, mirrors, lights and cameras.
+// In random scenes, every drawn point looks up a face that is rendered, within the face's window.
 TEST(ShadowMap, VisiblePointsLieInReadFaces) {
   std::mt19937 random(7);
   const auto uniform = [&](double low, double high) {

@@ -105,7 +105,7 @@ TEST(Hidden, MirrorsHideOnlyWithWhatTheyReflect) {
                            return pass.view.path == std::vector<int>{0, 1};
                          }),
             beyond.passes.end());
-  // Of a door that stands across the plane, only the part before it reflects, and hides.
+  // A door stands across the plane. Only its part before the plane is reflected, so only that part hides.
   Object across = square({0, 0, -4}, {3, 3, 1});
   across.rotation = {0, 90, 0};
   EXPECT_FALSE(isHidden(planOf(sceneWith(facing, {across})), {0, 1}));
@@ -133,7 +133,7 @@ TEST(Hidden, OccluderOfAllIsNamedAlone) {
   EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'door'");
 }
 
-// Boxes of 2 m, each side cut into 2 n^2 triangles. Has no faces to hide anything by themselves.
+// A scene with boxes of 2 m whose sides are cut into 2 n^2 triangles. They have no flat occluders.
 Scene sceneWithBoxes(std::vector<Mirror> mirrors, const std::vector<Object>& objects, int n = 1) {
   Scene scene = sceneWith(std::move(mirrors), objects);
   std::vector<glm::dvec3> positions;

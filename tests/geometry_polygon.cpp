@@ -45,7 +45,7 @@ TEST(Polygon, PentagramIsNotConvex) {
   EXPECT_EQ(polygonDefect(star), "is not convex");
 }
 
-// A square whose upper side is cut into `edges` along an arc that bulges by `height` in its middle.
+// A square whose upper side is an arc of `edges` edges that bulges by `height` in its middle.
 Polygon squareWithArc(int edges, double height) {
   const double r = height == 0.0 ? 0.0 : (0.25 + height * height) / (2.0 * height);
   Polygon polygon{{0, 0, 0}, {1, 0, 0}};

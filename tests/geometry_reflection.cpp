@@ -5,7 +5,7 @@
 namespace speculum {
 namespace {
 
-// Its invariants are properties in hard_cases/properties.cpp.
+// hard_cases/properties.cpp tests the invariants of reflection.
 TEST(Reflection, IsUnaffectedByTheNormalsLength) {
   const glm::dvec3 n = glm::normalize(glm::dvec3(1, 2, 3));
   const Plane unit{{1, 1, 1}, n};

@@ -73,7 +73,7 @@ TEST_F(EditJourney, HandlesAreDraggedInAMirrorImage) {
   clickAt(image.x + 4, image.y);
   ASSERT_EQ(view().edit.selected, (Selection{Selection::Kind::object, 0}));
   ASSERT_EQ(view().edit.through, std::vector<int>{0});
-  // Upwards in the image as well; six metres away a pixel is more.
+  // Drags upwards in the mirror image, where the ball is six metres away and a pixel is longer.
   dragFrom(image.x, image.y - 60, 0, -30);
   EXPECT_NEAR(ball().position.y, 1.0 + 6.0 * 30 / focalPixels, 2e-2);
   EXPECT_EQ(ball().position.x, 0.3);
@@ -86,7 +86,7 @@ TEST_F(EditJourney, HandlesAreDraggedInAMirrorImage) {
   EXPECT_TRUE(barePicture().rgba == before.rgba) << "undone to the pixel";
 }
 
-// On Dvorak the comma stands where W is, and flies.
+// On a Dvorak keyboard the comma is where W is on an American one, so it flies.
 TEST_F(Journey, ShortcutsAvoidFlyKeysOnDvorak) {
   setKeyboard({"us", "-variant", "dvorak"});
   run(3);
@@ -129,7 +129,7 @@ TEST_F(Journey, RandomResizesLeakNothing) {
     ASSERT_EQ(view().frame.passes.size(), 3u) << "the pass of a reused image stays in the list";
   }
   EXPECT_GE(reused, 4);
-  resizeTo(1, 1);  // where mirrors are too small for passes, which is another pipeline
+  resizeTo(1, 1);  // mirrors become too small for passes, which takes another pipeline
   settle();
   const auto objects = liveObjects();
   for (int i = 0; i < 100; ++i) {
@@ -165,7 +165,7 @@ TEST_F(Journey, CloseButtonAsksAndSaves) {
 TEST_F(Journey, InputBetweenFramesGoesWhereItWasMeant) {
   press("ctrl+shift+s");
   run(4);
-  // All of it before the next frame.
+  // Sends all keys before the next frame.
   xdotool({"type", "--window", window_, "--delay", "1", "abcd"});
   xdotool({"key", "--window", window_, "--delay", "1", "BackSpace", "BackSpace", "Left", "x"});
   EXPECT_TRUE(waitFor([&] { return demo_->panels().saveAs == "axb"; })) << demo_->panels().saveAs;
@@ -175,7 +175,7 @@ TEST_F(Journey, InputBetweenFramesGoesWhereItWasMeant) {
   ASSERT_TRUE(view().edit.selected);
   const PixelRect box = widget("pause");
   moveTo(width / 2, 30);
-  // All before the next frame.
+  // Sends all events before the next frame.
   xdotool({"mousemove", "--window", window_, std::to_string(box.x + 10), std::to_string(box.y + box.height / 2),
            "mousedown", "1", "mouseup", "1", "mousemove", "--window", window_, std::to_string(width / 2), "30"});
   run(5);
@@ -428,7 +428,7 @@ struct OwnShaders {
     options.settings = {{"debug.check_finite", "true"}};
     return options;
   }
-  // As if edited a second later.
+  // Makes the file look as if it was edited a second later.
   void touch(const std::filesystem::path& file) const {
     std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) + std::chrono::seconds(1));
   }

@@ -51,7 +51,7 @@ class IdleWindow : public Journey {
     const std::vector<PassView>& passes = view().frame.passes;
     return *std::find_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.kind == PassKind::main; });
   }
-  // Without the figures of the panel, which differ from frame to frame.
+  // Returns the picture without the panel, whose figures differ from frame to frame.
   std::vector<uint8_t> rightOfThePanel() {
     const Image8 image = picture();
     std::vector<uint8_t> right;

@@ -1,4 +1,4 @@
-// A window whose device runs out of memory goes on with less.
+// A window goes on with less if its device runs out of memory.
 #include "journeys_support.hpp"
 #include "scarce_memory.hpp"
 

@@ -41,7 +41,7 @@ class RandomInput : public Journey {
   int upTo(int last) { return std::uniform_int_distribution<int>(0, last)(random_); }
   std::string place(int size) { return std::to_string(upTo(size)); }
 
-  // Half of the presses aim at a widget: the picture is large and takes most of the others.
+  // Aims half of the presses at a widget: most of the others hit the picture, which is large.
   std::vector<std::string> pointerTo() {
     const auto& widgets = demo_->panels().widgets;
     if (!widgets.empty() && upTo(1) == 0) {
@@ -138,7 +138,7 @@ TEST_F(RandomInput, LeavesAWindowThatWorks) {
   pad_.reset();
   const int frames = demo_->framesDrawn();
   resize();
-  // The window manager may still have to hide what was iconified last.
+  // Repeats this, because the window manager may not have hidden the iconified window yet.
   for (int i = 0; i < 100 && demo_->framesDrawn() == frames; ++i) {
     demo_->window().restore();
     stepped(2);

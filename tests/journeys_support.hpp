@@ -38,8 +38,8 @@ class Journey : public testing::Test {
     options_.size = {width, height};
     options_.validation = true;
     options_.presentMode = PresentMode::immediate;
-    // Drawing everything in every frame lets run() count frames.
-    // What moves has full quality, however slow the machine is.
+    // Draws everything in every frame, so that run() can count frames, and moving pictures in full quality, however
+    // slow the machine is.
     options_.settings.insert(options_.settings.begin(), {{"view.continuous", "true"},
                                                          {"reflection.skip_unchanged", "false"},
                                                          {"view.samples", "1"},
@@ -153,7 +153,7 @@ class Journey : public testing::Test {
 
   UiView view() const { return demo_->view(); }
   Image8 picture() { return pictureOf(demo_->renderer().readback()); }
-  // Without panels and messages.
+  // Returns the picture without panels and messages.
   Image8 barePicture() {
     demo_->apply(TogglePanel{});
     while (!view().status.text.empty()) {

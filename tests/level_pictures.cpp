@@ -1,4 +1,4 @@
-// reflection.mesh_error: what simplified objects in mirrors save, and what the picture loses by it.
+// reflection.mesh_error: how many triangles simplified objects in mirrors save, and how much the picture changes.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -15,7 +15,7 @@ using namespace testing_support;
 constexpr PictureSize size{320, 180};
 constexpr PictureSize small{160, 90};
 
-// Before a wall of a mirror and, at its side, a second one: knots and others with several parts, and hard edges.
+// Objects before a mirror wall and a second mirror at its side: knots, objects of several parts, and hard edges.
 std::filesystem::path objectsScene(const std::string& more = "") {
   return writeScene("levels", R"(
 [environment]
@@ -121,7 +121,7 @@ TEST(LevelPictures, BothRenderPathsDrawTheSameBytes) {
   expectSameOnBothPaths(optionsFor(objectsScene(), "1"), {0.0});
 }
 
-// Objects and camera move, stop and come back: images of other levels are not taken for the same.
+// Objects and camera move, stop and come back. An image with another level must not count as unchanged.
 TEST(LevelPictures, SkippingWhatIsUnchangedChangesNoByte) {
   const std::filesystem::path file = objectsScene();
   QuietSession skipping(optionsFor(file, "2", {{"reflection.skip_unchanged", "true"}}));

@@ -60,7 +60,7 @@ World randomWorld(unsigned seed) {
   return world;
 }
 
-// H R S = (H R diag(-1, 1, 1)) diag(-1, 1, 1) S: a rotation again, and a negative scale.
+// Mirrors by H: H R S = (H R diag(-1, 1, 1)) (diag(-1, 1, 1) S) is a rotation and a scale with one negative factor.
 World mirrored(World world) {
   const glm::dmat3 h = reflectionLinear(world.mirror.normal);
   for (Node& node : world.nodes) {
@@ -98,7 +98,7 @@ class Worlds {
  public:
   explicit Worlds(const World& first) : studio_(gpu_, headless(write(first, "[1, 1, 1]"), size)) {}
 
-  // Without a mirror if `reflectance` is empty.
+  // Leaves the mirror out if `reflectance` is empty.
   Image8 draw(const World& world, const std::string& reflectance) {
     studio_.show(loadScene(write(world, reflectance)));
     return studio_.fresh();
@@ -121,7 +121,7 @@ class Worlds {
 
 class MirrorImage : public testing::TestWithParam<unsigned> {};
 
-// Pixels of the mirror are those that a black one leaves black: everything else has ambient light.
+// Finds the mirror's pixels by drawing a black one: everything else has ambient light and is not black.
 TEST_P(MirrorImage, EqualsThePictureOfTheMirroredScene) {
   const World world = randomWorld(GetParam());
   Worlds worlds(world);

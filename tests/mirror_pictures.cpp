@@ -44,7 +44,7 @@ std::string mirror(const std::string& name, const std::string& rest) {
   return "[[mirror]]\nname = \"" + name + "\"\n" + rest + "\n";
 }
 
-// One behind the other on the screen, both towards the eye; neither sees the other.
+// Two mirrors that face the eye and overlap on the screen. Neither shows the other.
 const std::string left = mirror("left", "position = [-0.5, 1, 0]\nrotation = [0, 8, 0]\nsize = [2, 1.6]");
 const std::string right = mirror("right", "position = [0.5, 1.2, -1]\nrotation = [0, -6, 0]\nsize = [2.4, 1.6]");
 const std::string black = "reflectance = [0, 0, 0]\n";
@@ -53,7 +53,7 @@ Image8 drawText(const std::string& name, const std::string& text) {
   return draw(headless(writeScene(name, text), size));
 }
 
-// Where one mirror is seen, the picture with both is the picture with the other one black.
+// Expects that making one mirror black does not change the pixels of the other.
 void expectIndependent(const std::string& name, const std::string& before, const std::string& after) {
   const Image8 both = drawText(name, before + left + right + after);
   const Image8 leftOnly = drawText(name + "_l", before + left + right + black + after);
@@ -79,13 +79,13 @@ std::string turnedRoom() {
 // The camera looks into a large mirror that shows the two.
 TEST(MirrorPictures, NestedOverlappingMirrorsHaveTheirOwnImages) {
   std::string turned = turnedRoom();
-  // Deeper down the two do see each other in the large one.
+  // Limits the depth: below it the large mirror would show the two in each other.
   turned.replace(turned.find("[settings]"), 10, "[settings]\n\"reflection.max_depth\" = 2");
   const std::string behind = mirror("big", "position = [0, 1, 9]\nrotation = [0, 180, 0]\nsize = [12, 8]");
   expectIndependent("nested_overlap", turned, behind);
 }
 
-// A floor that every ray meets sooner or later: the background behind it is seen nowhere.
+// A floor that every ray meets sooner or later, so that the background is seen nowhere.
 const std::string floorAllAround = R"(
 [environment]
 background = [4, 0, 0]
@@ -167,8 +167,8 @@ double shareAlike(const Image8& a, const Image8& b) {
 
 using SettingList = std::vector<std::pair<std::string, std::string>>;
 
-// Draws two pictures, the second a moment later, with all new memory, which includes lavapipe's images, filled with one
-// byte.
+// Draws two pictures, the second a moment later, while new memory is filled with one byte. lavapipe's images are such
+// memory.
 std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string& scene, const SettingList& settings) {
   ::mallopt(M_PERTURB, fill);
   Options options = headless(sourceFile("scenes/" + scene + ".toml"), {96, 54});
@@ -208,7 +208,7 @@ TEST(MirrorPictures, DoNotDependOnUnwrittenMemory) {
 
 TEST(MirrorPictures, DebugViewShowsTheMeanOfSamples) {
   const Image8 averaged = drawDebugView("4");
-  EXPECT_GT(shareAlike(averaged, drawDebugView("1")), 0.9);  // but for edges
+  EXPECT_GT(shareAlike(averaged, drawDebugView("1")), 0.9);  // edges differ
   EXPECT_LT(shareAlike(averaged, drawText("no_debug_view", room + left)), 0.8);
 }
 
@@ -249,7 +249,7 @@ TEST(MirrorPictures, MovingFramesKeepTheirMemory) {
     return session.device().allocatedBytes();
   };
   const uint64_t before = bytesAfter(10, 0.6);
-  // Longer than what is idle is kept, and other views than before.
+  // Draws other views for longer than idle targets are kept.
   EXPECT_LT(static_cast<double>(bytesAfter(40, 0.3)), 1.2 * static_cast<double>(before));
 }
 
@@ -271,14 +271,14 @@ class OmittedBarrier : public testing::TestWithParam<const char*> {};
 TEST_P(OmittedBarrier, IsNoticed) {
   Options options = headless(writeScene("barriers", room + left + right), {64, 36});
   options.renderPath = RenderPath::renderPass;
-  // A check's own barriers would order what one that is missing does not.
+  // Switches off the check, whose own barriers would hide the missing one.
   set(options, {{"debug.check_finite", "false"}, {"reflection.skip_unchanged", "false"}});
   // Images that keep their samples have no single-sample color.
   const bool single = std::string(GetParam()) == "offscreenBeforeWrite";
   set(options, {{"debug.omit_barrier", GetParam()}, {"view.samples", "4"}, {"reflection.samples", single ? "1" : "4"}});
   Session session(options);
   for (int i = 0; i < 3; ++i) {
-    // A capture's own barriers order the next frame's writes as well.
+    // Captures only for readbackToCopy, because the barriers of a capture would hide other missing ones.
     session.draw(0.1 * i, std::string(GetParam()) == "readbackToCopy");
   }
   session.renderer().waitIdle();
@@ -292,8 +292,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OmittedBarrier,
                                          "swapchainBeforeWrite", "readbackToCopy"),
                          [](const auto& info) { return std::string(info.param); });
 
-// A mirror in a mirror, with several samples, drawn at half the resolution: the same bytes as a picture of half the
-// size that is enlarged.
+// Draws a mirror in a mirror at half the resolution, with several samples. The bytes are those of a picture of half the
+// size, enlarged.
 TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
   const Options options =
       headless(writeScene("scaled", turnedRoom() + left + right +
@@ -324,8 +324,8 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
   }
 }
 
-// Blurring reads the image beside the visible region, which must be drawn: with one color all around, the mirror has
-// that color too.
+// Blurring reads the image beside the visible region, so that part must be drawn too. In a scene of one color the
+// mirror then has that color.
 TEST(MirrorPictures, BlurredImagesAreDrawnBesideTheirMirror) {
   const std::filesystem::path file = writeScene("one_color", R"(
 [environment]

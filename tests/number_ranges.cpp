@@ -1,4 +1,4 @@
-// Every number of a scene file, from nothing to beyond a float: refused by its key, or drawn as the tracer does.
+// Every number of a scene file, from 0 to beyond a float's range: refused by its key, or drawn as the tracer draws it.
 #include <gtest/gtest.h>
 #include <toml++/toml.h>
 
@@ -26,7 +26,7 @@ using namespace testing_support;
 
 constexpr PictureSize size{48, 27};
 
-// Has every key that takes numbers.
+// A scene with every key that takes numbers.
 const char* const everyNumber = R"([environment]
 background = [0.2, 0.3, 0.4]
 sky = { zenith = [0.2, 0.3, 0.8], horizon = [0.7, 0.7, 0.6], ground = [0.2, 0.2, 0.1] }
@@ -188,7 +188,7 @@ TEST(LargeTextures, AreDrawnSmaller) {
   }
 }
 
-// The eye at a vertex, and nearer to one than floats place it.
+// The eye is at a vertex, or nearer to it than the precision of floats.
 TEST(EyeAtAVertex, FillsNothing) {
   writeModel("cube.obj",
              "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"

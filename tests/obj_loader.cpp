@@ -301,7 +301,7 @@ TEST_F(ObjLoader, QuadsAreCutAsByTinyobjloader) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   for (int i = 0; i < 500; ++i) {
-    // Convex, bent out of their plane, and in turn with diagonals of one length.
+    // Draws in turn a square, whose diagonals are equally long, and a convex quad bent out of its plane.
     std::string obj;
     for (int corner = 0; corner < 4; ++corner) {
       const double angle = 1.5707963 * corner + (i % 2 == 0 ? 0.0 : 0.6 * number(random));

@@ -148,7 +148,7 @@ OccluderShape stairs(std::mt19937& engine) {
 OccluderShape bentSheet(std::mt19937& engine) {
   Builder sheet("sheet");
   const int strips = uniformInt(engine, 2, 300);
-  const double angle = anyScale(engine, 1e-7, 2.0 * pi);  // that it is bent by in all
+  const double angle = anyScale(engine, 1e-7, 2.0 * pi);  // by which the whole sheet is bent
   const double twist = uniformInt(engine, 0, 2) == 0 ? anyScale(engine, 1e-7, 2.0) : 0.0;
   std::array<std::vector<glm::dvec3>, 2> sides;
   for (int i = 0; i <= strips; ++i) {

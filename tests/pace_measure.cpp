@@ -18,7 +18,7 @@ constexpr double pathSeconds = 8.0;
 // Pictures of each path that are drawn once more in full quality, which takes long in scenes with traced effects.
 const int comparedPictures = std::getenv("PACE_PICTURES") ? std::atoi(std::getenv("PACE_PICTURES")) : 6;
 
-// Sticks of a gamepad at a time: what drives the camera.
+// Gamepad state that drives the camera at a time.
 using Path = GamepadState (*)(double seconds);
 constexpr std::pair<const char*, Path> paths[] = {
     {"orbit", [](double t) { return GamepadState{.rightX = static_cast<float>(0.5 * std::cos(0.8 * t))}; }},

@@ -13,7 +13,7 @@ namespace speculum::test {
 namespace {
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-// Page faults of a thread that allocates, fills and frees 8 MiB again and again; the first four times do not count.
+// Returns the page faults of a thread that allocates, fills and frees 8 MiB repeatedly, without the first four times.
 long faultsOfAllocating() {
   long faults = 0;
   std::thread([&] {

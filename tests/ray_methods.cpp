@@ -1,4 +1,4 @@
-// Rays by ray queries and by shaders: which are used and why, what they need, and that both draw the same picture.
+// Rays by ray queries and by shaders: the choice between them, its reason, their needs, and equal pictures of both.
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
@@ -115,7 +115,7 @@ TEST(RayStructures, ExistOnlyWhileCalledFor) {
   EXPECT_EQ(structuresAlive(), 0);
 }
 
-// What single precision cannot invert is traced by shaders.
+// Shaders trace scenes with transforms that single precision cannot invert.
 TEST(RayStructures, ScaleBeyondSinglePrecisionNeedsShaders) {
   EXPECT_TRUE(RayStructures::canHold(evaluate(loadScene(writeScene("ordinary", room)), 0.0)));
   EXPECT_FALSE(RayStructures::canHold(evaluate(
@@ -128,7 +128,7 @@ struct NoMemory {
   ~NoMemory() { giveMemory(); }
 };
 
-// Without memory for structures shaders trace the rays, as if that was asked for.
+// Without memory for acceleration structures, shaders trace the rays as with effects.rays = software.
 TEST(RayStructures, MissingMemoryLeavesShaders) {
   if (!hasRayQueries()) {
     GTEST_SKIP() << withoutRayQueries;

@@ -112,7 +112,7 @@ TEST(ReferenceTracer, RefusesImpossibleOptions) {
   EXPECT_THROW(tracer.render({.samples = 4, .roughSamples = 0}), std::invalid_argument);
 }
 
-// The error of positions there is 1e-9 m.
+// Doubles place points there to 1e-9 m.
 TEST(ReferenceTracer, FarFromTheOriginPicturesStay) {
   const Scene scene = mixedScene();
   SceneState state = evaluate(scene, 0.0);

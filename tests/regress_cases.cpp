@@ -25,7 +25,7 @@ class CaseFile : public testing::Test {
     folder_.write("hall.toml", "");
     return readCases(folder_.write("cases.toml", text));
   }
-  // What is wrong with the file, without its folder.
+  // Returns the error message about the file, without the file's folder.
   std::string mistake(const std::string& text) {
     try {
       read(text);
@@ -231,7 +231,7 @@ TEST(ExpectedFailure, TurnsTheVerdict) {
   EXPECT_EQ(outcome.verdict, Verdict::error);
 }
 
-// Workers that are shell scripts.
+// Returns the replies of workers that are shell scripts.
 std::vector<WorkerReply> replies(const std::string& script, int workers, const std::vector<WorkerJob>& jobs) {
   std::vector<WorkerReply> all(jobs.size());
   EXPECT_TRUE(

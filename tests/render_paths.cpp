@@ -15,8 +15,8 @@ using namespace testing_support;
 
 using Cases = std::map<std::string, std::vector<RegressCase>>;
 
-// By scene. Unless all run: the main view alone, mirrors side by side with textures, mirrors in mirrors, and the small
-// cases, which are those of effects.
+// Golden cases by scene. In the short suite: the main view alone, mirrors side by side with textures, mirrors in
+// mirrors, and the small cases, which test effects.
 Cases goldenCases() {
   Cases cases;
   for (const RegressCase& golden : readCases(sourceFile("tests/golden/cases.toml"))) {

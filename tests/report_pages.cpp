@@ -21,7 +21,7 @@ void writePage(const fs::path& folder, const char* name, const SweepResults& res
   writeFile(folder / name, reportHtml(results, folder));
 }
 
-// A seam of one pixel, a crash, a picture that nothing is expected of yet, and cases that need no attention.
+// Writes pages with a seam of one pixel, a crash, a new picture without an expected one, and passing cases.
 void writeRegressPages(const fs::path& folder) {
   Image8 expected(64, 36);
   for (size_t i = 0; i < expected.rgba.size(); ++i) {

@@ -57,7 +57,7 @@ inline int mirrorPasses(const SceneRenderer& renderer) {
       std::count_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.depth >= 0; }));
 }
 
-// Draws a frame and returns the names of its passes that begin so. They belong to no mirror.
+// Draws a frame and returns the names of its passes with that beginning. Expects that they belong to no mirror.
 inline std::vector<std::string> drawnMaps(Session& session, const std::string& beginning, double time = 0.0) {
   session.draw(time, true);
   session.finish();

@@ -35,7 +35,7 @@ TEST(ModelScene, LooksTheSameAtEverySize) {
     ASSERT_EQ(scene.mirrors.size(), 1u);
     EXPECT_NEAR(glm::distance(scene.mirrors[0].polygon[0] / size, one.mirrors[0].polygon[0]), 0.0, 1e-9) << size;
     ASSERT_EQ(scene.lights.size(), 2u);
-    // The inverse square law: as bright on the model.
+    // By the inverse square law the light is as bright on each model.
     EXPECT_NEAR(scene.lights[0].intensity / (size * size), one.lights[0].intensity, 1e-9) << size;
     EXPECT_EQ(scene.objects[0].scale, glm::dvec3(1.0)) << "the model keeps its size";
   }

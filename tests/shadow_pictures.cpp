@@ -1,5 +1,5 @@
-// Shadows that are looked up in maps, against traced ones. Which faces are rendered is in frame_shadow_maps.cpp, what
-// they cost and give back in effects_ledger.cpp.
+// Shadows that are looked up in maps, against traced ones. frame_shadow_maps.cpp tests which faces are rendered,
+// effects_ledger.cpp their cost and its release.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ Options mapped(const std::filesystem::path& file, std::vector<std::pair<std::str
   return options;
 }
 
-// Maps differ from traced shadows along the edges of shadows, the less the more texels they have.
+// Maps differ from traced shadows along the edges of shadows; more texels make the difference smaller.
 TEST(ShadowMaps, LargerFacesReduceError) {
   const std::filesystem::path file = room("error");
   QuietSession session(mapped(file, {{"effects.shadow_lookup", "traced"}}));
@@ -99,7 +99,7 @@ TEST(ShadowMaps, LargerFacesReduceError) {
   EXPECT_LT(before, 0.05 * without);
 }
 
-// No surface shadows itself where no other stands between it and the light, whatever its slope.
+// A lit surface has no shadow of its own, whatever its slope.
 TEST(ShadowMaps, LitSurfacesAreNotShadowed) {
   const std::filesystem::path file = writeScene("shadow_maps_slopes", R"(
 [environment]
@@ -186,7 +186,7 @@ TEST(ShadowMaps, HoldFarFromTheOrigin) {
   expectAlike(draw(mapped(scene("far", 1e7))), draw(mapped(scene("near", 0.0))), 2, "shadow_maps_far");
 }
 
-// Rough mirrors are followed by rays, which trace their shadows; what is drawn looks maps up.
+// Rays from rough mirrors trace shadows, while drawn surfaces look up maps.
 TEST(ShadowMaps, StandBesideTracedEffects) {
   const std::filesystem::path file = room("rough", R"(
 [[mirror]]

@@ -96,7 +96,7 @@ int hiddenIn(const FramePlan& plan) {
                                         [](const SkippedMirror& s) { return s.reason == SkipReason::hidden; }));
 }
 
-// Pixels of pictures that differ from others.
+// Counts pixels in which pictures differ.
 struct Differences {
   void add(const Image8& a, const Image8& b) {
     for (size_t i = 0; i < a.rgba.size(); i += 4) {
@@ -147,8 +147,8 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
     settings.debug.maskPasses = true;
     session.setSettings(settings);
   }
-  // A triangle's colors may have another last bit with lavapipe when other triangles are in its draw, which is more
-  // than that where it is steep.
+  // With other triangles in its draw, lavapipe may round a triangle's color differently by one bit, and by more where
+  // the color is steep.
   EXPECT_LT(parts.pixels, cuts) << "of 14 400 each, in a quarter of them";
   EXPECT_LE(parts.most, 16);
   EXPECT_GT(hidden, cuts);
@@ -217,7 +217,7 @@ TEST(Skipping, ShapesHideNothingThatIsSeen) {
   EXPECT_GT(hiddenInMirrors, 2 * scenes * cuts / 36);
 }
 
-// 12 mirrors that each show a part of a knot or two, of 2 496 triangles each.
+// 12 mirrors that each show parts of one or two knots. A knot has 2 496 triangles.
 std::filesystem::path smallMirrorsScene() {
   std::ostringstream toml;
   toml << "[camera]\nposition = [0, 0, 6]\ntarget = [0, 0, 0]\nvertical_fov = 40\n[[light]]\nposition = [2, 4, 5]\n"
@@ -275,7 +275,7 @@ TEST(Skipping, MaskDoesNotChangeCachedImages) {
   }
 }
 
-// A tilted mirror in a closed room, and the same under a sky; walls and floor fill the image.
+// A tilted mirror, in a closed room or under a sky. In the room, walls and floor fill its image.
 std::filesystem::path tiltedScene(bool closed) {
   return writeScene(closed ? "tilted_closed" : "tilted_sky", std::string(R"(
 [environment]

@@ -154,7 +154,7 @@ TEST(TargetViews, ColorIsThePictureMagnified) {
       ASSERT_TRUE(std::equal(expected, expected + 3, picture.at(x, y))) << x << " " << y;
     }
   }
-  // Beyond the image's border the picture stays.
+  // The debug view leaves the picture unchanged beyond the image's border.
   magnified.origin = {-8.0, -6.0};
   drawWith(session, magnified);
   EXPECT_TRUE(std::equal(plain.at(22, 12), plain.at(22, 12) + 3, session.picture().at(22, 12)));

@@ -18,7 +18,7 @@ class SceneTruth : public testing::TestWithParam<const char*> {};
 
 TEST_P(SceneTruth, IsDrawn) {
   const std::filesystem::path file = sourceFile("scenes/" + std::string(GetParam()) + ".toml");
-  // The silhouettes of the pool's ripples are too many of a smaller picture's pixels.
+  // In a smaller picture, silhouettes of the pool's ripples take too large a share of the pixels.
   const bool large = fullTests() || GetParam() == std::string("pool");
   const PictureSize size = large ? PictureSize{640, 360} : PictureSize{240, 135};
   expectTruth(file, size, 4, trace(file, size, 4));

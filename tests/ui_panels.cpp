@@ -32,7 +32,7 @@ TEST_F(PanelTest, SettingsAreEditedAndReset) {
 TEST_F(PanelTest, ResetArrowIsReachedByKeyboard) {
   drag("reflection.max_depth", 0.2, 60);
   ASSERT_NE(settings_.current.reflection.maxDepth, 4);
-  // The slider was chosen by the pointer; the arrow stands to its right.
+  // The drag left the keyboard's focus on the slider; the arrow is to its right.
   tap(ImGuiKey_RightArrow);
   tap(ImGuiKey_RightArrow);
   tap(ImGuiKey_Space);

@@ -119,7 +119,7 @@ TEST(UnchangedPictures, EditsShowInTheFrameAfterThem) {
     EXPECT_TRUE(drawsMain(rendering));
     for (int frame = 0; frame < 3; ++frame) {
       ASSERT_EQ(skipping.draw().rgba, expected) << "edit " << i << ", frame " << frame;
-      // The first edit is none.
+      // The first edit changes nothing.
       EXPECT_EQ(drawsMain(skipping), frame < 2 && i != 1) << "edit " << i << ", frame " << frame;
       if (frame == 2) {
         edits[i](skipping.scene);
@@ -188,7 +188,7 @@ TEST(UnchangedPictures, ReloadedShadersShowInMirrors) {
   EXPECT_EQ(after, picture(fresh, 0.0).rgba);
 }
 
-// A scene in which only a mirror shows what calls for rays: its pipelines stay while its image is reused.
+// Only a mirror image shows what calls for rays. Its pipelines must stay while the image is reused.
 TEST(UnchangedPictures, PipelinesOfReusedImagesStay) {
   QuietSession session(optionsFor(writeScene("only_in_the_mirror", R"(
 [environment]

@@ -93,7 +93,7 @@ TEST_F(Editing, RingsRotateAndSnap) {
   clickBall();
   send(NextGizmoMode{});
   EXPECT_EQ(edit().mode, GizmoMode::turn);
-  // A quarter and a little of the ring that faces the eye.
+  // Drags along a little more than a quarter of the ring that faces the eye.
   dragRing(ballAt_, {-40.0, -10.0, 20.0, 53.0}, true);
   EXPECT_EQ(object().rotation, glm::dvec3(0.0, 0.0, 90.0)) << "93 degrees in steps of 15";
   EXPECT_EQ(edit().undo, "rotate object 'ball'");
@@ -360,7 +360,7 @@ TEST_F(Editing, SelectedNodesRotateAboutTheFirst) {
   dragRing({width / 2.0, height / 2.0}, {-40.0, -10.0, 20.0, 53.0}, true);
   EXPECT_EQ(edit().undo.find("rotate 3 "), 0u) << edit().undo;
   saved();
-  // By 90 degrees about the mirror's middle, (0, 1, -2).
+  // The drag turns by 90 degrees about the mirror's middle, (0, 1, -2).
   expectNear(saved_.mirrors[0].position, {0.0, 1.0, -2.0});
   expectNear(saved_.mirrors[0].rotation, {0.0, 0.0, 90.0});
   expectNear(saved_.objects[0].position, {0.0, 1.3, 0.5});

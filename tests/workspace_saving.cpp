@@ -1,4 +1,4 @@
-// Saving, the prompts about unsaved changes, and what is copied of them.
+// Saving, prompts about unsaved changes, and copies of them.
 #include "app/recovery.hpp"
 #include "test_paths.hpp"
 #include "workspace_support.hpp"

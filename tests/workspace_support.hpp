@@ -92,7 +92,7 @@ class WorkspaceTest : public testing::Test {
     workspace_ = std::make_unique<Workspace>(options_, host_);
     frame();
   }
-  // A frame without a picture.
+  // Runs a frame without a picture.
   void frame(double seconds = 0.0) {
     workspace_->prepareView(seconds, true);
     workspace_->update();
@@ -131,7 +131,7 @@ class WorkspaceTest : public testing::Test {
     press(false, false, button);
     frame();
   }
-  // Along a ring of the handles, by degrees from the right, counter-clockwise.
+  // Drags along a ring of the handles through these angles, in degrees counter-clockwise from the right.
   void dragRing(const glm::dvec2& center, std::initializer_list<double> degrees, bool snap) {
     const auto onRing = [&](double angle) {
       return center + 92.0 * glm::dvec2(std::cos(glm::radians(angle)), -std::sin(glm::radians(angle)));

@@ -376,7 +376,7 @@ TEST_F(Opening, DesktopsDialogNamesTheFile) {
   waitFor([&] { return shownScene() == "sphere.obj"; });
 }
 
-// A window that sleeps must wake up for a scene that was read between two of its looks.
+// An idle window must wake up for a scene that finished loading between two polls.
 TEST_F(Opening, LoadedSceneIsWorkUntilTaken) {
   const auto load = [&] {
     workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});

@@ -6,7 +6,7 @@ namespace speculum::fuzz {
 
 namespace {
 
-// Switches warnings off, of which there would be thousands a second.
+// Switches warnings off, because there would be thousands a second.
 [[maybe_unused]] const bool quiet = [] {
   spdlog::set_level(spdlog::level::off);
   return true;

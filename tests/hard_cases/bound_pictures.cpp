@@ -1,4 +1,4 @@
-// What settings leave out costs no more than its share of the light.
+// Settings that leave something out change pictures by no more than its share of the light.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,9 +22,9 @@ double largestDifference(const glm::vec3& a, const glm::vec3& b) {
   return std::max({d.x, d.y, d.z});
 }
 
-// All that is seen, the mirrors' own layers too, has a radiance within 0.1 of the background's. What a mirror at the
-// depth limit shows instead of L is weighted by the reflectances before it, so no pixel is off by more than 0.1 times
-// their product.
+// All surfaces, the mirrors' own layers too, have a radiance within 0.1 of the background's. A mirror at the depth
+// limit shows the background instead, and the reflectances before it weight the error, so no pixel is off by more than
+// 0.1 times their product.
 TEST(TailBeyondTheDepthLimit, IsBoundedByTheReflectances) {
   constexpr double reflectance = 0.8;
   std::string text =
@@ -93,7 +93,7 @@ TEST(MirrorsOfFewPixels, LeaveOutTheirAreaAtMost) {
   EXPECT_GT(missing, 0.0);
 }
 
-// A room of any size around an eye that is nearer to its mirror than a millimetre.
+// The eye is in a room of any size, less than a millimetre from its mirror.
 TEST(EyeNearerThanTheNearPlane, SmallRoomsKeepTheirOrder) {
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
     const std::string text =

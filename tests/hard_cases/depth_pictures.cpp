@@ -1,4 +1,4 @@
-// Hard cases of depth and clipping, drawn: which of two surfaces is in front, where a mirror cuts what it shows.
+// Pictures of hard cases of depth and clipping: the order of two surfaces, and the cut at a mirror's plane.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,8 +53,8 @@ Image8 drawWith(const std::string& name, const std::string& scene, const std::st
   return draw(options);
 }
 
-// A red square before a green one of the same shape, a gap apart along the line of sight, as `prefix` sees them.
-// Both orders of drawing: with equal depths the one that is drawn first stays.
+// Draws a red square before a green one of the same shape, a gap apart along the line of sight, seen as in `prefix`.
+// Tries both orders of drawing: at equal depths the square that is drawn first stays.
 Count orderOf(const std::string& name, const std::string& prefix, const std::string& redQuad,
               const std::string& greenQuad, const std::string& clip = "clip_distance") {
   const Count a = countColors(drawWith(name, prefix + redQuad + greenQuad, clip));
@@ -201,7 +201,7 @@ Image8 drawPlate(const std::string& name, const std::string& scene, const std::s
   return draw(options);
 }
 
-// How far from the mirror's plane, relative to its distance from the eye, the plate is met through a pixel.
+// Returns the distance from the mirror's plane at which a pixel's ray meets the plate, relative to that from the eye.
 double distanceFromSeam(int x, int y) {
   const CameraPose pose = lookAt({-1.6, 0.5, 0.3}, {1, 0.12, 0.05}, {0, 1, 0}, 60.0, 0.001);
   const Projection f(pose.verticalFov, 16.0 / 9.0, 0.001);

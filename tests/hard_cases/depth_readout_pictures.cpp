@@ -1,4 +1,4 @@
-// The gap that the depth readout of a mirror pass states, drawn: two parallel surfaces that far apart are in order on
+// The depth readout of a mirror pass states a gap. Two parallel surfaces that far apart are drawn in the right order on
 // every pixel.
 #include <gtest/gtest.h>
 
@@ -39,8 +39,8 @@ void writeGrid() {
   writeModel("grid.obj", obj.str());
 }
 
-// An eye `h` before a mirror that it sees at 45 degrees, and two squares, 45 degrees from facing, that far along the
-// line of sight; with `nested` a second mirror, parallel to the first, lies between.
+// An eye at height `h` over a mirror that it sees at 45 degrees, and two squares at `distance` along the line of sight,
+// turned by 45 degrees. With `nested` the line meets a second mirror, parallel to the first.
 struct Case {
   double h = 1.0;          // metres
   double distance = 50.0;  // metres along the path
@@ -68,7 +68,7 @@ std::string prefixOf(const Case& c) {
 
 struct Count {
   int nearer = 0;   // pixels that the nearer square covers
-  int farther = 0;  // of those, with the farther one before it
+  int farther = 0;  // of those, pixels on which the farther square is seen
 };
 
 // Draws the squares of a case with any gap between them.
@@ -94,11 +94,11 @@ class Squares {
     return {};
   }
 
-  // Tries both orders of drawing, until the farther square is seen: with equal depths the one that is drawn first
+  // Tries both orders of drawing until the farther square is seen: at equal depths the square that is drawn first
   // stays.
   Count orderAt(double gap, ClipMethod clip) {
     const Object farther = placed(far_, case_.distance + gap, 0.96);
-    // The nearer square by itself, because the mirror's plane cuts the two along lines a gap apart.
+    // Draws the nearer square alone to find its pixels: the mirror's plane cuts the two along different lines.
     Image8& alone = alone_[clip];
     if (alone.rgba.empty()) {
       alone = draw({near_}, clip);
@@ -165,7 +165,7 @@ class DepthReadoutOf : public testing::Test {
     int stated = 0;
     for (const auto& [name, method] : methods) {
       const std::optional<double> gap = gapWith(readout, method);
-      // The squares would no longer be alike on the screen.
+      // Skips larger gaps, with which the squares would no longer look alike on the screen.
       if (!gap || *gap > 0.2 * c.distance) {
         continue;
       }
@@ -223,7 +223,7 @@ TEST_F(DepthReadoutOf, GapHoldsInNestedMirrors) {
   EXPECT_EQ(expectInOrder({.h = 0.01, .distance = 45.0, .nested = true, .near = "grid.obj", .far = "quad.obj"}), 3);
 }
 
-// The bound is not tight: this rasteriser does not pass snapping on to depth, and the largest errors seldom meet.
+// Shows how loose the bound is: in this rasteriser snapping does not change depth, and the largest errors seldom meet.
 TEST_F(DepthReadoutOf, HundredthOfTheGapFails) {
   int lost = 0;
   for (const auto& [near, far] : meshes) {

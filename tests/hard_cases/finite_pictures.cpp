@@ -127,7 +127,7 @@ TEST(LightOnASurface, ShadingWithoutFloorsIsNotFinite) {
   EXPECT_FALSE(std::isfinite(naiveRadiance(n, {0, 0, 1e-19f}, up, 1e4f, 0.0f, 1.0f))) << "light beside the surface";
   EXPECT_FALSE(std::isfinite(naiveRadiance(naiveNormalize(glm::vec3(0.0f)), {0, 0, 1}, up, 1.0f, 0.0f, 1.0f)))
       << "zero normal";
-  // A cosine above 1 by rounding, to a high power; and one below 0.
+  // Rounding may give a cosine above 1, which a high power makes large, or one below 0.
   const glm::vec3 longer(0.0f, 0.0f, 1.0001f);
   EXPECT_GT(naiveRadiance(longer, {0, 0, 1}, up, 1.0f, 1.0f, 20000.0f), 2.0f) << "n.h > 1";
   EXPECT_FALSE(std::isfinite(naiveRadiance(n, {0, 0, -1}, {0.1f, 0, 0.5f}, 1.0f, 1.0f, 0.5f))) << "n.h < 0";

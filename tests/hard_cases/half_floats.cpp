@@ -1,4 +1,4 @@
-// What 16-bit floats in targets cost: radiance in steps of 8 bits, disparity in pixels of reprojection.
+// Errors due to 16-bit floats in targets: of radiance in steps of 8 bits, of disparity in pixels of reprojection.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -58,7 +58,7 @@ TEST_F(RejectedShapes, MirrorsWithoutAreaAreNamed) {
   EXPECT_TRUE(std::isnan(naive.x)) << "the naive way should fail";
 }
 
-// Of diameter 2 and area h: the limit is h = 4e-8.
+// Tests mirrors of diameter 2 and area h: the limit is h = 4e-8.
 TEST_F(RejectedShapes, AreaLimitIsThatOfTheDiameter) {
   for (const double unit : {1e-6, 1.0, 1e6}) {
     const auto triangle = [&](double h) { return Polygon{{0, 0, 0}, {2 * unit, 0, 0}, {unit, h * unit, 0}}; };
@@ -67,7 +67,7 @@ TEST_F(RejectedShapes, AreaLimitIsThatOfTheDiameter) {
   }
 }
 
-// One vertex lifted off a square of diameter sqrt(2); the mean plane takes a quarter of it.
+// Lifts one vertex off a square of diameter sqrt(2); the mean plane takes a quarter of the height.
 TEST_F(RejectedShapes, NonPlanarMirrorsAreNamed) {
   for (const double unit : {1e-6, 1.0, 1e6}) {
     const auto square = [&](double lift) {
@@ -92,7 +92,8 @@ TEST_F(RejectedShapes, ProgramExitsWithTwoAndOneLine) {
 
 class SliverTriangles : public testing::Test {
  protected:
-  // Of quality q = 2 area / longest edge^2, in a plane that is parallel to no axis, 1 m in size.
+  // Returns a triangle of quality q = 2 area / longest edge^2 and a size of 1 m, in a plane that is parallel to no
+  // axis.
   static std::string sliver(double q) {
     const glm::dmat3 turn = rotationFromDegrees({20, 30, 40});
     std::string obj;

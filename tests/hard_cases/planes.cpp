@@ -227,7 +227,7 @@ TEST(MirrorCrossesTheEyePlane, RectangleHoldsEveryHitPixel) {
   std::printf("%d views: %d missed pixels; the naive rectangle misses some in %d views\n", views, misses, naiveMisses);
 }
 
-// Moved just past one of the planes that bound the view.
+// Moves the mirror just past one of the planes that bound the view.
 void moveOutside(Random& random, Scene& scene) {
   const SceneState state = evaluate(scene, 0.0);
   const Projection projection(state.camera.verticalFov, static_cast<double>(width) / height, 0.001);

@@ -30,7 +30,7 @@ void expectProperty(const char* name, Property property) {
   EXPECT_TRUE(rc::check(name, property)) << "see the counterexample above";
 }
 
-// Whole range from the first case on: RapidCheck would begin with small numbers.
+// Takes numbers of the whole range from the first case on; RapidCheck alone would begin with small ones.
 int whole(int low, int high) {
   return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
 }
@@ -176,7 +176,7 @@ TEST(Invariants, DepthFallsStrictlyWithDistance) {
     const glm::mat4 m(projection.matrix());
     const double near = size();
     const double far = near * (1.0 + std::pow(10.0, uniform(-6.0, 3.0)));
-    // As the GPU does: a matrix and a point in float, one division.
+    // Computes depth as a GPU does: a matrix and a point in float, one division.
     const auto depth = [&](double distance) {
       const glm::vec4 clip = m * glm::vec4(0.0f, 0.0f, static_cast<float>(-distance), 1.0f);
       return clip.z / clip.w;

@@ -80,8 +80,8 @@ int edgePixels(const Image8& picture) {
   return count;
 }
 
-// Vertices are snapped to 1/256 pixel in each of the images that an edge passes through, so a pixel at an edge is on
-// the wrong side with a probability of about 1/256; twice that and some pixels more are allowed, but no patch.
+// Vertices are snapped to 1/256 pixel in each image that an edge passes through, so a pixel at an edge is on the wrong
+// side with a probability of about 1/256. Allows twice that and some pixels more, but no patch of wrong pixels.
 void expectTraced(const Image8& picture, const TraceResult& traced, const std::string& name) {
   const Image8 expected = toDisplay(traced.image, 1.0, ToneMap::clamp);
   const PictureAgreement d = difference(picture, expected, 2, notBackground(traced));
@@ -100,7 +100,7 @@ void expectSame(const Image8& picture, const Image8& expected, const std::string
   }
 }
 
-// Returns the picture.
+// Expects that no debug switch changes the picture. Returns the picture.
 Image8 expectNoSwitchMatters(Drawn& drawn, const Settings& settings, const std::string& name) {
   const Image8 picture = drawn.drawWith(settings);
   expectSame(drawn.drawWith(settings, false), picture, name + "_cached");
@@ -109,7 +109,7 @@ Image8 expectNoSwitchMatters(Drawn& drawn, const Settings& settings, const std::
   without.debug.maskPasses = false;
   expectSame(drawn.drawWith(without), picture, name + "_mask");
   if (settings.reflection.meshError == 0.0) {
-    // With other triangles in its draw, lavapipe may round a triangle's color otherwise.
+    // lavapipe may round a triangle's color differently with other triangles in its draw.
     without.debug.cullClusters = false;
     expectSame(drawn.drawWith(without), picture, name + "_clusters", 20);
   }
@@ -137,7 +137,7 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
     drawn.look(view);
     const Image8 picture = expectNoSwitchMatters(drawn, settings, name);
     if (!withEffects && settings.view.scale == 1.0 && settings.reflection.meshError == 0.0) {
-      // Other resolutions soften what a few pixels show, but no patch is another.
+      // Other resolutions may soften a few pixels, but no patch may differ.
       const Image8 expected = toDisplay(plain.traced(size, settings.reflection.maxDepth).image, 1.0, ToneMap::clamp);
       if (difference(picture, expected, 90).block) {
         ADD_FAILURE() << name << " differs at other settings";

@@ -14,8 +14,8 @@ using namespace testing_support;
 
 constexpr PictureSize size{320, 180};
 
-// Everything that a scene can hold, `at` from the origin: turning objects with textures and highlights, copies, a model
-// whose own vertices are 1e7 m away, an orbiting camera and light, mirrors in mirrors, one of them a polygon.
+// Returns everything that a scene can hold, moved by `at`: turning objects with textures and highlights, copies, a
+// model whose own vertices are 1e7 m away, an orbiting camera and light, mirrors in mirrors, one of them a polygon.
 std::string fullScene(const glm::dvec3& at) {
   std::string obj;
   for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}) {
@@ -211,8 +211,8 @@ TEST(FacingMirrorsAtDepth32, MatchesTheTracer) {
   }
 }
 
-// A white room lit by ambient light alone, of which two walls are mirrors that meet at an edge. The floor, the other
-// walls and a block touch them. Black background lies behind: any gap shows it.
+// A white room lit by ambient light alone. Two walls are mirrors that meet at an edge; the floor, the other walls and a
+// block touch them. Any gap shows the black background behind.
 std::filesystem::path seamScene(unsigned seed) {
   writeModel("touching.obj",
              "v -1.5 0 -1\nv 30 0 -1\nv 30 0 30\nv -1.5 0 30\nv -1.5 20 -1\nv 30 20 -1\nv 30 20 30\nv -1.5 20 30\n"
@@ -244,7 +244,7 @@ reflectance = [1, 1, 1]
 
 constexpr PictureSize seamSize{640, 360};
 
-// Pixels that hold some of the background.
+// Counts pixels that show some of the background.
 int darkPixels(Session& session, const std::string& samples, const std::string& imageSamples) {
   set(session, {{"view.samples", samples}, {"reflection.samples", imageSamples}});
   session.draw(0.0, true);
@@ -262,7 +262,7 @@ TEST(SeamsOfMirrorsAndBodies, NoPixelShowsTheBackground) {
   }
 }
 
-// Two mirrors in one plane, so far apart, a metre from the eye; they show a white wall behind it.
+// Draws two mirrors in one plane with a gap between them, a metre from the eye. They show a white wall behind it.
 int darkPixelsBetween(double gapMetres) {
   writeQuad();
   const double h = 0.5 * gapMetres;

@@ -15,7 +15,7 @@ using LongMat3 = glm::mat<3, 3, long double, glm::highp>;
 
 using testing_support::Random;
 
-// Points in the box [-1, 1]^3, as a mesh of which nothing but its vertices matters.
+// Points in the box [-1, 1]^3, as a mesh; only its vertices matter.
 Mesh pointCloud(int count, unsigned seed);
 
 // The plan of a frame at time 0 whose passes only the recursion depth limits.
@@ -27,7 +27,7 @@ glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex);
 // Takes clip space to pixels, y down.
 glm::dvec2 toPixel(const glm::dvec4& clip, int width, int height);
 
-// Everything that has a place, moved.
+// Returns the scene with all positions moved.
 Scene moved(Scene scene, const glm::dvec3& offset);
 
 // Instance data of `instance` in a pass's view, as the renderer computes it.

@@ -1,4 +1,4 @@
-// Hard cases of transforms: what the vertex shader is given, against the scene's own numbers in extended precision.
+// Hard cases of transforms: the vertex shader's inputs against the scene's own numbers in extended precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -218,7 +218,7 @@ struct Windings {
   int floatSign = 0;  // with the sign of a determinant in float
 };
 
-// Counts triangles of a cloud whose side that is taken for the outside is not.
+// Counts triangles of a cloud whose inside is taken for the outside.
 Windings windingsOf(const glm::dvec3& scale, size_t depth) {
   Scene scene = corridor();
   scene.objects[0].scale = scale;

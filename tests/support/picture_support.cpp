@@ -94,8 +94,8 @@ std::vector<bool> blackPixels(const Image8& image) {
   return mask;
 }
 
-// Emptied at a test's first call, so that nothing is left of an earlier run. Not called scenes, because the programs
-// beside it would take it for their own folder of scenes.
+// Empties the folder at a test's first call, so that nothing is left of an earlier run. Its name is not `scenes`,
+// because the programs beside it would take it for their own folder of scenes.
 std::filesystem::path sceneDirectory() {
   static std::filesystem::path made;
   std::filesystem::path directory = binaryDir() / "tests" / "written";

@@ -17,7 +17,7 @@ namespace {
 
 const std::string effectMark = "#effect ";
 
-// Builds a scene in a frame of its own: mirrors are given there.
+// Builds a scene in a coordinate frame of its own, in which mirrors are given.
 class Builder {
  public:
   explicit Builder(unsigned seed)
@@ -132,7 +132,7 @@ class Builder {
 
  private:
   double snapped(double value, double step) const { return tidy ? std::round(value / step) * step : value; }
-  // A line that only the scene with effects has.
+  // Returns a line that only the scene with effects has, or nothing.
   std::string effect(double chance, const std::string& line) {
     return effects_ && random.chance(chance) ? effectMark + line + "\n" : "";
   }
@@ -186,7 +186,7 @@ Sight crossing(Builder& b) {
   return {{b.number(-3, 3), b.number(-2, 2), b.number(3, 5)}, b.point(0.5)};
 }
 
-// Walls around the eye, whose edges meet; images tile space for 180/n degrees.
+// Mirror walls around the eye whose edges meet. At angles of 180/n degrees their images fill space without overlap.
 Sight prism(Builder& b) {
   const int sides = b.count(3, 8);
   const double radius = b.number(1.0, 3.0);
@@ -235,7 +235,7 @@ Sight facing(Builder& b) {
   return {{b.number(-1, 1), b.number(-0.5, 0.5), 0.5 * distance}, {b.number(-1, 1), b.number(-0.5, 0.5), -distance}};
 }
 
-// A plane of mirrors that adjoin each other, in it or before it others that stand close.
+// Mirrors that adjoin each other in one plane, and others close to it, in it or before it.
 Sight tiles(Builder& b) {
   const int columns = b.count(1, 4);
   const int rows = b.count(1, 3);
@@ -324,7 +324,7 @@ RandomScene randomScene(unsigned seed) {
   }
   scene.withEffects = text == b.out.str() ? scene.file : writeScene(name + "_effects", text);
   scene.kind = kind.name;
-  // About a hundred passes, if each mirror shows each other.
+  // Limits passes to about a hundred if each mirror shows each other.
   scene.maxDepth = b.count(1, std::clamp(static_cast<int>(std::log(100.0) / std::log(b.mirrors() - 0.8)), 1, 32));
   scene.time = random.chance(0.3) ? std::pow(10.0, random.uniform(-1, 5)) : 0.0;
   scene.settings = {{"reflection.scale", random.pick(scales)},

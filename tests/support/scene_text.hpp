@@ -44,9 +44,9 @@ void writeQuad();
 // as well. Returns the file.
 std::string writeRandomMesh(unsigned seed);
 
-// The table [[object]]: a shipped model or a random mesh, at most `size` m along x, along y that times a factor within
-// `stretch`, now and then turned inside out, half of them with a material of their own. `position` is called once, when
-// its random numbers are due.
+// The table [[object]] of a shipped model or a random mesh: at most `size` m along x, and along y that times a factor
+// within `stretch`. Some are turned inside out; half have a material of their own. `position` is called once, when its
+// random numbers are due.
 std::string randomObjectText(Random& random, unsigned seed, double size, const glm::dvec2& stretch,
                              const std::function<std::string()>& position);
 

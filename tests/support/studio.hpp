@@ -6,7 +6,7 @@
 
 namespace speculum::testing_support {
 
-// A device and its renderer, for one scene after the other.
+// A device and its renderer, for any number of scenes in turn.
 struct Gpu {
   explicit Gpu(const Options& options)
       : device(deviceOptions(options, nullptr)), renderer(device, rendererOptions(options, nullptr)) {}
@@ -28,9 +28,9 @@ class Studio {
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;
 
-  // Shows what stands in another scene, whose models are the first of this one's in the same order.
+  // Shows the nodes of another scene. Its models must be the first models of this scene, in the same order.
   void show(const Scene& other) { static_cast<SceneContent&>(scene) = other; }
-  // Draws the picture, from cached images where they hold.
+  // Draws the picture and reuses cached images where possible.
   Image8 draw() {
     gpu_.renderer.reloadShaders();
     Frame frame = gpu_.renderer.beginFrame().value();
@@ -54,7 +54,7 @@ class Studio {
   Settings settings;
   double time = 0.0;                 // seconds
   std::optional<CameraPose> camera;  // in place of the scene's
-  bool reusesMain = false;           // as in the window, if nothing changed
+  bool reusesMain = false;           // reuse an unchanged main view, as the window does
   SceneState state;                  // of the last picture, as is the plan
   FramePlan plan;
   SceneRenderer sceneRenderer;

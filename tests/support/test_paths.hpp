@@ -4,8 +4,8 @@
 
 namespace speculum {
 
-// Absolute folders of the source tree and of this build. Functions, because compiler caches miss every file that is
-// compiled with a path of its own on the command line.
+// Absolute folders of the source tree and of this build. They are functions and no macros, because a compiler cache
+// misses every file with such a path on its command line.
 std::filesystem::path sourceDir();
 std::filesystem::path binaryDir();
 

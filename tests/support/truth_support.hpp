@@ -21,7 +21,7 @@ Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, d
 std::vector<std::pair<std::string, std::string>> truthSettings(int maxDepth);
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth);
 
-// Expects every pixel that is not background within 2/255, except one in a thousand, and no 3x3 block wholly over.
+// Expects every pixel that is not background within 2/255, except one in a thousand, but no 3x3 block of exceptions.
 void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDepth, const Truth& truth,
                  double time = 0.0);
 
