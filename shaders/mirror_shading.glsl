@@ -207,7 +207,7 @@ const int marchSteps = 16;
 // Follows the reflected ray behind the mirror in steps of equal length on the screen. Returns the radiance of the first
 // surface in the image that lies between two steps; if there is none, that of the farthest surface on the way. Beyond
 // the image its edge is read.
-vec3 imageMetBy(vec3 direction, vec3 position) {
+vec3 marchImage(vec3 direction, vec3 position) {
   vec3 behind = direction - 2.0 * dot(direction, mirror.normal) * mirror.normal;
   vec3 axis = cross(view.rayX, view.rayY.xyz);
   axis /= dot(view.rayOrigin.xyz, axis);
@@ -233,11 +233,11 @@ vec3 imageMetBy(vec3 direction, vec3 position) {
 
 // Returns what a rippled or rough mirror reflects, looked up in the image of the smooth mirror: along the ray that the
 // ripples reflect, or as the mean over microfacets.
-vec4 lookedUpBeside(vec3 ray, vec3 position, vec3 normal) {
+vec4 scatteredReflection(vec3 ray, vec3 position, vec3 normal) {
   vec3 incoming = safeNormalize(ray);
   vec4 sharp = reflected();
   if (!blurs) {
-    return vec4(imageMetBy(mirrored(incoming, normal, mirror.normal), position), sharp.a);
+    return vec4(marchImage(mirrored(incoming, normal, mirror.normal), position), sharp.a);
   }
   float limit = 1e4 * (length(position) + 1.0);
   Origin origin = Origin(position, clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, limit), limit);
@@ -305,7 +305,7 @@ void main() {
   vec4 image = vec4(0.0);
   if (shows == showsImage) {
     if (blurs || ripples) {
-      image = lookedUpBeside(hit.ray, hit.position, normal);
+      image = scatteredReflection(hit.ray, hit.position, normal);
     } else {
       image = reprojects ? reprojected(hit.disparity) : reflected();
     }

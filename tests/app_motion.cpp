@@ -75,7 +75,7 @@ struct Window {
     return ms;
   }
   void stand(int frames) {
-    controller.stand();
+    controller.setStill();
     for (int i = 0; i < frames; ++i) {
       draw(levels[0].settings);
     }
@@ -125,7 +125,7 @@ TEST(MotionController, KeepsTheBudgetOnEveryDevice) {
   }
 }
 
-TEST(MotionController, DoesNotPump) {
+TEST(MotionController, LevelDoesNotOscillate) {
   for (const Device& device : devices) {
     SCOPED_TRACE(&device - devices);
     Window run{device};
@@ -238,7 +238,7 @@ TEST(MotionController, TakesMapsOnlyWhereRaysAreSlow) {
   }
 }
 
-TEST(MotionLevels, NothingIsRaised) {
+TEST(MotionLevels, NoLevelExceedsTheFirst) {
   Settings chosen;
   chosen.view.samples = 2;
   chosen.view.scale = 0.7;

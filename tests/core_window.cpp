@@ -168,20 +168,20 @@ TEST(WindowOptions, FifoIsAlwaysOffered) {
 
 // Tests characters of German, French, American and Russian keyboards.
 TEST(WindowKeys, LettersFollowPrintFlyKeysFollowPlace) {
-  EXPECT_EQ(keyMeant(Key::y, "z", true, "wasdqe"), Key::z);
-  EXPECT_EQ(keyMeant(Key::z, "y", true, "wasdqe"), Key::y);
-  EXPECT_EQ(keyMeant(Key::z, "w", true, "wasdqe"), Key::w);
-  EXPECT_EQ(keyMeant(Key::w, "z", true, "wasdqe"), Key::z);
-  EXPECT_EQ(keyMeant(Key::w, "z", false, "wasdqe"), Key::w) << "forwards";
-  EXPECT_EQ(keyMeant(Key::a, "q", false, "wasdqe"), Key::a) << "left";
-  EXPECT_EQ(keyMeant(Key::unknown, "m", false, "wasdqe"), Key::m);
-  EXPECT_EQ(keyMeant(Key::m, ",", false, "wasdqe"), Key::comma);
-  EXPECT_EQ(keyMeant(Key::b, "x", true, "wasdqe"), Key::unknown);
-  EXPECT_EQ(keyMeant(Key::leftBracket, "\u00fc", false, "wasdqe"), Key::leftBracket);
-  EXPECT_EQ(keyMeant(Key::comma, ";", false, "wasdqe"), Key::comma);
-  EXPECT_EQ(keyMeant(Key::z, "Z", true, "wasdqe"), Key::z);
-  EXPECT_EQ(keyMeant(Key::z, "\u044f", true, "wasdqe"), Key::z);
-  EXPECT_EQ(keyMeant(Key::escape, "", true, "wasdqe"), Key::escape);
+  EXPECT_EQ(meaningOfKey(Key::y, "z", true, "wasdqe"), Key::z);
+  EXPECT_EQ(meaningOfKey(Key::z, "y", true, "wasdqe"), Key::y);
+  EXPECT_EQ(meaningOfKey(Key::z, "w", true, "wasdqe"), Key::w);
+  EXPECT_EQ(meaningOfKey(Key::w, "z", true, "wasdqe"), Key::z);
+  EXPECT_EQ(meaningOfKey(Key::w, "z", false, "wasdqe"), Key::w) << "forwards";
+  EXPECT_EQ(meaningOfKey(Key::a, "q", false, "wasdqe"), Key::a) << "left";
+  EXPECT_EQ(meaningOfKey(Key::unknown, "m", false, "wasdqe"), Key::m);
+  EXPECT_EQ(meaningOfKey(Key::m, ",", false, "wasdqe"), Key::comma);
+  EXPECT_EQ(meaningOfKey(Key::b, "x", true, "wasdqe"), Key::unknown);
+  EXPECT_EQ(meaningOfKey(Key::leftBracket, "\u00fc", false, "wasdqe"), Key::leftBracket);
+  EXPECT_EQ(meaningOfKey(Key::comma, ";", false, "wasdqe"), Key::comma);
+  EXPECT_EQ(meaningOfKey(Key::z, "Z", true, "wasdqe"), Key::z);
+  EXPECT_EQ(meaningOfKey(Key::z, "\u044f", true, "wasdqe"), Key::z);
+  EXPECT_EQ(meaningOfKey(Key::escape, "", true, "wasdqe"), Key::escape);
 }
 
 struct KeyboardLayout {
@@ -197,7 +197,7 @@ const std::string flyingKeys = "wasdqe";
 const std::string shortcuts = "bmfgn,.";
 
 Key keyAt(char american) {
-  return keyMeant(Key::unknown, std::string(1, american), true, flyingKeys);
+  return meaningOfKey(Key::unknown, std::string(1, american), true, flyingKeys);
 }
 
 TEST(WindowKeys, ShortcutsAvoidFlyKeysOnEveryLayout) {
@@ -211,7 +211,7 @@ TEST(WindowKeys, ShortcutsAvoidFlyKeysOnEveryLayout) {
     for (size_t i = 0; i < places.size(); ++i) {
       const std::string printed = layout.printed[i] == '~' ? "\u00e9" : layout.printed.substr(i, 1);
       const Key place = keyAt(places[i]);
-      const Key meant = keyMeant(place, printed, false, flying);
+      const Key meant = meaningOfKey(place, printed, false, flying);
       const bool flies = flyingKeys.find(places[i]) != std::string::npos;
       for (const char key : flyingKeys) {
         EXPECT_EQ(meant == keyAt(key), places[i] == key) << layout.name << ": " << printed;

@@ -348,7 +348,7 @@ TEST(Effects, CanBeSwitchedOff) {
 }
 
 // Effects without rays can be switched off where they are seen directly, in a mirror and by rays in a curved mirror.
-TEST(Effects, OthersCanBeSwitchedOff) {
+TEST(Effects, EffectsWithoutRaysCanBeSwitchedOff) {
   const auto panel = [](const std::string& name, const std::string& material) {
     const std::filesystem::path file = sceneDirectory() / (name + ".obj");
     std::ofstream(sceneDirectory() / (name + ".mtl")) << "newmtl m\nKd 0.8 0.7 0.3\n" << material;

@@ -73,7 +73,7 @@ TEST(PictureOffset, EverySixtyFourFillTheReferencesGrid) {
   }
 }
 
-TEST(PictureOffset, KeepsToWhatSamplesLeaveOpen) {
+TEST(PictureOffset, GridShrinksWithSampleCount) {
   const std::vector<glm::dvec2> standard{{-0.125, -0.375}, {0.375, -0.125}, {-0.375, 0.125}, {0.125, 0.375}};
   Settings settings;
   const double one = edgeError(settings, standard, 1);

@@ -27,7 +27,7 @@ model = "MODELS/column.obj"
 
 class ScarceMemory : public Journey {
  protected:
-  ~ScarceMemory() override { giveMemory(); }
+  ~ScarceMemory() override { stopRefusingMemory(); }
 
   std::filesystem::path open(const std::string& name) {
     const std::filesystem::path file = writeScene(name, textured);
@@ -69,7 +69,7 @@ TEST_F(ScarceMemory, TexturesBeyondMemoryAreLeftOut) {
   dragFrom(slider.x + slider.width / 2.0, slider.y + slider.height / 2.0, 40, 0);
   EXPECT_EQ(refusedAllocations(), 2 * refused) << "tried once the slider was let go";
   EXPECT_EQ(told(), 1) << "the same again";
-  giveMemory();
+  stopRefusingMemory();
   run(5);
   EXPECT_NE(view().message, "") << "nothing was changed";
   setSetting("view.exposure", "1.5");

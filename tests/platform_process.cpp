@@ -27,7 +27,7 @@ TEST(Process, TalksLineByLine) {
   EXPECT_EQ(child.wait().output, "rest");
 }
 
-TEST(Process, EndedProgramsAndHungOnesAreNoTrouble) {
+TEST(Process, EndedAndHungChildrenAreHandled) {
   ChildProcess ended({"true"}, ChildProcess::Input::pipe);
   EXPECT_EQ(ended.readLine(10.0), std::nullopt);
   ended.write("nobody reads this\n");

@@ -125,7 +125,7 @@ TEST(RayStructures, ScaleBeyondSinglePrecisionNeedsShaders) {
 // Refuses all device memory while it lives.
 struct NoMemory {
   NoMemory() { refuseMemory(1, UINT64_MAX); }
-  ~NoMemory() { giveMemory(); }
+  ~NoMemory() { stopRefusingMemory(); }
 };
 
 // Without memory for acceleration structures, shaders trace the rays as with effects.rays = software.

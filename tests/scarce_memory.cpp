@@ -20,7 +20,7 @@ void refuseMemory(uint64_t fewest, uint64_t most) {
   refused.most = most;
 }
 
-void giveMemory() {
+void stopRefusingMemory() {
   refuseMemory(1, 0);
 }
 

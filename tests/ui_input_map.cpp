@@ -31,7 +31,7 @@ TEST(InputMap, PrintedLettersAreKnown) {
       const int code = static_cast<int>(shortcut.key);
       if (shortcut.command && code > ' ' && code < 128) {
         const std::string printed(1, static_cast<char>(std::tolower(code)));
-        EXPECT_EQ(keyMeant(shortcut.key, printed, shortcut.control, ""), shortcut.key) << shortcut.keys;
+        EXPECT_EQ(meaningOfKey(shortcut.key, printed, shortcut.control, ""), shortcut.key) << shortcut.keys;
       }
     }
   }

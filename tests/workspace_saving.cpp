@@ -352,12 +352,12 @@ TEST_F(Saving, UnansweredOfferIsMadeAgain) {
 }
 
 TEST_F(Saving, UndrawableStepIsTakenBack) {
-  EXPECT_FALSE(workspace_->takeBack("no memory")) << "nothing to take back";
+  EXPECT_FALSE(workspace_->undoFailedChange("no memory")) << "nothing to take back";
   removeBall();
-  EXPECT_TRUE(workspace_->takeBack("no memory"));
+  EXPECT_TRUE(workspace_->undoFailedChange("no memory"));
   EXPECT_EQ(scene().objects.size(), 1u);
   EXPECT_EQ(workspace_->problem(), "Cannot remove object 'ball': no memory");
-  EXPECT_FALSE(workspace_->takeBack("no memory")) << "no frame was drawn: it was not that step";
+  EXPECT_FALSE(workspace_->undoFailedChange("no memory")) << "no frame was drawn: it was not that step";
   EXPECT_TRUE(scene().objects.empty()) << "the work is kept";
 }
 

@@ -72,7 +72,7 @@ void CameraController::reset(const CameraSpec& spec) {
   last_ = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
 }
 
-void CameraController::stand(const CameraSpec& spec) {
+void CameraController::moveTo(const CameraSpec& spec) {
   spec_ = spec;
   pivot_.reset();
   eye_ = spec.position;
@@ -80,7 +80,7 @@ void CameraController::stand(const CameraSpec& spec) {
   touched_ = true;
 }
 
-void CameraController::take(const CameraPose& pose) {
+void CameraController::startFrom(const CameraPose& pose) {
   if (!touched_) {
     eye_ = pose.eye;
     target_ = spec_.target;
@@ -93,7 +93,7 @@ void CameraController::drag(double dx, double dy) {
 }
 
 void CameraController::pan(double dx, double dy, double pictureHeight) {
-  take(last_);
+  startFrom(last_);
   const double metresPerPixel = 2.0 * std::tan(0.5 * last_.verticalFov) * glm::distance(eye_, target_) / pictureHeight;
   const glm::dvec3 step = glm::transpose(last_.worldToView) * glm::dvec3(-dx, dy, 0.0) * metresPerPixel;
   pivot_.reset();
@@ -102,7 +102,7 @@ void CameraController::pan(double dx, double dy, double pictureHeight) {
 }
 
 void CameraController::turn(double yawDegrees, double pitchDegrees) {
-  take(last_);
+  startFrom(last_);
   const glm::dvec3 up = glm::normalize(spec_.up);
   const bool orbit = mode_ == CameraMode::orbit;
   const glm::dvec3 arm = orbit ? eye_ - target_ : target_ - eye_;
@@ -127,7 +127,7 @@ void CameraController::turn(double yawDegrees, double pitchDegrees) {
 }
 
 void CameraController::zoom(double notches) {
-  take(last_);
+  startFrom(last_);
   const glm::dvec3 arm = eye_ - target_;
   const glm::dvec3 shorter = arm * std::pow(zoomPerNotch, notches);
   if (mode_ == CameraMode::orbit) {
@@ -148,7 +148,7 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
   if (direction == glm::dvec3(0.0)) {
     return;
   }
-  take(last_);
+  startFrom(last_);
   pivot_.reset();
   // Bounds the speed from below, because it falls near the target.
   const double least = std::min(0.5, 0.6 * glm::distance(spec_.position, spec_.target));
@@ -165,7 +165,7 @@ double CameraController::narrowerHalfAngle(double aspect) const {
 }
 
 void CameraController::frame(const Sphere& sphere, double aspect, const Part& part) {
-  take(last_);
+  startFrom(last_);
   const glm::dvec2 slope = std::tan(0.5 * glm::radians(spec_.verticalFov)) * glm::dvec2(aspect, 1.0);
   const double narrowest = std::atan(std::min(slope.x * part.half.x, slope.y * part.half.y));
   const double distance = std::max(sphere.radius, 10.0 * std::min(spec_.near, 1.0)) / std::sin(narrowest);
@@ -176,7 +176,7 @@ void CameraController::frame(const Sphere& sphere, double aspect, const Part& pa
 }
 
 void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, double aspect) {
-  take(last_);
+  startFrom(last_);
   pivot_.reset();
   const glm::dvec3 middle = vertexMean(mirror.polygon);
   double radius = 0.0;

@@ -22,7 +22,7 @@ class CameraController {
  public:
   void reset(const CameraSpec& spec);
   // Moves the camera there, as if the user had.
-  void stand(const CameraSpec& spec);
+  void moveTo(const CameraSpec& spec);
   void setMode(CameraMode mode) { mode_ = mode; }
 
   // Turns the view by a drag of the pointer, in pixels; in orbit mode about the target.
@@ -58,7 +58,7 @@ class CameraController {
   CameraPose pose(const CameraPose& animated);
 
  private:
-  void take(const CameraPose& pose);
+  void startFrom(const CameraPose& pose);
   double narrowerHalfAngle(double aspect) const;
 
   CameraSpec spec_;

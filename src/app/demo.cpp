@@ -117,7 +117,7 @@ void Demo::endWithPanels(Frame& frame) {
 // Ends the frame with the panels alone, after taking back the user's last step, which may have caused the exception.
 // Call it while the exception is handled: rethrows it if there is no such step.
 void Demo::abandonFrame(Frame& frame, const std::string& why) {
-  if (!workspace_.takeBack(why)) {
+  if (!workspace_.undoFailedChange(why)) {
     throw;
   }
   endWithPanels(frame);

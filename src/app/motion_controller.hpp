@@ -25,7 +25,7 @@ class MotionController {
   // `plan` a few times, last with the settings of the chosen level.
   size_t choose(std::span<const MotionLevel> levels, double budgetMs, double seconds, const Planner& plan);
   // Call when the picture stands still: the next moving frame may have any level.
-  void stand() { moving_ = false; }
+  void setStill() { moving_ = false; }
 
   // Call when frame `number` was drawn, moving or still, unless it did unusual work that `work` does not contain.
   void drawn(uint64_t number, const FrameWork& work);

@@ -36,7 +36,7 @@ FittedPlan Pace::plan(const Request& request, const Planner& plan) {
   if (moving() && request.budgetMs > 0.0) {
     return planMoving(request, counted);
   }
-  controller_.stand();
+  controller_.setStill();
   return planStill(request, counted);
 }
 

@@ -4,7 +4,7 @@ namespace speculum {
 
 constexpr double secondsBetweenFrames = 1.0 / 30.0;
 
-void SessionSubject::drawBefore(int framesBefore, bool capture, bool whole) {
+void SessionSubject::drawEarlierFrame(int framesBefore, bool capture, bool whole) {
   session_.draw(time_ - framesBefore * secondsBetweenFrames, capture, [&] { return whole; });
   session_.finish();
 }
@@ -17,7 +17,7 @@ std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
   for (int last = interval > 1 ? interval : 0; last < (interval > 1 ? 2 * interval : 1); ++last) {
     session_.restart();
     for (int frame = 0; frame <= last; ++frame) {
-      drawBefore(last - frame, frame == last, true);
+      drawEarlierFrame(last - frame, frame == last, true);
     }
     pictures.push_back(session_.picture());
   }
@@ -34,7 +34,7 @@ FrameCost SessionSubject::cost(const Settings& settings) {
   FrameCost cost;
   for (int frame = 2 * counted - 1; frame >= 0; --frame) {
     const bool counts = frame < counted;
-    drawBefore(counted == 1 ? 0 : frame, false, counts);
+    drawEarlierFrame(counted == 1 ? 0 : frame, false, counts);
     if (counts) {
       cost.gpuMs += session_.lastFrame().timings.gpuMs / counted;
       cost.cpuMs += session_.lastFrame().cpuMs / counted;

@@ -19,7 +19,7 @@ class SessionSubject : public SweepSubject {
 
  private:
   // Draws a `whole` mean, or its first picture.
-  void drawBefore(int framesBefore, bool capture, bool whole);
+  void drawEarlierFrame(int framesBefore, bool capture, bool whole);
 
   Session& session_;
   double time_;

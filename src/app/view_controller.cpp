@@ -71,7 +71,7 @@ void ViewController::move(const glm::dvec3& direction, const GamepadState& pad, 
 void ViewController::goToBookmark(size_t index, const Scene& scene) {
   if (index < scene.bookmarks.size()) {
     view_.bookmark = static_cast<int>(index);
-    camera_.stand(cameraOf(scene.bookmarks[index], scene.camera));
+    camera_.moveTo(cameraOf(scene.bookmarks[index], scene.camera));
   }
 }
 

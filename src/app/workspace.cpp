@@ -537,7 +537,7 @@ void Workspace::toggleRecording(bool withPanel) {
   }
 }
 
-bool Workspace::takeBack(const std::string& why) {
+bool Workspace::undoFailedChange(const std::string& why) {
   editor().release();
   editor().endEdit();
   const std::string label = settingsHistory_.label(UndoWay::back, editor().document());

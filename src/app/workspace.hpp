@@ -81,7 +81,7 @@ class Workspace {
 
   // After a frame that could not be drawn: undoes the last step and shows why. False if there is none, or if
   // that did not help in the last frame: then it is done again.
-  bool takeBack(const std::string& why);
+  bool undoFailedChange(const std::string& why);
   // Before the program ends without a prompt: keeps unsaved changes in a copy, logs where, and makes the next start
   // offer it.
   void keepUnsavedWork() noexcept;

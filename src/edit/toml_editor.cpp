@@ -62,7 +62,7 @@ std::vector<std::pair<std::string, std::string>> statements(const std::vector<Ke
 }
 
 // Breaks a list of points into lines if it is too long for one.
-std::string broken(const std::string& value, size_t before, const std::string& lineBreak) {
+std::string wrappedPoints(const std::string& value, size_t before, const std::string& lineBreak) {
   if (!value.starts_with("[[") || before + value.size() <= kLongestLine) {
     return value;
   }
@@ -134,14 +134,14 @@ void TomlEditor::changeKey(TomlNode& table, const std::vector<KeyText>& base, co
     return;
   }
   if (const TomlNode* value = within->child(key.key)) {
-    patch(*value, before ? before->text : std::string(), key.text);
+    replaceChangedNumbers(*value, before ? before->text : std::string(), key.text);
   } else if (!key.omissible) {
     addKey(within == &table ? std::vector{&table} : std::vector{&table, within}, key.key, key.text);
   }
 }
 
 // Leaves the numbers of an array that did not change as they are written.
-void TomlEditor::patch(const TomlNode& value, const std::string& base, const std::string& edited) {
+void TomlEditor::replaceChangedNumbers(const TomlNode& value, const std::string& base, const std::string& edited) {
   const auto compare = [&](const auto& self, const TomlNode& here, const TomlNode& was, const TomlNode& becomes) {
     const std::string_view text = becomes.value->of(edited);
     if (was.value->of(base) == text) {
@@ -150,7 +150,7 @@ void TomlEditor::patch(const TomlNode& value, const std::string& base, const std
     const size_t count = becomes.children.size();
     if (becomes.kind != TomlNode::Kind::array || here.kind != becomes.kind || was.kind != becomes.kind ||
         here.children.size() != count || was.children.size() != count) {
-      setValue(here, broken(std::string(text), 0, lineBreak_));
+      setValue(here, wrappedPoints(std::string(text), 0, lineBreak_));
       return;
     }
     for (size_t i = 0; i < count; ++i) {
@@ -191,7 +191,7 @@ void TomlEditor::addKey(const std::vector<TomlNode*>& tables, const std::string&
   }
   const std::string name = section ? key : table.dottedPrefix + key;
   const size_t width = section && section->linedUp ? section->keyWidth : 0;
-  const std::string value = broken(text, indent.size() + std::max(width, name.size() + 1) + 2, lineBreak_);
+  const std::string value = wrappedPoints(text, indent.size() + std::max(width, name.size() + 1) + 2, lineBreak_);
   edits_.push_back({{at, at}, indent + keyValue(name, width, value) + lineBreak_});
 }
 
@@ -254,7 +254,7 @@ void TomlEditor::addBlock(size_t at, const std::string& header, const std::vecto
   }
   std::string text = lineBreak_ + header + lineBreak_;
   for (const auto& [key, value] : lines) {
-    text += keyValue(key, width, broken(value, std::max(width, key.size() + 1) + 2, lineBreak_)) + lineBreak_;
+    text += keyValue(key, width, wrappedPoints(value, std::max(width, key.size() + 1) + 2, lineBreak_)) + lineBreak_;
   }
   const bool blankBelow = at == text_.size() || line(at).empty();
   edits_.push_back({{at, at}, text + (blankBelow ? "" : lineBreak_), true});

@@ -50,7 +50,7 @@ class TomlEditor {
 
   void recordOwners(const TomlNode& node, const TomlNode* list);
   void changeKey(TomlNode& table, const std::vector<KeyText>& base, const KeyText& key);
-  void patch(const TomlNode& value, const std::string& base, const std::string& edited);
+  void replaceChangedNumbers(const TomlNode& value, const std::string& base, const std::string& edited);
   void removeSection(const TomlSection& section);
   size_t endOfTable(const TomlNode& table) const;
   size_t contentEnd(const TomlSection& section) const;

@@ -12,7 +12,7 @@ namespace {
 // Returns the distance from the eye to which a sphere reaches within the cone. Its centre is at distance d. In a
 // direction at angle a from the centre it reaches to d cos a + sqrt(r^2 - d^2 sin^2 a), which falls with a. The
 // smallest a within the cone follows from the plane that the centre is farthest beyond.
-double reach(const View& view, const glm::dvec3& center, double radius) {
+double farthestSphereDistance(const View& view, const glm::dvec3& center, double radius) {
   double beyond = 0.0;
   for (const glm::dvec3& normal : view.cone) {
     beyond = std::max(beyond, -glm::dot(normal, center - view.eye));
@@ -49,7 +49,7 @@ class Farthest {
   Farthest(const View& view, const Projection& projection) : view_(view), projection_(projection) {}
 
   void addBody(const glm::dvec3& center, double radius) {
-    const double distance = reach(view_, center, radius);
+    const double distance = farthestSphereDistance(view_, center, radius);
     if (distance > distance_ && std::isfinite(distance)) {
       distance_ = distance;
       point_ = FarthestPoint{distance * directionTo(view_, projection_, center), radius};

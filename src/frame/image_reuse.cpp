@@ -8,7 +8,7 @@ namespace speculum {
 
 namespace {
 
-bool serves(const CachedImage& image, const ReuseRequest& request) {
+bool canReuse(const CachedImage& image, const ReuseRequest& request) {
   return sameMirrorImages(image.settings, request.settings) && image.view.pictureSize == request.view.pictureSize &&
          (unmoved(image, request.view, request.projection, request.visible) ||
           covers(image, request.view, request.visible));
@@ -89,7 +89,7 @@ ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest&
   const auto before = imageOf(images, request.view.path.back());
   const bool exists = before != images.end();
   const int left = exists ? std::min(before->due, request.interval) - before->age : 0;  // frames
-  if (left > 0 && serves(*before, request)) {
+  if (left > 0 && canReuse(*before, request)) {
     ImageChoice cached{.image = *before};
     ++cached.image.age;
     cached.image.pass = -1;

@@ -229,8 +229,8 @@ void MirrorSearch::expand(const Candidate& candidate) {
   }
   PassNode node;
   node.pass.view = reflectedView(parent, draw.mirror, draw.plane, candidate.visible, rect, picture);
-  const bool readsBeside = draw.blurs || draw.ripples;
-  if (readsBeside) {
+  const bool displacesLookup = draw.blurs || draw.ripples;
+  if (displacesLookup) {
     boundByRectangle(node.pass.view, plan_.projection);
   }
   node.pass.depth = static_cast<int>(parent.path.size());
@@ -239,7 +239,7 @@ void MirrorSearch::expand(const Candidate& candidate) {
   node.pass.channels = candidate.throughput;
   node.draw = candidate.draw;
   // An image that is read beside a pixel's own texel cannot be reprojected.
-  const int interval = readsBeside ? 1 : settings_.updateInterval;
+  const int interval = displacesLookup ? 1 : settings_.updateInterval;
   if (node.pass.depth == 0 && (interval > 1 || settings_.skipUnchanged)) {
     const ReuseRequest request{node.pass.view, plan_.projection, candidate.visible,
                                allSettings_,   interval,         candidate.order};

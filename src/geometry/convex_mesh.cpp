@@ -57,7 +57,8 @@ std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
 
 // Says whether `inside` lies on one side of the triangle and no point on the other. A triangle without area bounds
 // nothing.
-bool bounds(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& inside, std::span<const glm::dvec3> points) {
+bool isSupportingFace(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& inside,
+                      std::span<const glm::dvec3> points) {
   const glm::dvec3 area = newellVector(triangle);
   if (!(glm::length(area) > convexTolerance * convexTolerance)) {
     return true;
@@ -90,7 +91,7 @@ ConvexMesh convexMesh(std::span<const glm::dvec3> positions, std::span<const uin
   }
   const glm::dvec3 inside = vertexMean(scaled);
   const bool convex = std::ranges::all_of(mesh.triangles, [&](const ConvexMesh::Triangle& t) {
-    return bounds({scaled[t[0]], scaled[t[1]], scaled[t[2]]}, inside, scaled);
+    return isSupportingFace({scaled[t[0]], scaled[t[1]], scaled[t[2]]}, inside, scaled);
   });
   if (!convex) {
     return {};

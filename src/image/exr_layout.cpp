@@ -132,7 +132,7 @@ class ExrLayout {
     height_ = window.value<int32_t>() - top_ + 1;
     require(width_ >= 1 && height_ >= 1, "its data window is empty");
     require(std::max(std::abs(top_), std::abs(top_ + height_)) <= mostCoordinate, "its data window is too far off");
-    cover(width_, height_);
+    countPixels(width_, height_);
   }
 
   void readChannels() {
@@ -148,11 +148,11 @@ class ExrLayout {
       pixelSize_ += type == 1 ? 2 : 4;
     }
     channels_ = static_cast<int64_t>(names.size());
-    cover(0, 0);
+    countPixels(0, 0);
   }
 
   // Adds to the number of pixels that need memory.
-  void cover(int64_t width, int64_t height) {
+  void countPixels(int64_t width, int64_t height) {
     covered_ += width * height;
     require(covered_ <= mostPixels && covered_ * std::max<int64_t>(channels_, 1) <= mostValues,
             "it has more than 2^26 pixels or 2^28 values");
@@ -205,7 +205,7 @@ class ExrLayout {
     for (int level = 0; level < levels; ++level) {
       const int64_t columns = (levelSize(width_, level) + width - 1) / width;
       const int64_t rows = (levelSize(height_, level) + height - 1) / height;
-      cover(columns * width, rows * height);
+      countPixels(columns * width, rows * height);
       chunks += columns * rows;
     }
     checkCount(chunks);

@@ -157,7 +157,7 @@ void Window::installCallbacks() {
       const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
       // Copies the name, because the next call of glfwGetKeyName may overwrite it.
       const std::string printed(printedOn(code, scancode));
-      key({keyMeant(static_cast<Key>(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE,
+      key({meaningOfKey(static_cast<Key>(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE,
            action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0, control});
     }
   });

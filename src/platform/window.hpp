@@ -62,7 +62,7 @@ enum class Key {
 // character, or by their place if the character is not Latin. `printedWhereFlying` are the characters on the six fly
 // keys: a shortcut whose character is one of them has the key that it has on an American keyboard, unless another
 // shortcut is printed on that key.
-Key keyMeant(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying);
+Key meaningOfKey(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying);
 
 enum class MouseButton { left, right, middle };
 

@@ -10,8 +10,8 @@ namespace speculum {
 namespace {
 
 // Distance in bytes between results of targets: no device requires a larger alignment of descriptor offsets.
-constexpr VkDeviceSize place = 256;
-constexpr VkDeviceSize targetBytes = 2 * place;
+constexpr VkDeviceSize resultStride = 256;
+constexpr VkDeviceSize targetBytes = 2 * resultStride;
 constexpr uint32_t groupWidth = 16;
 constexpr uint32_t groupHeight = 8;
 
@@ -20,7 +20,7 @@ VkDescriptorBufferInfo searchOf(const Buffer& buffer, size_t target) {
 }
 
 VkDescriptorBufferInfo foundOf(const Buffer& buffer, size_t target) {
-  return {buffer.get(), target * targetBytes + place, sizeof(gpu::CheckFound)};
+  return {buffer.get(), target * targetBytes + resultStride, sizeof(gpu::CheckFound)};
 }
 
 template <typename T>

@@ -95,8 +95,8 @@ TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
       buffers_(device, bufferNames, "fewer copies of objects", true) {}
 
 void TraceFrame::create() {
-  nothing_ = Buffer(device_, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                    BufferMemory::host, "no trace scene");
+  emptyBuffer_ = Buffer(device_, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                        BufferMemory::host, "no trace scene");
   if (layout_) {
     return;
   }
@@ -118,7 +118,7 @@ void TraceFrame::create() {
 void TraceFrame::release(RetireQueue& retired) {
   retireIfAny(structures_, retired);
   retireIfAny(traceScene_, retired);
-  retired.retire(std::exchange(nothing_, {}));
+  retired.retire(std::exchange(emptyBuffer_, {}));
   buffers_.retire(retired);
 }
 
@@ -127,13 +127,13 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   variant_ = {};
   rays_ = {};
   if (!effects.any()) {
-    if (nothing_ && ++idleFrames_ > idleFramesKept) {
+    if (emptyBuffer_ && ++idleFrames_ > idleFramesKept) {
       release(*frame.retired);
     }
     return;
   }
   idleFrames_ = 0;
-  if (!nothing_) {
+  if (!emptyBuffer_) {
     create();
   }
   prepareScene(frame, effects.traces());
@@ -222,7 +222,7 @@ void TraceFrame::allocateSet(Frame& frame) {
   DescriptorWriter writer;
   std::array<const Buffer*, structureBinding> bound{};
   for (uint32_t i = 0; i < sceneBindings; ++i) {
-    bound[i] = traceScene_ ? &traceScene_->buffer(static_cast<TraceScene::Kind>(i)) : &nothing_;
+    bound[i] = traceScene_ ? &traceScene_->buffer(static_cast<TraceScene::Kind>(i)) : &emptyBuffer_;
   }
   for (uint32_t i = 0; i < kindCount; ++i) {
     bound[sceneBindings + i] = &buffers_.buffer(frame, i);

@@ -69,7 +69,7 @@ class TraceFrame {
   std::optional<TraceScene> traceScene_;
   std::optional<RayStructures> structures_;
   RayUse rays_;
-  Buffer nothing_;  // bound instead of a scene whose triangles no ray meets
+  Buffer emptyBuffer_;  // bound instead of a scene whose triangles no ray meets
   FrameBuffers buffers_;
   std::vector<gpu::TraceTopNode> topNodes_;
   std::vector<gpu::TraceInstance> instances_;

@@ -27,7 +27,7 @@ void graph(const char* name, std::vector<float> values, float height) {
 }
 
 // Repeats each value until the next one, because few frames have their passes timed.
-std::vector<float> continued(std::vector<float> values) {
+std::vector<float> gapsFilled(std::vector<float> values) {
   for (size_t i = 1; i < values.size(); ++i) {
     values[i] = std::isnan(values[i]) ? values[i - 1] : values[i];
   }
@@ -93,7 +93,7 @@ void performance(PanelContext& ui) {
   row(ui, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
   row(ui, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
   for (const std::string& pass : history.passNames()) {
-    row(ui, pass, continued(history.passSeries(pass)), 1.6f * em);
+    row(ui, pass, gapsFilled(history.passSeries(pass)), 1.6f * em);
   }
   ImGui::EndTable();
 }

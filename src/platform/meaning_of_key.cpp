@@ -17,7 +17,7 @@ bool isAmong(std::string_view characters, Key key) {
 
 }  // namespace
 
-Key keyMeant(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying) {
+Key meaningOfKey(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying) {
   const bool latin = printed.size() == 1 && static_cast<unsigned char>(printed[0]) < 128;
   if (!latin || (isAmong(flyingKeys, place) && !control)) {
     return place;
