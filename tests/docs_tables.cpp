@@ -47,6 +47,13 @@ std::string settingsList(std::string_view group) {
   return list;
 }
 
+// Returns a range without bounds of 1e9 and more, which stand in the page's list of limits.
+std::string rangeText(Range range) {
+  range.low = range.low <= -1e9 ? kAny.low : range.low;
+  range.high = range.high >= 1e9 ? kAny.high : range.high;
+  return range.shortText();
+}
+
 // What a field takes without saying so by its default.
 template <typename Field>
 std::string shape(const Field& field) {
@@ -117,7 +124,7 @@ std::string fieldValue(const Field& field, const Node& node) {
     }
   }
   add(field.uniform ? "or a number" : "");
-  add(field.range.shortText());
+  add(rangeText(field.range));
   add(std::string(field.unit));
   return text;
 }

@@ -64,7 +64,7 @@ inline const auto& fieldsOf(const Sky*) {
 
 inline const auto& fieldsOf(const Environment*) {
   static const std::tuple fields{
-      field(&Environment::background, "background", "radiance of rays that hit nothing: the clear color",
+      field(&Environment::background, "background", "radiance of rays that hit nothing",
             {.range = kRadiance, .color = true}),
       field(&Environment::sky, "sky", "replaces the background"),
       field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse color",
@@ -79,8 +79,7 @@ inline const auto& fieldsOf(const CameraSpec*) {
             {.unit = "m", .range = kCoordinate, .required = true}),
       field(&CameraSpec::up, "up", "not along the view direction", {.range = kCoordinate}),
       field(&CameraSpec::verticalFov, "vertical_fov", "vertical field of view", {.unit = "deg", .range = kFieldOfView}),
-      field(&CameraSpec::near, "near", "sets depth precision only: nothing is cut there, and there is no far plane",
-            {.unit = "m", .range = kPositive}),
+      field(&CameraSpec::near, "near", "depth precision only: nothing is cut there", {.unit = "m", .range = kPositive}),
       field(&CameraSpec::orbitSpeed, "orbit_speed", "around the target about up, by the right-hand rule",
             {.unit = "deg/s", .range = kTurn})};
   return fields;
@@ -119,16 +118,13 @@ inline const auto& fieldsOf(const Object*) {
             {.uniform = true, .use = FieldUse::placement}),
       field(&Object::spin, "spin", "added to the rotation",
             {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5}),
-      field(&Object::color, "color",
-            "replaces the diffuse color (Kd) of the whole model; a texture stays and is multiplied",
+      field(&Object::color, "color", "replaces the model's diffuse color (Kd); textures multiply it",
             {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.6)}),
-      field(&Object::specular, "specular", "replaces the specular color (Ks) of the whole model",
+      field(&Object::specular, "specular", "replaces the model's specular color (Ks)",
             {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.2)}),
-      field(&Object::shininess, "shininess",
-            "replaces the exponent of the highlights (Ns); below 1 counts as 1, above 1e6 as 1e6",
+      field(&Object::shininess, "shininess", "replaces the model's exponent of highlights (Ns); clamped to 1 .. 1e6",
             {.floor = kLeastShininess, .ceiling = kMostShininess, .step = 1.0, .start = 50.0}),
-      field(&Object::emission, "emission",
-            "replaces the emission (Ke) of the whole model: radiance that lights nothing else",
+      field(&Object::emission, "emission", "replaces the model's emission (Ke): radiance that lights nothing else",
             {.range = kRadiance, .color = true, .start = glm::dvec3(1.0)}),
       field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
       field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
@@ -157,7 +153,7 @@ inline const auto& fieldsOf(const PointLight*) {
       field(&PointLight::radius, "radius", "of the visible sphere, and the floor of the inverse square law",
             {.unit = "m", .range = kLength, .step = 0.002}),
       field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = kRadiance}),
-      field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors hide the light from what is behind them"),
+      field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors cast its shadows"),
       field(&PointLight::orbit, "orbit", "circles around an axis", {.use = FieldUse::placement})};
   return fields;
 }
@@ -178,10 +174,10 @@ inline bool isRectangle(const Mirror& mirror) {
 
 inline const auto& fieldsOf(const Mirror*) {
   static const std::tuple fields{
-      field(&Mirror::name, "name", "figures name the mirror by it, or by its index from 0", {.use = FieldUse::label}),
+      field(&Mirror::name, "name", "for messages and the panel; its index from 0 unless given",
+            {.use = FieldUse::label}),
       field(&Mirror::polygon, "polygon",
-            "instead of position, rotation, size and spin: world-space vertices, planar, convex, counter-clockwise "
-            "seen from the front",
+            "instead of a rectangle: world-space vertices, planar, convex, counter-clockwise from the front",
             {.unit = "m",
              .range = kCoordinate,
              .use = FieldUse::placement,
@@ -194,10 +190,9 @@ inline const auto& fieldsOf(const Mirror*) {
             {.unit = "m", .range = kLength, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
       field(&Mirror::spin, "spin", "added to the rotation",
             {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
-      field(&Mirror::reflectance, "reflectance",
-            "share of light reflected at every angle; at normal incidence with Fresnel",
+      field(&Mirror::reflectance, "reflectance", "share of light reflected; with Fresnel at normal incidence",
             {.range = kUnit, .color = true}),
-      field(&Mirror::fresnel, "fresnel", "Schlick: reflects more at grazing angles, all at 90 degrees"),
+      field(&Mirror::fresnel, "fresnel", "schlick: more at grazing angles"),
       field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
             {.range = kSurfaceColor, .color = true}),
       field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
