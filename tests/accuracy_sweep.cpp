@@ -349,7 +349,7 @@ TEST_F(SmallSweep, InterruptedSweepContinues) {
   EXPECT_TRUE(interrupted.results.points.empty());
   bool traced = false;
   const Run rest = run(folder_ / "store", [&](const SweepStatus& status) {
-    traced = traced || (status.stage == "ground truth" && status.fraction < 1.0);
+    traced = traced || (status.stage == "reference" && status.fraction < 1.0);
     return true;
   });
   ASSERT_TRUE(rest.finished);

@@ -95,7 +95,7 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
 ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings, Plane2d* map) {
   const Image8 shown = toDisplay(truth.image, settings.view.exposure, settings.view.toneMap);
   const CompareOptions options{.mask = &truth.mirrors};
-  Comparison comparison = compareImages(comparedImage(shown, "the ground truth"), comparedImage(picture), options);
+  Comparison comparison = compareImages(comparedImage(shown, "the reference"), comparedImage(picture), options);
   if (map != nullptr) {
     *map = std::move(comparison.flip);
   }

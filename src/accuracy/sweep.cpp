@@ -25,7 +25,7 @@ std::string keyOf(std::initializer_list<std::string_view> parts) {
   return fingerprint.hex();
 }
 
-// Key of everything that the ground truth and its noise floor depend on.
+// Key of everything that the reference and its noise floor depend on.
 std::string truthKey(const SweepScene& scene, const Settings& settings) {
   std::string shown = settingValue(settings, "view.clear_color");
   for (const SettingField& field : settingFields()) {
@@ -91,7 +91,7 @@ class Sweep {
 };
 
 bool Sweep::trace() {
-  const char* stage = "ground truth";
+  const char* stage = "reference";
   const std::string key = truthKey(scene_, base_);
   std::optional<GroundTruth> truth = store_.truth(key);
   if (!truth) {

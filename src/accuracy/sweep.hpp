@@ -38,12 +38,12 @@ struct SweepScene {
 };
 
 struct SweepStatus {
-  std::string stage;      // name to show, such as "ground truth"
+  std::string stage;      // name to show, such as "reference"
   double fraction = 0.0;  // finished part of the stage, 0 .. 1
 };
 using SweepProgress = std::function<bool(const SweepStatus&)>;  // false cancels
 
-// Traces the ground truth, draws every configuration and compares it, then takes the times: in rounds through all
+// Traces the reference, draws every configuration and compares it, then takes the times: in rounds through all
 // configurations, so that other load on the machine affects all alike. Measurements in `store` are used again; new ones
 // are saved at once. Fills the truth, the points with their front and the series with their fits in `results`. Blocks;
 // calls `subject` on the caller's thread. Returns false if cancelled.

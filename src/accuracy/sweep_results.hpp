@@ -13,7 +13,7 @@ namespace speculum {
 // "key=value key=value"; empty for no change.
 std::string settingsText(const std::vector<SettingChange>& changes);
 
-// One configuration of a sweep: its error against the ground truth and its price.
+// One configuration of a sweep: its error against the reference and its price.
 struct SweepPoint {
   std::string name;                     // unique within the sweep
   std::vector<SettingChange> changes;   // settings that differ from the sweep's base
@@ -63,7 +63,7 @@ struct SweepResults {
   std::string date;                 // UTC, ISO 8601
   std::vector<SettingChange> base;  // every setting that a point's changes are relative to
 
-  // The ground truth: traced on a square grid of samples a pixel, depth 64, throughput 0.
+  // The reference: traced on a square grid of samples a pixel, depth 64, throughput 0.
   int truthSamples = 64;
   double truthMs = 0.0;  // wall clock
   int truthThreads = 0;

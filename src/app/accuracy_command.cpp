@@ -49,7 +49,7 @@ void printFront(const SweepResults& results) {
     const SweepPoint& point = results.points[index];
     std::printf("%-44s %10.3f %10.5f %10.5f\n", point.name.c_str(), costMs(point), point.whole.flip, point.whole.rmse);
   }
-  std::printf("%-44s %10.0f %10.5f %10.5f\n", "ground truth (and its noise floor)", results.truthMs,
+  std::printf("%-44s %10.0f %10.5f %10.5f\n", "reference (and its noise floor)", results.truthMs,
               results.floorWhole.flip, results.floorWhole.rmse);
 }
 

@@ -22,10 +22,10 @@ std::string roughText(const SweepResults& results) {
 }
 
 std::string stepText(const std::string& stage) {
-  return stage == "ground truth" ? "tracing the reference (1 of 3)"
-         : stage == "pictures"   ? "comparing settings (2 of 3)"
-         : stage == "times"      ? "taking times (3 of 3)"
-                                 : stage;
+  return stage == "reference"  ? "tracing the reference (1 of 3)"
+         : stage == "pictures" ? "comparing settings (2 of 3)"
+         : stage == "times"    ? "taking times (3 of 3)"
+                               : stage;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ function summary({ points, ground_truth: truth }) {
   const floor = truth.noise_floor.whole.flip;
   let text = frontSentence(points);
   if (base) text += `; the base settings take ${priceText(base)}, ${base.on_front ? 'on' : 'off'} the front`;
-  text += `; the ground truth itself is known to ${numberText(floor)}`;
+  text += `; the reference itself is known to ${numberText(floor)}`;
   if (base && floor > 0) {
     const error = base.error.whole.flip;
     text += error > floor ? `, ${numberText(error / floor, 2)} times below that` : ', which is no better than that';
@@ -55,7 +55,7 @@ function facts(results) {
     Driver: results.driver,
     'Render path': results.render_path,
     Machine: results.machine,
-    'Ground truth': `${numberText(truth.ms / 1000)} s on ${plural(truth.threads, 'thread')}`,
+    Reference: `${numberText(truth.ms / 1000)} s on ${plural(truth.threads, 'thread')}`,
     Date: results.date,
     Speculum: results.version,
   };
@@ -110,7 +110,7 @@ function addTruth(plot, { points, ground_truth: truth }, measure, floor) {
   if (truth.ms > 20 * dearest && dearest > 0) plot.x.apart = truth.ms;
   plot.marks.push({
     x: truth.ms, y: floor, shape: 'diamond', style: 'truth', label: 'ray traced',
-    tip: `Ray-traced ground truth\n${numberText(truth.ms / 1000)} s on ${plural(truth.threads, 'thread')}, ` +
+    tip: `Ray-traced reference\n${numberText(truth.ms / 1000)} s on ${plural(truth.threads, 'thread')}, ` +
          `wall clock\nnoise floor, ${measure.name} ${numberText(floor)}`,
   });
   plot.legend.push({ label: 'ray traced, CPU', style: 'truth', shape: 'diamond' });
@@ -253,7 +253,7 @@ function pointTable(results, selection) {
       point, key: String(points.indexOf(point)),
       style: (point.on_front ? 'front' : 'dominated') + (isBase(point) ? ' base' : ''),
     })),
-    footer: [make('td'), make('th', { scope: 'row', colspan: 2 }, 'noise floor of the ground truth'),
+    footer: [make('td'), make('th', { scope: 'row', colspan: 2 }, 'noise floor of the reference'),
              make('td', { class: 'number', colspan: 2 },
                   `${numberText(truth.ms / 1000)} s, ${plural(truth.threads, 'thread')}`),
              ...errors.map(column => make('td', { class: 'number' }, column.text(truth.noise_floor)))],
