@@ -1,8 +1,8 @@
 // Sweeps without a GPU: statistics, the front, plans, and a run over a renderer that is the ray tracer itself.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -416,11 +416,11 @@ TEST_F(SweepFiles, ManyKeysAreRefusedInShortTime) {
     json += "\"" + std::to_string(i) + "\": 1,";
     toml += "k" + std::to_string(i) + " = 1\n";
   }
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   EXPECT_EQ(readProblem(json + "\"a\": 1}}]}"),
             "an object has more than 10000 members (a results.json of speculum accuracy is needed)");
   EXPECT_NE(problem(toml).find("has 100000 keys"), std::string::npos) << problem(toml).substr(0, 200);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
 }
 
 TEST_F(SweepFiles, OtherFilesAreNoResults) {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 #include "geometry/convex_faces.hpp"
@@ -101,9 +101,9 @@ TEST(ConvexFaces, LargeDiscsAreJoinedQuickly) {
   for (uint32_t i = 1; i + 1 < sides; ++i) {
     disc.indices.insert(disc.indices.end(), {0, i, i + 1});
   }
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   const auto faces = facesOf(disc, 32, sides);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1)) << "in quadratic time it takes several";
+  EXPECT_LT(std::clock() - start, 1 * CLOCKS_PER_SEC) << "in quadratic time it takes several seconds";
   ASSERT_EQ(faces.size(), 1u);
   EXPECT_EQ(faces[0].size(), size_t{sides});
 }

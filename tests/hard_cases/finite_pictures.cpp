@@ -167,7 +167,7 @@ TEST(AnySizeOfView, ZeroHeightHasNoFiniteProjection) {
 // Runs the window until a condition holds.
 template <typename Condition>
 bool runUntil(Demo& demo, const Condition& condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!condition() && std::chrono::steady_clock::now() < end) {
     demo.step();
   }
