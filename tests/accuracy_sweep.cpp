@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +13,6 @@
 #include "accuracy/sweep_plan.hpp"
 #include "accuracy/sweep_plan_file.hpp"
 #include "image/color.hpp"
-#include "processor_time.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
@@ -416,11 +416,11 @@ TEST_F(SweepFiles, ManyKeysAreRefusedInShortTime) {
     json += "\"" + std::to_string(i) + "\": 1,";
     toml += "k" + std::to_string(i) + " = 1\n";
   }
-  const double start = testing_support::processorSeconds();
+  const std::clock_t start = std::clock();
   EXPECT_EQ(readProblem(json + "\"a\": 1}}]}"),
             "an object has more than 10000 members (a results.json of speculum accuracy is needed)");
   EXPECT_NE(problem(toml).find("has 100000 keys"), std::string::npos) << problem(toml).substr(0, 200);
-  EXPECT_LT(testing_support::processorSeconds() - start, 5.0);
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
 }
 
 TEST_F(SweepFiles, OtherFilesAreNoResults) {

@@ -26,7 +26,7 @@ DeviceOptions deviceFor(Window& window, RenderPath path = RenderPath::automatic)
   return options;
 }
 
-// Polls the window's events until `done` holds; false after a minute.
+// Polls the window's events until `done` holds; false after a minute, which only what hangs takes.
 bool waitUntil(Window& window, const std::function<bool()>& done) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!done()) {

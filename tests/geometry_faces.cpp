@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 #include "geometry/convex_faces.hpp"
 #include "geometry/polygon.hpp"
-#include "processor_time.hpp"
 #include "triangles.hpp"
 
 namespace speculum {
@@ -101,9 +101,9 @@ TEST(ConvexFaces, LargeDiscsAreJoinedQuickly) {
   for (uint32_t i = 1; i + 1 < sides; ++i) {
     disc.indices.insert(disc.indices.end(), {0, i, i + 1});
   }
-  const double start = testing_support::processorSeconds();
+  const std::clock_t start = std::clock();
   const auto faces = facesOf(disc, 32, sides);
-  EXPECT_LT(testing_support::processorSeconds() - start, 1.0) << "in quadratic time it takes several";
+  EXPECT_LT(std::clock() - start, 1 * CLOCKS_PER_SEC) << "in quadratic time it takes several seconds";
   ASSERT_EQ(faces.size(), 1u);
   EXPECT_EQ(faces[0].size(), size_t{sides});
 }

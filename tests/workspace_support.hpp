@@ -105,7 +105,7 @@ class WorkspaceTest : public testing::Test {
   }
   template <typename Done>
   void waitFor(const Done& done) {
-    for (int i = 0; i < 2000 && !done(); ++i) {
+    for (int i = 0; i < 6000 && !done(); ++i) {
       frame();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

@@ -63,11 +63,11 @@ void stop(pid_t child) {
   waitpid(child, nullptr, 0);
 }
 
-// Reads one line from a pipe; empty after ten seconds without one.
+// Reads one line from a pipe; empty after a minute without one.
 std::string readLine(int descriptor) {
   std::string line;
   pollfd ready{descriptor, POLLIN, 0};
-  for (char c = 0; poll(&ready, 1, 10000) == 1 && read(descriptor, &c, 1) == 1 && c != '\n';) {
+  for (char c = 0; poll(&ready, 1, 60000) == 1 && read(descriptor, &c, 1) == 1 && c != '\n';) {
     line += c;
   }
   return line;
@@ -95,7 +95,7 @@ class Server {
     const std::filesystem::path ready = directory.path() / "ready";
     manager_ = start({"openbox", "--config-file", (sourceDir() / "tests/openbox.xml").string(), "--startup",
                       "touch " + ready.string()});
-    for (int i = 0; i < 1000 && !std::filesystem::exists(ready); ++i) {
+    for (int i = 0; i < 6000 && !std::filesystem::exists(ready); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
