@@ -1,4 +1,4 @@
-# Sourced by the other scripts: what a fresh Debian 12 needs, and the function that installs what is missing.
+# Sourced by the other scripts: what a fresh Debian 12 or 13 needs, and the function that installs what is missing.
 
 build_packages=(
   build-essential cmake ninja-build ccache git pkg-config
@@ -10,9 +10,13 @@ build_packages=(
 run_packages=(mesa-vulkan-drivers fonts-dejavu-core)
 test_packages=(
   vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
-  xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux clang-format-14 python3-minimal
+  xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux python3-minimal
   chromium chromium-driver python3-selenium
 )
+# Debian 13 has later versions only, which format differently.
+if [ "$(. /etc/os-release && echo "${VERSION_ID:-}")" = 12 ]; then
+  test_packages+=(clang-format-14)
+fi
 # For the package (cpack -G DEB) and its check.
 package_packages=(dpkg-dev file librsvg2-bin lintian)
 # For scripts/bench-mirrors only.
