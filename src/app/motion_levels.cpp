@@ -69,8 +69,7 @@ RayUse raysOf(const Scene& scene, const EffectSettings& effects) {
   return use;
 }
 
-// Return the mean FLIP that each setting adds, on average over the shipped scenes without traced effects
-// (docs/window.md).
+// Return the mean FLIP that each setting adds, on average over the shipped scenes without traced effects.
 double scaleError(double scale) {
   return 0.055 * std::pow(1.0 / scale - 1.0, 0.62);
 }

@@ -101,12 +101,15 @@ void menus(PanelContext& ui) {
   }
 }
 
-// Shows the frame time at the right edge if there is room.
+// Shows the frame time at the right edge if a frame was drawn and there is room.
 void frameTime(const PanelContext& ui) {
   const FrameView& frame = ui.view.frame;
   const double ms = frame.frameMs;
+  if (ms <= 0.0) {
+    return;
+  }
   const std::string rate = frame.still ? "paused" : fmt::format("{:.{}f} FPS", 1000.0 / ms, ms > 100.0 ? 1 : 0);
-  const std::string text = ms > 0.0 ? duration(ms) + "   " + rate : "";
+  const std::string text = duration(ms) + "   " + rate;
   const float left = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetFontSize();
   if (left > ImGui::GetCursorPosX()) {
     ImGui::SetCursorPosX(left);
