@@ -28,12 +28,8 @@ bool isSpirv(const std::vector<uint8_t>& code) {
 // Sources in a make rule "output: source include include", lines joined by backslashes. All begin with the folder,
 // whose own blanks nothing marks.
 std::vector<fs::path> sourcesIn(const fs::path& depfile, const fs::path& folder) {
-  const auto content = readFileIfAny(depfile);
+  const std::string text = readTextIfAny(depfile);
   std::vector<fs::path> sources;
-  if (!content) {
-    return sources;
-  }
-  const std::string text(content->begin(), content->end());
   const std::string prefix = (folder / "").string();
   for (size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at + prefix.size())) {
     sources.emplace_back(text.substr(at, text.find_first_of(" \\\n", at + prefix.size()) - at));
