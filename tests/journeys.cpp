@@ -343,27 +343,20 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   const Image8 without = picture();
   const PixelRect row = widget("pass.mirror wall > door");
   moveTo(row.x + row.width / 2, row.y + row.height / 2);
-  run(2);
-  const auto passes = view().frame.passes;
-  const auto pass =
-      std::find_if(passes.begin(), passes.end(), [](const PassView& p) { return p.name == "mirror wall > door"; });
-  ASSERT_NE(pass, passes.end());
-  std::vector<PixelLine> lines;
-  for (size_t i = 0; i < pass->outline.size(); ++i) {
-    lines.push_back({pass->outline[i], pass->outline[(i + 1) % pass->outline.size()]});
-  }
-  expectOutline(without, lines, pass->name);
+  run(3);
+  ASSERT_EQ(view().frame.outlinedPath, (std::vector<int>{0, 1}));
+  expectOutline(without, view().frame.outline, "door in wall");
   scrollTo("skipped in main view");
   click("skipped in main view");
   scrollTo("skipped.door");
   const PixelRect door = widget("skipped.door");
   moveTo(door.x + door.width / 2, door.y + door.height / 2);
   run(3);
-  ASSERT_EQ(view().frame.outlinedSkipped, std::vector<int>{1});
-  expectOutline(without, view().frame.skippedOutline, "door");
+  ASSERT_EQ(view().frame.outlinedPath, std::vector<int>{1});
+  expectOutline(without, view().frame.outline, "door");
   // Its corners: 0.5 m beside and 0.8 m above and below the middle, turned by 200 degrees, four metres from the eye.
   const double turn = glm::radians(200.0);
-  const std::vector<PixelLine> outline = view().frame.skippedOutline;
+  const std::vector<PixelLine> outline = view().frame.outline;
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.8, 0.8}) {
       const glm::dvec3 p(1.6 + x * std::cos(turn), 0.2 + y, 4.0 - (0.5 - x * std::sin(turn)));
@@ -382,7 +375,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   const auto gone = [&] {
     for (int i = 0; i < 4; ++i) {
       run(1);
-      EXPECT_TRUE(view().frame.skippedOutline.empty());
+      EXPECT_TRUE(view().frame.outline.empty());
     }
   };
   gone();
@@ -391,7 +384,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   scrollTo("skipped.door");
   const PixelRect again = widget("skipped.door");
   moveTo(again.x + again.width / 2, again.y + again.height / 2);
-  ASSERT_TRUE(waitFor([&] { return !view().frame.skippedOutline.empty(); }));
+  ASSERT_TRUE(waitFor([&] { return !view().frame.outline.empty(); }));
   demo_->apply(OpenScene{writeScene("other", wallScene)});
   demo_->apply(DiscardChanges{});
   ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; }));

@@ -560,8 +560,7 @@ TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
 class TargetsWindow : public PanelTest {
  protected:
   TargetsWindow() {
-    PassView mirror{{.path = {0}}, "mirror wall"};
-    mirror.outline = {{450, 100}, {600, 100}, {600, 200}};
+    const PassView mirror{{.path = {0}}, "mirror wall"};
     const PassView main{{.kind = PassKind::main}, "main view"};
     frame_.passes = {mirror, main};
     frame_.skipped = {{.name = "mirror door", .path = {1}, .reason = "backface"}};
@@ -604,7 +603,7 @@ TEST_F(TargetsWindow, ClickedPassOpensAndClosesIt) {
   run(2);
   ASSERT_TRUE(target());
   EXPECT_EQ(target()->path, std::vector<int>{0});
-  EXPECT_EQ(windows_->state().hoveredPass, 0);
+  EXPECT_EQ(output_.hoveredPath, std::vector<int>{0});
   frame_.passes.erase(frame_.passes.begin());
   run(2);
   EXPECT_TRUE(target()->path.empty()) << "the main view takes the place of a pass that is gone";
@@ -617,9 +616,9 @@ TEST_F(TargetsWindow, PointedSkippedMirrorsAreReported) {
   click("skipped in main view", 0.1);
   run(2);
   hover("skipped.mirror door", 0.1);
-  EXPECT_EQ(output_.hoveredSkipped, std::vector<int>{1});
+  EXPECT_EQ(output_.hoveredPath, std::vector<int>{1});
   moveTo(700, 600);
-  EXPECT_TRUE(output_.hoveredSkipped.empty());
+  EXPECT_TRUE(output_.hoveredPath.empty());
 }
 
 }  // namespace

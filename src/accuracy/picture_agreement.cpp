@@ -69,7 +69,7 @@ Image8 differencePicture(const Image8& a, const Image8& b, const PictureAgreemen
 }
 
 // Groups tiles rather than pixels, because the pixels of one fault need not touch.
-std::optional<PixelRectangle> largestGroup(const PictureAgreement& agreement, int width) {
+std::optional<PixelRect> largestGroup(const PictureAgreement& agreement, int width) {
   constexpr int side = 8;  // pixels of a tile
   struct Group {
     int pixels = 0;
@@ -117,7 +117,7 @@ std::optional<PixelRectangle> largestGroup(const PictureAgreement& agreement, in
     return std::nullopt;
   }
   const glm::ivec2 extent = largest.high - largest.low + 1;
-  return PixelRectangle{largest.low.x, largest.low.y, extent.x, extent.y};
+  return PixelRect{largest.low.x, largest.low.y, extent.x, extent.y};
 }
 
 }  // namespace speculum

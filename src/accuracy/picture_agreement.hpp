@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/projection.hpp"
 #include "image/image.hpp"
 
 namespace speculum {
@@ -28,14 +29,7 @@ PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, con
 // that single ones are seen.
 Image8 differencePicture(const Image8& a, const Image8& b, const PictureAgreement& agreement, double gain);
 
-// A rectangle of pixels.
-struct PixelRectangle {
-  int left = 0;
-  int top = 0;
-  int width = 0;
-  int height = 0;
-};
 // Bounds the largest group of near pixels over the tolerance. Nothing if there are none.
-std::optional<PixelRectangle> largestGroup(const PictureAgreement& agreement, int width);
+std::optional<PixelRect> largestGroup(const PictureAgreement& agreement, int width);
 
 }  // namespace speculum

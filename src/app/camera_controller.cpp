@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
+
+#include "geometry/bvh.hpp"
 
 namespace speculum {
 
@@ -16,24 +17,18 @@ constexpr double steepest = 0.995;   // cosine of view direction and up
 constexpr double leastLight = 0.25;  // metres around a light that are shown
 
 Sphere boundsOfAll(const SceneState& state) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity());
-  glm::dvec3 high = -low;
-  const auto add = [&](const glm::dvec3& center, double radius) {
-    low = glm::min(low, center - radius);
-    high = glm::max(high, center + radius);
-  };
+  Bounds box;
   for (const InstanceState& instance : state.instances) {
-    add(instance.center, instance.radius);
+    box.add(instance.center - instance.radius);
+    box.add(instance.center + instance.radius);
   }
   for (const MirrorState& mirror : state.mirrors) {
-    for (const glm::dvec3& vertex : mirror.polygon) {
-      add(vertex, 0.0);
-    }
+    std::ranges::for_each(mirror.polygon, [&](const glm::dvec3& vertex) { box.add(vertex); });
   }
-  if (low.x > high.x) {
+  if (box.low.x > box.high.x) {
     return {};
   }
-  Sphere sphere{.center = 0.5 * (low + high)};
+  Sphere sphere{.center = box.center()};
   for (const InstanceState& instance : state.instances) {
     sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, instance.center) + instance.radius);
   }

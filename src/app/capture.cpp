@@ -1,8 +1,7 @@
 #include "app/capture.hpp"
 
-#include <fmt/format.h>
+#include <spdlog/fmt/chrono.h>
 
-#include <array>
 #include <ctime>
 #include <utility>
 
@@ -18,10 +17,7 @@ namespace {
 std::filesystem::path newPath(const std::string& scene, const std::string& ending) {
   const std::filesystem::path folder = picturesDir() / "Speculum";
   std::filesystem::create_directories(folder);
-  const std::time_t now = std::time(nullptr);
-  std::array<char, 32> when{};
-  std::strftime(when.data(), when.size(), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
-  const std::string name = scene + "_" + when.data();
+  const std::string name = fmt::format("{}_{:%Y-%m-%d_%H-%M-%S}", scene, fmt::localtime(std::time(nullptr)));
   std::filesystem::path path = folder / (name + ending);
   for (int number = 2; std::filesystem::exists(path); ++number) {
     path = folder / (name + "_" + std::to_string(number) + ending);

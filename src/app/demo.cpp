@@ -172,7 +172,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   ++framesDrawn_;
   pacer_.frameDrawn();
   workspace_.report().update({workspace_.scene(), state, fitted.settings, plan, number, cpuMs, sinceLastMs}, renderer_,
-                             *sceneRenderer_, output_.hoveredSkipped);
+                             *sceneRenderer_, output_.hoveredPath);
   const auto radiance = [&] {
     const ViewSettings& view = fitted.settings.view;
     return toDisplay(sceneRenderer_->radiance(), view.exposure, view.toneMap);

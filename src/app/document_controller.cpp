@@ -15,6 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr size_t mostCopies = 100;  // besides those with unsaved changes of a session that failed
+
 // Returns the folder of copies with unsaved changes.
 fs::path viewsFolder() {
   return userCacheDir() / "views";
@@ -34,22 +36,6 @@ bool isShipped(const fs::path& file) {
 // Returns the default folder for saved scenes; created on first use.
 fs::path ownFolder() {
   return documentsDir() / "Speculum";
-}
-
-// Removes all copies but the newest and those with unsaved changes.
-void keepNewest(const fs::path& folder) {
-  constexpr size_t kept = 100;
-  std::error_code none;
-  std::vector<std::pair<fs::file_time_type, fs::path>> files;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    if (entry.path().extension() == ".toml" && !hasRecovery(entry.path())) {
-      files.emplace_back(entry.last_write_time(none), entry.path());
-    }
-  }
-  std::ranges::sort(files, std::greater<>());
-  for (size_t i = kept; i < files.size(); ++i) {
-    fs::remove(files[i].second, none);
-  }
 }
 
 }  // namespace
@@ -183,7 +169,8 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
   Fingerprint fingerprint;
   fingerprint.add(std::string_view(text));
   const fs::path file = folder / (loaded_.scene.file.stem().string() + "-" + fingerprint.hex() + ".toml");
-  keepNewest(folder);
+  keepNewest(folder, mostCopies,
+             [](const fs::path& copy) { return copy.extension() == ".toml" && !hasRecovery(copy); });
   replaceFile(file, std::string_view(text));
   return file;
 }

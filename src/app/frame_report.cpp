@@ -63,37 +63,6 @@ std::string_view reasonText(SkipReason reason) {
   return texts[static_cast<size_t>(reason)];
 }
 
-// Returns the pass in which the last mirror of the path is drawn; null if there is none.
-const PlannedPass* seenIn(const FramePlan& plan, const std::vector<int>& path) {
-  const std::vector<int> parent(path.begin(), path.end() - 1);
-  return parent.empty() ? &plan.main : mirrorPass(plan, parent);
-}
-
-// Returns the visible region of a mirror in pixels of the picture; views in mirrors have the same pixels. Empty if the
-// plan has no pass for it.
-std::vector<glm::vec2> outlineOf(const FramePlan& plan, const std::vector<int>& path, int width, int height) {
-  std::vector<glm::vec2> outline;
-  const PlannedPass* parent = path.empty() ? nullptr : seenIn(plan, path);
-  Projection projection = plan.projection;
-  projection.offset = glm::dvec2(0.0);  // so that outlines do not move while pictures are accumulated
-  if (!parent) {
-    return outline;
-  }
-  for (const MirrorDraw& draw : parent->mirrors) {
-    if (draw.mirror != path.back()) {
-      continue;
-    }
-    for (const glm::dvec4& clip : toClip(parent->view, projection, visiblePart(parent->view, draw.polygon))) {
-      // Vertices in the eye's plane cannot be projected.
-      if (clip.w <= 1e-12) {
-        return {};
-      }
-      outline.emplace_back((0.5 * clip.x / clip.w + 0.5) * width, (0.5 * clip.y / clip.w + 0.5) * height);
-    }
-  }
-  return outline;
-}
-
 }  // namespace
 
 void FrameReport::clear() {
@@ -105,7 +74,7 @@ void FrameReport::clear() {
 }
 
 void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
-                         const std::vector<int>& hoveredSkipped) {
+                         const std::vector<int>& hoveredPath) {
   const FrameTimings& timings = renderer.timings();
   Device& device = renderer.device();
   const MemoryBudget budget = device.memoryBudget();
@@ -117,7 +86,8 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   updateTimes(frame, timings);
   updatePasses(frame, timings, sceneRenderer.passes(), sceneRenderer.passesOf(timings.frame));
   updateEffects(frame, sceneRenderer.ledger());
-  updateSkipped(frame, hoveredSkipped);
+  updateOutline(frame, hoveredPath);
+  updateSkipped(frame);
 }
 
 // Frames that draw the panels only change no figure: those of the last frame that drew the scene stay.
@@ -189,7 +159,6 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     row->draws = pass.draws;
     const PlannedPass* planned = mirrorPass(plan, pass.path);
     row->resolution = planned ? depthReadout(*planned, plan.projection, frame.scene, frame.state) : std::nullopt;
-    row->outline = outlineOf(plan, pass.path, plan.width, plan.height);
     row->framesAgo = 0;
     row->reused = false;
     index = row - rows.begin() + 1;
@@ -226,20 +195,23 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
   }
 }
 
-// Outlines a mirror without a pass where the view that draws it shows it.
-void FrameReport::updateSkipped(const RecordedFrame& frame, const std::vector<int>& hovered) {
-  view_.outlinedSkipped.clear();
-  view_.skippedOutline.clear();
+// Outlines a mirror where the view that draws it shows it.
+void FrameReport::updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered) {
+  view_.outlinedPath.clear();
+  view_.outline.clear();
   // The path is that of the last frame; an edit may have removed mirrors since.
   const auto exists = [&](int mirror) { return static_cast<size_t>(mirror) < frame.state.mirrors.size(); };
   if (!hovered.empty() && std::ranges::all_of(hovered, exists)) {
     const PictureView picture(frame.state.camera, frame.plan.width, frame.plan.height);
     const std::span<const int> before = std::span(hovered).first(hovered.size() - 1);
     if (const auto image = picture.through(frame.scene, frame.state, before)) {
-      view_.outlinedSkipped = hovered;
-      view_.skippedOutline = outlineOf(frame.scene, frame.state, {Selection::Kind::mirror, hovered.back()}, *image, {});
+      view_.outlinedPath = hovered;
+      view_.outline = outlineOf(frame.scene, frame.state, {Selection::Kind::mirror, hovered.back()}, *image, {});
     }
   }
+}
+
+void FrameReport::updateSkipped(const RecordedFrame& frame) {
   skipped_ = frame.plan.skipped;
   view_.skipped.clear();
   for (const SkippedMirror& skip : skipped_) {

@@ -22,10 +22,10 @@ struct RecordedFrame {
 class FrameReport {
  public:
   void clear();  // call when another scene is shown
-  // `hoveredSkipped`: path of a skipped mirror that is to be outlined. The GPU's figures are those of the last frame
+  // `hoveredPath`: of a mirror that is to be outlined. The GPU's figures are those of the last frame
   // that has finished.
   void update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
-              const std::vector<int>& hoveredSkipped);
+              const std::vector<int>& hoveredPath);
   // Describes the requested target, and returns how to draw it over the picture; nothing if the plan lacks its pass or
   // the target has no area.
   std::optional<DebugView> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
@@ -43,7 +43,8 @@ class FrameReport {
  private:
   bool drewScene(uint64_t frame) const;  // among the latest
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
-  void updateSkipped(const RecordedFrame& frame, const std::vector<int>& hovered);
+  void updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered);
+  void updateSkipped(const RecordedFrame& frame);
 
   struct DrawnFrame {
     uint64_t number = 0;

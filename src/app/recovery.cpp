@@ -35,8 +35,7 @@ std::optional<fs::path> newestRecovery() {
   std::optional<fs::path> newest;
   fs::file_time_type time;
   for (const auto& record : fs::directory_iterator(recordFolder(), none)) {
-    const auto text = readFileIfAny(record);
-    const fs::path copy = text ? fs::path(std::string(text->begin(), text->end())) : fs::path();
+    const fs::path copy = readTextIfAny(record);
     if (fs::is_regular_file(copy, none) && (!newest || record.last_write_time(none) > time)) {
       newest = copy;
       time = record.last_write_time(none);

@@ -39,8 +39,7 @@ fs::path recentFile() {
 }  // namespace
 
 SceneBrowser::SceneBrowser() {
-  const auto content = readFileIfAny(recentFile());
-  std::istringstream lines(content ? std::string(content->begin(), content->end()) : std::string());
+  std::istringstream lines(readTextIfAny(recentFile()));
   std::error_code none;
   for (std::string line; std::getline(lines, line) && view_.recent.size() < mostRecent;) {
     if (fs::is_regular_file(line, none)) {

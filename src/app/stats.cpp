@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "accuracy/statistics.hpp"
 #include "frame/depth_readout.hpp"
 #include "frame/shadow_map.hpp"
 #include "platform/machine.hpp"
@@ -138,13 +139,10 @@ ordered_json raysJson(const RayUse& rays) {
 }  // namespace
 
 ordered_json summary(std::vector<double> values) {
+  const Spread spread = spreadOf(values);
   std::ranges::sort(values);
-  const auto rank = [&](double part) {
-    return values[static_cast<size_t>(std::ceil(part * static_cast<double>(values.size() - 1)))];
-  };
-  const size_t half = values.size() / 2;
-  const double median = values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-  return {{"median", median}, {"min", values.front()}, {"p95", rank(0.95)}, {"max", values.back()}};
+  const double p95 = values[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(values.size() - 1)))];
+  return {{"median", spread.median}, {"min", spread.minimum}, {"p95", p95}, {"max", values.back()}};
 }
 
 namespace {

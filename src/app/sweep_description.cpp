@@ -1,5 +1,7 @@
 #include "app/sweep_description.hpp"
 
+#include <spdlog/fmt/chrono.h>
+
 #include <algorithm>
 #include <ctime>
 
@@ -61,10 +63,7 @@ std::vector<std::string> effectsAskedFor(const Scene& scene) {
 }  // namespace
 
 std::string utcNow() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-  return text;
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 
 SweepContext sweepContext(Session& session) {

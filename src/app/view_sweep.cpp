@@ -9,6 +9,7 @@
 #include "app/background_job.hpp"
 #include "app/session_subject.hpp"
 #include "app/sweep_description.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -53,15 +54,7 @@ std::filesystem::path storeFolder(Session& session, const SweepRequest& request)
   view.add(request.camera.verticalFov);
   view.add(request.time);
   const fs::path sweeps = userCacheDir() / "sweeps";
-  std::error_code none;
-  std::vector<std::pair<fs::file_time_type, fs::path>> known;
-  for (const auto& entry : fs::directory_iterator(sweeps, none)) {
-    known.emplace_back(entry.last_write_time(none), entry.path());
-  }
-  std::sort(known.rbegin(), known.rend());
-  for (size_t i = mostViews; i < known.size(); ++i) {
-    fs::remove_all(known[i].second, none);
-  }
+  keepNewest(sweeps, mostViews);
   return sweeps / view.hex();
 }
 

@@ -28,12 +28,8 @@ bool isSpirv(const std::vector<uint8_t>& code) {
 // Returns the sources in a make rule "output: source include include" whose lines are joined by backslashes. Finds
 // each by the folder that it begins with, because blanks in the folder's name are not escaped.
 std::vector<fs::path> sourcesIn(const fs::path& depfile, const fs::path& folder) {
-  const auto content = readFileIfAny(depfile);
+  const std::string text = readTextIfAny(depfile);
   std::vector<fs::path> sources;
-  if (!content) {
-    return sources;
-  }
-  const std::string text(content->begin(), content->end());
   const std::string prefix = (folder / "").string();
   for (size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at + prefix.size())) {
     sources.emplace_back(text.substr(at, text.find_first_of(" \\\n", at + prefix.size()) - at));

@@ -3,28 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "frame/mirror_sight.hpp"
+
 namespace speculum {
-
-namespace {
-
-// Adds a mirror without an image, as at reflection.max_depth.
-void addMirror(const Mirror& material, const MirrorState& mirror, int index, const View& drawn, PlannedPass& face) {
-  const double height = glm::dot(mirror.normal, face.view.eye - mirror.origin);
-  MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
-  draw.back = height < 0.0 && !material.twoSided;
-  draw.layer = height < 0.0 ? mirror.backLayer : mirror.frontLayer;
-  draw.polygon = visiblePart(drawn, mirror.polygon);
-  if (height == 0.0 || draw.polygon.empty()) {
-    return;
-  }
-  if (height < 0.0) {
-    draw.plane.normal = -draw.plane.normal;
-    std::ranges::reverse(draw.polygon);
-  }
-  face.mirrors.push_back(std::move(draw));
-}
-
-}  // namespace
 
 std::span<const FaceAxes> faceAxes() {
   static const std::array<FaceAxes, 6> axes = {{{"+x", {1, 0, 0}, {0, 1, 0}},
@@ -36,20 +17,20 @@ std::span<const FaceAxes> faceAxes() {
   return axes;
 }
 
-std::vector<Box> boxesOf(const Scene& scene, const SceneState& state) {
-  std::vector<Box> boxes;
+std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state) {
+  std::vector<Bounds> boxes;
   for (const InstanceState& instance : state.instances) {
     const glm::dvec3& half = scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent;
     glm::dvec3 reach(0.0);
     for (int axis = 0; axis < 3; ++axis) {
       reach += glm::abs(instance.worldFromMesh.linear[axis]) * half[axis];
     }
-    Box& box = boxes.emplace_back();
+    Bounds& box = boxes.emplace_back();
     box.add(instance.worldFromMesh.translation - reach);
     box.add(instance.worldFromMesh.translation + reach);
   }
   for (const MirrorState& mirror : state.mirrors) {
-    Box& box = boxes.emplace_back();
+    Bounds& box = boxes.emplace_back();
     std::ranges::for_each(mirror.polygon, [&](const glm::dvec3& p) { box.add(p); });
   }
   return boxes;
@@ -94,7 +75,13 @@ PlannedPass planFace(const CubeFace& face, const Scene& scene, const SceneState&
   View drawn = pass.view;
   widen(drawn, face.projection, 1);
   for (size_t i = 0; i < scene.mirrors.size(); ++i) {
-    addMirror(scene.mirrors[i], state.mirrors[i], static_cast<int>(i), drawn, pass);
+    const MirrorState& mirror = state.mirrors[i];
+    const double height = glm::dot(mirror.normal, pass.view.eye - mirror.origin);
+    const bool back = height < 0.0 && !scene.mirrors[i].twoSided;
+    MirrorDraw draw = facingDraw(mirror, static_cast<int>(i), height, back, drawn);
+    if (height != 0.0 && !draw.polygon.empty()) {
+      pass.mirrors.push_back(std::move(draw));
+    }
   }
   return pass;
 }

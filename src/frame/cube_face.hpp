@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "frame/frame_plan.hpp"
+#include "geometry/bvh.hpp"
 
 namespace speculum {
 
@@ -15,19 +16,8 @@ struct FaceAxes {
 };
 std::span<const FaceAxes> faceAxes();
 
-// A box in world space.
-struct Box {
-  glm::dvec3 low{1e300};
-  glm::dvec3 high{-1e300};
-
-  void add(const glm::dvec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-};
-
-// One box per instance, then one per mirror, in scene order.
-std::vector<Box> boxesOf(const Scene& scene, const SceneState& state);
+// World-space boxes: one per instance, then one per mirror, in scene order.
+std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state);
 
 // Adds the instances that the view may see, except `without`. With `cullClusters`, adds only their visible clusters.
 void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,

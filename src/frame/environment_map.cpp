@@ -10,19 +10,17 @@ namespace speculum {
 
 namespace {
 
-// Returns the box that surrounds boxes[own]. Each side lies at the near face of the farthest box on that side, such as
-// a wall, or at the far face of a box that encloses the object, such as a room; without either, at the end of the
-// scene.
-Box boxAround(size_t own, std::span<const Box> boxes) {
-  const Box& inner = boxes[own];
-  Box all = inner;
-  Box around = inner;
+// Returns the box that surrounds boxes[own]. Each side lies at the near face of the farthest box there, such as a wall,
+// or at the far face of a box that encloses the object, such as a room. Without either it lies at the end of the scene.
+Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
+  const Bounds& inner = boxes[own];
+  Bounds all = inner;
+  Bounds around = inner;
   glm::bvec3 lowFound(false);
   glm::bvec3 highFound(false);
   for (size_t i = 0; i < boxes.size(); ++i) {
-    const Box& box = boxes[i];
-    all.add(box.low);
-    all.add(box.high);
+    const Bounds& box = boxes[i];
+    all.add(box);
     const glm::bvec3 above = glm::greaterThanEqual(box.low, inner.high);
     const glm::bvec3 below = glm::lessThanEqual(box.high, inner.low);
     const bool encloses = i != own && !glm::any(above) && !glm::any(below);
@@ -90,10 +88,10 @@ std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState
   if (!settings.effects.curved || settings.effects.curvedLookup != CurvedLookup::environment) {
     return maps;
   }
-  const std::vector<Box> boxes = boxesOf(scene, state);
+  const std::vector<Bounds> boxes = boxesOf(scene, state);
   for (const int i : drawnCurved(scene, state, passes)) {
     const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    const Box box = boxAround(static_cast<size_t>(i), boxes);
+    const Bounds box = boxAround(static_cast<size_t>(i), boxes);
     EnvironmentMap map{.object = instance.object,
                        .copy = instance.copy,
                        .instance = i,

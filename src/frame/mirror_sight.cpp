@@ -14,20 +14,23 @@ bool showsBack(const Mirror& mirror, double height) {
   return height <= 0.0 && !(mirror.twoSided && height < 0.0);
 }
 
-Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror) {
-  const MirrorState& geometry = state.mirrors[mirror];
-  Sight sight{.draw = {.mirror = mirror, .plane = {geometry.origin, geometry.normal}},
-              .height = heightAbove(geometry, view.eye),
-              .visible = visiblePart(view, geometry.polygon)};
-  MirrorDraw& draw = sight.draw;
-  draw.back = showsBack(scene.mirrors[mirror], sight.height);
-  draw.layer = sight.height < 0.0 ? geometry.backLayer : geometry.frontLayer;
-  if (!sight.visible.empty()) {
-    draw.polygon = visiblePart(drawn, geometry.polygon);
-  }
-  if (sight.height < 0.0) {
+MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool back, const View& drawn) {
+  MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
+  draw.back = back;
+  draw.layer = height < 0.0 ? mirror.backLayer : mirror.frontLayer;
+  draw.polygon = visiblePart(drawn, mirror.polygon);
+  if (height < 0.0) {
     draw.plane.normal = -draw.plane.normal;
     std::ranges::reverse(draw.polygon);
+  }
+  return draw;
+}
+
+Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror) {
+  const MirrorState& geometry = state.mirrors[mirror];
+  Sight sight{.height = heightAbove(geometry, view.eye), .visible = visiblePart(view, geometry.polygon)};
+  if (!sight.visible.empty()) {
+    sight.draw = facingDraw(geometry, mirror, sight.height, showsBack(scene.mirrors[mirror], sight.height), drawn);
   }
   return sight;
 }

@@ -9,7 +9,7 @@ namespace speculum {
 
 // A mirror as the eye of a view sees it.
 struct Sight {
-  MirrorDraw draw;                  // before settings are applied
+  MirrorDraw draw;                  // before settings are applied; empty if nothing is visible
   double height = 0.0;              // heightAbove() of the view's eye
   std::vector<glm::dvec3> visible;  // world; visible region
 };
@@ -20,6 +20,10 @@ double heightAbove(const MirrorState& mirror, const glm::dvec3& eye);
 
 // Says whether an eye `height` metres before the mirror's front sees no reflection, but its back or its edge.
 bool showsBack(const Mirror& mirror, double height);
+
+// Returns mirror number `index` as an eye `height` metres before its front sees it: the side, plane and polygon, cut by
+// `drawn`, that face the eye.
+MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool back, const View& drawn);
 
 // Finds what a view sees of a mirror. `drawn` is the view, widened by what is drawn beyond its edge. Polygons are cut
 // by it before they are drawn, because floats are too coarse for the depth near the eye of a polygon whose vertices lie

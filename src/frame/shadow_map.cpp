@@ -28,7 +28,7 @@ struct Window {
 };
 
 // Returns the part of the face in which the box is seen: the whole face if the box reaches behind the light.
-Window windowOf(const Box& box, const glm::dvec3& center, const FaceAxes& axes) {
+Window windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axes) {
   const glm::dvec3 right = glm::cross(axes.forward, axes.up);
   Window seen{glm::dvec2(1e300), glm::dvec2(-1e300)};
   bool before = false;
@@ -131,7 +131,7 @@ class FacePlanner {
   ShadowFace plan(const glm::dvec3& center, const FaceAxes& axes) const {
     ShadowFace face;
     Window window;
-    for (const Box& box : boxes_) {
+    for (const Bounds& box : boxes_) {
       if (const Window seen = windowOf(box, center, axes); !seen.empty()) {
         window.add(seen);
       }
@@ -178,7 +178,7 @@ class FacePlanner {
   const Settings& settings_;
   std::span<const ShadowReader> readers_;
   std::vector<std::array<glm::dvec3, 4>> rays_;  // of the readers
-  std::vector<Box> boxes_;
+  std::vector<Bounds> boxes_;
 };
 
 }  // namespace

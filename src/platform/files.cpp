@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
@@ -131,6 +132,11 @@ std::optional<std::vector<uint8_t>> readFileIfAny(const fs::path& file) {
   }
 }
 
+std::string readTextIfAny(const fs::path& file) {
+  const std::vector<uint8_t> content = readFileIfAny(file).value_or(std::vector<uint8_t>());
+  return {content.begin(), content.end()};
+}
+
 namespace {
 
 void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
@@ -206,6 +212,20 @@ bool storeFile(const fs::path& file, std::span<const uint8_t> content) {
 
 bool storeFile(const fs::path& file, std::string_view text) {
   return storeFile(file, bytesOf(text));
+}
+
+void keepNewest(const fs::path& folder, size_t kept, const std::function<bool(const fs::path&)>& count) {
+  std::error_code none;
+  std::vector<std::pair<fs::file_time_type, fs::path>> entries;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    if (!count || count(entry.path())) {
+      entries.emplace_back(entry.last_write_time(none), entry.path());
+    }
+  }
+  std::ranges::sort(entries, std::greater<>());
+  for (size_t i = kept; i < entries.size(); ++i) {
+    fs::remove_all(entries[i].second, none);
+  }
 }
 
 bool isWritable(const fs::path& file) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -27,6 +28,7 @@ std::vector<uint8_t> readFile(const std::filesystem::path& file, uintmax_t most 
 std::string readText(const std::filesystem::path& file, uintmax_t most = 1u << 30);
 // Returns nothing for a file that readFile() throws for.
 std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& file);
+std::string readTextIfAny(const std::filesystem::path& file);  // empty for such a file
 
 // Writes a new file beside `file` and renames it, once it is on the disk, so that a reader sees the old or the new
 // content and a failure leaves the old one. Keeps symbolic links, the mode and, where allowed, the owner. Devices,
@@ -36,6 +38,10 @@ void replaceFile(const std::filesystem::path& file, std::string_view text);
 // Writes a file whose loss does no harm: creates the folder too, does not wait for the disk, returns false on failure.
 bool storeFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 bool storeFile(const std::filesystem::path& file, std::string_view text);
+
+// Removes entries of a folder, with what is in them, except for the `kept` newest and those that do not `count`.
+void keepNewest(const std::filesystem::path& folder, size_t kept,
+                const std::function<bool(const std::filesystem::path&)>& count = {});
 
 bool isWritable(const std::filesystem::path& file);  // the folder of a file that does not exist
 

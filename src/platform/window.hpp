@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "platform/gamepad.hpp"
-#include "platform/screen_place.hpp"
 
 struct GLFWwindow;
 
@@ -99,6 +98,20 @@ struct WindowOptions {
 // Makes GLFW open windows by "x11" or "wayland". Call it before the first window. GLFW before 3.4 is built for only one
 // of them; throws std::runtime_error if that is the other.
 void chooseWindowPlatform(const std::string& platform);
+
+// A rectangle in screen coordinates of the desktop.
+struct ScreenRect {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+
+  bool operator==(const ScreenRect&) const = default;
+};
+
+// Returns where to put a window that cannot be gripped because too little of it lies on any monitor's work area: in the
+// middle of the first work area, no larger than that. Nothing if the window may stay, or if there is no monitor.
+std::optional<ScreenRect> rescuedWindow(const ScreenRect& window, std::span<const ScreenRect> workAreas);
 
 // A window of the desktop. Use it from the main thread only.
 class Window {

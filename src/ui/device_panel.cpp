@@ -3,7 +3,6 @@
 #include <spdlog/fmt/ranges.h>
 
 #include "ui/panels.hpp"
-#include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
 

@@ -1,7 +1,6 @@
 #include <imgui.h>
 
 #include "ui/panels.hpp"
-#include "ui/setting_widgets.hpp"
 
 namespace speculum::panels {
 

@@ -1,5 +1,3 @@
-#include "ui/field_rows.hpp"
-
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -9,7 +7,7 @@
 
 #include "scene/scene_fields.hpp"
 #include "scene/scene_loader.hpp"
-#include "ui/setting_widgets.hpp"
+#include "ui/panels.hpp"
 
 namespace speculum::panels {
 

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "ui/field_rows.hpp"
+#include "ui/panels.hpp"
 
 namespace speculum::panels {
 

@@ -26,8 +26,7 @@ std::filesystem::path choicesFile() {
 
 PanelChoices savedPanelChoices() {
   PanelChoices choices;
-  const auto content = readFileIfAny(choicesFile());
-  std::istringstream lines(content ? std::string(content->begin(), content->end()) : std::string());
+  std::istringstream lines(readTextIfAny(choicesFile()));
   std::string word;
   std::string value;
   while (lines >> word >> value) {

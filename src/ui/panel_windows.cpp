@@ -19,7 +19,6 @@ PanelWindows::PanelWindows()
 UiOutput PanelWindows::build(const UiView& view) {
   PanelContext ui{.view = view, .state = state_, .settings = view.settings.current, .output = {}};
   state_.widgets.clear();
-  state_.hoveredPass = -1;
   state_.targets.pointed.reset();
   state_.targets.canvas.reset();
   const ImVec2 pointer = ImGui::GetIO().MousePos;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "ui/setting_widgets.hpp"
+#include "frame/setting_fields.hpp"
 
 namespace speculum::panels {
 

@@ -19,7 +19,6 @@ struct PanelState {
   bool focusNodes = false;            // the list of nodes takes the keyboard in the next frame
   bool editing = false;               // a continued EditNode has not ended
   bool setting = false;               // the widget of the last SetSettings is held
-  int hoveredPass = -1;               // index into FrameView::passes; -1: none
   bool showDifference = false;
 
   struct Targets {
@@ -106,7 +105,7 @@ void message(PanelContext& ui, const WindowRect& picture);  // an error, until i
 void prompts(PanelContext& ui);                             // over all others, while a prompt is open
 
 // Drawn over the picture, behind all windows.
-void passOutline(const PanelContext& ui);  // around the mirror of the pass or skipped row under the pointer
+void passOutline(const PanelContext& ui);  // around the mirror whose row is under the pointer
 void editOverlay(const OverlayView& overlay);
 // Draws behind all windows, but not over the target that the Targets window shows.
 void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
@@ -124,6 +123,15 @@ void describe(PanelContext& ui, std::string_view key);
 void tip(const std::string& text);
 // Call after a widget: records its rectangle by name, and shows the tooltip unless it is empty.
 void recordWidget(PanelContext& ui, std::string_view key, const std::string& tip = {});
+// Draw rows for the settings whose keys begin with `prefix`, except those whose need is not met, and for the fields of
+// a node; true if the user changed a field. Rows come from the descriptions of settings and fields.
+void settingRows(PanelContext& ui, std::string_view prefix);
+bool fieldRows(PanelContext& ui, SceneNode& node);
+// Draws a drop-down list. Returns true if the user chose another of `names`.
+bool choice(const char* label, int& index, std::span<const std::string> names);
+// Linear numbers, as files have them, up to `most`, and a swatch that opens a picker.
+bool colorEdit(const char* label, glm::dvec3& linear, double most);
+
 std::string mebibytes(uint64_t bytes);  // without the unit
 std::string milliseconds(double ms);    // the same without the unit; "-" for NaN
 std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"

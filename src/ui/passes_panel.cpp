@@ -78,7 +78,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
     textAcrossColumns(why);
     recordWidget(ui, "skipped." + skip.name);
     if (nameHovered || ImGui::IsItemHovered()) {
-      ui.output.hoveredSkipped = skip.path;
+      ui.output.hoveredPath = skip.path;
       ImGui::SetTooltip("%s\n%s", skip.name.c_str(), why.c_str());
     }
   }
@@ -101,7 +101,7 @@ void passRow(PanelContext& ui, const PassNode& node) {
   const std::string id = pass.name + "/" + std::to_string(node.pass);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
-    ui.state.hoveredPass = node.pass;
+    ui.output.hoveredPath = pass.path;
   }
   recordWidget(ui, "pass." + pass.name);
   if (hasTarget(pass)) {
@@ -130,29 +130,6 @@ void passRow(PanelContext& ui, const PassNode& node) {
   ImGui::TreePop();
 }
 
-// Draws a light line over a wider dark one, which shows on any picture.
-template <typename Draw>
-void inTwoTones(const Draw& draw) {
-  const float line = std::max(1.0f, 0.14f * ImGui::GetFontSize());
-  draw(IM_COL32(0, 0, 0, 190), 2.5f * line);
-  draw(IM_COL32(255, 196, 40, 255), line);
-}
-
-void skippedOutline(const PanelContext& ui) {
-  if (ui.output.hoveredSkipped.empty() || ui.output.hoveredSkipped != ui.view.frame.outlinedSkipped) {
-    return;
-  }
-  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-  const auto onScreen = [&](const glm::dvec2& p) {
-    return ImVec2(static_cast<float>(p.x) / pixels.x, static_cast<float>(p.y) / pixels.y);
-  };
-  inTwoTones([&](ImU32 color, float thickness) {
-    for (const PixelLine& line : ui.view.frame.skippedOutline) {
-      ImGui::GetBackgroundDrawList()->AddLine(onScreen(line.a), onScreen(line.b), color, thickness);
-    }
-  });
-}
-
 void header() {
   static constexpr std::array<const char*, 5> about{
       "The main view and, below the view that each is seen in, the mirror images.",
@@ -168,20 +145,22 @@ void header() {
 
 }  // namespace
 
+// Draws light lines over wider dark ones, which show on any picture.
 void passOutline(const PanelContext& ui) {
-  skippedOutline(ui);
-  if (ui.state.hoveredPass < 0) {
+  if (ui.output.hoveredPath.empty() || ui.output.hoveredPath != ui.view.frame.outlinedPath) {
     return;
   }
   const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-  std::vector<ImVec2> corners;
-  for (const glm::vec2& corner : ui.view.frame.passes[static_cast<size_t>(ui.state.hoveredPass)].outline) {
-    corners.emplace_back(corner.x / pixels.x, corner.y / pixels.y);
+  const auto onScreen = [&](const glm::dvec2& p) {
+    return ImVec2(static_cast<float>(p.x) / pixels.x, static_cast<float>(p.y) / pixels.y);
+  };
+  const float width = std::max(1.0f, 0.14f * ImGui::GetFontSize());
+  for (const auto& [color, thickness] :
+       {std::pair(IM_COL32(0, 0, 0, 190), 2.5f * width), std::pair(IM_COL32(255, 196, 40, 255), width)}) {
+    for (const PixelLine& line : ui.view.frame.outline) {
+      ImGui::GetBackgroundDrawList()->AddLine(onScreen(line.a), onScreen(line.b), color, thickness);
+    }
   }
-  const int count = static_cast<int>(corners.size());
-  inTwoTones([&](ImU32 color, float thickness) {
-    ImGui::GetBackgroundDrawList()->AddPolyline(corners.data(), count, color, ImDrawFlags_Closed, thickness);
-  });
 }
 
 void passes(PanelContext& ui) {

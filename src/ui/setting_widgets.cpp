@@ -1,11 +1,10 @@
-#include "ui/setting_widgets.hpp"
-
 #include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "frame/setting_fields.hpp"
 #include "image/color.hpp"
 #include "ui/panels.hpp"
 
@@ -15,45 +14,46 @@ namespace {
 
 constexpr double brightest = 65504.0;  // largest value in 16-bit float targets
 
+// Draws the widget that a setting's description asks for. Texts have none.
 struct Widget {
   const SettingField& field;
   Settings& settings;
-  const glm::dvec3& background;
-  std::span<const int> samples;  // of the device
+  glm::dvec3 background;         // linear; shown for a color that is not set
+  std::span<const int> samples;  // that the device has; no others are offered
 
   ImGuiSliderFlags flags() const {
     return ImGuiSliderFlags_AlwaysClamp | (field.slider->logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
   }
 
-  bool operator()(const NumberSetting& number) const {
+  void operator()(const NumberSetting& number) const {
     double& value = number.value.of(settings);
     if (!field.slider) {
-      return ImGui::InputDouble(field.label, &value, 0.0, 0.0, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
+      ImGui::InputDouble(field.label, &value, 0.0, 0.0, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
+      return;
     }
     float edited = static_cast<float>(value);
-    const bool changed = ImGui::SliderFloat(field.label, &edited, static_cast<float>(field.slider->low),
-                                            static_cast<float>(field.slider->high), field.slider->format, flags());
-    value = changed ? edited : value;
-    return changed;
+    if (ImGui::SliderFloat(field.label, &edited, static_cast<float>(field.slider->low),
+                           static_cast<float>(field.slider->high), field.slider->format, flags())) {
+      value = edited;
+    }
   }
 
   // Unchecked means "auto": the device's value.
-  bool operator()(const AutomaticSetting& number) const {
+  void operator()(const AutomaticSetting& number) const {
     std::optional<double>& value = number.value.of(settings);
     bool zero = value == 0.0;
-    const bool changed = ImGui::Checkbox(field.label, &zero);
-    if (changed) {
+    if (ImGui::Checkbox(field.label, &zero)) {
       value = zero ? std::optional(0.0) : std::nullopt;
     }
-    return changed;
   }
 
-  bool operator()(const IntegerSetting& integer) const {
+  void operator()(const IntegerSetting& integer) const {
     int& value = integer.value.of(settings);
     if (!integer.powersOfTwo) {
       const SettingSlider slider = *field.slider;
-      return ImGui::SliderInt(field.label, &value, static_cast<int>(slider.low), static_cast<int>(slider.high),
-                              slider.format, flags());
+      ImGui::SliderInt(field.label, &value, static_cast<int>(slider.low), static_cast<int>(slider.high), slider.format,
+                       flags());
+      return;
     }
     const bool ofDevice = field.key.ends_with(".samples");
     std::vector<int> powers;
@@ -66,35 +66,31 @@ struct Widget {
       }
     }
     int index = static_cast<int>(std::ranges::find(powers, value) - powers.begin());
-    const bool changed = choice(field.label, index, names);
+    choice(field.label, index, names);
     value = powers[static_cast<size_t>(index)];
-    return changed;
   }
 
-  bool operator()(const BooleanSetting& boolean) const {
-    return ImGui::Checkbox(field.label, &boolean.value.of(settings));
-  }
+  void operator()(const BooleanSetting& boolean) const { ImGui::Checkbox(field.label, &boolean.value.of(settings)); }
 
-  bool operator()(const ChoiceSetting& setting) const {
+  void operator()(const ChoiceSetting& setting) const {
     std::vector<std::string> names(setting.names.begin(), setting.names.end());
     for (std::string& name : names) {
       std::ranges::replace(name, '_', ' ');
     }
     int index = setting.get(settings);
-    const bool changed = choice(field.label, index, names);
+    choice(field.label, index, names);
     setting.set(settings, index);
-    return changed;
   }
 
-  bool operator()(const ColorSetting& color) const {
+  void operator()(const ColorSetting& color) const {
     std::optional<glm::dvec3>& value = color.value.of(settings);
     glm::dvec3 linear = value.value_or(background);
-    const bool changed = colorEdit(field.label, linear, brightest);
-    value = changed ? linear : value;
-    return changed;
+    if (colorEdit(field.label, linear, brightest)) {
+      value = linear;
+    }
   }
 
-  bool operator()(const TextSetting&) const { return false; }
+  void operator()(const TextSetting&) const {}
 };
 
 }  // namespace
@@ -145,19 +141,14 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
   return changed;
 }
 
-bool settingWidget(const SettingField& field, Settings& settings, const glm::dvec3& background,
-                   std::span<const int> samples) {
-  ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
-  const bool changed = std::visit(Widget{field, settings, background, samples}, field.kind);
-  ImGui::PopID();
-  return changed;
-}
-
 void settingRows(PanelContext& ui, std::string_view prefix) {
   for (const SettingField& field : settingFields()) {
     const bool needed = !field.needs || settingValue(ui.settings, field.needs->key) == field.needs->value;
     if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {
-      settingWidget(field, ui.settings, glm::dvec3(ui.view.settings.background), ui.view.device.samples);
+      ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
+      std::visit(Widget{field, ui.settings, glm::dvec3(ui.view.settings.background), ui.view.device.samples},
+                 field.kind);
+      ImGui::PopID();
       describe(ui, field.key);
       if (field.key == "view.clear_color" && ui.view.settings.sky && !ui.settings.view.clearColor) {
         ImGui::TextDisabled("The scene's sky is shown in its place.");

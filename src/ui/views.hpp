@@ -24,7 +24,6 @@ struct PassView : PassId {
   double areaPx = 0.0;
   uint32_t draws = 0;
   std::optional<DepthReadout> resolution;  // a mirror's, if it sees anything but the background
-  std::vector<glm::vec2> outline;          // a mirror's: where it is seen, pixels of the picture
 };
 
 struct SkippedView {
@@ -76,8 +75,8 @@ struct FrameView {
   std::vector<EffectView> effects;  // all, in a fixed order
   std::string rays;                 // how they are traced and why; empty: none are
   TargetView target;
-  std::vector<int> outlinedSkipped;       // path of the skipped mirror that is outlined; empty: none
-  std::vector<PixelLine> skippedOutline;  // where it would be seen, on the picture
+  std::vector<int> outlinedPath;   // of the mirror that is outlined; empty: none
+  std::vector<PixelLine> outline;  // where it is, or would be, seen on the picture
 };
 
 struct FeatureView {
@@ -230,7 +229,7 @@ struct TargetRequest {
 struct UiOutput {
   std::vector<Command> commands;
   std::optional<TargetRequest> target;
-  std::vector<int> hoveredSkipped;  // path of the skipped mirror that is to be outlined; empty: none
+  std::vector<int> hoveredPath;  // of the mirror that is to be outlined; empty: none
 };
 
 }  // namespace speculum

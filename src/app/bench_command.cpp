@@ -1,0 +1,288 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "accuracy/statistics.hpp"
+#include "accuracy/sweep_planner.hpp"
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "app/session.hpp"
+#include "app/stats.hpp"
+#include "platform/folders.hpp"
+#include "platform/process.hpp"
+#include "reference/throughput.hpp"
+
+namespace speculum {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto untilInterrupted = [] { return !interruptRequested(); };
+constexpr std::array totals = {"cpu_ms", "gpu_ms", "frame_ms", "interval_ms"};
+
+std::string lastLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') {
+    text.pop_back();
+  }
+  return text.substr(text.rfind('\n') + 1);
+}
+
+// Median milliseconds of a run, by key. Nothing after Ctrl-C.
+std::optional<std::map<std::string, double>> measured(const std::vector<std::string>& command,
+                                                      const std::filesystem::path& json) {
+  const ProcessResult result = runProcess(command);
+  if (interruptRequested()) {
+    return std::nullopt;
+  }
+  if (result.exitCode != 0) {
+    throw UsageError(command.front() + ": bench ended with exit code " + std::to_string(result.exitCode) + ": " +
+                     lastLine(result.output));
+  }
+  const auto figures = nlohmann::json::parse(readText(json), nullptr, false);
+  std::map<std::string, double> medians;
+  for (const char* key : totals) {
+    const auto median = nlohmann::json::json_pointer("/totals/" + std::string(key) + "/median");
+    if (figures.contains(median) && figures[median].is_number()) {
+      medians[key] = figures[median];
+    }
+  }
+  if (medians.empty()) {
+    throw UsageError(command.front() + ": bench --json wrote no times");
+  }
+  return medians;
+}
+
+// Runs `bench --json` of this program and of the other one, or of this one with the other settings, in turn as
+// processes of their own, and prints the ratios of their median times, this one's over the other's. Returns the exit
+// code. Throws UsageError if the other one cannot be run.
+int benchAgainst(const Options& options) {
+  const TemporaryDirectory folder;
+  const std::filesystem::path json = folder.path() / "bench.json";
+  const auto command = [&](const std::filesystem::path& program) {
+    std::vector<std::string> arguments{program.string()};
+    arguments.insert(arguments.end(), options.benchArguments.begin(), options.benchArguments.end());
+    arguments.insert(arguments.end(), {"--json", json.string()});
+    return arguments;
+  };
+  const std::vector<std::string> own = command(executablePath());
+  std::vector<std::string> other =
+      command(options.againstBinary.empty() ? executablePath() : std::filesystem::absolute(options.againstBinary));
+  for (const auto& [key, value] : options.againstSettings) {
+    other.insert(other.end(), {"--set", key + "=" + value});
+  }
+  const int rounds = options.benchRounds;
+  installInterruptHandler();
+  std::map<std::string, std::vector<double>> ratios;
+  Progress progress("bench", 2 * rounds);
+  for (int round = 0; round < rounds; ++round) {
+    std::array<std::map<std::string, double>, 2> times;
+    // The order changes, because a machine that warms up or slows down would favour one of them. The other one is
+    // first, because it is the one that may not run at all.
+    for (const size_t side : round % 2 == 0 ? std::array<size_t, 2>{1, 0} : std::array<size_t, 2>{0, 1}) {
+      const auto medians = measured(side == 0 ? own : other, json);
+      if (!medians) {
+        return 1;
+      }
+      times[side] = *medians;
+      progress.advance();
+    }
+    for (const auto& [key, ms] : times[0]) {
+      if (times[1].contains(key) && times[1][key] > 0.0) {
+        ratios[key].push_back(ms / times[1][key]);
+      }
+    }
+  }
+  nlohmann::ordered_json written{{"rounds", rounds}, {"ratios", nlohmann::ordered_json::object()}};
+  std::printf("%-12s %8s %8s %8s %8s   this over the other, %d rounds\n", "ratio of", "median", "min", "q1", "q3",
+              rounds);
+  for (const char* key : totals) {
+    if (ratios.contains(key)) {
+      const Spread spread = spreadOf(ratios[key]);
+      std::printf("%-12s %8.3f %8.3f %8.3f %8.3f\n", key, spread.median, spread.minimum, spread.lowerQuartile,
+                  spread.upperQuartile);
+      written["ratios"][key] = {{"median", spread.median},
+                                {"min", spread.minimum},
+                                {"q1", spread.lowerQuartile},
+                                {"q3", spread.upperQuartile},
+                                {"values", ratios[key]}};
+    }
+  }
+  if (!options.json.empty()) {
+    writeJson(options.json, written);
+  }
+  return 0;
+}
+
+// Measures rays per second and core of the double-precision tracer.
+int benchReference(const Options& options) {
+  constexpr int64_t triangles = 100000;
+  constexpr int64_t rays = 1000000;
+  const RayThroughput result = measureRayThroughput(triangles, rays);
+  std::printf(
+      "%lld triangles, %lld random rays, %.1f %% hit, one core: %.3f million rays per second (hierarchy: %.2f s)\n",
+      static_cast<long long>(result.triangles), static_cast<long long>(result.rays), 100.0 * result.hitFraction,
+      1e-6 * result.raysPerSecond(), result.buildSeconds);
+  if (!options.json.empty()) {
+    writeJson(options.json, {{"triangles", result.triangles},
+                             {"rays", result.rays},
+                             {"hit_fraction", result.hitFraction},
+                             {"seconds", result.seconds},
+                             {"build_seconds", result.buildSeconds},
+                             {"rays_per_second", result.raysPerSecond()}});
+  }
+  return 0;
+}
+
+bool isSet(const Options& options, std::string_view key) {
+  return std::any_of(options.settings.begin(), options.settings.end(), [&](const auto& s) { return s.first == key; });
+}
+
+double gpuMs(Session& session, const Settings& settings, double time) {
+  session.setSettings(settings);
+  session.draw(time, false, untilInterrupted);
+  session.finish();
+  return session.lastFrame().timings.gpuMs;
+}
+
+// Adds the GPU milliseconds of each effect that the frame drawn last calls for: draws frames with and without the
+// effect in turn, `pairs` of them after one that is not counted. Returns false if interrupted.
+bool addPrices(nlohmann::ordered_json& merged, Session& session, double time, int pairs) {
+  const Settings all = session.settings();
+  session.renderer().setTimerDetail(TimerDetail::frame);
+  const DrawnFrame& frame = session.lastFrame();
+  const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
+  for (size_t i = 0; i < effects.size(); ++i) {
+    const Settings without = settingsWith(all, settingsWithout(static_cast<EffectKind>(i)));
+    std::vector<double> price;
+    for (int pair = 0; effects[i].calledFor && pair <= pairs && !interruptRequested(); ++pair) {
+      const double with = gpuMs(session, all, time);
+      const double rest = gpuMs(session, without, time);
+      if (pair > 0) {
+        price.push_back(with - rest);
+      }
+    }
+    if (!price.empty()) {
+      merged["effects"][i]["gpu_ms"] = summary(std::move(price));
+    }
+  }
+  return !interruptRequested();
+}
+
+// Draws one frame at a time, so that times of frames do not mix. Returns nothing if interrupted.
+std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Options& options, int measured,
+                                                    Progress& progress) {
+  std::vector<nlohmann::ordered_json> frames;
+  std::vector<std::vector<PassId>> passes;
+  for (int i = 0; i < options.warmup + measured; ++i) {
+    session.draw(options.time, false, untilInterrupted);
+    session.finish();
+    if (i >= options.warmup) {
+      frames.push_back(frameStats(session));
+      passes.push_back(passIds(session));
+    }
+    progress.advance();
+    if (interruptRequested()) {
+      return std::nullopt;
+    }
+  }
+  return mergeStats(frames, passes);
+}
+
+// Measures milliseconds from one frame to the next as in a window without panels and vertical sync: the CPU records a
+// frame while the device draws the last one, and passes are not timed. Returns nothing if interrupted.
+std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double time, int measured,
+                                                       Progress& progress) {
+  constexpr int untilTheyOverlap = static_cast<int>(framesInFlight) + 1;
+  std::vector<double> intervals;
+  Clock::time_point last{};
+  session.renderer().setTimerDetail(TimerDetail::frame);
+  for (int i = 0; i < untilTheyOverlap + measured; ++i) {
+    session.draw(time, false, untilInterrupted);
+    const Clock::time_point now = Clock::now();
+    if (i >= untilTheyOverlap) {
+      intervals.push_back(std::chrono::duration<double, std::milli>(now - last).count());
+      progress.advance();
+    }
+    last = now;
+    if (interruptRequested()) {
+      return std::nullopt;
+    }
+  }
+  session.finish();
+  session.renderer().setTimerDetail(TimerDetail::passes);
+  return summary(std::move(intervals));
+}
+
+// Prints a row of `merged`; a dash stands for figures that the device does not count.
+void printRow(const nlohmann::ordered_json& row, const std::string& frames, const std::array<const char*, 3>& figures) {
+  const nlohmann::ordered_json& gpu = row["gpu_ms"];
+  const auto ms = [&](const char* key) { return gpu.is_null() ? "-" : fmt::format("{:.3f}", gpu[key].get<double>()); };
+  std::printf("%-40s %6s %10s %10s", row["name"].get<std::string>().c_str(), frames.c_str(), ms("median").c_str(),
+              ms("p95").c_str());
+  for (size_t i = 0; i < figures.size(); ++i) {
+    std::printf(i == 0 ? " %8s" : " %10s", row[figures[i]].is_null() ? "-" : row[figures[i]].dump().c_str());
+  }
+  std::printf("\n");
+}
+
+void printBench(const nlohmann::ordered_json& merged, int measured) {
+  constexpr const char* header = "%-40s %6s %10s %10s %8s %10s %10s\n";
+  std::printf(header, "pass", "frames", "median ms", "p95 ms", "draws", "triangles", "fragments");
+  for (const auto& pass : merged["passes"]) {
+    printRow(pass, std::to_string(pass.value("frames", measured)), {"draws", "triangles", "fragments"});
+  }
+  std::printf(header, "effect", "", "median ms", "p95 ms", "draws", "bytes", "pipelines");
+  for (const auto& effect : merged["effects"]) {
+    if (effect["called_for"].get<bool>()) {
+      printRow(effect, "", {"draws", "bytes", "pipelines"});
+    }
+  }
+  for (const char* key : totals) {
+    const auto& total = merged["totals"][key];
+    std::printf("%-40s %6d %10.3f %10.3f\n", key, measured, total["median"].get<double>(), total["p95"].get<double>());
+  }
+}
+
+}  // namespace
+
+int runBench(const Options& options) {
+  if (!options.againstBinary.empty() || !options.againstSettings.empty()) {
+    return benchAgainst(options);
+  }
+  if (options.benchReference) {
+    return benchReference(options);
+  }
+  const int measured = options.frames > 0 ? options.frames : 60;
+  Session session(options);
+  if (!isSet(options, "reflection.skip_unchanged")) {
+    // All frames have the same time, so that none after the first would render a mirror.
+    Settings settings = session.settings();
+    settings.reflection.skipUnchanged = false;
+    session.setSettings(settings);
+  }
+  installInterruptHandler();
+  Progress progress("bench", options.warmup + 2 * measured);
+  std::optional<nlohmann::ordered_json> merged = measureFrames(session, options, measured, progress);
+  const auto intervals = merged ? measureIntervals(session, options.time, measured, progress) : std::nullopt;
+  if (!intervals) {
+    return 1;
+  }
+  (*merged)["totals"]["interval_ms"] = *intervals;
+  if (options.benchPrices && !addPrices(*merged, session, options.time, std::max(5, measured / 4))) {
+    return 1;
+  }
+  printBench(*merged, measured);
+  if (!options.json.empty()) {
+    writeJson(options.json, *merged);
+  }
+  return session.exitCode();
+}
+
+}  // namespace speculum
