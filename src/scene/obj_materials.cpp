@@ -2,11 +2,12 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <sstream>
 
 #include "image/color.hpp"
 #include "image/image.hpp"
@@ -80,34 +81,88 @@ std::string_view textureName(const LineReader& line) {
   return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
 }
 
-double checkedNumber(const LineReader& line, double value, const Range& range) {
+// Returns a number for the parser, whose arithmetic overflows on 1e2147483648.
+std::string checkedNumber(const LineReader& line, double value, const Range& range) {
   if (!range.contains(value)) {
     line.fail(line.keyword(), fmt::format("is {}", value), range.text());
   }
-  return value;
+  // No number of a material makes a difference beyond; the parser rounds the largest doubles to infinity.
+  return ' ' + fmt::to_string(std::clamp(value, -1e38, 1e38));
 }
 
-// Reads a color, given by three numbers or by one for all three. Colors as spectra or CIE XYZ are left out with a
-// warning.
-std::optional<glm::dvec3> readColor(const fs::path& file, LineReader& line, const Range& range) {
+// Returns the line of a color, given by three numbers or by one for all three. Colors as spectra or CIE XYZ are left
+// out with a warning.
+std::string checkedColor(const fs::path& file, LineReader& line, const Range& range) {
   const std::vector<std::string_view>& tokens = line.tokens();
   if (tokens.size() > 1 && (tokens[1] == "spectral" || tokens[1] == "xyz")) {
     spdlog::warn("{}:{}: {} {} is not used (write {} r g b)", file.string(), line.number(), line.keyword(), tokens[1],
                  line.keyword());
-    return std::nullopt;
+    return {};
   }
   const std::vector<double>& numbers = tokens.size() == 2 ? line.numbers(1, 1) : line.numbers(3, 3);
-  glm::dvec3 color;
-  for (int i = 0; i < 3; ++i) {
-    color[i] = checkedNumber(line, numbers[numbers.size() == 3 ? i : 0], range);
+  std::string text(line.keyword());
+  for (size_t i = 0; i < 3; ++i) {
+    text += checkedNumber(line, numbers[numbers.size() == 3 ? i : 0], range);
   }
-  return color;
+  return text;
 }
 
-// Reads the number of a line. With -halo, d fades with the angle; its number counts.
-double readFactor(LineReader& line) {
+// Returns the line of a number. With -halo, d fades with the angle; its number counts.
+std::string checkedFactor(LineReader& line) {
   const bool halo = line.tokens().size() > 1 && line.tokens()[1] == "-halo";
-  return checkedNumber(line, line.numbers(1, 1, halo ? 2 : 1)[0], kAny);
+  return std::string(line.keyword()) + checkedNumber(line, line.numbers(1, 1, halo ? 2 : 1)[0], kAny);
+}
+
+struct MaterialLines {
+  int newmtl = 0;
+  int mapKd = 0;
+};
+
+struct CheckedMtl {
+  std::string text;                            // for the parser: the lines that are used, without comments and options
+  std::map<std::string, MaterialLines> lines;  // by material, the last one of a name
+};
+
+CheckedMtl checkMtl(const fs::path& file, std::string_view text) {
+  // The parser keeps some kilobytes for each material.
+  constexpr size_t kMostMaterials = 10'000;
+  CheckedMtl checked;
+  MaterialLines* current = nullptr;
+  size_t count = 0;
+  LineReader line(file, text, LineReader::Continuation::none);
+  while (line.next()) {
+    const std::string_view key = line.keyword();
+    const bool color = key == "Kd" || key == "Ks" || key == "Ke";
+    if (color) {
+      checked.text.append(checkedColor(file, line, key == "Ke" ? kRadiance : kSurfaceColor));
+    } else if (key == "Ns" || key == "d" || key == "Tr") {
+      checked.text.append(checkedFactor(line));
+    } else if (key == "newmtl") {
+      if (++count > kMostMaterials) {
+        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
+      }
+      current = &checked.lines[std::string(line.argument())];
+      current->newmtl = line.number();
+      checked.text.append("newmtl ").append(line.argument());
+    } else if (key == "map_Kd" || key == "map_d") {
+      checked.text.append(key).append(" ").append(textureName(line));
+      if (key == "map_Kd" && current != nullptr) {
+        current->mapKd = line.number();
+      }
+    }
+    checked.text.push_back('\n');
+  }
+  return checked;
+}
+
+// Converts everything but the texture.
+Material materialOf(const tinyobj::material_t& source) {
+  const auto color = [](const tinyobj::real_t(&rgb)[3]) { return glm::dvec3(rgb[0], rgb[1], rgb[2]); };
+  return {.name = source.name,
+          .diffuse = color(source.diffuse),
+          .specular = color(source.specular),
+          .emission = color(source.emission),
+          .shininess = std::clamp(static_cast<double>(source.shininess), kLeastShininess, kMostShininess)};
 }
 
 }  // namespace
@@ -129,56 +184,22 @@ bool ObjMaterials::read(std::string_view name) {
   if (!filesRead_.insert(fs::weakly_canonical(file, ignored)).second) {
     return true;
   }
-  const std::string text = readInputText(file, "a Wavefront MTL file is needed");
-  readMaterials(file, text);
-  return true;
-}
-
-void ObjMaterials::readMaterials(const fs::path& file, std::string_view text) {
-  constexpr size_t kMostMaterials = 10'000;
-  const size_t before = entries_.size();
-  Entry nameless;  // of lines above the first newmtl
-  Entry* entry = &nameless;
-  bool hasColor = false;
-  bool hasOpacity = false;
-  LineReader line(file, text, LineReader::Continuation::none);
-  while (line.next()) {
-    const std::string_view key = line.keyword();
-    Material& material = entry->material;
-    if (key == "newmtl") {
-      if (entries_.size() - before == kMostMaterials) {
-        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
-      }
-      const std::string name(line.argument());
-      indices_.try_emplace(name, static_cast<int>(entries_.size()));
-      entry = &entries_.emplace_back(Entry{.material = {.name = name, .diffuse = glm::dvec3(0.0)}});
-      entry->file = file;
-      entry->line = line.number();
-      hasColor = hasOpacity = false;
-    } else if (key == "Kd") {
-      const std::optional<glm::dvec3> color = readColor(file, line, kSurfaceColor);
-      material.diffuse = color.value_or(material.diffuse);
-      hasColor = hasColor || color;
-    } else if (key == "Ks") {
-      material.specular = readColor(file, line, kSurfaceColor).value_or(material.specular);
-    } else if (key == "Ke") {
-      material.emission = readColor(file, line, kRadiance).value_or(material.emission);
-    } else if (key == "Ns") {
-      material.shininess = std::clamp(readFactor(line), kLeastShininess, kMostShininess);
-    } else if (key == "d") {
-      entry->opacity = readFactor(line);
-      hasOpacity = true;
-    } else if (key == "Tr") {  // no part of the format: d counts more
-      const double transparency = readFactor(line);
-      entry->opacity = hasOpacity ? entry->opacity : 1.0 - transparency;
-    } else if (key == "map_Kd" && !textureName(line).empty()) {
-      entry->diffuseTexture = textureName(line);
-      entry->textureLine = line.number();
-      material.diffuse = hasColor ? material.diffuse : Material().diffuse;
-    } else if (key == "map_d") {
-      entry->masked = entry->masked || !textureName(line).empty();
-    }
+  const CheckedMtl checked = checkMtl(file, readInputText(file, "a Wavefront MTL file is needed"));
+  std::vector<tinyobj::material_t> materials;
+  std::map<std::string, int> indices;
+  std::string warning;
+  std::string error;
+  std::istringstream stream(checked.text);
+  tinyobj::LoadMtl(&indices, &materials, &stream, &warning, &error);
+  for (const tinyobj::material_t& source : materials) {
+    const std::string key(trimmed(source.name));
+    const auto found = checked.lines.find(key);
+    const MaterialLines lines = found == checked.lines.end() ? MaterialLines{} : found->second;
+    indices_.try_emplace(key, static_cast<int>(entries_.size()));
+    entries_.push_back({materialOf(source), source.dissolve >= 1.0 && source.alpha_texname.empty(),
+                        source.diffuse_texname, file, lines.newmtl, lines.mapKd});
   }
+  return true;
 }
 
 int ObjMaterials::find(std::string_view name) {
@@ -200,7 +221,7 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
   }
   const Entry& entry = entries_[index];
   Material material = entry.material;
-  if (entry.masked || entry.opacity < 1.0) {
+  if (!entry.opaque) {
     spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.line,
                  material.name);
   }

@@ -31,15 +31,12 @@ class ObjMaterials {
  private:
   struct Entry {
     Material material;  // without its texture
-    double opacity = 1.0;
-    bool masked = false;  // by a texture
+    bool opaque = true;
     std::string diffuseTexture;
     std::filesystem::path file;
     int line = 0;         // of newmtl
     int textureLine = 0;  // of map_Kd
   };
-
-  void readMaterials(const std::filesystem::path& file, std::string_view text);
 
   std::filesystem::path objFile_;
   std::vector<Entry> entries_;
