@@ -113,7 +113,7 @@ bool inOnePlane(const Placed& a, const Placed& b) {
 }
 
 // Says whether the line of an edge of `a` has all of `b` outside it.
-bool edgeParts(const Placed& a, const Placed& b, double slack) {
+bool edgeSeparates(const Placed& a, const Placed& b, double slack) {
   const std::vector<glm::dvec3>& polygon = a.state->polygon;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3 outward = glm::cross(polygon[(i + 1) % polygon.size()] - polygon[i], a.state->normal);
@@ -128,7 +128,7 @@ bool edgeParts(const Placed& a, const Placed& b, double slack) {
 
 bool overlap(const Placed& a, const Placed& b) {
   const double slack = std::max(a.slack, b.slack);
-  return glm::distance(a.center, b.center) < a.radius + b.radius && !edgeParts(a, b, slack) && !edgeParts(b, a, slack);
+  return glm::distance(a.center, b.center) < a.radius + b.radius && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
 }
 
 // Sets the layers of the mirrors of one plane for an eye on one side of it.
