@@ -38,6 +38,10 @@ fs::path recentFile() {
 
 }  // namespace
 
+fs::path SceneBrowser::newScene() {
+  return dataDirectory("scenes") / "new" / "untitled.toml";
+}
+
 SceneBrowser::SceneBrowser() {
   const auto content = readFileIfAny(recentFile());
   std::istringstream lines(content ? std::string(content->begin(), content->end()) : std::string());
@@ -50,6 +54,9 @@ SceneBrowser::SceneBrowser() {
 }
 
 void SceneBrowser::remember(const fs::path& file) {
+  if (file == newScene()) {
+    return;
+  }
   std::error_code none;
   const fs::path whole = fs::absolute(file, none).lexically_normal();
   std::erase(view_.recent, whole);
