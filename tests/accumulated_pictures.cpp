@@ -5,6 +5,7 @@
 
 #include "accuracy/ground_truth.hpp"
 #include "frame/picture_offset.hpp"
+#include "frame/picture_tiles.hpp"
 #include "image/color.hpp"
 #include "picture_support.hpp"
 #include "sampling.hpp"
@@ -136,6 +137,75 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
 }
 
 // Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
+// Draws picture `number` of a mean, `step` tiles in each frame; 0: all in one. Stops before tile `end`.
+void drawTiles(Session& session, int number, size_t step, size_t end = SIZE_MAX) {
+  const SceneState state = evaluate(session.scene(), 1.0);
+  const Settings mean = pictureSettings(session.settings());
+  FrameCache cache = session.sceneRenderer().cache();
+  cache.main = nullptr;
+  FramePlan plan = planFrame(session.scene(), state, mean, session.size().width, session.size().height, cache, number);
+  const size_t count = tileCount(plan);
+  for (size_t first = 0; first < std::min(count, end); first += step == 0 ? count : step) {
+    if (step > 0) {
+      plan.tiles = {first, std::min(first + step, count)};
+    }
+    Frame frame = session.renderer().beginFrame().value();
+    session.sceneRenderer().record(frame, state, mean, plan);
+    session.renderer().endFrame(frame);
+  }
+}
+
+Options inTiles(const std::string& scene) {
+  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {130, 70});
+  set(options, {{"view.accumulate", "16"}, {"debug.check_finite", "false"}});
+  return options;
+}
+
+class Tiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(Tiles, ChangeNoByte) {
+  QuietSession session(inTiles(GetParam()));
+  drawTiles(session, 0, 0);
+  const LinearImage first = session.radiance();
+  const size_t passes = session.sceneRenderer().passes().size();
+  drawTiles(session, 1, 0);
+  const LinearImage second = session.radiance();
+  for (const size_t step : {3, 1}) {
+    drawTiles(session, 0, step);
+    EXPECT_TRUE(session.radiance().pixels == first.pixels) << step;
+    EXPECT_EQ(session.sceneRenderer().passes().size(), passes);
+    drawTiles(session, 1, 2, 4);
+    EXPECT_TRUE(session.radiance().pixels == first.pixels) << "an unfinished picture is not shown";
+    drawTiles(session, 1, step);
+    EXPECT_TRUE(session.radiance().pixels == second.pixels) << step;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Tiles, testing::Values("gallery", "facing_mirrors", "mirror_ball", "shadows"));
+
+TEST(UnfinishedTiles, AreNotShownAndCanBeDropped) {
+  QuietSession session(inTiles("gallery"));
+  set(session, {{"view.accumulate", "1"}});
+  session.draw(1.0, false);
+  const LinearImage draft = session.radiance();
+  set(session, {{"view.accumulate", "16"}});
+  drawTiles(session, 0, 0);
+  const LinearImage whole = session.radiance();
+  set(session, {{"view.accumulate", "1"}});
+  session.draw(1.0, false);
+  set(session, {{"view.accumulate", "16"}});
+  for (int i = 0; i < 3; ++i) {
+    drawTiles(session, 0, 1, 3);
+    EXPECT_TRUE(session.radiance().pixels == draft.pixels) << "the picture before stays";
+  }
+  drawTiles(session, 0, 1);
+  EXPECT_TRUE(session.radiance().pixels == whole.pixels);
+  drawTiles(session, 1, 1, 2);
+  set(session, {{"view.accumulate", "1"}});
+  session.draw(1.0, false);
+  EXPECT_TRUE(session.radiance().pixels == draft.pixels);
+}
+
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {
     Options options = shipped("rough", 1);

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "app/pace.hpp"
+#include "frame/picture_tiles.hpp"
 
 namespace speculum {
 namespace {
@@ -439,6 +440,69 @@ TEST(Pace, StillPicturesConvergeOnce) {
   EXPECT_EQ(frame(3, 1e-9), std::pair(1, 0)) << "full quality would take too long";
   EXPECT_EQ(pace.text().rfind("Draft: 0.1", 0), 0u) << pace.text();
   EXPECT_EQ(frame(3, 1e-9), std::pair(3, 0));
+}
+
+TEST(Pace, SlowPicturesAreDrawnTileByTile) {
+  Pace pace(true, 1 + 4);
+  const Scene scene;
+  const SceneState state;
+  Settings chosen;
+  chosen.quality.stillPictures = 16;
+  chosen.view.samples = chosen.reflection.samples = 1;
+  uint64_t number = 0;
+  double ms = 0.0;  // of the last frame
+  const auto frame = [&](uint64_t revision, bool input = false) {
+    pace.finished({.frame = number, .gpuMs = ms});
+    pace.begin({}, false, 0.1);
+    const FittedPlan fitted = pace.plan({.scene = scene,
+                                         .state = state,
+                                         .chosen = chosen,
+                                         .shown = {.revision = revision},
+                                         .budgetMs = budget,
+                                         .input = input},
+                                        [&](const Settings& settings, int) {
+                                          FittedPlan whole{.settings = settings};
+                                          const auto side = static_cast<int>(3200 * settings.view.scale);
+                                          whole.plan.main.view.rect = {0, 0, side, side};
+                                          return whole;
+                                        });
+    // A tenth of the tiles is dear.
+    const TileRange tiles = tilesOf(fitted.plan, 0);
+    ms = 0.0;
+    for (size_t tile = tiles.first; tile < tiles.end; ++tile) {
+      ms += tile % 500 < 50 ? 5.0 : 0.5;
+    }
+    pace.drawn(++number, 0.0, false);
+    return fitted;
+  };
+  EXPECT_FALSE(frame(1).plan.tiles);
+  EXPECT_EQ(pace.text().rfind("Draft: ", 0), 0u) << pace.text();
+  const auto wholePicture = [&](bool input) {
+    std::vector<double> times;
+    TileRange before;
+    do {
+      const FittedPlan fitted = frame(1, input);
+      EXPECT_TRUE(fitted.plan.tiles && pace.drawsTiles());
+      EXPECT_EQ(fitted.plan.tiles->first, before.end);
+      EXPECT_TRUE(pace.wantsFrame());
+      before = *fitted.plan.tiles;
+      times.push_back(ms);
+    } while (before.end < 2500);
+    return times;
+  };
+  EXPECT_LE(std::ranges::max(wholePicture(false)), 8.0 * budget);
+  EXPECT_EQ(pace.text(), "1 of 16 pictures");
+  for (int picture = 1; picture < 4; ++picture) {
+    wholePicture(false);
+  }
+  for (const bool input : {false, true}) {
+    EXPECT_LE(std::ranges::max(wholePicture(input)), (input ? 2.0 : 2.6) * budget) << "the dear tiles are known";
+  }
+  frame(1);
+  EXPECT_EQ(pace.text().rfind("6 of 16 pictures, next ", 0), 0u) << pace.text();
+  EXPECT_FALSE(frame(2).plan.tiles) << "another picture is asked for";
+  EXPECT_EQ(pace.text().rfind("Draft: ", 0), 0u) << pace.text();
+  EXPECT_EQ(frame(2).plan.tiles->first, 0u);
 }
 
 TEST(Pace, BudgetFollowsDeviceAndMonitor) {

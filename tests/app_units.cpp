@@ -131,6 +131,30 @@ TEST(FrameReport, PanelOnlyFramesChangeNoFigure) {
   EXPECT_NEAR(report.view().frameMs, 10.0, 1.0) << "not held up by the slow frame before";
 }
 
+TEST(FrameReport, TilesOfAPictureAreOneFrame) {
+  const Scene scene;
+  const SceneState state;
+  const Settings settings;
+  FramePlan plan;
+  plan.main.view.rect = {0, 0, 128, 128};
+  FrameReport report;
+  report.updateTimes({scene, state, settings, plan, 1, 1.0, NAN}, {});
+  uint64_t number = 1;
+  for (int picture = 0; picture < 2; ++picture) {
+    for (size_t tile = 0; tile < 4; ++tile) {
+      plan.tiles = {tile, tile + 1};
+      report.updateTimes({scene, state, settings, plan, number + 1, 2.0, 30.0}, {.frame = number, .gpuMs = 25.0});
+      ++number;
+    }
+  }
+  EXPECT_EQ(report.view().history.frames(), 3u);
+  plan.tiles.reset();
+  plan.mainReused = true;
+  report.updateTimes({scene, state, settings, plan, number + 1, 1.0, 10.0}, {.frame = number, .gpuMs = 25.0});
+  EXPECT_EQ(report.view().gpuMs, 4 * 25.0);
+  EXPECT_EQ(report.view().cpuMs, 4 * 2.0);
+}
+
 TEST(FrameReport, EarlierTimesAreMarked) {
   const Scene scene;
   const SceneState state;

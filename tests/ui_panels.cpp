@@ -125,6 +125,8 @@ TEST_F(PanelTest, MenusSendTheirCommands) {
   click("menu.File");
   clickFor<AskWhatToOpen>("menu.Open...");
   click("menu.File");
+  clickFor<NewScene>("menu.New");
+  click("menu.File");
   click("menu.Open recent");
   run(3);
   EXPECT_EQ(clickFor<OpenScene>("menu./scenes/two.obj").file, "/scenes/two.obj");
@@ -452,11 +454,12 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   selectMirror(0);
   EXPECT_EQ(clickFor<LookFromMirror>("edit.look_behind").side, MirrorSide::back);
   EXPECT_EQ(clickFor<LookFromMirror>("edit.look_out").side, MirrorSide::front);
+  EXPECT_TRUE(has("edit.mirror_cost"));
   EXPECT_EQ(clickFor<SelectNode>("edit.through.0").node, (Selection{Selection::Kind::mirror, 1}));
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.rotate", 0.1).mode, GizmoMode::turn);
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.scale_handles", 0.1).mode, GizmoMode::scale);
   select({Selection::Kind::light, 0});
-  EXPECT_FALSE(has("edit.look_out"));
+  EXPECT_FALSE(has("edit.look_out") || has("edit.mirror_cost"));
 }
 
 TEST_F(Inspector, OnlyValidPolygonsAreApplied) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "ui/mirror_cost.hpp"
 #include "ui/pass_tree.hpp"
 
 namespace speculum {
@@ -42,6 +43,25 @@ TEST(PassTree, ReusedImagesAreNotListedTwice) {
   const std::vector<PassNode> roots = passTree(passes, skipped);
   ASSERT_EQ(roots.size(), 1u);
   EXPECT_EQ(roots[0].skipped, std::vector<int>{1});
+}
+
+TEST(MirrorCost, SumsPassesOrSaysWhyThereIsNone) {
+  FrameView frame;
+  const auto pass = [&](std::vector<int> path, double ms, double texels) {
+    PassView row{{.path = std::move(path)}};
+    row.gpuMs = ms;
+    row.areaPx = texels;
+    frame.passes.push_back(row);
+  };
+  pass({2}, 12.5, 4000.0);
+  EXPECT_EQ(mirrorCost(frame, 2), "1 pass, 4000 texels, 12.5 ms on the GPU");
+  pass({1, 2}, NAN, 300.0);
+  pass({2, 1}, 7.0, 1.0);
+  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 texels, 12.5 ms on the GPU");
+  frame.passes.push_back({{.kind = PassKind::main}});
+  frame.skipped = {{.path = {0, 3}, .reason = "hidden"}, {.path = {3}, .reason = "seen from behind"}};
+  EXPECT_EQ(mirrorCost(frame, 3), "No pass: seen from behind");
+  EXPECT_EQ(mirrorCost(frame, 4), "No pass");
 }
 
 }  // namespace

@@ -165,6 +165,25 @@ TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
 }
 
 // Changes made while a scene is loading bring up the prompt once it is loaded.
+TEST_F(Saving, NewSceneAsksLikeOpenAndIsSavedElsewhere) {
+  removeBall();
+  send(NewScene{});
+  EXPECT_EQ(edit().prompt, Prompt::unsavedChanges);
+  send(DiscardChanges{});
+  waitFor([&] { return host_.title == "untitled - Speculum"; });
+  EXPECT_EQ(scene().mirrors.size(), 1u);
+  EXPECT_EQ(scene().lights.size(), 1u);
+  EXPECT_FALSE(edit().unsaved);
+  EXPECT_EQ(edit().undo, "");
+  EXPECT_TRUE(view().browser.recent.empty());
+  send(AddLight{});
+  send(Save{});
+  ASSERT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_EQ(edit().proposedFile, documentsDir() / "Speculum" / "untitled.toml");
+  send(SaveAs{"mine"});
+  EXPECT_EQ(loadScene(documentsDir() / "Speculum" / "mine.toml").lights.size(), 2u);
+}
+
 TEST_F(Saving, ChangesDuringLoadingAreAskedAbout) {
   send(OpenScene{sourceFile("scenes/no_mirror.toml")});
   removeBall();

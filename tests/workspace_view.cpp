@@ -258,6 +258,12 @@ TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   EXPECT_EQ(choice(), "");
 }
 
+TEST_F(BudgetView, PricesOfSettingsAreListed) {
+  const auto& prices = view().accuracy.prices;
+  ASSERT_EQ(prices.size(), 1u);
+  EXPECT_EQ(prices.at("view.samples"), "\nMeasured in this view:\n1: 1 ms, FLIP 0.200\n4: 4 ms, FLIP 0.100");
+}
+
 TEST_F(WindowView, TitleNamesTheSceneAndItsState) {
   EXPECT_EQ(host_.title, "workspace - Speculum");
   setExposure(2.0);

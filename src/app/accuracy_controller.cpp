@@ -1,5 +1,7 @@
 #include "app/accuracy_controller.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -19,6 +21,34 @@ std::string aboutText(const SweepResults& results) {
 
 std::string roughText(const SweepResults& results) {
   return "Rough figures of a " + std::to_string(results.width) + "x" + std::to_string(results.height) + " picture.";
+}
+
+// Returns for each setting that was measured by itself what its values cost, cheapest first.
+std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& results) {
+  std::map<std::string, std::multimap<double, std::string>> values;  // by setting and milliseconds
+  const auto text = [](const SweepPoint& point, const std::string& value) {
+    return fmt::format("\n{}: {:.3g} ms, FLIP {:.3f}", value, costSpread(point).median, point.whole.flip);
+  };
+  for (const SweepPoint& point : results.points) {
+    if (point.changes.size() == 1) {
+      const SettingChange& change = point.changes.front();
+      values[change.key].emplace(costSpread(point).median, text(point, change.value));
+    }
+  }
+  std::map<std::string, std::string, std::less<>> prices;
+  for (auto& [key, texts] : values) {
+    const auto base = std::ranges::find(results.base, key, &SettingChange::key);
+    const auto unchanged =
+        std::ranges::find_if(results.points, [](const auto& point) { return point.changes.empty(); });
+    if (base != results.base.end() && unchanged != results.points.end()) {
+      texts.emplace(costSpread(*unchanged).median, text(*unchanged, base->value));
+    }
+    prices[key] = "\nMeasured in this view:";
+    for (const auto& [ms, line] : texts) {
+      prices[key] += line;
+    }
+  }
+  return prices;
 }
 
 std::string stepText(const std::string& stage) {
@@ -59,6 +89,7 @@ void AccuracyController::setResults(SweepResults results) {
     view_.points.push_back({point.name, point.whole.flip, spread.median, spread.lowerQuartile, spread.upperQuartile});
     pointSettings_.push_back(settingsOfPoint(results_, static_cast<int>(i)));
   }
+  view_.prices = pricesOf(results_);
   view_.front = paretoFront(results_.points);
   frontLevels_.clear();
   for (auto point = view_.front.rbegin(); point != view_.front.rend(); ++point) {
@@ -172,7 +203,7 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
   view_.stage = status ? (status->rough ? "" : "Rough: ") + stepText(status->stage) : "";
   view_.progress = status ? status->fraction : 0.0;
   view_.about = sweep_.takeError().value_or(view_.about);
-  const bool changed = view_.showsDifference ? difference_.update(shown, image) : difference_.reset();
+  const bool changed = view_.showsDifference ? image && difference_.update(shown, image) : difference_.reset();
   coverChanged_ = coverChanged_ || changed;
   view_.difference = difference_.status();
 }

@@ -30,7 +30,7 @@ class AccuracyController {
   void followBudget(Settings& settings);
   // Takes a budget that undo restored together with the settings that it had chosen, without choosing again.
   void acceptBudget(const Settings& settings) { budget_ = {settings.quality.budgetMs, settings.quality.maxError}; }
-  // Call after a frame is drawn. `image` returns its pixels.
+  // Call after a frame is drawn. `image` returns its pixels; null if its picture is not finished.
   void afterFrame(const ShownPicture& shown, const std::function<Image8()>& image);
   // Returns the picture to show instead of the scene, if it changed since the last call; one without pixels shows the
   // scene.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/device_view.hpp"
+#include "frame/picture_tiles.hpp"
 #include "image/color.hpp"
 #include "platform/process.hpp"
 #include "ui/input_map.hpp"
@@ -58,7 +59,9 @@ bool Demo::step() {
 }
 
 bool Demo::stepOnce() {
-  if (pacer_.due()) {
+  if (pace_.drawsTiles()) {
+    renderer_.waitIdle();
+  } else if (pacer_.due()) {
     renderer_.waitForFrame();  // first, so that the events of this frame are as new as possible
   }
   window_.pollEvents();
@@ -166,7 +169,8 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const Clock::time_point end = Clock::now();
   const double cpuMs = milliseconds(end - start);
   const bool newPipelines = std::exchange(pipelines_, sceneRenderer_->pipelineCount()) != pipelines_;
-  pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs, !timed && !newPipelines && !plan.mainReused);
+  pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
+              !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
   ++framesDrawn_;
@@ -178,8 +182,8 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
     return toDisplay(sceneRenderer_->radiance(), view.exposure, view.toneMap);
   };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
-  workspace_.frameDrawn({workspace_.scene(), state, fitted.settings, plan.width, plan.height}, radiance,
-                        picture ? &*picture : nullptr);
+  workspace_.frameDrawn({workspace_.scene(), state, fitted.settings, plan.width, plan.height},
+                        endsPicture(plan) ? radiance : std::function<Image8()>(), picture ? &*picture : nullptr);
   frameSettings_ = fitted.settings;
   message_ = currentMessage();
 }
@@ -201,7 +205,8 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
                                               ? 0.0
                                               : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
                               .front = workspace_.accuracy().front(),
-                              .simplifies = levels_.ready(workspace_.scene(), scenes_)};
+                              .simplifies = levels_.ready(workspace_.scene(), scenes_),
+                              .input = changes_};
   FittedPlan fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });

@@ -7,6 +7,7 @@
 
 #include "edit/outline.hpp"
 #include "frame/pass_mask.hpp"
+#include "frame/picture_tiles.hpp"
 #include "frame/scene_names.hpp"
 #include "frame/setting_fields.hpp"
 
@@ -84,44 +85,62 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   view_.validationMessages = device.validation() ? device.validationMessages() : -1;
   view_.target.value = texelOf(sceneRenderer.probed(), frame.plan);
   updateTimes(frame, timings);
+  if (!endsPicture(frame.plan)) {
+    return updateSkipped(frame, hoveredSkipped);
+  }
   updatePasses(frame, timings, sceneRenderer.passes(), sceneRenderer.passesOf(timings.frame));
   updateEffects(frame, sceneRenderer.ledger());
   updateOutline(frame, hoveredPath);
   updateSkipped(frame);
 }
 
-// Frames that draw the panels only change no figure: those of the last frame that drew the scene stay.
+void FrameReport::addTiles(const RecordedFrame& frame, const FrameTimings& timings) {
+  if (beginsPicture(frame.plan)) {
+    tiles_ = {};
+  }
+  tiles_.gpuMs += timings.frame == tiles_.number ? timings.gpuMs : 0.0;
+  tiles_.cpuMs += frame.cpuMs;
+  tiles_.sinceLastMs += frame.sinceLastMs;
+  tiles_.number = frame.number;
+}
+
+// Frames that draw the panels only change no figure: those of the last frame that drew the scene stay. A picture of
+// several frames counts as one frame, the last.
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings) {
+  addTiles(frame, timings);
+  if (!endsPicture(frame.plan)) {
+    return;
+  }
   const bool drawsScene = !frame.plan.mainReused;
   const bool drewScene = !std::exchange(view_.still, !drawsScene) && !drawn_.empty();
   if (drawsScene) {
-    const double ms = drewScene ? frame.sinceLastMs : std::nan("");
+    const double ms = drewScene ? tiles_.sinceLastMs : std::nan("");
     const auto average = [](double& shown, double now, bool begins) {
       shown += (begins ? 1.0 : std::clamp(now / settlingMs, smoothing, 1.0)) * (now - shown);
     };
     averages_ = averages_ && drewScene;
-    average(view_.cpuMs, frame.cpuMs, !drewScene);
+    average(view_.cpuMs, tiles_.cpuMs, !drewScene);
     if (!std::isnan(ms)) {
       average(view_.frameMs, ms, !std::exchange(averages_, true));
     }
-    view_.history.add(frame.number, ms, frame.cpuMs);
-    drawn_.push_front({frame.number, frame.cpuMs});
+    view_.history.add(frame.number, ms, tiles_.cpuMs);
+    drawn_.push_front({frame.number, tiles_.cpuMs, tiles_.gpuMs});
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
   }
   const auto timed = std::ranges::find(drawn_, timings.frame, &DrawnFrame::number);
   if (timed == drawn_.end()) {
     return;
   }
-  view_.gpuMs = timings.gpuMs;
+  view_.gpuMs = timed->earlierGpuMs + timings.gpuMs;
   if (view_.still || view_.frameMs == 0.0) {
     view_.cpuMs = timed->cpuMs;
-    view_.frameMs = timed->cpuMs + timings.gpuMs;
+    view_.frameMs = timed->cpuMs + view_.gpuMs;
   }
   std::vector<std::pair<std::string, double>> passes;
   for (const PassTiming& pass : timings.passes) {
     passes.emplace_back(pass.name, pass.gpuMs);
   }
-  view_.history.addGpu(timings.frame, timings.gpuMs, passes);
+  view_.history.addGpu(timings.frame, view_.gpuMs, passes);
 }
 
 bool FrameReport::drewScene(uint64_t frame) const {

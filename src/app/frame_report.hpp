@@ -45,15 +45,25 @@ class FrameReport {
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
   void updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered);
   void updateSkipped(const RecordedFrame& frame);
+  void addTiles(const RecordedFrame& frame, const FrameTimings& timings);
 
   struct DrawnFrame {
     uint64_t number = 0;
     double cpuMs = 0.0;
+    double earlierGpuMs = 0.0;  // of frames that drew other tiles of its picture
+  };
+  // Frames so far that drew tiles of a picture.
+  struct Tiles {
+    uint64_t number = 0;  // of the last one
+    double sinceLastMs = 0.0;
+    double cpuMs = 0.0;
+    double gpuMs = 0.0;  // without the last one
   };
 
   FrameView view_;
   std::deque<DrawnFrame> drawn_;  // that drew the scene and not the panels only, the latest
-  bool averages_ = false;         // FrameView::frameMs: its frames followed each other
+  Tiles tiles_;
+  bool averages_ = false;  // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
 };
 

@@ -13,8 +13,16 @@ namespace {
 
 constexpr double cpuBudgetMs = 50.0;
 constexpr double refreshShare = 0.8;
-constexpr double longestWait = 3.0;  // budgets: slower still pictures come after a draft
+constexpr double longestWait = 3.0;  // budgets: slower still pictures come after a draft, tile by tile
+constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and without input
 constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
+
+// Says whether a picture of a mean can be drawn in tiles: the samples of a tile are not kept until the next.
+bool drawnInTiles(const FittedPlan& fitted) {
+  const Settings& settings = fitted.settings;
+  return !fitted.plan.mainReused && !settings.debug.checkFinite && settings.view.samples == 1 &&
+         settings.reflection.samples == 1;
+}
 
 }  // namespace
 
@@ -33,6 +41,7 @@ FittedPlan Pace::plan(const Request& request, const Planner& plan) {
     work_ = workOf(fitted.plan, request.scene, request.state, fitted.settings);
     return fitted;
   };
+  drawsTiles_ = false;
   if (moving() && request.budgetMs > 0.0) {
     return planMoving(request, counted);
   }
@@ -67,6 +76,10 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
   const std::pair shown(request.chosen, request.shown);
   if (std::exchange(shown_, shown) != shown || moving()) {
     picture_ = -1;
+    slow_.reset();
+  }
+  if (request.budgetMs <= 0.0) {
+    slow_.reset();
   }
   text_.clear();
   Settings settings = request.chosen;
@@ -86,13 +99,33 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
     Settings mean = settings;
     mean.view.accumulate = pictures_;
     if (controller_.predict(scaledWork(work_, settings, pictureSettings(mean))) > longestWait * request.budgetMs) {
+      slow_.emplace();
       first = planWithinBudget(request, plan);
       text_ = "Draft: " + text_;
       return first;
     }
   }
   settings.view.accumulate = pictures_;
-  FittedPlan fitted = plan(settings, picture_);
+  if (!slow_ && picture_ > 0 && request.budgetMs > 0.0) {
+    slow_.emplace();
+  }
+  FittedPlan fitted;
+  if (!slow_ || slow_->finished()) {
+    fitted = plan(settings, picture_);
+    const double ms = controller_.predict(work_);
+    if (slow_ && ms > longestWait * request.budgetMs && drawnInTiles(fitted)) {
+      slow_->begin(std::move(fitted), ms);
+      slowWork_ = work_;
+    }
+  }
+  if (slow_ && !slow_->finished()) {
+    drawsTiles_ = true;
+    fitted = slow_->next((request.input ? 1.0 : tilesShare) * request.budgetMs);
+    if (!slow_->finished()) {
+      text_ = fmt::format("{} of {} pictures, next {:.0f} %", picture_, pictures_, 100.0 * slow_->share());
+      return fitted;
+    }
+  }
   picture_ = std::min(picture_ + 1, pictures_);
   text_ = fmt::format("{} of {} pictures", picture_, pictures_);
   return fitted;
@@ -113,14 +146,23 @@ void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
 // count.
 void Pace::finished(const FrameTimings& timings) {
   const auto found = std::ranges::find(drawn_, timings.frame, &Drawn::number);
-  if (found == drawn_.end() || !timings.passes.empty()) {
+  if (found == drawn_.end()) {
     return;
   }
   const double sum = found->cpuMs + timings.gpuMs;
   const double ms = !cpuDevice_           ? std::max(found->cpuMs, timings.gpuMs)
                     : found->frameMs == 0 ? sum
                                           : std::min(found->frameMs, sum);
-  controller_.finished(timings.frame, ms);
+  if (drawsTiles_ && found + 1 == drawn_.end()) {
+    slow_->took(ms);
+    // The frames took longer than one would have, so their time is learned only where even that was less.
+    if (slow_->finished() && slow_->totalMs() < controller_.predict(slowWork_)) {
+      controller_.drawn(timings.frame, slowWork_);
+      controller_.finished(timings.frame, slow_->totalMs());
+    }
+  } else if (timings.passes.empty()) {
+    controller_.finished(timings.frame, ms);
+  }
   drawn_.erase(drawn_.begin(), found + 1);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/motion_controller.hpp"
+#include "app/slow_picture.hpp"
 #include "core/gpu_timer.hpp"
 #include "frame/memory_fit.hpp"
 
@@ -33,7 +34,7 @@ class Movement {
 
 // Chooses the quality of the window's frames: while something moves, as much of the chosen settings as fits into a
 // budget of milliseconds; otherwise all of them, or where that takes longer a draft that fits, then the mean of
-// pictures with offsets (view.accumulate), one in each frame.
+// pictures with offsets (view.accumulate), one in each frame or, where one takes long, over several (FramePlan::tiles).
 class Pace {
  public:
   // `sampleCounts`: bits of the sample counts that the device supports, as VkSampleCountFlags.
@@ -45,6 +46,9 @@ class Pace {
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const { return movement_.ending() || (!moving() && picture_ < pictures_); }
+  // Says whether tiles of a picture are drawn. The next frame then begins when they are there: finished() learns from
+  // their time, and input waits for them alone.
+  bool drawsTiles() const { return drawsTiles_; }
 
   // Identifies what a still picture shows, besides the chosen settings.
   struct Shown {
@@ -64,6 +68,7 @@ class Pace {
     double budgetMs = 0.0;               // 0: nothing is lowered
     std::span<const MotionLevel> front;  // as motionLevels takes it
     bool simplifies = false;             // likewise
+    bool input = false;                  // there is some, which a frame with tiles must not hold up
   };
   // Plans the frame. Calls `plan` a few times with settings and the number of a picture in their mean; returns the plan
   // of the last call.
@@ -104,6 +109,9 @@ class Pace {
   std::optional<std::pair<Settings, Shown>> shown_;
   int picture_ = -1;  // next picture of the mean; -1: a picture in full quality, or a draft, comes first
   int pictures_ = 0;  // in the mean
+  bool drawsTiles_ = false;
+  std::optional<SlowPicture> slow_;  // of the mean; nothing until another picture stands for the first one
+  FrameWork slowWork_;
 };
 
 // Returns the number of pictures in the mean of a still picture.

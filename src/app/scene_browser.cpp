@@ -38,6 +38,10 @@ fs::path recentFile() {
 
 }  // namespace
 
+fs::path SceneBrowser::newScene() {
+  return dataDirectory("scenes") / "new" / "untitled.toml";
+}
+
 SceneBrowser::SceneBrowser() {
   std::istringstream lines(readTextIfAny(recentFile()));
   std::error_code none;
@@ -49,6 +53,9 @@ SceneBrowser::SceneBrowser() {
 }
 
 void SceneBrowser::remember(const fs::path& file) {
+  if (file == newScene()) {
+    return;
+  }
   std::error_code none;
   const fs::path whole = fs::absolute(file, none).lexically_normal();
   std::erase(view_.recent, whole);

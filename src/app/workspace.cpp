@@ -99,6 +99,7 @@ void Workspace::apply(const Command& command) {
                  [&](const MultiplyTimeSpeed& c) { playback_.setSpeed(c.factor * playback_.view().speed); },
                  [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
                  [&](const ResetSettings&) { setSettings(loaded_->settings); },
+                 [&](const NewScene&) { open(SceneBrowser::newScene()); },
                  [&](const AskWhatToOpen&) { askWhatToOpen(); },
                  [&](const OpenScene& c) { open(c.file); },
                  [&](const OpenDropped& c) { openDropped(c.files); },

@@ -61,8 +61,8 @@ struct PassDesc {
 PassDesc fullPass(std::string name, const PassTargets& targets);
 
 // Barriers of one pass, or of several that touch none of each other's targets: all before the first and all after the
-// last, so that the device may draw the passes side by side. The passes outlive the group and are alike in role,
-// samples and in what they load. Made by Renderer::beginGroup, for passes whose PassDesc::grouped is set.
+// last, so that the device may draw the passes side by side. The passes, at least one, have PassDesc::grouped set,
+// outlive the group, are begun and ended within it, and are alike in role, samples and in what they load.
 class PassGroup {
  public:
   PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes);

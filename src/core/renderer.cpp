@@ -131,10 +131,6 @@ PassScope Renderer::beginPass(Frame& frame, const PassDesc& desc) {
   return PassScope(device_, renderPasses_, slots_[frame.index].timer, frame.commands, desc);
 }
 
-PassGroup Renderer::beginGroup(Frame& frame, std::span<const PassDesc> passes) {
-  return PassGroup(device_.barriers(), frame.commands, passes);
-}
-
 PassScope Renderer::beginOverlay(Frame& frame) {
   PassDesc desc = fullPass("overlay", displayTargets(frame));
   desc.loadColor = true;

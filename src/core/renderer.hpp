@@ -62,8 +62,6 @@ class Renderer {
   // Waits for the frame before the last one. Returns nothing while the window is paused or has no swapchain.
   std::optional<Frame> beginFrame();
   PassScope beginPass(Frame& frame, const PassDesc& desc);
-  // `passes`, at least one, outlive the group; each is begun and ended within it.
-  PassGroup beginGroup(Frame& frame, std::span<const PassDesc> passes);
   // A pass of its own that loads and stores the display image, within a VkRenderPass on either path.
   PassScope beginOverlay(Frame& frame);
   void endFrame(Frame& frame);

@@ -132,6 +132,15 @@ struct FrameCache {
   const MainImage* main = nullptr;  // null: the main view is drawn in any case
 };
 
+// Tiles first .. end - 1.
+struct TileRange {
+  size_t first = 0;
+  size_t end = 0;
+
+  bool empty() const { return end <= first; }
+  bool operator==(const TileRange&) const = default;
+};
+
 struct FramePlan {
   Projection projection;
   int width = 0;  // pixels of the picture
@@ -150,6 +159,8 @@ struct FramePlan {
   // target.
   std::vector<ShadowMap> shadowMaps;
   TracedEffects effects;  // that all of these passes call for
+  // Tiles that this frame draws of a picture that several frames draw (picture_tiles.hpp); none: it draws all.
+  std::optional<TileRange> tiles;
 };
 
 // The mirror pass with that path; null if the plan has none.

@@ -42,6 +42,7 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
     }
   }
   cachedTargets_ = std::move(targets);
+  cachedImages_.clear();  // until end()
 }
 
 void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched,

@@ -6,6 +6,7 @@
 #include "frame/cube_face.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame/mesh_level.hpp"
+#include "frame/picture_tiles.hpp"
 #include "frame/scene_names.hpp"
 #include "frame/shadow_map.hpp"
 #include "image/enlarge.hpp"
@@ -114,19 +115,31 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                        .images = mirrorTargets_.images(),
                        .cached = mirrorTargets_.cached(),
                        .maps = mapSets_};
-  recorded_.clear();
-  if (!plan.mainReused) {
-    ledger_ = {};
+  if (beginsPicture(plan)) {
+    recorded_.clear();
+    if (!plan.mainReused) {
+      ledger_ = {};
+    }
+    recordShadows(info);
+    recordMaps(info);
+    environmentTargets_.endFrame(plan, *frame.retired);
+    shadowSystem_.endFrame(plan, *frame.retired);
   }
-  recordShadows(info);
-  recordMaps(info);
   recordMirrors(info);
   recordMain(info);
-  recordSum(info);
+  unfinished_ = !endsPicture(plan);
+  if (unfinished_) {
+    mainImage_ = {};
+  } else {
+    releaseEarlierMain(*frame.retired);
+    recordSum(info);
+  }
   if (shown) {
     recordDisplay(info, debug);
   }
-  endRecord(info, textured);
+  if (!unfinished_) {
+    endRecord(info, textured);
+  }
 }
 
 // Releases what only the debug view needs, once it is off.
@@ -146,10 +159,15 @@ void SceneRenderer::releaseDebugViews(const std::optional<DebugView>& debug, Ret
 void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan,
                                    const std::optional<DebugView>& debug) {
   const bool showsMirror = debug && debug->pass < static_cast<int>(plan.passes.size());
-  mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples),
-                       showsMirror ? std::optional(debug->pass) : std::nullopt, *frame.retired);
-  prepareMain(settings, plan, *frame.retired);
-  environmentTargets_.prepare(plan, *frame.retired);
+  if (beginsPicture(plan)) {
+    if (unfinished_) {
+      mirrorTargets_.restart();
+    }
+    mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples),
+                         showsMirror ? std::optional(debug->pass) : std::nullopt, *frame.retired);
+    prepareMain(settings, plan, *frame.retired);
+    environmentTargets_.prepare(plan, *frame.retired);
+  }
   shadowSystem_.prepare(frame, plan);
   mapSets_.clear();
   for (size_t i = 0; i < plan.maps.size(); ++i) {
@@ -167,6 +185,11 @@ void SceneRenderer::prepareMain(const Settings& settings, const FramePlan& plan,
   const VkExtent2D extent = extentOf(plan.main.view.rect.width, plan.main.view.rect.height);
   const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
   const bool readSamples = settings.debug.checkFinite && mainSamples != VK_SAMPLE_COUNT_1_BIT;
+  if (plan.tiles && !earlierMain_ && !unfinished_ && accumulated() == 0) {
+    earlierMain_ = std::move(main_);
+  } else if (!plan.tiles) {
+    releaseEarlierMain(retired);
+  }
   if (!main_ || main_->samples() != mainSamples || main_->desc().readSamples != readSamples) {
     if (main_) {
       main_->retire(retired);
@@ -179,6 +202,13 @@ void SceneRenderer::prepareMain(const Settings& settings, const FramePlan& plan,
     main_ = std::make_unique<OffScreen>(device_, desc, retired);
   }
   main_->resize(extent, retired);
+}
+
+void SceneRenderer::releaseEarlierMain(RetireQueue& retired) {
+  if (earlierMain_) {
+    earlierMain_->retire(retired);
+    earlierMain_.reset();
+  }
 }
 
 void SceneRenderer::recordMaps(const FrameInfo& info) {
@@ -252,14 +282,26 @@ void SceneRenderer::recordShadows(const FrameInfo& info) {
 }
 
 void SceneRenderer::recordMirrors(const FrameInfo& info) {
-  for (const PassRange& range : independentPasses(info.plan)) {
-    recordMirrorRange(info, range);
+  if (!info.plan.tiles) {
+    for (const PassRange& range : independentPasses(info.plan)) {
+      recordMirrorRange(info, range);
+    }
+    return;
+  }
+  for (size_t i = 0; i < info.plan.passes.size(); ++i) {
+    if (!tilesOf(info.plan, i).empty()) {
+      recordMirrorRange(info, {i, i + 1});
+    }
   }
 }
 
 // Releases and checks images after the whole range, because barriers are recorded only before and after it.
 void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& range) {
-  const std::vector<PassTargets> targets = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
+  const TileRange tiles = tilesOf(info.plan, range.first);  // of all passes, or of the only one
+  if (tiles.first == 0) {
+    passTargets_ = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
+  }
+  const std::vector<PassTargets>& targets = passTargets_;
   std::vector<PassDesc> descs;
   for (size_t i = range.first; i < range.end; ++i) {
     const View& view = info.plan.passes[i].view;
@@ -267,12 +309,15 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
         scenePass("mirror " + mirrorPathName(scene_, view.path), targets[i - range.first],
                   {{0, 0}, extentOf(view.rect.width, view.rect.height)}, viewportOf(view), view, info.environment));
     desc.clearDepth = MaskSystem::clearDepth(info.data.passes()[i]);
-    desc.grouped = true;
+    desc.grouped = !info.plan.tiles;
     watchDepth(info, i, desc);
   }
   const size_t firstRecorded = recorded_.size();
   {
-    const PassGroup group = renderer_.beginGroup(info.frame, descs);
+    std::optional<PassGroup> group;
+    if (!info.plan.tiles) {
+      group.emplace(device_.barriers(), info.frame.commands, descs);
+    }
     for (size_t i = range.first; i < range.end; ++i) {
       const PlannedPass& planned = info.plan.passes[i];
       const PassDesc& desc = descs[i - range.first];
@@ -281,8 +326,12 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
       pass.name = desc.name;
       pass.depth = planned.depth;
       pass.areaPx = planned.areaPx;
-      drawScene(info, i, desc, std::move(pass));
+      drawTiles(info, i, desc, pass);
     }
+  }
+  // Once its first tile is drawn: no image is acquired before its last one.
+  if (tiles.first > 0) {
+    return;
   }
   for (size_t i = range.first; i < range.end; ++i) {
     const size_t k = i - range.first;
@@ -295,12 +344,13 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
 void SceneRenderer::recordMain(const FrameInfo& info) {
   const PlannedPass& main = info.plan.main;
   const size_t index = info.plan.passes.size();
-  if (!info.plan.mainReused) {
+  const TileRange tiles = tilesOf(info.plan, index);
+  if (!info.plan.mainReused && !tiles.empty()) {
     const PassDesc whole = fullPass("main view", main_->targets());
     PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment);
     desc.storeSamples = main_->desc().readSamples;
     watchDepth(info, index, desc);
-    drawScene(info, index, desc, {{.kind = PassKind::main}, desc.name, -1, 0, main.areaPx});
+    drawTiles(info, index, desc, {{.kind = PassKind::main}, desc.name, -1, 0, main.areaPx});
     finishDepth(info, index);
     checkTarget(info, recorded_.back(), *main_, main_->extent());
     mirrorTargets_.releaseShown(info.plan, main);
@@ -320,9 +370,13 @@ void SceneRenderer::recordSum(const FrameInfo& info) {
 
 void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug) {
   const int pictures = accumulated();
-  recorded_.push_back(display_.record(info.frame,
-                                      {.descriptor = pictures > 0 ? accumulation_.descriptor() : main_->descriptor()},
-                                      main_->extent(), info.settings, std::max(pictures, 1)));
+  const RecordedPass display =
+      display_.record(info.frame, {.descriptor = pictures > 0 ? accumulation_.descriptor() : shownMain().descriptor()},
+                      shownMain().extent(), info.settings, std::max(pictures, 1));
+  if (unfinished_) {
+    return;
+  }
+  recorded_.push_back(display);
   if (!debug) {
     return;
   }
@@ -358,9 +412,23 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   mainImage_ = {info.settings, plan.mainContent};
   mirrorTargets_.end(plan, retired);
   cacheRevision_ = renderer_.pipelines().revision();
-  environmentTargets_.endFrame(plan, retired);
-  shadowSystem_.endFrame(plan, retired);
   recordedFrames_[info.frame.number % recordedFrames_.size()] = {info.frame.number, recorded_};
+}
+
+// Counts the draws of the first tile only: the others repeat them.
+void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass) {
+  const auto [width, height] = desc.renderArea.extent;
+  const TileRange tiles = tilesOf(info.plan, index);
+  for (const PixelRect& rect : tileRects(static_cast<int>(width), static_cast<int>(height), tiles)) {
+    PassDesc part = desc;
+    part.renderArea = part.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
+    const EffectLedger ledger = ledger_;
+    drawScene(info, index, part, pass);
+    if (rect.x > 0 || rect.y > 0) {
+      recorded_.pop_back();
+      ledger_ = ledger;
+    }
+  }
 }
 
 void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass) {
@@ -460,8 +528,8 @@ LinearImage SceneRenderer::radiance() {
   renderer_.waitIdle();
   const int pictures = accumulated();
   const std::vector<float> texels =
-      renderer_.uploader().readFloats(pictures > 0 ? accumulation_.sum() : main_->color());
-  const VkExtent2D extent = main_->color().extent();
+      renderer_.uploader().readFloats(pictures > 0 ? accumulation_.sum() : shownMain().color());
+  const VkExtent2D extent = shownMain().color().extent();
   LinearImage image(static_cast<int>(extent.width), static_cast<int>(extent.height));
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};

@@ -43,7 +43,8 @@ class SceneRenderer {
   // view.accumulate above 1, adds the picture to the mean (see Accumulation) and, if `shown`, shows the mean.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt, bool shown = true);
-  // Pictures in the mean that the last recorded frame shows; 0 without one.
+  // Pictures in the mean that the last recorded frame shows; 0 without one. Until plan.tiles reach the end of a
+  // picture, its frames show what was there before, the mean of the pictures before it or else the main view.
   int accumulated() const { return accumulation_.pictures(); }
 
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
@@ -70,6 +71,9 @@ class SceneRenderer {
   void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan,
                       const std::optional<DebugView>& debug);
   void prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
+  void releaseEarlierMain(RetireQueue& retired);
+  // Main view that the display pass shows.
+  OffScreen& shownMain() { return earlierMain_ ? *earlierMain_ : *main_; }
   void recordMaps(const FrameInfo& info);
   void recordMap(const FrameInfo& info, size_t map, size_t firstFace);
   void recordShadows(const FrameInfo& info);
@@ -81,6 +85,8 @@ class SceneRenderer {
   void endRecord(const FrameInfo& info, bool textured);
   void finishLedger(const FrameInfo& info);
 
+  // Draws the frame's tiles of a mirror pass or the main view.
+  void drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass);
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
   void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
   // Keep the depth of the pass that the debug view shows. Call watchDepth() before the pass, finishDepth() after it.
@@ -107,7 +113,10 @@ class SceneRenderer {
   std::unique_ptr<WatchedDepth> watchedDepth_;
   TexelProbe probe_;
   std::unique_ptr<OffScreen> main_;
-  glm::ivec2 pictureSize_{0};  // of the last recorded frame
+  std::unique_ptr<OffScreen> earlierMain_;  // shown while tiles of main_ are drawn; null if main_ is
+  std::vector<PassTargets> passTargets_;    // of the mirror passes drawn last; their next tiles may follow
+  bool unfinished_ = false;                 // the last frame drew tiles, and not the last ones of its picture
+  glm::ivec2 pictureSize_{0};               // of the last recorded frame
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
   MainImage mainImage_;         // content is empty if the main view must not be reused

@@ -66,6 +66,7 @@ std::span<const ShortcutGroup> shortcutGroups() {
          repeated(withControl(plain("Ctrl+Z", "Undo", Key::z, Undo{}))),
          repeated(withControl(withShift(plain("Ctrl+Shift+Z", "Redo", Key::z, Redo{})))),
          repeated(withControl(plain("Ctrl+Y", "Redo", Key::y, Redo{}))),
+         withControl(plain("Ctrl+N", "New scene", Key::n, NewScene{})),
          withControl(plain("Ctrl+O", "Open", Key::o, AskWhatToOpen{})),
          withControl(plain("Ctrl+S", "Save", Key::s, Save{})),
          withControl(withShift(plain("Ctrl+Shift+S", "Save as", Key::s, AskWhereToSave{})))}},

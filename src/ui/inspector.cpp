@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "ui/mirror_cost.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -153,6 +154,8 @@ void selectedNode(PanelContext& ui) {
     ImGui::SameLine();
     commandButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
                   LookFromMirror{MirrorSide::back});
+    ImGui::TextDisabled("%s", mirrorCost(ui.view.frame, edit.selected.index).c_str());
+    recordWidget(ui, "edit.mirror_cost", "Cost of its images in the last frame, also of those seen in other mirrors.");
   }
   gizmoMode(ui);
   ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());

@@ -20,6 +20,7 @@ void item(PanelContext& ui, const char* label, Command command, bool enabled = t
 }
 
 void fileMenu(PanelContext& ui) {
+  item(ui, "New", NewScene{});
   item(ui, "Open...", AskWhatToOpen{});
   const std::vector<std::filesystem::path>& recent = ui.view.browser.recent;
   if (menu(ui, "Open recent", !recent.empty())) {

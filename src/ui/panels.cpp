@@ -92,7 +92,10 @@ std::string measuredHere(const FrameView& frame, std::string_view key) {
 }  // namespace
 
 void describe(PanelContext& ui, std::string_view key) {
-  recordWidget(ui, key, settingHelp(key) + measuredHere(ui.view.frame, key));
+  const AccuracyView& accuracy = ui.view.accuracy;
+  const auto price = accuracy.prices.find(key);
+  const bool priced = price != accuracy.prices.end() && !accuracy.otherView;
+  recordWidget(ui, key, settingHelp(key) + measuredHere(ui.view.frame, key) + (priced ? price->second : ""));
   const Settings& ofScene = ui.view.settings.ofScene;
   const SettingField& field = *findSettingField(key);
   if (sameSetting(field, ui.settings, ofScene)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -175,12 +176,13 @@ struct PointView {
 
 struct AccuracyView {
   std::vector<PointView> points;
-  std::vector<int> front;    // indices into points, cheapest first
-  int current = -1;          // the point that the settings are at; -1: none
-  double noiseFloor = 0.0;   // mean FLIP
-  std::string about;         // what was measured, where
-  bool otherView = false;    // the camera or the time is another now
-  double secondsLeft = 0.0;  // of the stage that runs; 0: not known
+  std::map<std::string, std::string, std::less<>> prices;  // by setting: its measured values with time and error
+  std::vector<int> front;                                  // indices into points, cheapest first
+  int current = -1;                                        // the point that the settings are at; -1: none
+  double noiseFloor = 0.0;                                 // mean FLIP
+  std::string about;                                       // what was measured, where
+  bool otherView = false;                                  // the camera or the time is another now
+  double secondsLeft = 0.0;                                // of the stage that runs; 0: not known
   bool measuring = false;
   std::string stage;       // of the measurement that runs
   double progress = 0.0;   // of the stage, 0 .. 1

@@ -1,0 +1,48 @@
+#include "app/slow_picture.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "frame/picture_tiles.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double caution = 4.0;  // a tile that was never drawn may take that much longer than expected
+
+}  // namespace
+
+void SlowPicture::begin(FittedPlan plan, double ms) {
+  plan_ = std::move(plan);
+  tiles_ = {};
+  totalMs_ = 0.0;
+  if (const size_t count = tileCount(plan_.plan); tileMs_.size() != count) {
+    tileMs_.assign(count, caution * ms / static_cast<double>(count));
+    dearestMs_ = 0.0;
+    measured_ = 0;
+  }
+}
+
+FittedPlan SlowPicture::next(double ms) {
+  tiles_ = {tiles_.end, tiles_.end + 1};
+  for (double sum = tileMs_[tiles_.first]; tiles_.end < tileMs_.size(); ++tiles_.end) {
+    sum += tileMs_[tiles_.end];
+    if (sum > ms) {
+      break;
+    }
+  }
+  plan_.plan.tiles = tiles_;
+  return plan_;
+}
+
+void SlowPicture::took(double ms) {
+  totalMs_ += ms;
+  const double tileMs = ms / static_cast<double>(tiles_.end - tiles_.first);
+  std::fill(tileMs_.data() + tiles_.first, tileMs_.data() + tiles_.end, tileMs);
+  measured_ = std::max(measured_, tiles_.end);
+  dearestMs_ = std::max(dearestMs_, tileMs);
+  std::fill(tileMs_.data() + measured_, tileMs_.data() + tileMs_.size(), std::max(tileMs, dearestMs_ / caution));
+}
+
+}  // namespace speculum

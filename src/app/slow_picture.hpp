@@ -1,0 +1,31 @@
+#pragma once
+
+#include "frame/memory_fit.hpp"
+
+namespace speculum {
+
+// A still picture that takes longer than a window may wait: several frames draw it, a few tiles each. Learns the time
+// of each tile, for the next pictures of the same view.
+class SlowPicture {
+ public:
+  // Begins a picture that is expected to take `ms`. Times of tiles stay if the plan has as many tiles as the last one.
+  void begin(FittedPlan plan, double ms);
+  // Returns the plan with the next tiles, at least one, that are expected to take `ms` together.
+  FittedPlan next(double ms);
+  // Call with the time of the frame that drew them.
+  void took(double ms);
+
+  bool finished() const { return tiles_.end == tileMs_.size(); }  // all tiles are planned
+  double share() const { return static_cast<double>(tiles_.end) / static_cast<double>(tileMs_.size()); }
+  double totalMs() const { return totalMs_; }
+
+ private:
+  FittedPlan plan_;
+  std::vector<double> tileMs_;
+  TileRange tiles_;         // of the last next()
+  size_t measured_ = 0;     // tiles, from the first on, whose times were measured
+  double dearestMs_ = 0.0;  // of these
+  double totalMs_ = 0.0;    // of the picture's frames
+};
+
+}  // namespace speculum

@@ -1,0 +1,70 @@
+#include "frame/picture_tiles.hpp"
+
+#include <algorithm>
+
+namespace speculum {
+
+namespace {
+
+int tilesAlong(int texels) {
+  return (texels + tileSide - 1) / tileSide;
+}
+
+size_t tilesIn(const PixelRect& rect) {
+  return static_cast<size_t>(tilesAlong(rect.width)) * static_cast<size_t>(tilesAlong(rect.height));
+}
+
+const PixelRect& rectOf(const FramePlan& plan, size_t pass) {
+  return (pass < plan.passes.size() ? plan.passes[pass] : plan.main).view.rect;
+}
+
+}  // namespace
+
+size_t tileCount(const FramePlan& plan) {
+  size_t count = 0;
+  for (size_t pass = 0; pass <= plan.passes.size(); ++pass) {
+    count += tilesIn(rectOf(plan, pass));
+  }
+  return count;
+}
+
+TileRange tilesOf(const FramePlan& plan, size_t pass) {
+  const size_t count = tilesIn(rectOf(plan, pass));
+  if (!plan.tiles) {
+    return {0, count};
+  }
+  size_t before = 0;
+  for (size_t i = 0; i < pass; ++i) {
+    before += tilesIn(rectOf(plan, i));
+  }
+  const auto within = [&](size_t tile) { return std::clamp(tile, before, before + count) - before; };
+  return {within(plan.tiles->first), within(plan.tiles->end)};
+}
+
+std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles) {
+  std::vector<PixelRect> rects;
+  const auto columns = static_cast<size_t>(tilesAlong(width));
+  for (size_t tile = tiles.first; tile < tiles.end;) {
+    const size_t row = tile / columns;
+    const size_t column = tile % columns;
+    const size_t wholeRows = column == 0 ? (tiles.end - tile) / columns : 0;
+    const size_t across = wholeRows > 0 ? columns : std::min(columns - column, tiles.end - tile);
+    const size_t down = std::max<size_t>(wholeRows, 1);
+    const int x = static_cast<int>(column) * tileSide;
+    const int y = static_cast<int>(row) * tileSide;
+    rects.push_back({x, y, std::min(static_cast<int>(across) * tileSide, width - x),
+                     std::min(static_cast<int>(down) * tileSide, height - y)});
+    tile += across * down;
+  }
+  return rects;
+}
+
+bool beginsPicture(const FramePlan& plan) {
+  return !plan.tiles || plan.tiles->first == 0;
+}
+
+bool endsPicture(const FramePlan& plan) {
+  return !plan.tiles || plan.tiles->end >= tileCount(plan);
+}
+
+}  // namespace speculum

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "frame/frame_plan.hpp"
+
+namespace speculum {
+
+// Side in texels of the tiles of a picture that several frames draw. Lavapipe rasterizes in tiles of this size, so that
+// even there a pass that is drawn in parts has the same bytes.
+inline constexpr int tileSide = 64;
+
+// Returns the number of tiles of all passes of mirrors, in the order of recording, and of the main view after them.
+size_t tileCount(const FramePlan& plan);
+// Returns the tiles that this frame draws of passes[pass], or of the main view if `pass` is passes.size(), counted
+// within the pass.
+TileRange tilesOf(const FramePlan& plan, size_t pass);
+// Returns few rectangles that together are these tiles of an image, which are counted row by row.
+std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
+// Say whether this frame draws the first tile of its picture, and the last one.
+bool beginsPicture(const FramePlan& plan);
+bool endsPicture(const FramePlan& plan);
+
+}  // namespace speculum
