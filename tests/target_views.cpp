@@ -99,7 +99,7 @@ TEST_P(TargetView, ProbeReadsATexelExactly) {
     const TexelValue color = probed(session, debug);
     EXPECT_EQ(color.texel, texel);
     EXPECT_FALSE(color.depth);
-    const auto& radiance =
+    const auto radiance =
         session.sceneRenderer().radiance().pixels[static_cast<size_t>(texel.y) * size.width + texel.x];
     EXPECT_EQ(glm::vec3(color.value), glm::vec3(radiance[0], radiance[1], radiance[2]));
   }
