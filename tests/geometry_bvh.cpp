@@ -1,4 +1,8 @@
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <gtest/gtest.h>
 
 #include <random>
@@ -48,8 +52,6 @@ class EmbreeMesh {
 
   // -1: no hit
   int64_t closest(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit query{};
     query.ray.org_x = static_cast<float>(ray.origin.x);
     query.ray.org_y = static_cast<float>(ray.origin.y);
@@ -60,7 +62,13 @@ class EmbreeMesh {
     query.ray.tfar = std::numeric_limits<float>::infinity();
     query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene_, &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
     rtcIntersect1(scene_, &context, &query);
+#endif
     return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1 : int64_t{query.hit.primID};
   }
 

@@ -139,7 +139,7 @@ class PanelTest : public testing::Test {
     ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
     run(2);
   }
-  void tap(ImGuiKey_ key) {
+  void tap(ImGuiKey key) {
     for (const bool down : {true, false}) {
 #if IMGUI_VERSION_NUM < 18700
       ImGui::GetIO().KeysDown[key] = down;

@@ -208,6 +208,10 @@ picture = 'same.png'
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(result.output.find("2 cases: 1 failed, 1 updated"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("writes this picture"), std::string::npos) << result.output;
+  const std::string written = readText(folder_ / "same.png");
+  EXPECT_EQ(regress({"--filter", "*0.25", "--update"}).exitCode, 1);
+  EXPECT_EQ(readText(folder_ / "same.png"), written) << "the case that writes it is not drawn";
+  EXPECT_EQ(readText(folder_ / "out/index.html").find(R"("--update"],"device)"), std::string::npos);
 }
 
 TEST_F(RegressCommand, MistakesExitTwo) {

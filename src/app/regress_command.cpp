@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <thread>
 
 #include "app/case_drawer.hpp"
@@ -32,8 +31,7 @@ bool matches(const std::string& glob, const std::string& name) {
   return ::fnmatch(glob.c_str(), name.c_str(), 0) == 0;
 }
 
-std::vector<RegressCase> selectedCases(const Options& options) {
-  std::vector<RegressCase> cases = readCases(options.cases);
+std::vector<RegressCase> selectedCases(std::vector<RegressCase> cases, const Options& options) {
   const auto requireMatch = [&](const std::string& option, const std::string& glob) {
     if (std::none_of(cases.begin(), cases.end(), [&](const RegressCase& one) { return matches(glob, one.name); })) {
       throw UsageError(fmt::format("{}: no case of {} has a name like '{}' (* stands for any text)", option,
@@ -118,6 +116,18 @@ Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject, int repe
   return outcome;
 }
 
+// Of cases that share a picture only the first of the file may write it, whichever of them this run draws.
+void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& subject, Outcome& outcome) {
+  const auto writer = std::ranges::find_if(cases, [&](const RegressCase& one) {
+    const ExpectedCase expected = expectedOf(one, outcome.driver);
+    return expected.result != ExpectedResult::skip && expected.subject.picture == outcome.picture;
+  });
+  if (outcome.replaceable && writer->name != subject.name) {
+    outcome.replaceable = false;
+    outcome.message += fmt::format("; case '{}' writes this picture", writer->name);
+  }
+}
+
 // Replaces the expected picture with the one just drawn.
 void accept(const CaseFiles& files, Outcome& outcome) {
   const std::filesystem::path picture = outcome.picture;
@@ -128,21 +138,12 @@ void accept(const CaseFiles& files, Outcome& outcome) {
   outcome.message = "wrote " + picture.string();
 }
 
-// Replaces the expected pictures of failed cases whose names match. Of cases that share a picture the first writes it.
+// Replaces the expected pictures of failed cases whose names match.
 void acceptAll(const Options& options, RegressRun& run) {
-  std::map<std::filesystem::path, std::string> writers;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
     const std::string& name = run.cases[i].name;
-    if (outcome.picture.empty() || outcome.verdict == Verdict::skipped || outcome.verdict == Verdict::error) {
-      continue;
-    }
-    const auto [writer, first] = writers.emplace(outcome.picture, name);
     if (!outcome.replaceable || !matches(*options.update, name)) {
-      continue;
-    }
-    if (!first) {
-      outcome.message += fmt::format("; not written: case '{}' writes this picture", writer->second);
       continue;
     }
     try {
@@ -181,8 +182,9 @@ void printOutcomes(const RegressRun& run, const std::filesystem::path& page) {
 }  // namespace
 
 int runRegress(const Options& options) {
+  const std::vector<RegressCase> cases = readCases(options.cases);
   RegressRun run{.file = options.cases,
-                 .cases = selectedCases(options),
+                 .cases = selectedCases(cases, options),
                  .command = {"speculum"},
                  .version = versionString,
                  .date = utcNow()};
@@ -221,6 +223,7 @@ int runRegress(const Options& options) {
       try {
         outcome = outcomeOf(reply, subject, options.repeat);
         withoutDevice += reply.end == JobEnd::answered && outcome.device.empty();
+        requireWriter(cases, subject, outcome);
       } catch (const std::exception& error) {
         outcome.verdict = Verdict::error;
         outcome.message = error.what();

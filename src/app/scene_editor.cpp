@@ -203,9 +203,9 @@ void SceneEditor::replace(const std::string& verb, std::span<const PlacedNode> n
     selections.push_back(node.first);
   }
   document_.change(verb + " " + describe(document_.scene(), selections), selections.front(), [&](Scene& scene) {
-    for (const auto& [selection, node] : nodes) {
-      withNodes(scene, selection.kind, [&](auto& nodes, const auto&) {
-        nodes.at(selection.index) = std::get<typename std::decay_t<decltype(nodes)>::value_type>(node);
+    for (const PlacedNode& placed : nodes) {
+      withNodes(scene, placed.first.kind, [&](auto& nodes, const auto&) {
+        nodes.at(placed.first.index) = std::get<typename std::decay_t<decltype(nodes)>::value_type>(placed.second);
       });
     }
   });

@@ -422,7 +422,7 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
   const auto largestDepth = [&](int plane) {
     double largest = 0.0;
     for (const MirrorDraw& draw : pass.mirrors) {
-      if (state.mirrors[draw.mirror].plane == plane) {
+      if (source.state.mirrors[draw.mirror].plane == plane) {
         for (const glm::dvec4& v : clipPolygon(draw)) {
           largest = std::max(largest, v.z / v.w);
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "frame/scene_names.hpp"
 #include "geometry/mesh_levels.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/shadow_system.hpp"
@@ -131,7 +132,7 @@ uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& in
     const bool whole = batch.level < 0;
     bindBuffers(commands, whole ? mesh.vertices : mesh.levelVertices, whole ? mesh.indices : mesh.levelIndices,
                 info.data);
-    scope.beginLabel(variant.curved ? "curved mirrors" : "objects");
+    scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
     for (size_t p = 0; p < mesh.parts.size(); ++p) {
       const SceneResources::Part& part = mesh.parts[p];
       const bool textured = part.texture >= 0 && info.settings.effects.textures;

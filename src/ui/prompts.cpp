@@ -17,9 +17,15 @@ bool beginPrompt(const char* title) {
   return ImGui::BeginPopupModal(title, nullptr, flags);
 }
 
+#if IMGUI_VERSION_NUM < 18700
+constexpr ImGuiKey keypadEnter = ImGuiKey_KeyPadEnter;
+#else
+constexpr ImGuiKey keypadEnter = ImGuiKey_KeypadEnter;
+#endif
+
 bool enterPressed() {
   const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
-  return !ImGui::IsWindowAppearing() && (pressed(ImGuiKey_Enter) || pressed(ImGuiKey_KeyPadEnter));
+  return !ImGui::IsWindowAppearing() && (pressed(ImGuiKey_Enter) || pressed(keypadEnter));
 }
 
 void answerButton(PanelContext& ui, const char* label, std::string_view key, Command command) {

@@ -176,11 +176,14 @@ void SimpleUI::initVulkan() {
   info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
   const VkRenderPass renderPass = renderer_.overlayRenderPass();
   backend_->vulkan = true;  // from here on there is something to shut down, even if it fails
-#if IMGUI_VERSION_NUM >= 19000
+#if IMGUI_VERSION_NUM >= 19030
   info.RenderPass = renderPass;
   ImGui_ImplVulkan_Init(&info);
 #else
   ImGui_ImplVulkan_Init(&info, renderPass);
+#endif
+#if IMGUI_VERSION_NUM < 19000
+  // Later backends upload the fonts themselves.
   renderer_.uploader().run([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
   ImGui_ImplVulkan_DestroyFontUploadObjects();
 #endif
