@@ -34,7 +34,7 @@ std::string lastLine(std::string text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
-// Median milliseconds of a run, by key. Nothing after Ctrl-C.
+// Runs the command and returns its median milliseconds, by key; nothing after Ctrl-C.
 std::optional<std::map<std::string, double>> measured(const std::vector<std::string>& command,
                                                       const std::filesystem::path& json) {
   const ProcessResult result = runProcess(command);
@@ -83,8 +83,8 @@ int benchAgainst(const Options& options) {
   Progress progress("bench", 2 * rounds);
   for (int round = 0; round < rounds; ++round) {
     std::array<std::map<std::string, double>, 2> times;
-    // The order changes, because a machine that warms up or slows down would favour one of them. The other one is
-    // first, because it is the one that may not run at all.
+    // The order changes with each round, because a machine that warms up or slows down would favour one of them. The
+    // other program is first at the beginning, because it may not run at all.
     for (const size_t side : round % 2 == 0 ? std::array<size_t, 2>{1, 0} : std::array<size_t, 2>{0, 1}) {
       const auto medians = measured(side == 0 ? own : other, json);
       if (!medians) {
@@ -262,7 +262,7 @@ int runBench(const Options& options) {
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
   if (!isSet(options, "reflection.skip_unchanged")) {
-    // All frames have the same time, so that none after the first would render a mirror.
+    // All frames have the same time, so with reuse only the first would render mirror images.
     Settings settings = session.settings();
     settings.reflection.skipUnchanged = false;
     session.setSettings(settings);

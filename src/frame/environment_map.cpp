@@ -10,8 +10,9 @@ namespace speculum {
 
 namespace {
 
-// Returns the box that surrounds boxes[own]. Each side lies at the near face of the farthest box there, such as a wall,
-// or at the far face of a box that encloses the object, such as a room. Without either it lies at the end of the scene.
+// Returns the box that surrounds boxes[own]. Each side lies at the near face of the farthest box on that side, such as
+// a wall, or at the far face of a box that encloses the object, such as a room; without either, at the end of the
+// scene.
 Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
   const Bounds& inner = boxes[own];
   Bounds all = inner;

@@ -81,7 +81,7 @@ GLFWmonitor* monitorAt(int x, int y) {
   throw std::runtime_error(what + (description ? std::string(": ") + description : "") + " (" + remedy + ")");
 }
 
-constexpr int grip = 48;  // pixels of a window, each way, by which it can be moved
+constexpr int grip = 48;  // width and height in pixels of a window's visible part by which a user can move it
 
 int overlap(int a, int aSize, int b, int bSize) {
   return std::min(a + aSize, b + bSize) - std::max(a, b);

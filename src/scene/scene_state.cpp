@@ -112,7 +112,7 @@ bool inOnePlane(const Placed& a, const Placed& b) {
   return std::ranges::all_of(b.state->polygon, [&](const auto& p) { return std::abs(plane.distance(p)) <= slack; });
 }
 
-// Says whether the line of an edge of `a` has all of `b` outside it.
+// Says whether the line through an edge of `a` separates `b` from `a`, except for `slack` metres.
 bool edgeSeparates(const Placed& a, const Placed& b, double slack) {
   const std::vector<glm::dvec3>& polygon = a.state->polygon;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -147,8 +147,8 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
   }
 }
 
-// Sets plane and layers of all mirrors, whose layers are 0 before. Mirrors count as being in one plane if rounding
-// explains how far they are apart.
+// Sets plane and layers of all mirrors; the layers must be 0 before. Mirrors count as lying in one plane if they are no
+// farther apart than rounding can put them.
 void findLayers(std::span<const Mirror> mirrors, std::span<MirrorState> states) {
   std::vector<std::vector<Placed>> planes;
   for (size_t i = 0; i < states.size(); ++i) {
