@@ -85,11 +85,10 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   view_.validationMessages = device.validation() ? device.validationMessages() : -1;
   view_.target.value = texelOf(sceneRenderer.probed(), frame.plan);
   updateTimes(frame, timings);
-  if (!endsPicture(frame.plan)) {
-    return updateSkipped(frame, hoveredSkipped);
+  if (endsPicture(frame.plan)) {
+    updatePasses(frame, timings, sceneRenderer.passes(), sceneRenderer.passesOf(timings.frame));
+    updateEffects(frame, sceneRenderer.ledger());
   }
-  updatePasses(frame, timings, sceneRenderer.passes(), sceneRenderer.passesOf(timings.frame));
-  updateEffects(frame, sceneRenderer.ledger());
   updateOutline(frame, hoveredPath);
   updateSkipped(frame);
 }
