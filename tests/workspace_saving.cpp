@@ -166,8 +166,10 @@ TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
 
 // Changes made while a scene is loading bring up the prompt once it is loaded.
 TEST_F(Saving, ChangesDuringLoadingAreAskedAbout) {
-  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
-  removeBall();
+  // No frame takes the scene before the change.
+  workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  workspace_->apply(SelectNode{ball});
+  workspace_->apply(RemoveSelected{});
   waitFor([&] { return edit().prompt == Prompt::unsavedChanges; });
   EXPECT_EQ(shownScene(), "workspace");
   send(CancelPrompt{});
