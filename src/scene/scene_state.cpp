@@ -128,7 +128,8 @@ bool edgeSeparates(const Placed& a, const Placed& b, double slack) {
 
 bool overlap(const Placed& a, const Placed& b) {
   const double slack = std::max(a.slack, b.slack);
-  return glm::distance(a.center, b.center) < a.radius + b.radius && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
+  return glm::distance(a.center, b.center) < a.radius + b.radius && !edgeSeparates(a, b, slack) &&
+         !edgeSeparates(b, a, slack);
 }
 
 // Sets the layers of the mirrors of one plane for an eye on one side of it.
