@@ -14,7 +14,7 @@ namespace {
 
 template <typename Done>
 bool waitFor(const Done& done) {
-  for (int i = 0; i < 1000 && !done(); ++i) {
+  for (int i = 0; i < 12000 && !done(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return done();

@@ -122,8 +122,9 @@ Options without(Options options, const std::string& effect) {
   return options;
 }
 
-// Frames after which everything idle is released.
+// Frames after which everything idle is released, and those after which targets are.
 constexpr int untilIdle = 130;
+constexpr int untilTargetsAreFreed = 40;
 
 struct Drawn {
   std::map<std::string, int> alive;  // objects after the frames
@@ -203,35 +204,23 @@ TEST_P(Ledger, CalledEffectIsListedAndReleased) {
   EXPECT_EQ(after.released(before), before.alive);
   EXPECT_EQ(after.draws, before.draws);
   EXPECT_EQ(after.picture, before.picture);
-}
-
-// The camera looks away, at what calls for the effect, and away again. Afterwards the effect has no draws, bytes or
-// pipelines, and there are no more objects than if it had been left out all the time.
-TEST_P(Ledger, TurningAwayReleasesTheEffect) {
-  const std::filesystem::path file = sceneWith(effect_ + "_turned_away", GetParam().called);
+  // The camera looks away, at what calls for the effect, and away again.
   const CameraPose away = lookAt({0, 1, 3}, {0, 1, 9}, {0, 1, 0}, 60, 0.001);
-  const auto alive = [&](const Options& options) {
-    counts = {};
-    QuietSession session(options);
-    const auto picture = [&](const std::optional<CameraPose>& camera, int frames) {
-      session.setCamera(camera);
-      return drawFrames(session, frames).picture;
-    };
-    const std::vector<uint8_t> empty = picture(away, 3);
-    EXPECT_NE(picture(std::nullopt, 1), empty);
-    EXPECT_EQ(picture(away, untilIdle), empty);
-    const nlohmann::ordered_json line = effectStats(session, effect_);
-    EXPECT_EQ(line.at("called_for"), false) << line;
-    for (const char* cost : {"draws", "bytes", "pipelines"}) {
-      EXPECT_EQ(line.at(cost), 0) << line;
-    }
-    return counts.alive;
-  };
-  const std::map<std::string, int> with = alive(optionsFor(file));
-  const std::map<std::string, int> never = alive(without(optionsFor(file), effect_));
-  EXPECT_EQ(with.at("Buffer"), never.at("Buffer"));
-  EXPECT_EQ(with.at("Image"), never.at("Image"));
-  EXPECT_LE(with.at("Pipeline"), never.at("Pipeline"));
+  session.setCamera(away);
+  const Drawn empty = drawFrames(session, untilTargetsAreFreed);
+  session.setCamera(std::nullopt);
+  EXPECT_EQ(drawWith(session, effect_, true, 1).picture, during.picture);
+  session.setCamera(away);
+  const Drawn turned = drawFrames(session, untilIdle);
+  EXPECT_EQ(turned.picture, empty.picture);
+  const nlohmann::ordered_json unseen = effectStats(session, effect_);
+  EXPECT_EQ(unseen.at("called_for"), false) << unseen;
+  for (const char* cost : {"draws", "bytes", "pipelines"}) {
+    EXPECT_EQ(unseen.at(cost), 0) << unseen;
+  }
+  EXPECT_EQ(turned.alive.at("Buffer"), empty.alive.at("Buffer"));
+  EXPECT_EQ(turned.alive.at("Image"), empty.alive.at("Image"));
+  EXPECT_LE(turned.alive.at("Pipeline"), empty.alive.at("Pipeline"));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -205,22 +205,6 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   EXPECT_TRUE(readImage8(*recording / "00001.png").rgba == bare.rgba) << "the message is in no picture";
 }
 
-TEST_F(Journey, CopiedCommandDrawsTheSamePicture) {
-  press("space");
-  dragFrom(width - 100, 80, -80, 30);
-  setSetting("view.exposure", "0.5");
-  demo_->apply(SelectNode{{Selection::Kind::object, 0}});
-  demo_->apply(RemoveSelected{});
-  demo_->apply(StepTime{6});
-  const Image8 shown = barePicture();
-  click("copy");
-  const std::string command = demo_->window().clipboard();
-  const ProcessResult result = runProcess(
-      {"bash", "-c", "cd '" + home_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
-  ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
-  EXPECT_TRUE(readImage8(home_.path() / "journey.png").rgba == shown.rgba) << command;
-}
-
 TEST_F(Journey, GalleryShowsAndLoadsScenes) {
   click("panel.Scenes");
   run(3);
@@ -252,7 +236,7 @@ TEST_F(Journey, GalleryShowsAndLoadsScenes) {
 
 TEST_F(Journey, TimesOfFramesAreComplete) {
   click("panel.Performance");
-  run(60);
+  run(40);
   const FrameHistory& history = view().frame.history;
   EXPECT_EQ(history.passNames(), (std::vector<std::string>{"mirror wall", "main view", "display", "overlay"}));
   const std::vector<float> gpu = history.series(FrameHistory::Figure::gpu);
@@ -262,7 +246,7 @@ TEST_F(Journey, TimesOfFramesAreComplete) {
     complete += gpu[i] > 0.0f && passes[i] > 0.0f && passes[i] < gpu[i] + 0.001f;
   }
   EXPECT_GE(complete, 2) << "a frame now and then";
-  EXPECT_LE(complete, 6) << "the others are not slowed";
+  EXPECT_LE(complete, 5) << "the others are not slowed";
   ASSERT_TRUE(view().frame.passes[0].resolution);
   EXPECT_GT(view().frame.passes[0].resolution->distance, 6.0) << "the light, seen in the mirror";
   press("Tab");

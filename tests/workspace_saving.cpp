@@ -185,8 +185,10 @@ TEST_F(Saving, NewSceneAsksLikeOpenAndIsSavedElsewhere) {
 }
 
 TEST_F(Saving, ChangesDuringLoadingAreAskedAbout) {
-  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
-  removeBall();
+  // No frame takes the scene before the change.
+  workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  workspace_->apply(SelectNode{ball});
+  workspace_->apply(RemoveSelected{});
   waitFor([&] { return edit().prompt == Prompt::unsavedChanges; });
   EXPECT_EQ(shownScene(), "workspace");
   send(CancelPrompt{});

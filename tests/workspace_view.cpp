@@ -404,9 +404,14 @@ TEST_F(Opening, LoadedSceneIsWorkUntilTaken) {
 }
 
 TEST_F(Opening, LoadingIsCancelled) {
+  std::string lines;
+  for (int i = 0; i < 1000; ++i) {
+    lines += "v 0 0 0\n";
+  }
+  // Takes a second to read, longer than until the next frame.
   std::ofstream large(home_.path() / "large.obj");
-  for (int i = 0; i < 400000; ++i) {
-    large << "v 0 0 0\n";
+  for (int i = 0; i < 2000; ++i) {
+    large << lines;
   }
   large << "v 1 0 0\nv 0 1 0\nf -3 -2 -1\n" << std::flush;
   send(OpenScene{home_.path() / "large.obj"});
