@@ -8,6 +8,8 @@
 #include "app/frame_pacer.hpp"
 #include "app/frame_report.hpp"
 #include "platform/gamepad.hpp"
+#include "scene/scene_loader.hpp"
+#include "temporary_folder.hpp"
 
 namespace speculum {
 namespace {
@@ -153,6 +155,26 @@ TEST(FrameReport, TilesOfAPictureAreOneFrame) {
   report.updateTimes({scene, state, settings, plan, number + 1, 1.0, 10.0}, {.frame = number, .gpuMs = 25.0});
   EXPECT_EQ(report.view().gpuMs, 4 * 25.0);
   EXPECT_EQ(report.view().cpuMs, 4 * 2.0);
+}
+
+// The mirror is larger than the picture, so that none of its own edges is in view.
+TEST(FrameReport, MirrorThatFillsThePictureIsOutlined) {
+  TemporaryFolder folder;
+  const Scene scene = loadScene(folder.write(
+      "fills.toml",
+      "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n[[mirror]]\nposition = [0, 0, 0]\nsize = [99, 99]\n"));
+  const SceneState state = evaluate(scene, 0.0);
+  const Settings settings;
+  FramePlan plan;
+  plan.width = 64;
+  plan.height = 32;
+  FrameReport report;
+  report.updateOutline({scene, state, settings, plan}, {0});
+  double length = 0.0;
+  for (const PixelLine& line : report.view().outline) {
+    length += glm::distance(line.a, line.b);
+  }
+  EXPECT_NEAR(length, 2.0 * (64 + 32), 1e-3);
 }
 
 TEST(FrameReport, EarlierTimesAreMarked) {

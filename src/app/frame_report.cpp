@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "edit/outline.hpp"
+#include "edit/picture_view.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame/picture_tiles.hpp"
 #include "frame/scene_names.hpp"
@@ -213,7 +213,7 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
   }
 }
 
-// Outlines a mirror where the view that draws it shows it.
+// Outlines the part of a mirror that the view that draws it shows: where the view ends, so does the outline.
 void FrameReport::updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered) {
   view_.outlinedPath.clear();
   view_.outline.clear();
@@ -224,7 +224,14 @@ void FrameReport::updateOutline(const RecordedFrame& frame, const std::vector<in
     const std::span<const int> before = std::span(hovered).first(hovered.size() - 1);
     if (const auto image = picture.through(frame.scene, frame.state, before)) {
       view_.outlinedPath = hovered;
-      view_.outline = outlineOf(frame.scene, frame.state, {Selection::Kind::mirror, hovered.back()}, *image, {});
+      const std::vector<glm::dvec3> part = visiblePart(image->view(), frame.state.mirrors[hovered.back()].polygon);
+      for (size_t i = 0; i < part.size(); ++i) {
+        const auto from = image->pixel(part[i]);
+        const auto to = image->pixel(part[(i + 1) % part.size()]);
+        if (from && to) {
+          view_.outline.push_back({*from, *to});
+        }
+      }
     }
   }
 }

@@ -22,8 +22,8 @@ struct RecordedFrame {
 class FrameReport {
  public:
   void clear();  // call when another scene is shown
-  // `hoveredPath`: of a mirror that is to be outlined. The GPU's figures are those of the last frame
-  // that has finished.
+  // `hoveredPath`: path of the mirror to outline; empty: none. The GPU's figures are those of the last frame that has
+  // finished.
   void update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
               const std::vector<int>& hoveredPath);
   // Describes the requested target, and returns how to draw it over the picture; nothing if the plan lacks its pass or
@@ -35,6 +35,7 @@ class FrameReport {
   void updateTimes(const RecordedFrame& frame, const FrameTimings& timings);
   void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> passes,
                     std::span<const RecordedPass> timed);
+  void updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered);
 
   FrameHistory& history() { return view_.history; }
   std::span<const SkippedMirror> skipped() const { return skipped_; }  // in the last frame
@@ -43,7 +44,6 @@ class FrameReport {
  private:
   bool drewScene(uint64_t frame) const;  // among the latest
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
-  void updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered);
   void updateSkipped(const RecordedFrame& frame);
   void addTiles(const RecordedFrame& frame, const FrameTimings& timings);
 
