@@ -115,6 +115,7 @@ TEST(GizmoDragging, AxisFollowsThePointer) {
 
 TEST(GizmoDragging, MirrorImageFollowsThePointer) {
   Scene scene;
+  scene.camera.target = {0, 0, -1};
   scene.mirrors.push_back({.position = {0, 0, -2}, .rotation = {0, 20, 0}, .size = {9, 9}});
   scene.mirrors.push_back({.position = {0, 0, 5}, .rotation = {0, 190, 0}, .size = {19, 9}});
   const SceneState state = evaluate(scene, 0.0);

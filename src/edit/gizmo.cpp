@@ -249,17 +249,21 @@ GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle
     normal_ = axis_;
     onScreen_ = std::abs(glm::dot(sight, axis_)) < flattestRing;
     screen_ = glm::dvec2(1.0, 0.0);
-    const double step = picture.metresPerPixel(pivot_);
-    const auto from = picture.pixel(pivot_);
-    const auto to = picture.pixel(pivot_ + step * glm::normalize(glm::cross(sight, axis_)));
-    if (from && to && *from != *to) {
-      screen_ = glm::normalize(*to - *from);
+    // A ring that is seen face on has no such direction.
+    if (onScreen_) {
+      const double step = picture.metresPerPixel(pivot_);
+      const auto from = picture.pixel(pivot_);
+      const auto to = picture.pixel(pivot_ + step * glm::normalize(glm::cross(sight, axis_)));
+      if (from && to && *from != *to) {
+        screen_ = glm::normalize(*to - *from);
+      }
     }
   } else if (isPlane(handle)) {
     normal_ = axis_;
   } else {
     // The plane through the axis that faces the eye most.
-    normal_ = glm::normalize(sight - axis_ * glm::dot(axis_, sight));
+    const glm::dvec3 across = sight - axis_ * glm::dot(axis_, sight);
+    normal_ = across == glm::dvec3(0.0) ? sight : glm::normalize(across);
   }
   start_ = meet(pixel).value_or(pivot_);
   lastAngle_ = angleAt(pixel).value_or(0.0);
