@@ -86,6 +86,12 @@ TEST(Accumulation, CountsAllPicturesInItsFigures) {
   runFrames(session);
   const DrawnFrame one = session.lastFrame();
   EXPECT_EQ(one.pictures, 1);
+  double oneMs = one.timings.gpuMs;  // the least of some, because other programs only ever add to it
+  for (int frame = 0; frame < 4; ++frame) {
+    session.restart();
+    runFrames(session);
+    oneMs = std::min(oneMs, session.lastFrame().timings.gpuMs);
+  }
   shown(session, 5);
   session.finish();
   const DrawnFrame& five = session.lastFrame();
@@ -101,7 +107,7 @@ TEST(Accumulation, CountsAllPicturesInItsFigures) {
                 0.05 * five.timings.passes[k].triangles + (displays ? 10 : 0));
   }
   EXPECT_EQ(five.passes[one.passes.size() - 1].draws, 5u) << "of the pass that adds";
-  EXPECT_GT(five.timings.gpuMs, 2.0 * one.timings.gpuMs);
+  EXPECT_GT(five.timings.gpuMs, 2.0 * oneMs);
 }
 
 // The mean hides a wrong value in one picture, so pictures are checked before they are summed.
@@ -136,7 +142,6 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
   session.renderer().endFrame(frame);
 }
 
-// Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
 // Draws picture `number` of a mean, `step` tiles in each frame; 0: all in one. Stops before tile `end`.
 void drawTiles(Session& session, int number, size_t step, size_t end = SIZE_MAX) {
   const SceneState state = evaluate(session.scene(), 1.0);
@@ -206,10 +211,11 @@ TEST(UnfinishedTiles, AreNotShownAndCanBeDropped) {
   EXPECT_TRUE(session.radiance().pixels == draft.pixels);
 }
 
+// Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {
     Options options = shipped("rough", 1);
-    options.size = {40, 23};
+    options.size = {32, 18};
     set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "16"}});
     QuietSession session(options);
     shown(session, 16);  // 256 rays a pixel
@@ -243,7 +249,7 @@ Convergence convergence(const std::string& scene) {
   set(options, {{"reflection.max_passes", "100000"},
                 {"reflection.min_pixels", "0"},
                 {"reflection.min_throughput", "0"},
-                {"reflection.max_depth", fullTests() ? "32" : "4"},
+                {"reflection.max_depth", fullTests() ? "32" : "2"},
                 {"effects.shadow_lookup", "traced"},
                 {"view.samples", "1"},
                 {"reflection.samples", "1"}});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "reuse_support.hpp"
 #include "sampling.hpp"
@@ -138,7 +139,7 @@ TEST_P(MovingCamera, ReprojectionIsCloserThanStaleImages) {
   int reprojected = 0;
   double error = 0.0;
   double staleError = 0.0;
-  for (int frame = 0; frame < 10; ++frame) {
+  for (int frame = 0; frame < 6; ++frame) {
     const LinearImage drawn = radiance(session, frame * frameSeconds);
     const LinearImage expected = radiance(fresh, frame * frameSeconds);
     if (mirrorPasses(session.sceneRenderer()) > 0) {
@@ -152,7 +153,7 @@ TEST_P(MovingCamera, ReprojectionIsCloserThanStaleImages) {
     staleError += rmse(stale, expected);
     EXPECT_LT(rmse(drawn, expected), 0.65 * rmse(stale, expected)) << "frame " << frame;
   }
-  EXPECT_EQ(reprojected, 6);
+  EXPECT_EQ(reprojected, 3);
   EXPECT_LT(error, 0.45 * staleError);
 }
 
@@ -201,7 +202,7 @@ TEST(CachedPictures, IntervalFourRendersAQuarterEachFrame) {
 
 std::vector<Image8> sequence(Session& session) {
   std::vector<Image8> pictures;
-  for (int frame = 0; frame < 7; ++frame) {
+  for (int frame = 0; frame < 5; ++frame) {
     pictures.push_back(picture(session, frame * frameSeconds));
   }
   return pictures;
@@ -266,9 +267,12 @@ TEST(CachedPictures, ChangedSettingsShowAtOnce) {
 TEST(CachedPictures, TimeMayPauseAndRunBackwards) {
   QuietSession session(withInterval(roomScene(), 4));
   QuietSession fresh(withInterval(roomScene(), 1));
+  std::map<int, LinearImage> expected;
+  for (const int frame : {-1, 0, 1, 2, 3}) {
+    expected[frame] = radiance(fresh, frame * frameSeconds);
+  }
   for (const int frame : {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -1, 0, 1}) {
-    const LinearImage drawn = radiance(session, frame * frameSeconds);
-    EXPECT_LT(rmse(drawn, radiance(fresh, frame * frameSeconds)), 0.02) << "at frame " << frame;
+    EXPECT_LT(rmse(radiance(session, frame * frameSeconds), expected[frame]), 0.02) << "at frame " << frame;
   }
 }
 

@@ -19,7 +19,7 @@ namespace {
 using namespace testing_support;
 
 constexpr PictureSize size{240, 136};
-constexpr PictureSize small{160, 90};
+constexpr PictureSize small{112, 63};
 
 // A room corner with two objects on a floor; `rest` adds lights and mirrors.
 std::filesystem::path corner(const std::string& name, const std::string& rest) {
@@ -254,7 +254,7 @@ TEST_P(RandomEffects, EqualTheRayTracer) {
   expectTruth(file, size, 3, trace(file, size, 3, 2.5), 2.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomEffects, testing::ValuesIn(sampledSeeds(25, 6)),
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomEffects, testing::ValuesIn(sampledSeeds(25, 7)),
                          testing::PrintToStringParamName());
 
 class RoughMirror : public testing::Test {
@@ -374,8 +374,8 @@ TEST(Effects, EffectsWithoutRaysCanBeSwitchedOff) {
   const std::string none = pot + light + "glow = 0\n" + wall + dim + panel("plain", "") + ball +
                            "mirror = { reflectance = [0.5, 0.6, 0.7] }\n";
   const std::filesystem::path expected = writeScene("switched_none", none);
-  QuietSession session(truthOptions(writeScene("switched_off", all), size, 3));
-  QuietSession plain(truthOptions(expected, size, 3));
+  QuietSession session(truthOptions(writeScene("switched_off", all), small, 3));
+  QuietSession plain(truthOptions(expected, small, 3));
   const auto drawn = [](Session& of, const std::string& key, const std::string& value) {
     set(of, {{key, value}});
     of.draw(0.0, true);

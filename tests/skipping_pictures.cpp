@@ -118,7 +118,7 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine);
   };
-  const int cuts = fullTests() ? 1000 : 30;
+  const int cuts = fullTests() ? 1000 : 20;
   int hidden = 0;
   size_t passes = 0;
   size_t passesOfAll = 0;
@@ -185,7 +185,7 @@ std::filesystem::path shapesScene(std::mt19937& engine) {
 
 TEST(Skipping, ShapesHideNothingThatIsSeen) {
   std::mt19937 engine(23);
-  const int scenes = fullTests() ? 3 : 2;
+  const int scenes = fullTests() ? 3 : 1;
   const int cuts = fullTests() ? 12 : 4;  // of each scene
   int hidden = 0;
   int hiddenInMirrors = 0;

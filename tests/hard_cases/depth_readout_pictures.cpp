@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "frame/depth_readout.hpp"
+#include "sampling.hpp"
 #include "scene_text.hpp"
 #include "studio.hpp"
 #include "truth_support.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{641, 361};
+const PictureSize size = fullTests() ? PictureSize{641, 361} : PictureSize{449, 253};
 constexpr std::array<std::pair<const char*, ClipMethod>, 3> methods = {
     {{"clip_distance", ClipMethod::clipDistance}, {"oblique", ClipMethod::oblique}, {"none", ClipMethod::none}}};
 
