@@ -450,7 +450,8 @@ TEST(Pace, SlowPicturesAreDrawnTileByTile) {
   chosen.quality.stillPictures = 16;
   chosen.view.samples = chosen.reflection.samples = 1;
   uint64_t number = 0;
-  double ms = 0.0;  // of the last frame
+  double ms = 0.0;  // of the last frame's tiles
+  double besidesMs = 0.0;
   const auto frame = [&](uint64_t revision, bool input = false) {
     pace.finished({.frame = number, .gpuMs = ms});
     pace.begin({}, false, 0.1);
@@ -472,16 +473,16 @@ TEST(Pace, SlowPicturesAreDrawnTileByTile) {
     for (size_t tile = tiles.first; tile < tiles.end; ++tile) {
       ms += tile % 500 < 50 ? 5.0 : 0.5;
     }
-    pace.drawn(++number, 0.0, false);
+    pace.drawn(++number, besidesMs, false);
     return fitted;
   };
   EXPECT_FALSE(frame(1).plan.tiles);
   EXPECT_EQ(pace.text().rfind("Draft: ", 0), 0u) << pace.text();
-  const auto wholePicture = [&](bool input) {
+  const auto wholePicture = [&](bool input, uint64_t revision = 1) {
     std::vector<double> times;
     TileRange before;
     do {
-      const FittedPlan fitted = frame(1, input);
+      const FittedPlan fitted = frame(revision, input);
       EXPECT_TRUE(fitted.plan.tiles && pace.drawsTiles());
       EXPECT_EQ(fitted.plan.tiles->first, before.end);
       EXPECT_TRUE(pace.wantsFrame());
@@ -503,6 +504,11 @@ TEST(Pace, SlowPicturesAreDrawnTileByTile) {
   EXPECT_FALSE(frame(2).plan.tiles) << "another picture is asked for";
   EXPECT_EQ(pace.text().rfind("Draft: ", 0), 0u) << pace.text();
   EXPECT_EQ(frame(2).plan.tiles->first, 0u);
+  EXPECT_NE(pace.text().find("; first picture "), std::string::npos) << "the draft is still shown: " << pace.text();
+  besidesMs = 3.0 * budget;
+  while (frame(2).plan.tiles->end < 2500) {
+  }
+  EXPECT_LE(wholePicture(false, 2).size(), 20u) << "a slow program does not leave one tile for each frame";
 }
 
 TEST(Pace, BudgetFollowsDeviceAndMonitor) {

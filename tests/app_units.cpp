@@ -148,6 +148,12 @@ TEST(FrameReport, TilesOfAPictureAreOneFrame) {
       report.updateTimes({scene, state, settings, plan, number + 1, 2.0, 30.0}, {.frame = number, .gpuMs = 25.0});
       ++number;
     }
+    if (picture == 0) {
+      plan.tiles = {0, 1};
+      FrameReport next = report;
+      next.updateTimes({scene, state, settings, plan, number + 1, 2.0, 30.0}, {.frame = number, .gpuMs = 25.0});
+      EXPECT_EQ(next.view().gpuMs, 4 * 25.0) << "known while the next picture is drawn";
+    }
   }
   EXPECT_EQ(report.view().history.frames(), 3u);
   plan.tiles.reset();

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ui/mirror_cost.hpp"
 #include "ui/pass_tree.hpp"
 
@@ -50,6 +52,7 @@ TEST(MirrorCost, SumsPassesOrSaysWhyThereIsNone) {
   const auto pass = [&](std::vector<int> path, double ms, double texels) {
     PassView row{{.path = std::move(path)}};
     row.gpuMs = ms;
+    row.timed = !std::isnan(ms);
     row.areaPx = texels;
     frame.passes.push_back(row);
   };
@@ -58,6 +61,10 @@ TEST(MirrorCost, SumsPassesOrSaysWhyThereIsNone) {
   pass({1, 2}, NAN, 300.0);
   pass({2, 1}, 7.0, 1.0);
   EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 texels, 12.5 ms on the GPU");
+  frame.passes[0].timed = false;
+  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 texels") << "its time is of an earlier frame";
+  frame.passes[0].reused = frame.passes[1].reused = true;
+  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 texels, reused");
   frame.passes.push_back({{.kind = PassKind::main}});
   frame.skipped = {{.path = {0, 3}, .reason = "hidden"}, {.path = {3}, .reason = "seen from behind"}};
   EXPECT_EQ(mirrorCost(frame, 3), "No pass: seen from behind");

@@ -164,7 +164,6 @@ TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
   EXPECT_FALSE(edit().selected) << "it does not outlive its scene";
 }
 
-// Changes made while a scene is loading bring up the prompt once it is loaded.
 TEST_F(Saving, NewSceneAsksLikeOpenAndIsSavedElsewhere) {
   removeBall();
   send(NewScene{});
@@ -184,6 +183,7 @@ TEST_F(Saving, NewSceneAsksLikeOpenAndIsSavedElsewhere) {
   EXPECT_EQ(loadScene(documentsDir() / "Speculum" / "mine.toml").lights.size(), 2u);
 }
 
+// Changes made while a scene is loading bring up the prompt once it is loaded.
 TEST_F(Saving, ChangesDuringLoadingAreAskedAbout) {
   // No frame takes the scene before the change.
   workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});

@@ -73,7 +73,8 @@ bool Demo::stepOnce() {
     return !shouldClose();
   }
   const bool changes = changing();
-  changeBegins_ = changes && !std::exchange(changes_, changes);
+  const bool changed = std::exchange(changes_, changes);
+  changeBegins_ = changes && !changed;
   if (changes || pace_.wantsFrame()) {
     pacer_.change(workspace_.settings());
   }

@@ -107,12 +107,9 @@ void FrameReport::addTiles(const RecordedFrame& frame, const FrameTimings& timin
 // several frames counts as one frame, the last.
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings) {
   addTiles(frame, timings);
-  if (!endsPicture(frame.plan)) {
-    return;
-  }
   const bool drawsScene = !frame.plan.mainReused;
-  const bool drewScene = !std::exchange(view_.still, !drawsScene) && !drawn_.empty();
-  if (drawsScene) {
+  const bool drewScene = endsPicture(frame.plan) && !std::exchange(view_.still, !drawsScene) && !drawn_.empty();
+  if (endsPicture(frame.plan) && drawsScene) {
     const double ms = drewScene ? tiles_.sinceLastMs : std::nan("");
     const auto average = [](double& shown, double now, bool begins) {
       shown += (begins ? 1.0 : std::clamp(now / settlingMs, smoothing, 1.0)) * (now - shown);

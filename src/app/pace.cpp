@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "frame/picture_offset.hpp"
@@ -15,6 +16,7 @@ constexpr double cpuBudgetMs = 50.0;
 constexpr double refreshShare = 0.8;
 constexpr double longestWait = 3.0;  // budgets: slower still pictures come after a draft, tile by tile
 constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and without input
+constexpr double leastShare = 0.1;   // of such a frame's time is its tiles'
 constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
 
 // Says whether a picture of a mean can be drawn in tiles: the samples of a tile are not kept until the next.
@@ -77,6 +79,7 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
   if (std::exchange(shown_, shown) != shown || moving()) {
     picture_ = -1;
     slow_.reset();
+    draft_.clear();
   }
   if (request.budgetMs <= 0.0) {
     slow_.reset();
@@ -101,7 +104,7 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
     if (controller_.predict(scaledWork(work_, settings, pictureSettings(mean))) > longestWait * request.budgetMs) {
       slow_.emplace();
       first = planWithinBudget(request, plan);
-      text_ = "Draft: " + text_;
+      draft_ = text_ = "Draft: " + text_;
       return first;
     }
   }
@@ -120,9 +123,15 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
   }
   if (slow_ && !slow_->finished()) {
     drawsTiles_ = true;
-    fitted = slow_->next((request.input ? 1.0 : tilesShare) * request.budgetMs);
+    const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
+    besidesMs_ = cpuMs_ + controller_.predict({.plainTexels = pixels});
+    // At least half of the time goes to the tiles, whatever the rest of a frame takes.
+    fitted = slow_->next(std::max((request.input ? 1.0 : tilesShare) * request.budgetMs - besidesMs_, besidesMs_));
     if (!slow_->finished()) {
-      text_ = fmt::format("{} of {} pictures, next {:.0f} %", picture_, pictures_, 100.0 * slow_->share());
+      const double percent = std::floor(100.0 * slow_->share());
+      text_ = picture_ == 0 && !draft_.empty()
+                  ? fmt::format("{}; first picture {:.0f} %", draft_, percent)
+                  : fmt::format("{} of {} pictures, next {:.0f} %", picture_, pictures_, percent);
       return fitted;
     }
   }
@@ -135,6 +144,7 @@ void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
   if (usual) {
     controller_.drawn(number, work_);
   }
+  cpuMs_ = cpuMs;
   drawn_.push_back({.number = number, .cpuMs = cpuMs, .begun = begun_});
   if (drawn_.size() > mostDrawn) {
     drawn_.pop_front();
@@ -142,19 +152,19 @@ void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
 }
 
 // Learns the time of a frame. On a CPU device, drawing and the program share the cores, so a frame takes the sum of
-// their times, or less where they overlap; on a GPU it takes the longer of the two. Waiting for the monitor does not
-// count.
+// their times, or less where they overlap; on a GPU it takes the longer of the two, unless the program waits for tiles.
+// Waiting for the monitor does not count.
 void Pace::finished(const FrameTimings& timings) {
   const auto found = std::ranges::find(drawn_, timings.frame, &Drawn::number);
   if (found == drawn_.end()) {
     return;
   }
   const double sum = found->cpuMs + timings.gpuMs;
-  const double ms = !cpuDevice_           ? std::max(found->cpuMs, timings.gpuMs)
-                    : found->frameMs == 0 ? sum
-                                          : std::min(found->frameMs, sum);
+  const double ms = !cpuDevice_ && !drawsTiles_ ? std::max(found->cpuMs, timings.gpuMs)
+                    : found->frameMs == 0       ? sum
+                                                : std::min(found->frameMs, sum);
   if (drawsTiles_ && found + 1 == drawn_.end()) {
-    slow_->took(ms);
+    slow_->took(std::max(ms - besidesMs_, leastShare * ms));
     // The frames took longer than one would have, so their time is learned only where even that was less.
     if (slow_->finished() && slow_->totalMs() < controller_.predict(slowWork_)) {
       controller_.drawn(timings.frame, slowWork_);

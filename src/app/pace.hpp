@@ -46,8 +46,8 @@ class Pace {
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const { return movement_.ending() || (!moving() && picture_ < pictures_); }
-  // Says whether tiles of a picture are drawn. The next frame then begins when they are there: finished() learns from
-  // their time, and input waits for them alone.
+  // Says whether the last frame drew tiles of a picture. If so, wait for it before the next events: finished() learns
+  // from its time, and no second frame delays them.
   bool drawsTiles() const { return drawsTiles_; }
 
   // Identifies what a still picture shows, besides the chosen settings.
@@ -112,6 +112,9 @@ class Pace {
   bool drawsTiles_ = false;
   std::optional<SlowPicture> slow_;  // of the mean; nothing until another picture stands for the first one
   FrameWork slowWork_;
+  std::string draft_;       // what the picture gives up that stands for the first one of the mean
+  double cpuMs_ = 0.0;      // of the last frame
+  double besidesMs_ = 0.0;  // expected of a frame, besides its tiles: the program's work and the display pass
 };
 
 // Returns the number of pictures in the mean of a still picture.

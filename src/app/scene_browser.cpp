@@ -53,10 +53,10 @@ SceneBrowser::SceneBrowser() {
 }
 
 void SceneBrowser::remember(const fs::path& file) {
-  if (file == newScene()) {
+  std::error_code none;
+  if (fs::equivalent(file, newScene(), none)) {
     return;
   }
-  std::error_code none;
   const fs::path whole = fs::absolute(file, none).lexically_normal();
   std::erase(view_.recent, whole);
   view_.recent.insert(view_.recent.begin(), whole);

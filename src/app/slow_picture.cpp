@@ -17,11 +17,17 @@ void SlowPicture::begin(FittedPlan plan, double ms) {
   plan_ = std::move(plan);
   tiles_ = {};
   totalMs_ = 0.0;
-  if (const size_t count = tileCount(plan_.plan); tileMs_.size() != count) {
-    tileMs_.assign(count, caution * ms / static_cast<double>(count));
-    dearestMs_ = 0.0;
-    measured_ = 0;
+  const size_t count = tileCount(plan_.plan);
+  const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
+  if (before.empty()) {
+    std::ranges::fill(tileMs_, caution * ms / static_cast<double>(count));
+    return;
   }
+  // The offset of another picture may move a mirror image's border over a tile's, which changes the number of tiles.
+  for (size_t i = 0; i < count; ++i) {
+    tileMs_[i] = before[i * before.size() / count];
+  }
+  measured_ = measured_ * count / before.size();
 }
 
 FittedPlan SlowPicture::next(double ms) {

@@ -8,11 +8,11 @@ namespace speculum {
 // of each tile, for the next pictures of the same view.
 class SlowPicture {
  public:
-  // Begins a picture that is expected to take `ms`. Times of tiles stay if the plan has as many tiles as the last one.
+  // Begins a picture that is expected to take `ms` if it is the first; others are expected to take as long as the last.
   void begin(FittedPlan plan, double ms);
   // Returns the plan with the next tiles, at least one, that are expected to take `ms` together.
   FittedPlan next(double ms);
-  // Call with the time of the frame that drew them.
+  // Call with the time that they took.
   void took(double ms);
 
   bool finished() const { return tiles_.end == tileMs_.size(); }  // all tiles are planned
@@ -25,7 +25,7 @@ class SlowPicture {
   TileRange tiles_;         // of the last next()
   size_t measured_ = 0;     // tiles, from the first on, whose times were measured
   double dearestMs_ = 0.0;  // of these
-  double totalMs_ = 0.0;    // of the picture's frames
+  double totalMs_ = 0.0;    // of the picture's tiles
 };
 
 }  // namespace speculum

@@ -42,7 +42,7 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
     }
   }
   cachedTargets_ = std::move(targets);
-  cachedImages_.clear();  // until end()
+  cachedImages_.clear();  // an unfinished picture offers none; end() fills it
 }
 
 void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched,

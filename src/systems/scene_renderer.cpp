@@ -412,7 +412,9 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   mainImage_ = {info.settings, plan.mainContent};
   mirrorTargets_.end(plan, retired);
   cacheRevision_ = renderer_.pipelines().revision();
-  recordedFrames_[info.frame.number % recordedFrames_.size()] = {info.frame.number, recorded_};
+  // The times of a frame that drew tiles are those of parts of passes.
+  recordedFrames_[info.frame.number % recordedFrames_.size()] = {
+      info.frame.number, info.plan.tiles ? std::vector<RecordedPass>() : recorded_};
 }
 
 // Counts the draws of the first tile only: the others repeat them.
