@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "edit/picture_view.hpp"
@@ -51,9 +52,10 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
   if (!probed) {
     return std::nullopt;
   }
+  const double stored = static_cast<double>(probed->storedDepth);
   return TexelView{.texel = probed->texel,
                    .depth = probed->depth,
-                   .metres = plan.projection.near / static_cast<double>(probed->storedDepth),
+                   .metres = stored > 0.0 ? plan.projection.near / stored : std::numeric_limits<double>::infinity(),
                    .value = probed->value};
 }
 
