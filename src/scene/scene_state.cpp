@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "geometry/polygon.hpp"
+#include "scene/plane_slack.hpp"
 
 namespace speculum {
 
@@ -94,15 +95,14 @@ struct Placed {
   MirrorState* state = nullptr;
   glm::dvec3 center{0.0};
   double radius = 0.0;  // metres; of the circle about the polygon
-  double slack = 0.0;   // metres that rounding may move a vertex
+  double slack = 0.0;   // metres
 };
 
 Placed placedAs(const Mirror& mirror, MirrorState& state) {
-  Placed placed{.mirror = &mirror, .state = &state, .center = vertexMean(state.polygon)};
+  Placed placed{.mirror = &mirror, .state = &state, .center = vertexMean(state.polygon), .slack = planeSlack(state)};
   for (const glm::dvec3& p : state.polygon) {
     placed.radius = std::max(placed.radius, glm::length(p - placed.center));
   }
-  placed.slack = 1e-9 * placed.radius + 1e-15 * glm::length(placed.center);
   return placed;
 }
 
