@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "app/demo.hpp"
 #include "geometry/affine.hpp"
+#include "image/color.hpp"
 #include "naive_arithmetic.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
@@ -110,6 +113,62 @@ TEST(LightOnASurface, EveryPixelIsFinite) {
 TEST(LightOnASurface, MatchesTheTracer) {
   const std::filesystem::path file = writeLitScene();
   expectTruth(file, size, 3, trace(file, size, 3));
+}
+
+// One pixel of radiance 1 at any exposure.
+class OnePixel {
+ public:
+  OnePixel() {
+    options_.validation = false;  // takes longer than 600 pictures of a pixel
+    session_.emplace(options_);
+  }
+  // Returns its 8 bits.
+  int shown(double exposure) {
+    set(*session_, {{"view.exposure", text(exposure)}});
+    session_->draw(0.0, true);
+    return session_->picture().rgba[0];
+  }
+
+ private:
+  Options options_ = headless(
+      writeScene("one_pixel", "[environment]\nbackground = [1, 1, 1]\n" + cameraText({0, 0, 1}, {0, 0, 0})), {1, 1});
+  std::optional<QuietSession> session_;
+};
+
+// Returns a number on the straight part of the sRGB curve whose float arithmetic ends exactly between two steps.
+std::optional<float> tieAbove(int step) {
+  const float wanted = static_cast<float>(step) + 0.5f;
+  float x = wanted / 255.0f / 12.92f * (1.0f - 1e-6f);
+  for (int i = 0; i < 32; ++i, x = std::nextafter(x, 1.0f)) {
+    const volatile float encoded = 12.92f * x;
+    if (255.0f * encoded == wanted) {
+      return x;
+    }
+  }
+  return std::nullopt;
+}
+
+// Products of floats are the same on every device, so what is exactly between two steps is for the program to decide.
+TEST(TiesOfEightBits, RoundUpOnTheStraightPart) {
+  OnePixel pixel;
+  std::array<int, 2> found{};
+  for (int step = 0; step < 10; ++step) {
+    if (const std::optional<float> tie = tieAbove(step)) {
+      EXPECT_EQ(pixel.shown(*tie), step + 1);
+      ++found[step % 2];
+    }
+  }
+  EXPECT_GE(found[0], 2) << "above even steps";
+  EXPECT_GE(found[1], 2) << "above odd steps";
+}
+
+// Powers are not: within 1/4000 of a step around a tie a device may show either.
+TEST(TiesOfEightBits, NeighboursRoundToTheNearest) {
+  OnePixel pixel;
+  for (int step = 0; step < 255; ++step) {
+    EXPECT_EQ(pixel.shown(srgbDecode((step + 0.49975) / 255.0)), step);
+    EXPECT_EQ(pixel.shown(srgbDecode((step + 0.50025) / 255.0)), step + 1);
+  }
 }
 
 // A lamp without shadows on a turned mirror, or so near to it that single precision does not tell its side.
