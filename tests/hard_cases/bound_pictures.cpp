@@ -161,5 +161,20 @@ TEST(MirrorsInOnePlane, RaysMeetThePlaneOnce) {
   }
 }
 
+// Five million waves later water looks as at first, to a billionth of a wave.
+TEST(LongTimes, RipplesComeBackAfterDays) {
+  const auto file = writeScene(
+      "long_ripples", "[environment]\nbackground = [0.3, 0.4, 0.6]\nambient = [0.5, 0.5, 0.5]\n" +
+                          cameraText({0.2, 1, 2}, {0, 0, -1}) + "[[mirror]]\n" +
+                          rectangleText({0, 0, -1}, {-90, 0, 0}, 8, 6) +
+                          "ripple = { amplitude = 0.01, wavelength = 0.5, speed = 0.2 }\n" +
+                          objectText("MODELS/torus_knot.obj", {0.3, 0.8, -2}, {20, 30, 0}, 0.6, {0.8, 0.3, 0.1}));
+  for (const double time : {0.3, 1.2}) {
+    const Image8 later = draw(truthOptions(file, size, 1), 1e6 + time);
+    expectAlike(later, draw(truthOptions(file, size, 1), time), 1, "ripples_after_days");
+    expectTruth(file, size, 1, trace(file, size, 1, 1e6 + time), 1e6 + time);
+  }
+}
+
 }  // namespace
 }  // namespace speculum
