@@ -21,6 +21,12 @@ vec3 srgbEncode(vec3 x) {
   return mix(12.92 * x, 1.055 * pow(max(x, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
 }
 
+// Rounds to steps of 8 bits, a tie up. A device that is left to do it rounds ties as it likes.
+vec3 rounded(vec3 x) {
+  precise vec3 steps = 255.0 * x;
+  return floor(steps + 0.5) / 255.0;
+}
+
 #ifdef DISPLAY_ENLARGED
 vec3 texelAt(ivec2 texel) {
   return texelFetch(radiance, clamp(texel, ivec2(0), textureSize(radiance, 0) - 1), 0).rgb;
@@ -43,5 +49,5 @@ vec3 radianceAt(vec2 position) { return texelMean(radiance, ivec2(position)).rgb
 
 void main() {
   vec3 x = display.exposure * radianceAt(gl_FragCoord.xy * display.lookup.xy + display.lookup.zw);
-  color = vec4(srgbEncode(toneCurve(x)), 1.0);
+  color = vec4(rounded(srgbEncode(toneCurve(x))), 1.0);
 }

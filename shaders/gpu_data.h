@@ -237,7 +237,8 @@ struct TraceMirror {
   float alpha;        // of GGX; 0: smooth
   float ripplePhase;  // radians
   uint hasRipple;
-  uint padding[2];
+  uint plane;   // MirrorState::plane
+  uint layers;  // MirrorState::frontLayer and, in the upper half, backLayer
 };
 
 // A light's image in a mirror that casts light, in trace space.
@@ -248,6 +249,8 @@ struct LightPath {
   uint castsShadow;
   vec3 light;
   uint mirror;
+  float side;  // of the mirror that reflects: 1 the front, -1 the back
+  uint padding[3];
 };
 
 // Stands before the light paths in their buffer.
@@ -323,7 +326,7 @@ static_assert(offsetof(TraceInstance, gridScale) == 64 && offsetof(TraceInstance
               offsetof(TraceInstance, firstTriangle) == 208 && sizeof(TraceInstance) == 224);
 static_assert(offsetof(TraceMirror, reflectance) == 64 && offsetof(TraceMirror, ripplePhase) == 112 &&
               sizeof(TraceMirror) == 128);
-static_assert(offsetof(LightPath, light) == 32 && sizeof(LightPath) == 48 && sizeof(TraceCounts) == 16);
+static_assert(offsetof(LightPath, light) == 32 && sizeof(LightPath) == 64 && sizeof(TraceCounts) == 16);
 static_assert(offsetof(CheckFound, sampleIndex) == 16 && sizeof(CheckFound) == 32);
 
 }  // namespace speculum::gpu

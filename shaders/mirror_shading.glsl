@@ -270,7 +270,7 @@ vec3 baseRadiance(vec3 position, vec3 normal) {
   }
   Surface base = mirrorLayer(position, normal, mirror.baseColor);
 #ifdef TRACED
-  return tracedSurfaceRadiance(base, safeNormalize(-position), Skip(none, none, mirror.traceMirror, none, 0.0));
+  return tracedSurfaceRadiance(base, safeNormalize(-position), Skip(none, none, planeOf(mirror.traceMirror), none, 0.0));
 #else
 #ifdef SHADOW_MAPS
   receiver = position;

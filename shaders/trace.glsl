@@ -26,12 +26,13 @@ TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
 const uint none = 0xffffffffu;
 const float infinity = 1e38;
 
-// Surfaces that a ray ignores: the one it starts on, and the mirror that it ends on.
+// Surfaces that a ray ignores: the one it starts on, and the mirror that it ends on. Of mirrors it ignores all of the
+// plane.
 struct Skip {
   uint instance;
   uint triangle;
-  uint mirror;
-  uint secondMirror;
+  uint plane;
+  uint secondPlane;
   float near;  // metres from the origin within which the rest of the instance is ignored too
 };
 
@@ -102,6 +103,22 @@ vec4 meetTriangle(vec3 corners[3], vec3 origin, uint along, vec3 shear) {
 }
 
 vec4 mirrorTexel(uint mirror, uint i) { return uintBitsToFloat(texelFetch(traceMirrorTexels, int(8 * mirror + i))); }
+
+uvec4 mirrorPlace(uint mirror) { return texelFetch(traceMirrorTexels, int(8 * mirror + 7)); }
+
+uint planeOf(uint mirror) { return mirrorPlace(mirror).z; }
+
+// Returns the layer, in its plane, of the side that is seen along `direction`.
+uint layerSeen(uint mirror, vec3 direction) {
+  uint layers = mirrorPlace(mirror).w;
+  return dot(mirrorTexel(mirror, 1).xyz, direction) < 0.0 ? layers & 0xffffu : layers >> 16;
+}
+
+// Says whether a ray that meets `other` first sees `mirror` in its place, by layer if both lie in one plane.
+bool covers(uint mirror, float t, uint other, float otherT, vec3 direction) {
+  bool onePlane = other != none && planeOf(mirror) == planeOf(other);
+  return onePlane ? layerSeen(mirror, direction) < layerSeen(other, direction) : t < otherT;
+}
 
 // Returns the parameter at which the ray meets the mirror's polygon, from either side; below zero if it does not.
 float meetMirror(uint mirror, vec3 origin, vec3 direction) {
@@ -232,9 +249,10 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
     }
     uint index = item & ~(traceLeaf | itemMirror);
     if ((item & itemMirror) != 0) {
-      if (index != skip.mirror && index != skip.secondMirror) {
+      uint plane = planeOf(index);
+      if (plane != skip.plane && plane != skip.secondPlane) {
         float t = meetMirror(index, origin, direction);
-        if (t > 0.0 && t < hit.t) {
+        if (t > 0.0 && covers(index, t, hit.mirror, hit.t, direction)) {
           hit.t = t;
           hit.instance = none;
           hit.mirror = index;

@@ -27,11 +27,15 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
       if (!ignores(skip, index, slot, rayQueryGetIntersectionTEXT(query, false), near)) {
         rayQueryConfirmIntersectionEXT(query);
       }
-    } else if (index != skip.mirror && index != skip.secondMirror) {
+    } else if (planeOf(index) != skip.plane && planeOf(index) != skip.secondPlane) {
       float t = meetMirror(index, origin, direction);
-      bool first = rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
-      if (t > 0.0 && t < (first ? tMax : rayQueryGetIntersectionTEXT(query, true))) {
-        rayQueryGenerateIntersectionEXT(query, t);
+      uint type = rayQueryGetIntersectionTypeEXT(query, true);
+      float foundT = type == gl_RayQueryCommittedIntersectionNoneEXT ? tMax : rayQueryGetIntersectionTEXT(query, true);
+      uint other = type == gl_RayQueryCommittedIntersectionGeneratedEXT
+                       ? rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)
+                       : none;
+      if (t > 0.0 && covers(index, t, other, foundT, direction)) {
+        rayQueryGenerateIntersectionEXT(query, min(t, foundT));
       }
     }
   }

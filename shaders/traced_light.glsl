@@ -28,14 +28,10 @@ Incoming directLight(LightData light, vec3 position) {
 Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
   uint mirror = path.mirror;
   vec3 normal = mirrorTexel(mirror, 1).xyz;
-  vec3 origin = mirrorTexel(mirror, 0).xyz;
-  float pointHeight = dot(normal, tracePosition - origin);
-  float lightHeight = dot(normal, path.light - origin);
-  bool sameSide = pointHeight > 0.0 ? lightHeight > 0.0
-                                    : traceMirrors[mirror].twoSided != 0 && pointHeight < 0.0 && lightHeight < 0.0;
+  bool sameSide = path.side * dot(normal, tracePosition - mirrorTexel(mirror, 0).xyz) > 0.0;
   vec3 toLight = path.image - tracePosition;
-  float crossing = meetMirror(mirror, tracePosition, toLight);
-  bool arrives = sameSide && self.mirror != mirror && crossing > 0.0 && crossing < 1.0;
+  float crossing = min(meetMirror(mirror, tracePosition, toLight), 1.0);  // rounding may put it behind the image
+  bool arrives = sameSide && self.plane != planeOf(mirror) && crossing > 0.0;
   vec3 reflectance = mirrorReflectance(mirror, abs(dot(normal, safeNormalize(toLight))));
   return Incoming(arrives, toLight, path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror, crossing);
 }
@@ -53,7 +49,7 @@ Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
 // Says whether nothing blocks the light on its way to the point. An image's light comes by way of its mirror.
 bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
   Skip skip = self;
-  skip.secondMirror = incoming.mirror;
+  skip.secondPlane = incoming.mirror == none ? none : planeOf(incoming.mirror);
   vec3 origin = tracePosition;
   vec3 direction = incoming.toLight;
   float tMax = incoming.crossing;
@@ -70,7 +66,7 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
     origin += incoming.crossing * direction;
     direction = lightPaths[i - view.lightCount].light - origin;
     tMax = 1.0;
-    skip = Skip(none, none, incoming.mirror, none, 0.0);
+    skip = Skip(none, none, skip.secondPlane, none, 0.0);
     last = true;
   }
   return !hidden;

@@ -26,7 +26,7 @@ Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front)
   float side = front ? 1.0 : -1.0;
   vec3 position = tracePosition - view.traceOffset.xyz;
   Bounce bounce;
-  bounce.self = Skip(none, none, mirror, none, 0.0);
+  bounce.self = Skip(none, none, planeOf(mirror), none, 0.0);
   bounce.planeNormal = side * traceMirrors[mirror].normal;
   bounce.reflects = front || traceMirrors[mirror].twoSided != 0;
   bounce.alpha = traceMirrors[mirror].alpha;

@@ -8,6 +8,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "platform/machine.hpp"
+#include "random.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
 
@@ -74,6 +75,22 @@ TEST(PlanLimits, ThousandsOfMirrorsPlanInShortTime) {
     }
     expectPlanned(text, kind);
   }
+}
+
+// Each frame finds anew which mirrors of a plane cover which.
+TEST(PlanLimits, MirrorsOfOnePlaneTakeShortTime) {
+  testing_support::Random random(4);
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  for (int i = 0; i < 3000; ++i) {
+    scene.mirrors.push_back(
+        {.position = {random.uniform(-2, 2), random.uniform(-2, 2), -3}, .rotation = {0, 0, 7.0 * i}, .size = {3, 2}});
+  }
+  const std::clock_t start = std::clock();
+  for (int frame = 0; frame < 3; ++frame) {
+    evaluate(scene, frame);
+  }
+  EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC) << "pair by pair it takes several";
 }
 
 // Mirrors that show each other, as often as the settings allow.

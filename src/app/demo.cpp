@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "app/device_view.hpp"
@@ -174,7 +175,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
-  ++framesDrawn_;
+  framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
   workspace_.report().update({workspace_.scene(), state, fitted.settings, plan, number, cpuMs, sinceLastMs}, renderer_,
                              *sceneRenderer_, output_.hoveredPath);
@@ -219,7 +220,7 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
 // Times passes one by one only at the start and the end of a change and every few frames, because that slows a frame.
 bool Demo::timesPasses(bool movementEnded) {
   const bool times = ui_->windows().visible() && (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval);
-  untimedFrames_ = times ? 0 : untimedFrames_ + 1;
+  untimedFrames_ = times ? 0 : std::min(untimedFrames_ + 1, timedInterval);
   return times;
 }
 

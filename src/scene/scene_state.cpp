@@ -4,7 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
+#include "scene/plane_slack.hpp"
 
 namespace speculum {
 
@@ -92,17 +94,15 @@ CameraPose cameraPose(const CameraSpec& camera, double time) {
 struct Placed {
   const Mirror* mirror = nullptr;
   MirrorState* state = nullptr;
-  glm::dvec3 center{0.0};
-  double radius = 0.0;  // metres; of the circle about the polygon
-  double slack = 0.0;   // metres that rounding may move a vertex
+  Bounds bounds;
+  double slack = 0.0;
 };
 
 Placed placedAs(const Mirror& mirror, MirrorState& state) {
-  Placed placed{.mirror = &mirror, .state = &state, .center = vertexMean(state.polygon)};
+  Placed placed{.mirror = &mirror, .state = &state, .slack = planeSlack(state)};
   for (const glm::dvec3& p : state.polygon) {
-    placed.radius = std::max(placed.radius, glm::length(p - placed.center));
+    placed.bounds.add(p);
   }
-  placed.slack = 1e-9 * placed.radius + 1e-15 * glm::length(placed.center);
   return placed;
 }
 
@@ -128,8 +128,8 @@ bool edgeSeparates(const Placed& a, const Placed& b, double slack) {
 
 bool overlap(const Placed& a, const Placed& b) {
   const double slack = std::max(a.slack, b.slack);
-  return glm::distance(a.center, b.center) < a.radius + b.radius && !edgeSeparates(a, b, slack) &&
-         !edgeSeparates(b, a, slack);
+  const glm::dvec3 gap = glm::max(a.bounds.low - b.bounds.high, b.bounds.low - a.bounds.high);
+  return std::max({gap.x, gap.y, gap.z}) <= slack && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
 }
 
 // Sets the layers of the mirrors of one plane for an eye on one side of it.
@@ -138,12 +138,14 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
   const auto layer = [&](const Placed& p) -> int& { return front(p) ? p.state->frontLayer : p.state->backLayer; };
   const auto showsBack = [&](const Placed& p) { return !front(p) && !p.mirror->twoSided; };
   std::ranges::sort(plane, {}, [&](const Placed& p) { return std::pair(showsBack(p), p.mirror); });
-  for (size_t i = 1; i < plane.size(); ++i) {
-    for (size_t before = 0; before < i; ++before) {
-      if (layer(plane[before]) >= layer(plane[i]) && overlap(plane[before], plane[i])) {
-        layer(plane[i]) = layer(plane[before]) + 1;
-      }
-    }
+  // Mirrors that may cover the next one, the deepest first: the first that overlaps it gives its layer.
+  std::vector<const Placed*> before;
+  for (const Placed& placed : plane) {
+    const auto covering = std::ranges::find_if(before, [&](const Placed* other) { return overlap(*other, placed); });
+    layer(placed) = covering == before.end() ? 0 : layer(**covering) + 1;
+    const auto shallower =
+        std::ranges::find_if(before, [&](const Placed* other) { return layer(*other) <= layer(placed); });
+    before.insert(shallower, &placed);
   }
 }
 

@@ -110,7 +110,7 @@ void SceneResources::upload(Frame& frame, bool enabled, bool drawn) {
 
 void SceneResources::prepare(Frame& frame, bool enabled, bool drawn) {
   upload(frame, enabled, drawn);
-  idleFrames_ = drawn ? 0 : idleFrames_ + 1;
+  idleFrames_ = drawn ? 0 : std::min(idleFrames_, idleFramesKept) + 1;
   if (idleFrames_ > idleFramesKept) {
     for (Image& texture : textures_) {
       frame.retired->retire(std::move(texture));
@@ -163,7 +163,7 @@ void SceneResources::createMeshes() {
 }
 
 void SceneResources::prepareLevels(Frame& frame, std::span<const int> drawn) {
-  idleLevelFrames_ = drawn.empty() ? idleLevelFrames_ + 1 : 0;
+  idleLevelFrames_ = drawn.empty() ? std::min(idleLevelFrames_, idleFramesKept) + 1 : 0;
   for (const int mesh : drawn) {
     if (!meshes_[static_cast<size_t>(mesh)].levelIndices) {
       check(vkQueueWaitIdle(device_.queue()), "wait for the queue");

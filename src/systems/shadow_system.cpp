@@ -1,5 +1,6 @@
 #include "systems/shadow_system.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -131,7 +132,7 @@ void ShadowSystem::release(RetireQueue& retired) {
 
 void ShadowSystem::endFrame(const FramePlan& plan, RetireQueue& retired) {
   cached_ = plan.shadowMaps;
-  idleFrames_ = plan.shadowMaps.empty() ? idleFrames_ + 1 : 0;
+  idleFrames_ = plan.shadowMaps.empty() ? std::min(idleFrames_, ImagePool::framesKept) + 1 : 0;
   if (target_ && idleFrames_ > ImagePool::framesKept) {
     release(retired);
   }

@@ -69,6 +69,11 @@ Bounds boundsOf(const MirrorState& mirror, const glm::dvec3& eye) {
   return bounds;
 }
 
+uint32_t layersOf(const MirrorState& mirror) {
+  const auto half = [](int layer) { return static_cast<uint32_t>(std::min(layer, 0xffff)); };
+  return half(mirror.frontLayer) | half(mirror.backLayer) << 16;
+}
+
 template <typename T>
 void retireIfAny(std::optional<T>& object, RetireQueue& retired) {
   if (object) {
@@ -306,7 +311,9 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
                         .baseColor = glm::vec3(mirror.baseColor),
                         .twoSided = mirror.twoSided,
                         .backColor = glm::vec3(mirror.backColor),
-                        .alpha = static_cast<float>(alpha)});
+                        .alpha = static_cast<float>(alpha),
+                        .plane = static_cast<uint32_t>(placed.plane),
+                        .layers = layersOf(placed)});
     if (settings.effects.ripple && mirror.ripple) {
       const RippleConstants ripple = rippleConstants(*mirror.ripple, state.time);
       mirrors_.back().hasRipple = 1;
@@ -343,7 +350,8 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
                      .irradiance = radiance(light.color * light.intensity),
                      .castsShadow = light.castsShadow && settings.effects.shadows,
                      .light = glm::vec3(position - state.camera.eye),
-                     .mirror = static_cast<uint32_t>(mirrored.mirror)});
+                     .mirror = static_cast<uint32_t>(mirrored.mirror),
+                     .side = glm::dot(mirror.normal, position - mirror.origin) > 0.0 ? 1.0f : -1.0f});
   }
   std::vector<std::byte> bytes(sizeof header + paths.size() * sizeof(gpu::LightPath));
   std::memcpy(bytes.data(), &header, sizeof header);

@@ -108,8 +108,9 @@ TEST(EyeNearerThanTheNearPlane, SmallRoomsKeepTheirOrder) {
   }
 }
 
-// Sheets of one plane that overlap, some facing away, before a mirror that shows them once more.
-std::string sheetsInOnePlane(Random& random) {
+// Sheets of one plane that overlap, some facing away, before a mirror that shows them once more. With `rays` there are
+// layers under the reflections, shadows, light off sheets, and ripples: rays leave the sheets and meet them.
+std::string sheetsInOnePlane(Random& random, bool rays) {
   const glm::dvec3 rotation = random.inBox(40.0);
   const glm::dmat3 turn = rotationFromDegrees(rotation);
   const glm::dvec3 center = random.uniform(0, 1) < 0.5 ? glm::dvec3(0.0) : random.inBox(1e6);
@@ -130,6 +131,14 @@ std::string sheetsInOnePlane(Random& random) {
     text << "[[mirror]]\n"
          << polygonText(corners) << "reflectance = " << random.vec(0.2, 0.9) << "\nback_color = " << random.vec(0, 1)
          << "\ntwo_sided = " << (i == 1 ? "true" : "false") << "\n";
+    if (rays) {
+      text << "base_color = " << random.vec(0, 1) << "\ncasts_light = " << (i == 2 ? "true" : "false") << "\n"
+           << (i == 3 ? "ripple = { amplitude = 0.01, wavelength = 1 }\n" : "");
+    }
+  }
+  for (int i = 0; rays && i < 2; ++i) {
+    text << "[[light]]\nposition = " << testing_support::text(center + turn * glm::dvec3(2.0 * i - 1.0, 1.5, 1.5 + i))
+         << "\nintensity = 4\ncasts_shadow = true\n";
   }
   text << "[[mirror]]\n" << rectangleText(center + turn * glm::dvec3(0, 0, 5), rotation + glm::dvec3(0, 180, 0), 6, 6);
   return text.str();
@@ -139,8 +148,31 @@ TEST(MirrorsInOnePlane, CoverInTheOrderOfTheFile) {
   constexpr PictureSize large{240, 135};
   Random random(7);
   for (int i = 0; i < 12; ++i) {
-    const auto file = writeScene("one_plane_" + std::to_string(i), sheetsInOnePlane(random));
+    const auto file = writeScene("one_plane_" + std::to_string(i), sheetsInOnePlane(random, false));
     expectTruth(file, large, 3, trace(file, large, 3));
+  }
+}
+
+TEST(MirrorsInOnePlane, RaysMeetThePlaneOnce) {
+  Random random(8);
+  for (int i = 0; i < 2; ++i) {
+    const auto file = writeScene("rays_of_one_plane_" + std::to_string(i), sheetsInOnePlane(random, true));
+    expectTruth(file, size, 3, trace(file, size, 3));
+  }
+}
+
+// Five million waves later water looks as at first, to a billionth of a wave.
+TEST(LongTimes, RipplesComeBackAfterDays) {
+  const auto file = writeScene(
+      "long_ripples", "[environment]\nbackground = [0.3, 0.4, 0.6]\nambient = [0.5, 0.5, 0.5]\n" +
+                          cameraText({0.2, 1, 2}, {0, 0, -1}) + "[[mirror]]\n" +
+                          rectangleText({0, 0, -1}, {-90, 0, 0}, 8, 6) +
+                          "ripple = { amplitude = 0.01, wavelength = 0.5, speed = 0.2 }\n" +
+                          objectText("MODELS/torus_knot.obj", {0.3, 0.8, -2}, {20, 30, 0}, 0.6, {0.8, 0.3, 0.1}));
+  for (const double time : {0.3, 1.2}) {
+    const Image8 later = draw(truthOptions(file, size, 1), 1e6 + time);
+    expectAlike(later, draw(truthOptions(file, size, 1), time), 1, "ripples_after_days");
+    expectTruth(file, size, 1, trace(file, size, 1, 1e6 + time), 1e6 + time);
   }
 }
 

@@ -1,12 +1,20 @@
 // Hard cases of shading and of sizes: no value that is drawn is infinite or NaN.
 #include <gtest/gtest.h>
 
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "app/demo.hpp"
+#include "geometry/affine.hpp"
+#include "image/color.hpp"
 #include "naive_arithmetic.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
@@ -109,6 +117,168 @@ TEST(LightOnASurface, EveryPixelIsFinite) {
 TEST(LightOnASurface, MatchesTheTracer) {
   const std::filesystem::path file = writeLitScene();
   expectTruth(file, size, 3, trace(file, size, 3));
+}
+
+// One pixel of radiance 1 at any exposure.
+class OnePixel {
+ public:
+  OnePixel() {
+    options_.validation = false;  // takes longer than 600 pictures of a pixel
+    session_.emplace(options_);
+  }
+  // Returns its 8 bits.
+  int shown(double exposure) {
+    set(*session_, {{"view.exposure", text(exposure)}});
+    session_->draw(0.0, true);
+    return session_->picture().rgba[0];
+  }
+
+ private:
+  Options options_ = headless(
+      writeScene("one_pixel", "[environment]\nbackground = [1, 1, 1]\n" + cameraText({0, 0, 1}, {0, 0, 0})), {1, 1});
+  std::optional<QuietSession> session_;
+};
+
+// Returns a number on the straight part of the sRGB curve whose float arithmetic ends exactly between two steps.
+std::optional<float> tieAbove(int step) {
+  const float wanted = static_cast<float>(step) + 0.5f;
+  float x = wanted / 255.0f / 12.92f * (1.0f - 1e-6f);
+  for (int i = 0; i < 32; ++i, x = std::nextafter(x, 1.0f)) {
+    const volatile float encoded = 12.92f * x;
+    if (255.0f * encoded == wanted) {
+      return x;
+    }
+  }
+  return std::nullopt;
+}
+
+// Products of floats are the same on every device, so what is exactly between two steps is for the program to decide.
+TEST(TiesOfEightBits, RoundUpOnTheStraightPart) {
+  OnePixel pixel;
+  std::array<int, 2> found{};
+  for (int step = 0; step < 10; ++step) {
+    if (const std::optional<float> tie = tieAbove(step)) {
+      EXPECT_EQ(pixel.shown(*tie), step + 1);
+      ++found[step % 2];
+    }
+  }
+  EXPECT_GE(found[0], 2) << "above even steps";
+  EXPECT_GE(found[1], 2) << "above odd steps";
+}
+
+// Powers are not: within 1/4000 of a step around a tie a device may show either.
+TEST(TiesOfEightBits, NeighboursRoundToTheNearest) {
+  OnePixel pixel;
+  for (int step = 0; step < 255; ++step) {
+    EXPECT_EQ(pixel.shown(srgbDecode((step + 0.49975) / 255.0)), step);
+    EXPECT_EQ(pixel.shown(srgbDecode((step + 0.50025) / 255.0)), step + 1);
+  }
+}
+
+// Lets this thread's CPU flush subnormal numbers to zero, or not, while it lives.
+class FlushedToZero {
+ public:
+#ifdef __SSE__
+  explicit FlushedToZero(bool flushes) {
+    _mm_setcsr(flushes ? before_ | bits : before_ & ~bits);
+  }
+  ~FlushedToZero() {
+    _mm_setcsr(before_);
+  }
+
+ private:
+  static constexpr unsigned bits = 0x8040;  // of results and of operands
+  unsigned before_ = _mm_getcsr();
+#else
+  explicit FlushedToZero(bool) {}
+#endif
+};
+
+// A scene with V wherever a number may be zero.
+std::string sceneWithNumber(const std::string& number) {
+  std::string scene = R"([environment]
+ambient = [0.2, V, 0.2]
+sky = { zenith = [0.2, 0.4, V], horizon = [V, 0.5, 0.5], ground = [0.1, V, 0.1] }
+[camera]
+position = [V, 1, 4]
+target = [V, 0.8, 0]
+up = [V, 1, V]
+orbit_speed = V
+[[object]]
+model = "MODELS/sphere.obj"
+position = [V, 1.1, V]
+rotation = [V, V, V]
+spin = [V, V, V]
+color = [0.5, V, 0.2]
+specular = [V, V, V]
+shininess = V
+emission = [V, V, V]
+[[object]]
+model = "MODELS/box.obj"
+position = [1.5, 0.5, V]
+scale = 0.5
+mirror = { reflectance = [0.8, V, 0.8], base_color = [V, 0.2, V] }
+copies = { count = 2, step = [V, 0.8, V] }
+[[light]]
+position = [1, 3, 2]
+color = [1, V, 1]
+intensity = 8
+casts_shadow = true
+orbit = { center = [V, 2, V], axis = [V, 1, V], speed = V }
+[[light]]
+position = [-1, 3, V]
+intensity = V
+glow = V
+[[mirror]]
+position = [V, V, V]
+rotation = [-90, V, V]
+size = [6, 6]
+reflectance = [0.7, V, 0.9]
+base_color = [V, 0.2, V]
+roughness = V
+casts_light = true
+[[mirror]]
+position = [V, 1, -2]
+spin = [V, V, V]
+size = [3, 2]
+reflectance = [0.9, 0.9, V]
+back_color = [V, V, V]
+ripple = { amplitude = V, wavelength = 0.5, speed = V }
+)";
+  for (size_t at = scene.find('V'); at != std::string::npos; at = scene.find('V', at + 1)) {
+    scene.replace(at, 1, number);
+  }
+  return scene;
+}
+
+TEST(SubnormalInputs, AreDrawnAsZero) {
+  constexpr PictureSize small{96, 54};
+  const std::filesystem::path zero = writeScene("zero", sceneWithNumber("0"));
+  const Image8 expected = draw(headless(zero, small), 1.3);
+  const LinearImage traced = trace(zero, small, 3, 1.3).traced.image;
+  for (const char* number : {"1e-310", "4.9e-324"}) {
+    const std::filesystem::path file = writeScene("subnormal", sceneWithNumber(number));
+    for (const bool flushes : {false, true}) {
+      const FlushedToZero mode(flushes);
+      EXPECT_EQ(draw(headless(file, small), 1.3).rgba, expected.rgba) << number << (flushes ? ", flushed" : "");
+      EXPECT_EQ(trace(file, small, 3, 1.3).traced.image.pixels, traced.pixels) << number;
+    }
+  }
+}
+
+// A lamp without shadows on a turned mirror, or so near to it that single precision does not tell its side.
+TEST(LightOnASurface, LampOnAMirrorMatchesTheTracer) {
+  const glm::dvec3 rotation(30, 40, 20);
+  const glm::dmat3 turn = rotationFromDegrees(rotation);
+  const glm::dvec3 center(0.3, 0.9, -0.4);
+  for (const double height : {0.0, 1e-12, 1e-8, 1e-7, 1e-6}) {
+    const auto file = writeScene(
+        "lamp", "[environment]\nambient = [0.1, 0.1, 0.1]\n" + cameraText({0, 2, 5}, {0, 1, 0}) +
+                    objectText("MODELS/room.obj", {0, 0, 0}, {0, 0, 0}, 1.0, {0.6, 0.6, 0.6}) + "[[mirror]]\n" +
+                    rectangleText(center, rotation, 1.5, 1.2) + "casts_light = true\n[[light]]\nposition = " +
+                    text(center + 0.3 * turn[0] + height * turn[2]) + "\nintensity = 4\n");
+    expectTruth(file, {160, 90}, 1, trace(file, {160, 90}, 1));
+  }
 }
 
 // lightRadiance of shading.glsl without its floors and bounds, in float.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -134,6 +135,22 @@ TEST(LongTimes, ProductsKeepTheirRemainder) {
       worst = std::max(worst, std::abs(std::remainder(actual - expected, 360.0)));
     }
     EXPECT_LE(worst, 1e-9) << "after up to " << longest << " s";
+  }
+}
+
+// An image that nothing changes counts its frames: 2^31 of them in a month at a thousand a second.
+TEST(LongTimes, CountersPassTwoToThe31Frames) {
+  const Scene scene = movingScene();
+  const SceneState state = evaluate(scene, 0.0);
+  const auto plan = [&](const FrameCache& cache) { return planFrame(scene, state, Settings(), 64, 36, cache); };
+  FramePlan last = plan({});
+  ASSERT_FALSE(last.cached.empty());
+  last.cached[0].unchangedFor = std::numeric_limits<int>::max() - 2;
+  for (int frame = 0; frame < 4; ++frame) {
+    const std::vector<CachedImage> before = last.cached;
+    last = plan({.images = before});
+    ASSERT_FALSE(last.cached.empty());
+    EXPECT_GT(last.cached[0].unchangedFor, 0);
   }
 }
 
