@@ -269,11 +269,12 @@ GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle
   lastAngle_ = angleAt(pixel).value_or(0.0);
 }
 
-// Fails near the plane's horizon, where a pixel spans kilometres.
+// Fails along the plane, and near its horizon, where a pixel spans kilometres.
 std::optional<glm::dvec3> GizmoDrag::meet(const glm::dvec2& pixel) const {
   constexpr double farthest = 1000.0;  // times the pivot's depth
   const Ray ray = picture_.ray(pixel);
-  const double t = glm::dot(normal_, pivot_ - ray.origin) / glm::dot(normal_, ray.direction);
+  const double towardsPlane = glm::dot(normal_, ray.direction);
+  const double t = towardsPlane == 0.0 ? 0.0 : glm::dot(normal_, pivot_ - ray.origin) / towardsPlane;
   return t > 0.0 && t < farthest * picture_.depth(pivot_) ? std::optional(ray.at(t)) : std::nullopt;
 }
 
