@@ -3,8 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
@@ -98,11 +96,9 @@ const toml::node& TableReader::required(std::string_view key, std::string_view r
 
 double TableReader::numberOf(const toml::node& node, std::string_view key, const Range& range) const {
   expect(node.is_number(), node, key, range.text());
-  const double written = node.value<double>().value();
-  // Subnormal numbers are zeros here, as on a CPU that flushes them.
-  const double value = std::abs(written) < std::numeric_limits<double>::min() ? 0.0 : written;
+  const double value = node.value<double>().value();
   if (!range.contains(value)) {
-    failAt(node, key, fmt::format("is {}", written), range.text());
+    failAt(node, key, fmt::format("is {}", value), range.text());
   }
   return value;
 }

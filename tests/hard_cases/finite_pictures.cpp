@@ -1,10 +1,6 @@
 // Hard cases of shading and of sizes: no value that is drawn is infinite or NaN.
 #include <gtest/gtest.h>
 
-#ifdef __SSE__
-#include <xmmintrin.h>
-#endif
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -172,97 +168,6 @@ TEST(TiesOfEightBits, NeighboursRoundToTheNearest) {
   for (int step = 0; step < 255; ++step) {
     EXPECT_EQ(pixel.shown(srgbDecode((step + 0.49975) / 255.0)), step);
     EXPECT_EQ(pixel.shown(srgbDecode((step + 0.50025) / 255.0)), step + 1);
-  }
-}
-
-// Lets this thread's CPU flush subnormal numbers to zero, or not, while it lives.
-class FlushedToZero {
- public:
-#ifdef __SSE__
-  explicit FlushedToZero(bool flushes) {
-    _mm_setcsr(flushes ? before_ | bits : before_ & ~bits);
-  }
-  ~FlushedToZero() {
-    _mm_setcsr(before_);
-  }
-
- private:
-  static constexpr unsigned bits = 0x8040;  // of results and of operands
-  unsigned before_ = _mm_getcsr();
-#else
-  explicit FlushedToZero(bool) {}
-#endif
-};
-
-// A scene with V wherever a number may be zero.
-std::string sceneWithNumber(const std::string& number) {
-  std::string scene = R"([environment]
-ambient = [0.2, V, 0.2]
-sky = { zenith = [0.2, 0.4, V], horizon = [V, 0.5, 0.5], ground = [0.1, V, 0.1] }
-[camera]
-position = [V, 1, 4]
-target = [V, 0.8, 0]
-up = [V, 1, V]
-orbit_speed = V
-[[object]]
-model = "MODELS/sphere.obj"
-position = [V, 1.1, V]
-rotation = [V, V, V]
-spin = [V, V, V]
-color = [0.5, V, 0.2]
-specular = [V, V, V]
-shininess = V
-emission = [V, V, V]
-[[object]]
-model = "MODELS/box.obj"
-position = [1.5, 0.5, V]
-scale = 0.5
-mirror = { reflectance = [0.8, V, 0.8], base_color = [V, 0.2, V] }
-copies = { count = 2, step = [V, 0.8, V] }
-[[light]]
-position = [1, 3, 2]
-color = [1, V, 1]
-intensity = 8
-casts_shadow = true
-orbit = { center = [V, 2, V], axis = [V, 1, V], speed = V }
-[[light]]
-position = [-1, 3, V]
-intensity = V
-glow = V
-[[mirror]]
-position = [V, V, V]
-rotation = [-90, V, V]
-size = [6, 6]
-reflectance = [0.7, V, 0.9]
-base_color = [V, 0.2, V]
-roughness = V
-casts_light = true
-[[mirror]]
-position = [V, 1, -2]
-spin = [V, V, V]
-size = [3, 2]
-reflectance = [0.9, 0.9, V]
-back_color = [V, V, V]
-ripple = { amplitude = V, wavelength = 0.5, speed = V }
-)";
-  for (size_t at = scene.find('V'); at != std::string::npos; at = scene.find('V', at + 1)) {
-    scene.replace(at, 1, number);
-  }
-  return scene;
-}
-
-TEST(SubnormalInputs, AreDrawnAsZero) {
-  constexpr PictureSize small{96, 54};
-  const std::filesystem::path zero = writeScene("zero", sceneWithNumber("0"));
-  const Image8 expected = draw(headless(zero, small), 1.3);
-  const LinearImage traced = trace(zero, small, 3, 1.3).traced.image;
-  for (const char* number : {"1e-310", "4.9e-324"}) {
-    const std::filesystem::path file = writeScene("subnormal", sceneWithNumber(number));
-    for (const bool flushes : {false, true}) {
-      const FlushedToZero mode(flushes);
-      EXPECT_EQ(draw(headless(file, small), 1.3).rgba, expected.rgba) << number << (flushes ? ", flushed" : "");
-      EXPECT_EQ(trace(file, small, 3, 1.3).traced.image.pixels, traced.pixels) << number;
-    }
   }
 }
 
