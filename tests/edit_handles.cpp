@@ -17,6 +17,13 @@ double uniform(double low, double high) {
   return low + (high - low) * *rc::gen::inRange(0, 1 << 20) / (1 << 20);
 }
 
+// A scene whose camera looks somewhere, as that of every file does.
+Scene emptyScene() {
+  Scene scene;
+  scene.camera.target = {0, 0, -1};
+  return scene;
+}
+
 glm::dvec3 inBox(double side) {
   const double x = uniform(-side, side);
   const double y = uniform(-side, side);
@@ -114,8 +121,7 @@ TEST(GizmoDragging, AxisFollowsThePointer) {
 }
 
 TEST(GizmoDragging, MirrorImageFollowsThePointer) {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
+  Scene scene = emptyScene();
   scene.mirrors.push_back({.position = {0, 0, -2}, .rotation = {0, 20, 0}, .size = {9, 9}});
   scene.mirrors.push_back({.position = {0, 0, 5}, .rotation = {0, 190, 0}, .size = {19, 9}});
   const SceneState state = evaluate(scene, 0.0);
@@ -180,7 +186,7 @@ TEST(GizmoDragging, LastChangeStaysBeyondTheHorizon) {
 
 TEST(Transforming, NodesStandWhereTheyWereMoved) {
   rc::check([] {
-    Scene scene;
+    Scene scene = emptyScene();
     scene.meshes.push_back({.halfExtent = glm::dvec3(0.5), .radius = 0.9});
     scene.objects.push_back({.mesh = 0, .position = inBox(3), .rotation = inBox(180), .spin = inBox(60)});
     scene.objects[0].copies = {.count = 3, .step = inBox(1)};
@@ -219,7 +225,7 @@ TEST(Transforming, NodesStandWhereTheyWereMoved) {
 
 TEST(Transforming, NodesGrowAlongTheirAxesAboutTheirPivots) {
   rc::check([] {
-    Scene scene;
+    Scene scene = emptyScene();
     scene.meshes.push_back({.center = {0.2, 0.9, 0.0}, .halfExtent = glm::dvec3(0.5), .radius = 0.4});
     scene.objects.push_back({.mesh = 0, .position = inBox(3), .rotation = inBox(180), .spin = inBox(60)});
     scene.objects[0].copies = {.count = 3, .step = inBox(1)};
@@ -261,7 +267,7 @@ TEST(Transforming, NodesGrowAlongTheirAxesAboutTheirPivots) {
 }
 
 TEST(Outline, SurroundsAnObjectClosely) {
-  Scene scene;
+  Scene scene = emptyScene();
   Mesh mesh{.halfExtent = glm::dvec3(1.0), .radius = 1.0};
   for (int i = 0; i < 60; ++i) {
     for (int j = 0; j <= 60; ++j) {
@@ -318,7 +324,7 @@ Mesh ring(uint32_t steps) {
 }
 
 TEST(Outline, FollowsTheSilhouetteAlsoInside) {
-  Scene scene;
+  Scene scene = emptyScene();
   scene.meshes.push_back(ring(64));
   scene.objects.push_back({.mesh = 0, .scale = {2.0, 2.0, 0.5}});
   scene.mirrors.push_back({.position = {0, 0, -3}, .size = {1.0, 20.0}});
@@ -365,7 +371,7 @@ TEST(Outline, BoxHasSixEdges) {
       }
     }
   }
-  Scene scene;
+  Scene scene = emptyScene();
   scene.meshes.push_back(mesh);
   scene.objects.push_back({.mesh = 0});
   const SceneState state = evaluate(scene, 0.0);
