@@ -164,7 +164,7 @@ TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
   EXPECT_FALSE(edit().selected) << "it does not outlive its scene";
 }
 
-TEST_F(Saving, NewSceneAsksLikeOpenAndIsSavedElsewhere) {
+TEST_F(Saving, NewSceneAsksFirstAndSavesElsewhere) {
   removeBall();
   send(NewScene{});
   EXPECT_EQ(edit().prompt, Prompt::unsavedChanges);

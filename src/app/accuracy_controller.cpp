@@ -26,23 +26,23 @@ std::string roughText(const SweepResults& results) {
 // Returns for each setting that was measured by itself what its values cost, cheapest first.
 std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& results) {
   std::map<std::string, std::multimap<double, std::string>> values;  // by setting and milliseconds
-  const auto text = [](const SweepPoint& point, const std::string& value) {
-    return fmt::format("\n{}: {:.3g} ms, FLIP {:.3f}", value, costSpread(point).median, point.whole.flip);
+  const auto add = [&](const std::string& key, const std::string& value, const SweepPoint& point) {
+    const double ms = costSpread(point).median;
+    values[key].emplace(ms, fmt::format("\n{}: {:.3g} ms, FLIP {:.3f}", value, ms, point.whole.flip));
   };
   for (const SweepPoint& point : results.points) {
     if (point.changes.size() == 1) {
-      const SettingChange& change = point.changes.front();
-      values[change.key].emplace(costSpread(point).median, text(point, change.value));
+      add(point.changes.front().key, point.changes.front().value, point);
+    }
+  }
+  const auto unchanged = std::ranges::find_if(results.points, [](const auto& point) { return point.changes.empty(); });
+  for (const SettingChange& base : results.base) {
+    if (values.contains(base.key) && unchanged != results.points.end()) {
+      add(base.key, base.value, *unchanged);
     }
   }
   std::map<std::string, std::string, std::less<>> prices;
-  for (auto& [key, texts] : values) {
-    const auto base = std::ranges::find(results.base, key, &SettingChange::key);
-    const auto unchanged =
-        std::ranges::find_if(results.points, [](const auto& point) { return point.changes.empty(); });
-    if (base != results.base.end() && unchanged != results.points.end()) {
-      texts.emplace(costSpread(*unchanged).median, text(*unchanged, base->value));
-    }
+  for (const auto& [key, texts] : values) {
     prices[key] = "\nMeasured in this view:";
     for (const auto& [ms, line] : texts) {
       prices[key] += line;

@@ -116,7 +116,8 @@ Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject, int repe
   return outcome;
 }
 
-// Of cases that share a picture only the first of the file may write it, whichever of them this run draws.
+// Where cases share a picture, only the first of them in the file may write it, even if this run does not draw that
+// one.
 void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& subject, Outcome& outcome) {
   const auto writer = std::ranges::find_if(cases, [&](const RegressCase& one) {
     const ExpectedCase expected = expectedOf(one, outcome.driver);
