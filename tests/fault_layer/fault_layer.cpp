@@ -452,25 +452,23 @@ VkResult before(const Chain* chain, Arguments... arguments) {
 }  // namespace
 
 extern "C" {
-VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
-vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* interface) {
+VKAPI_ATTR VkResult VKAPI_CALL vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* interface) {
   interface->loaderLayerInterfaceVersion = 2;
   interface->pfnGetInstanceProcAddr = &instanceProc;
   interface->pfnGetDeviceProcAddr = &deviceProc;
   interface->pfnGetPhysicalDeviceProcAddr = nullptr;
   return VK_SUCCESS;
 }
-VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
-faultInstanceExtensions(const VkEnumerateInstanceExtensionPropertiesChain* chain, const char* layer, uint32_t* count,
-                        VkExtensionProperties* properties) {
+VKAPI_ATTR VkResult VKAPI_CALL faultInstanceExtensions(const VkEnumerateInstanceExtensionPropertiesChain* chain,
+                                                       const char* layer, uint32_t* count,
+                                                       VkExtensionProperties* properties) {
   return before<vkEnumerateInstanceExtensionProperties_>(chain, layer, count, properties);
 }
-VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL faultInstanceLayers(const VkEnumerateInstanceLayerPropertiesChain* chain,
-                                                                   uint32_t* count, VkLayerProperties* properties) {
+VKAPI_ATTR VkResult VKAPI_CALL faultInstanceLayers(const VkEnumerateInstanceLayerPropertiesChain* chain,
+                                                   uint32_t* count, VkLayerProperties* properties) {
   return before<vkEnumerateInstanceLayerProperties_>(chain, count, properties);
 }
-VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL faultInstanceVersion(const VkEnumerateInstanceVersionChain* chain,
-                                                                    uint32_t* version) {
+VKAPI_ATTR VkResult VKAPI_CALL faultInstanceVersion(const VkEnumerateInstanceVersionChain* chain, uint32_t* version) {
   const VkResult result = before<vkEnumerateInstanceVersion_>(chain, version);
   if (const auto minor = limited("loader", VK_NULL_HANDLE)) {
     *version = VK_MAKE_API_VERSION(0, 1, *minor, 0);
