@@ -150,37 +150,17 @@ TEST(EnvironmentMaps, ShowTheBackgroundAtADepthLimit) {
   expectAlike(draw(environment), draw(traced), 2, "environment_limit");
 }
 
-const std::string everything = R"(
-[[light]]
-position = [1, 2, 1.5]
-intensity = 9
-casts_shadow = true
-[[object]]
-model = "MODELS/teapot.obj"
-position = [-1.2, 0, 0]
-mirror = { base_color = [0.2, 0, 0] }
-[[mirror]]
-name = "wall"
-position = [0, 1.4, -2.98]
-size = [4, 2]
-casts_light = true
-)";
-
-std::vector<std::string> mapPasses(Session& session, double time) {
-  return drawnMaps(session, "environment of ", time);
-}
-
 TEST(EnvironmentMaps, ListTheirFacesWhenRendered) {
   QuietSession session(mapped(room("faces")));
-  const std::vector<std::string> names = mapPasses(session, 0.0);
+  const std::vector<std::string> names = drawnMaps("environment of ", session, 0.0);
   ASSERT_EQ(names.size(), 6u);
   EXPECT_EQ(names[0], "environment of object 'ball' +x");
   EXPECT_EQ(names[5], "environment of object 'ball' -z");
   const Image8 first = session.picture();
-  EXPECT_TRUE(mapPasses(session, 0.0).empty()) << "nothing changed";
+  EXPECT_TRUE(drawnMaps("environment of ", session, 0.0).empty()) << "nothing changed";
   EXPECT_EQ(session.picture().rgba, first.rgba);
   set(session, {{"reflection.skip_unchanged", "false"}});
-  EXPECT_EQ(mapPasses(session, 0.0).size(), 6u);
+  EXPECT_EQ(drawnMaps("environment of ", session, 0.0).size(), 6u);
   EXPECT_EQ(session.picture().rgba, first.rgba);
 }
 
@@ -200,8 +180,35 @@ TEST(EnvironmentMaps, AreNoParentsOfMirrorPasses) {
 
 // Draws moving scenes with and without reuse: the bytes are the same.
 TEST(EnvironmentMaps, ReuseChangesNoByte) {
-  const std::filesystem::path file = room(
-      "skipping", everything + "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [1.4, 0, 1]\nspin = [0, 90, 0]\n");
+  const std::filesystem::path file = writeScene("environment_skipping", R"(
+[environment]
+background = [0.25, 0.3, 0.4]
+ambient = [0.2, 0.2, 0.2]
+[camera]
+position = [-0.6, 1.3, 2.4]
+target = [0.3, 1.1, 0.2]
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0.3, 1.1, 0.2]
+mirror = {}
+[[object]]
+model = "MODELS/teapot.obj"
+position = [-1.2, 0, 0]
+mirror = { base_color = [0.2, 0, 0] }
+[[object]]
+model = "MODELS/king.obj"
+position = [1.4, 0, 1]
+spin = [0, 90, 0]
+[[light]]
+position = [1, 2, 1.5]
+intensity = 9
+casts_shadow = true
+[[mirror]]
+name = "wall"
+position = [0, 1.4, -2.98]
+size = [4, 2]
+casts_light = true
+)");
   for (const char* interval : {"1", "3"}) {
     Options options = mapped(file, {{"effects.environment_interval", interval}, {"effects.environment_size", "32"}});
     options.size = {80, 60};
@@ -210,7 +217,7 @@ TEST(EnvironmentMaps, ReuseChangesNoByte) {
     std::vector<std::vector<uint8_t>> pictures;
     const std::vector<double> times = {0.0, 0.0, 0.1, 0.2, 0.2, 0.2, 0.2, 0.0};
     for (const double time : times) {
-      captures += static_cast<int>(mapPasses(skipping, time).size()) / 6;
+      captures += static_cast<int>(drawnMaps("environment of ", skipping, time).size()) / 6;
       pictures.push_back(skipping.picture().rgba);
     }
     if (std::string(interval) == "1") {
@@ -219,7 +226,7 @@ TEST(EnvironmentMaps, ReuseChangesNoByte) {
       std::map<double, std::vector<uint8_t>> rendered;
       for (size_t i = 0; i < times.size(); ++i) {
         if (!rendered.count(times[i])) {
-          EXPECT_EQ(mapPasses(rendering, times[i]).size(), 12u);
+          EXPECT_EQ(drawnMaps("environment of ", rendering, times[i]).size(), 12u);
           rendered[times[i]] = rendering.picture().rgba;
         }
         EXPECT_EQ(rendered[times[i]], pictures[i]) << "frame " << i;
@@ -229,7 +236,7 @@ TEST(EnvironmentMaps, ReuseChangesNoByte) {
       EXPECT_LT(captures, 8);
       // Nothing moves now. Every map becomes due, and the mirror that shows the maps is rendered after them.
       Session fresh(options);
-      mapPasses(fresh, 0.2);
+      drawnMaps("environment of ", fresh, 0.2);
       EXPECT_EQ(pictures[6], fresh.picture().rgba);
     }
   }

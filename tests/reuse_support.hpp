@@ -58,7 +58,7 @@ inline int mirrorPasses(const SceneRenderer& renderer) {
 }
 
 // Draws a frame and returns the names of its passes with that beginning. Expects that they belong to no mirror.
-inline std::vector<std::string> drawnMaps(Session& session, const std::string& beginning, double time = 0.0) {
+inline std::vector<std::string> drawnMaps(const std::string& beginning, Session& session, double time = 0.0) {
   session.draw(time, true);
   session.finish();
   std::vector<std::string> names;

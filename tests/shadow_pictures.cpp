@@ -132,18 +132,14 @@ casts_shadow = true
   }
 }
 
-std::vector<std::string> shadowPasses(Session& session, double time = 0.0) {
-  return drawnMaps(session, "shadow map of ", time);
-}
-
 TEST(ShadowMaps, ListTheirFacesWhenRendered) {
   QuietSession session(mapped(room("faces")));
-  const std::vector<std::string> names = shadowPasses(session);
+  const std::vector<std::string> names = drawnMaps("shadow map of ", session);
   EXPECT_TRUE(std::count(names.begin(), names.end(), "shadow map of light 'lamp' -y"));
   EXPECT_TRUE(std::count(names.begin(), names.end(), "shadow map of light 'sun' +x"));
   EXPECT_FALSE(std::count(names.begin(), names.end(), "shadow map of light 'lamp' +y"));
   const Image8 first = session.picture();
-  EXPECT_TRUE(shadowPasses(session).empty()) << "nothing changed";
+  EXPECT_TRUE(drawnMaps("shadow map of ", session).empty()) << "nothing changed";
   EXPECT_EQ(session.picture().rgba, first.rgba);
 }
 
@@ -159,8 +155,8 @@ TEST(ShadowMaps, ReuseChangesNoByte) {
   QuietSession rendering(options);
   size_t least = 99;
   for (const double time : {0.0, 0.0, 0.1, 0.2, 0.2, 0.0}) {
-    const size_t reused = shadowPasses(reusing, time).size();
-    const size_t all = shadowPasses(rendering, time).size();
+    const size_t reused = drawnMaps("shadow map of ", reusing, time).size();
+    const size_t all = drawnMaps("shadow map of ", rendering, time).size();
     least = std::min(least, reused);
     EXPECT_LE(reused, all);
     EXPECT_GT(all, 4u);

@@ -95,17 +95,18 @@ TEST(MirrorsOfFewPixels, LeaveOutTheirAreaAtMost) {
 
 // The eye is in a room of any size, less than a millimetre from its mirror.
 TEST(EyeNearerThanTheNearPlane, SmallRoomsKeepTheirOrder) {
+  std::vector<std::filesystem::path> files;
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
-    const std::string text =
+    const std::string scene =
         "[environment]\nbackground = [0.3, 0.4, 0.6]\nambient = [0.5, 0.5, 0.5]\n" +
         cameraText(unit * glm::dvec3(0.1, 0.2, 4e-4), unit * glm::dvec3(0.3, 0.1, -1.0)) + "[[mirror]]\n" +
         rectangleText({0, 0, 0}, {0, 0, 0}, unit, unit) + "reflectance = [0.9, 0.9, 0.9]\n" +
         objectText("MODELS/torus_knot.obj", unit * glm::dvec3(0.1, 0.1, 0.3), {20, 30, 0}, 0.2 * unit,
                    {0.8, 0.3, 0.1}) +
         objectText("MODELS/box.obj", unit * glm::dvec3(0.2, 0.1, 0.6), {30, 10, 0}, 0.3 * unit, {0.1, 0.3, 0.8});
-    const auto file = writeScene("small_room", text);
-    expectTruth(file, size, 2, trace(file, size, 2));
+    files.push_back(writeScene("small_room_" + text(unit), scene));
   }
+  expectTruths(files, size, 2);
 }
 
 // Sheets of one plane that overlap, some facing away, before a mirror that shows them once more. With `rays` there are
@@ -147,18 +148,20 @@ std::string sheetsInOnePlane(Random& random, bool rays) {
 TEST(MirrorsInOnePlane, CoverInTheOrderOfTheFile) {
   constexpr PictureSize large{240, 135};
   Random random(7);
+  std::vector<std::filesystem::path> files;
   for (int i = 0; i < 12; ++i) {
-    const auto file = writeScene("one_plane_" + std::to_string(i), sheetsInOnePlane(random, false));
-    expectTruth(file, large, 3, trace(file, large, 3));
+    files.push_back(writeScene("one_plane_" + std::to_string(i), sheetsInOnePlane(random, false)));
   }
+  expectTruths(files, large, 3);
 }
 
 TEST(MirrorsInOnePlane, RaysMeetThePlaneOnce) {
   Random random(8);
+  std::vector<std::filesystem::path> files;
   for (int i = 0; i < 2; ++i) {
-    const auto file = writeScene("rays_of_one_plane_" + std::to_string(i), sheetsInOnePlane(random, true));
-    expectTruth(file, size, 3, trace(file, size, 3));
+    files.push_back(writeScene("rays_of_one_plane_" + std::to_string(i), sheetsInOnePlane(random, true)));
   }
+  expectTruths(files, size, 3);
 }
 
 // Five million waves later water looks as at first, to a billionth of a wave.

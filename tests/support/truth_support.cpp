@@ -49,6 +49,15 @@ void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDep
               notBackground(truth.traced));
 }
 
+void expectTruths(const std::vector<std::filesystem::path>& files, PictureSize size, int maxDepth) {
+  const Options options = truthOptions(files.front(), size, maxDepth);
+  Gpu gpu(options);
+  Studio studio(gpu, options);
+  for (const std::filesystem::path& file : files) {
+    expectTruth(studio, file, trace(file, size, maxDepth));
+  }
+}
+
 void expectTruth(Studio& studio, const std::filesystem::path& file, const Truth& truth, double time) {
   studio.show(loadScene(file));
   studio.time = time;

@@ -25,6 +25,9 @@ Options truthOptions(const std::filesystem::path& file, PictureSize size, int ma
 void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDepth, const Truth& truth,
                  double time = 0.0);
 
+// The same for scenes of the same models, drawn on one device.
+void expectTruths(const std::vector<std::filesystem::path>& files, PictureSize size, int maxDepth);
+
 // The same for a scene that a studio of truthOptions() can show.
 void expectTruth(Studio& studio, const std::filesystem::path& file, const Truth& truth, double time = 0.0);
 
