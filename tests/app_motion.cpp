@@ -375,124 +375,120 @@ TEST(Movement, LastsAMomentAfterTheLastStep) {
   EXPECT_TRUE(movement.moving() && !movement.ending()) << "something else moves";
 }
 
+class PacedScene : public testing::Test {
+ protected:
+  Pace pace_{true, 1 + 4};
+  Scene scene_;
+  SceneState state_;
+  Settings chosen_;
+  uint64_t number_ = 0;  // of the last frame
+};
+
 // Draws on a device whose frames take half a second whatever they draw.
-TEST(Pace, LowersOnlyWhatMoves) {
-  Pace pace(true, 1 + 4);
-  const Scene scene;
-  const SceneState state;
-  Settings chosen;
-  chosen.quality.stillPictures = 1;
+TEST_F(PacedScene, LowersOnlyWhatMoves) {
+  chosen_.quality.stillPictures = 1;
   Settings planned;
-  uint64_t number = 0;
   const auto frame = [&](bool moves, double budget) {
-    pace.begin({}, moves, 0.5);
-    pace.plan({.scene = scene, .state = state, .chosen = chosen, .budgetMs = budget},
-              [&](const Settings& settings, int) {
-                planned = settings;
-                FittedPlan fitted{.settings = settings};
-                fitted.plan.main.view.rect = {0, 0, 1280, 720};
-                return fitted;
-              });
-    pace.drawn(++number, 1.0, true);
-    pace.finished({.frame = number, .gpuMs = 500.0});
+    pace_.begin({}, moves, 0.5);
+    pace_.plan({.scene = scene_, .state = state_, .chosen = chosen_, .budgetMs = budget},
+               [&](const Settings& settings, int) {
+                 planned = settings;
+                 FittedPlan fitted{.settings = settings};
+                 fitted.plan.main.view.rect = {0, 0, 1280, 720};
+                 return fitted;
+               });
+    pace_.drawn(++number_, 1.0, true);
+    pace_.finished({.frame = number_, .gpuMs = 500.0});
   };
   frame(false, 50.0);
   EXPECT_TRUE(sameMainView(planned, {}));
-  EXPECT_EQ(pace.text(), "");
+  EXPECT_EQ(pace_.text(), "");
   frame(true, 0.0);
   EXPECT_TRUE(sameMainView(planned, {})) << "never, with 0";
   for (int i = 0; i < 8; ++i) {
     frame(true, 50.0);
   }
   EXPECT_LT(planned.view.scale, 0.2);
-  EXPECT_EQ(pace.text().rfind("Moving: 0.1", 0), 0u) << pace.text();
+  EXPECT_EQ(pace_.text().rfind("Moving: 0.1", 0), 0u) << pace_.text();
   frame(false, 50.0);
   frame(false, 50.0);
   EXPECT_TRUE(sameMainView(planned, {}));
 }
 
-TEST(Pace, StillPicturesConvergeOnce) {
-  Pace pace(true, 1 + 4);
-  const Scene scene;
-  const SceneState state;
-  Settings chosen;
-  chosen.quality.stillPictures = 3;
+TEST_F(PacedScene, StillPicturesConvergeOnce) {
+  chosen_.quality.stillPictures = 3;
   std::vector<std::pair<int, int>> planned;  // pictures of the mean and the one that is drawn
   const auto frame = [&](uint64_t revision, double budget = 0.0) {
     planned.clear();
-    pace.begin({}, false, 0.1);
-    pace.plan({.scene = scene, .state = state, .chosen = chosen, .shown = {.revision = revision}, .budgetMs = budget},
-              [&](const Settings& settings, int picture) {
-                planned.emplace_back(settings.view.accumulate, picture);
-                return FittedPlan{.settings = settings};
-              });
+    pace_.begin({}, false, 0.1);
+    pace_.plan(
+        {.scene = scene_, .state = state_, .chosen = chosen_, .shown = {.revision = revision}, .budgetMs = budget},
+        [&](const Settings& settings, int picture) {
+          planned.emplace_back(settings.view.accumulate, picture);
+          return FittedPlan{.settings = settings};
+        });
     return planned.back();
   };
   EXPECT_EQ(frame(1), std::pair(1, 0)) << "full quality first";
   for (int picture = 0; picture < 3; ++picture) {
-    EXPECT_TRUE(pace.wantsFrame());
+    EXPECT_TRUE(pace_.wantsFrame());
     EXPECT_EQ(frame(1), std::pair(3, picture));
   }
-  EXPECT_EQ(pace.text(), "3 of 3 pictures");
-  EXPECT_FALSE(pace.wantsFrame());
+  EXPECT_EQ(pace_.text(), "3 of 3 pictures");
+  EXPECT_FALSE(pace_.wantsFrame());
   EXPECT_EQ(frame(1), std::pair(3, 3)) << "the mean again";
   EXPECT_EQ(frame(2), std::pair(1, 0)) << "something else is shown";
   EXPECT_EQ(frame(3, 1e-9), std::pair(1, 0)) << "full quality would take too long";
-  EXPECT_EQ(pace.text().rfind("Draft: 0.1", 0), 0u) << pace.text();
+  EXPECT_EQ(pace_.text().rfind("Draft: 0.1", 0), 0u) << pace_.text();
   EXPECT_EQ(frame(3, 1e-9), std::pair(3, 0));
 }
 
-TEST(Pace, SlowPicturesAreDrawnTileByTile) {
-  Pace pace(true, 1 + 4);
-  const Scene scene;
-  const SceneState state;
-  Settings chosen;
-  chosen.quality.stillPictures = 16;
-  chosen.view.samples = chosen.reflection.samples = 1;
-  uint64_t number = 0;
+TEST_F(PacedScene, SlowPicturesAreDrawnTileByTile) {
+  chosen_.quality.stillPictures = 16;
+  chosen_.view.samples = chosen_.reflection.samples = 1;
   double ms = 0.0;  // of the last frame's tiles
   double besidesMs = 0.0;
   const auto frame = [&](uint64_t revision, bool input = false) {
-    pace.finished({.frame = number, .gpuMs = ms});
-    pace.begin({}, false, 0.1);
-    const FittedPlan fitted = pace.plan({.scene = scene,
-                                         .state = state,
-                                         .chosen = chosen,
-                                         .shown = {.revision = revision},
-                                         .budgetMs = budget,
-                                         .input = input},
-                                        [&](const Settings& settings, int) {
-                                          FittedPlan whole{.settings = settings};
-                                          const auto side = static_cast<int>(3200 * settings.view.scale);
-                                          whole.plan.main.view.rect = {0, 0, side, side};
-                                          return whole;
-                                        });
+    pace_.finished({.frame = number_, .gpuMs = ms});
+    pace_.begin({}, false, 0.1);
+    const FittedPlan fitted = pace_.plan({.scene = scene_,
+                                          .state = state_,
+                                          .chosen = chosen_,
+                                          .shown = {.revision = revision},
+                                          .budgetMs = budget,
+                                          .input = input},
+                                         [&](const Settings& settings, int) {
+                                           FittedPlan whole{.settings = settings};
+                                           const auto side = static_cast<int>(3200 * settings.view.scale);
+                                           whole.plan.main.view.rect = {0, 0, side, side};
+                                           return whole;
+                                         });
     // A tenth of the tiles is dear.
     const TileRange tiles = tilesOf(fitted.plan, 0);
     ms = 0.0;
     for (size_t tile = tiles.first; tile < tiles.end; ++tile) {
       ms += tile % 500 < 50 ? 5.0 : 0.5;
     }
-    pace.drawn(++number, besidesMs, false);
+    pace_.drawn(++number_, besidesMs, false);
     return fitted;
   };
   EXPECT_FALSE(frame(1).plan.tiles);
-  EXPECT_EQ(pace.text().rfind("Draft: ", 0), 0u) << pace.text();
+  EXPECT_EQ(pace_.text().rfind("Draft: ", 0), 0u) << pace_.text();
   const auto wholePicture = [&](bool input, uint64_t revision = 1) {
     std::vector<double> times;
     TileRange before;
     do {
       const FittedPlan fitted = frame(revision, input);
-      EXPECT_TRUE(fitted.plan.tiles && pace.drawsTiles());
+      EXPECT_TRUE(fitted.plan.tiles && pace_.drawsTiles());
       EXPECT_EQ(fitted.plan.tiles->first, before.end);
-      EXPECT_TRUE(pace.wantsFrame());
+      EXPECT_TRUE(pace_.wantsFrame());
       before = *fitted.plan.tiles;
       times.push_back(ms);
     } while (before.end < 2500);
     return times;
   };
   EXPECT_LE(std::ranges::max(wholePicture(false)), 8.0 * budget);
-  EXPECT_EQ(pace.text(), "1 of 16 pictures");
+  EXPECT_EQ(pace_.text(), "1 of 16 pictures");
   for (int picture = 1; picture < 4; ++picture) {
     wholePicture(false);
   }
@@ -500,11 +496,11 @@ TEST(Pace, SlowPicturesAreDrawnTileByTile) {
     EXPECT_LE(std::ranges::max(wholePicture(input)), (input ? 2.0 : 2.6) * budget) << "the dear tiles are known";
   }
   frame(1);
-  EXPECT_EQ(pace.text().rfind("6 of 16 pictures, next ", 0), 0u) << pace.text();
+  EXPECT_EQ(pace_.text().rfind("6 of 16 pictures, next ", 0), 0u) << pace_.text();
   EXPECT_FALSE(frame(2).plan.tiles) << "another picture is asked for";
-  EXPECT_EQ(pace.text().rfind("Draft: ", 0), 0u) << pace.text();
+  EXPECT_EQ(pace_.text().rfind("Draft: ", 0), 0u) << pace_.text();
   EXPECT_EQ(frame(2).plan.tiles->first, 0u);
-  EXPECT_NE(pace.text().find("; first picture "), std::string::npos) << "the draft is still shown: " << pace.text();
+  EXPECT_NE(pace_.text().find("; first picture "), std::string::npos) << "the draft is still shown: " << pace_.text();
   besidesMs = 3.0 * budget;
   while (frame(2).plan.tiles->end < 2500) {
   }

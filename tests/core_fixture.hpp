@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/renderer.hpp"
+#include "sampling.hpp"
 
 namespace speculum::test {
 
@@ -13,6 +14,11 @@ DeviceOptions validated(RenderPath path = RenderPath::automatic);
 RendererOptions headless(VkExtent2D extent);
 // Returns the messages of the validation layer, one a line.
 std::string messagesOf(const Device& device);
+
+// Number of resizes in which a leak shows.
+inline int manyResizes() {
+  return testing_support::fullTests() ? 200 : 50;
+}
 
 // push_constant block of triangle.vert.
 struct TrianglePush {

@@ -118,7 +118,7 @@ TEST_F(RendererTest, ShiftedViewportShowsItsPart) {
 
 class Resize : public testing::TestWithParam<RenderPath> {};
 
-TEST_P(Resize, TwoHundredResizesLeakNothing) {
+TEST_P(Resize, ManyResizesLeakNothing) {
   Device device(validated(GetParam()));
   Renderer renderer(device, headless(extent));
   SmallScene scene(renderer, extent, 4);
@@ -126,7 +126,7 @@ TEST_P(Resize, TwoHundredResizesLeakNothing) {
   const auto objects = liveObjects();
   const uint64_t bytes = device.allocatedBytes();
   uint32_t random = 1;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < manyResizes(); ++i) {
     random = random * 1664525 + 1013904223;
     renderer.resizeHeadless({1 + (random >> 24) % 90, 1 + (random >> 16) % 90});
     ASSERT_TRUE(scene.frame());

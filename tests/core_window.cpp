@@ -79,7 +79,7 @@ TEST_P(WindowTest, ResizesDownToOnePixelLeakNothing) {
   const auto objects = liveObjects();
   const uint64_t bytes = device.allocatedBytes();
   uint32_t random = 7;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < manyResizes(); ++i) {
     random = random * 1664525 + 1013904223;
     window_.resize(1 + (random >> 24) % 200, 1 + (random >> 16) % 200);
     window_.pollEvents();

@@ -233,17 +233,5 @@ TEST(MeshError, ChangesMirrorImages) {
   EXPECT_FALSE(sameMirrorImages(exact, simplified));
 }
 
-TEST(MeshError, BadValuesAreNamed) {
-  Settings settings;
-  for (const char* value : {"-0.1", "16.5", "nan", "much", ""}) {
-    const std::optional<std::string> problem = setSetting(settings, "reflection.mesh_error", value);
-    ASSERT_TRUE(problem) << value;
-    EXPECT_NE(problem->find("0 .. 16"), std::string::npos) << *problem;
-  }
-  EXPECT_EQ(settings.reflection.meshError, 0.0);
-  EXPECT_EQ(setSetting(settings, "reflection.mesh_error", "0.5"), std::nullopt);
-  EXPECT_EQ(settingValue(settings, "reflection.mesh_error"), "0.5");
-}
-
 }  // namespace
 }  // namespace speculum

@@ -158,16 +158,5 @@ TEST(Settings, SceneErrorsNameFileAndLine) {
   }
 }
 
-TEST(Settings, ClearColorReplacesTheSky) {
-  Scene scene;
-  scene.environment.background = glm::dvec3(0.5);
-  scene.environment.sky = Sky{glm::dvec3(1), glm::dvec3(1), glm::dvec3(1)};
-  Settings settings;
-  EXPECT_TRUE(effectiveEnvironment(scene, settings).sky);
-  settings.view.clearColor = glm::dvec3(0.25);
-  EXPECT_FALSE(effectiveEnvironment(scene, settings).sky);
-  EXPECT_EQ(effectiveEnvironment(scene, settings).radiance({0, 1, 0}), glm::dvec3(0.25));
-}
-
 }  // namespace
 }  // namespace speculum

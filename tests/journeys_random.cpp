@@ -70,7 +70,11 @@ class RandomInput : public Journey {
       }
     }
   }
-  void resize() { demo_->window().resize(1 + upTo(1200), 1 + upTo(800)); }
+  void resize() {
+    const int most = fullTests() ? 1200 : 600;
+    const int width = 1 + upTo(most);
+    demo_->window().resize(width, 1 + upTo(2 * most / 3));
+  }
   void act() {
     switch (upTo(11)) {
       case 0:

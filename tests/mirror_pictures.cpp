@@ -106,7 +106,6 @@ color = [0, 1, 0]
 const std::string wallMirror = "polygon = [[-9, -1, 0], [9, -1, 0], [9, 9, 0], [-9, 9, 0]]\n";
 const std::string cornerLeft = "polygon = [[-9, -1, 9], [0, -1, 0], [0, 9, 0], [-9, 9, 9]]\n";
 const std::string cornerRight = "polygon = [[0, -1, 0], [9, -1, 9], [9, 9, 9], [0, 9, 0]]\n";
-const std::string opaque = "reflectance = [1, 1, 1]";
 const std::string overBase = "reflectance = [0.5, 0.5, 0.5]\nbase_color = [0, 0, 1]";
 
 class Seams : public testing::TestWithParam<std::pair<std::string, std::string>> {};
@@ -129,17 +128,13 @@ TEST_P(Seams, ShowNoBackground) {
   // A sample within rounding of a seam can fall either way. A resolved image shows the background in 235 pixels of the
   // wall's seam and in 468 of the corner's.
   EXPECT_LE(wrong, 4) << "the background shows";
-  const bool base = GetParam().second.find("base_color") != std::string::npos;
-  EXPECT_EQ(mostBlue > 0.4f, base);
+  EXPECT_GT(mostBlue, 0.4f);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Seams,
-                         testing::Values(std::pair("wall", mirror("wall", wallMirror + opaque)),
-                                         std::pair("wall_with_base", mirror("wall", wallMirror + overBase)),
-                                         std::pair("corner", mirror("left", cornerLeft + opaque) +
-                                                                 mirror("right", cornerRight + opaque)),
-                                         std::pair("corner_with_base", mirror("left", cornerLeft + overBase) +
-                                                                           mirror("right", cornerRight + overBase))),
+                         testing::Values(std::pair("wall", mirror("wall", wallMirror + overBase)),
+                                         std::pair("corner", mirror("left", cornerLeft + overBase) +
+                                                                 mirror("right", cornerRight + overBase))),
                          [](const auto& info) { return info.param.first; });
 
 // The whole picture is one mirror's image, shown over it.
