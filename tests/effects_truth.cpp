@@ -147,7 +147,7 @@ TEST(ExactEffects, RaysAtEverySampleReduceError) {
   const Scene scene = loadScene(file);
   const RayTracer tracer(scene, evaluate(scene, 0.0));
   const TraceResult reference =
-      *tracer.render({.width = small.width, .height = small.height, .samples = 64, .maxDepth = 3});
+      *tracer.render({.width = small.width, .height = small.height, .samples = 16, .maxDepth = 3});
   QuietSession session(headless(file, small));
   const auto error = [&](const char* perSample) {
     set(session, {{"effects.per_sample", perSample}, {"reflection.max_depth", "3"}});

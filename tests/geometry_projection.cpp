@@ -25,16 +25,6 @@ TEST(Projection, TopOfViewIsFirstRow) {
   EXPECT_NEAR(toNdc(projection.clip({0.0, y, -2.0})).y, -1.0, 1e-15);
 }
 
-TEST(Projection, DepthFallsStrictlyWithDistance) {
-  EXPECT_TRUE(rc::check("depth is monotone", [] {
-    const double near = std::pow(10.0, *rc::gen::inRange(-3000, 7000) / 1000.0);
-    const double far = near * (1.0 + std::pow(10.0, *rc::gen::inRange(-6000, 3000) / 1000.0));
-    const float a = static_cast<float>(toNdc(projection.clip({0, 0, -near})).z);
-    const float b = static_cast<float>(toNdc(projection.clip({0, 0, -far})).z);
-    RC_ASSERT(a > b);
-  }));
-}
-
 TEST(Projection, ObliqueDepthIsOneAtThePlane) {
   // A floor 1 m below a reflected eye that looks down at it: kept is what lies below the floor's image.
   const glm::dvec4 plane(0.0, glm::normalize(glm::dvec2(1.0, -1.0)).x, glm::normalize(glm::dvec2(1.0, -1.0)).y, -1.0);

@@ -57,23 +57,6 @@ TEST(Evaluate, RotationOrderIsYawPitchRoll) {
   expectNear(evaluate(scene, 0.0).instances[0].worldFromMesh.vector({0, 1, 0}), {0, 0, 1}, 1e-15);
 }
 
-TEST(Evaluate, SpinAddsToRotation) {
-  const Scene scene = sceneWithObject({.rotation = {0, 30, 0}, .spin = {0, 20, 0}});
-  const Scene turned = sceneWithObject({.rotation = {0, 30 + 60, 0}});
-  expectNear(evaluate(scene, 3.0).instances[0].center, evaluate(turned, 0.0).instances[0].center, 1e-12);
-  const Scene back = sceneWithObject({.rotation = {0, 30 - 60, 0}});
-  expectNear(evaluate(scene, -3.0).instances[0].center, evaluate(back, 0.0).instances[0].center, 1e-12);
-}
-
-TEST(Evaluate, MillionSecondsAreAsExactAsOne) {
-  // 1e6 s at 20 degrees per second are 55555 turns and 200 degrees.
-  const Scene scene = sceneWithObject({.spin = {0, 20, 0}});
-  const Scene turned = sceneWithObject({.rotation = {0, 200, 0}});
-  expectNear(evaluate(scene, 1e6).instances[0].center, evaluate(turned, 0.0).instances[0].center, 1e-12);
-  expectNear(evaluate(scene, -1e6).instances[0].center,
-             evaluate(sceneWithObject({.rotation = {0, -200, 0}}), 0.0).instances[0].center, 1e-12);
-}
-
 TEST(Evaluate, CopiesMoveInWorldSpace) {
   const Scene scene = sceneWithObject({.position = {1, 2, 3},
                                        .rotation = {0, 90, 0},
@@ -147,17 +130,6 @@ TEST(Evaluate, UnrotatedMirrorFacesPlusZ) {
   expectNear(newellVector(mirror.polygon), {0, 0, 16}, 1e-12);
   for (const glm::dvec3& corner : mirror.polygon) {
     EXPECT_EQ(glm::abs(corner - mirror.origin), glm::dvec3(2, 1, 0));
-  }
-}
-
-TEST(Evaluate, MirrorSpins) {
-  Scene scene = sceneWithCamera();
-  scene.mirrors.push_back({.position = {1, 2, 3}, .rotation = {0, 30, 0}, .spin = {0, 30, 0}, .size = {4, 2}});
-  for (const double turns : {0.0, 30.0, -20.0}) {
-    const MirrorState mirror = evaluate(scene, 2.0 + 12.0 * turns).mirrors[0];
-    expectNear(mirror.normal, {1, 0, 0}, 1e-13);
-    expectNear(mirror.axisX, {0, 0, -1}, 1e-13);
-    expectNear(glm::normalize(newellVector(mirror.polygon)), mirror.normal, 1e-13);
   }
 }
 

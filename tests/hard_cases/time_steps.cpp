@@ -93,20 +93,6 @@ TEST(TimeSteps, RotationsStayRotations) {
   }
 }
 
-// Nothing is summed up from frame to frame, so it does not matter which times came before.
-TEST(TimeSteps, PausesAndBackwardClocksLeaveNoTrace) {
-  const Scene scene = movingScene();
-  const SceneState expected = evaluate(scene, 12.5);
-  for (const double before : {0.0, 12.4, 3612.5, 12.6, -5.0, 1e6}) {
-    evaluate(scene, before);
-    const SceneState state = evaluate(scene, 12.5);
-    EXPECT_EQ(state.instances[0].worldFromMesh.linear, expected.instances[0].worldFromMesh.linear);
-    EXPECT_EQ(state.mirrors[0].polygon, expected.mirrors[0].polygon);
-    EXPECT_EQ(state.lights[0].position, expected.lights[0].position);
-    EXPECT_EQ(state.camera.worldToView, expected.camera.worldToView);
-  }
-}
-
 TEST(TimeSteps, FloatAnglesAndSummedStepsDrift) {
   const double exact = static_cast<double>(std::cos(turned(0.0, 47.3, 1e6) * std::numbers::pi_v<long double> / 180));
   EXPECT_GT(std::abs(std::cos(glm::radians(47.3f * 1e6f)) - exact), 1e-3) << "the naive way should fail";
