@@ -16,7 +16,7 @@ constexpr PictureSize size{320, 180};
 constexpr PictureSize small{160, 90};
 
 // Objects before a mirror wall and a second mirror at its side: knots, objects of several parts, and hard edges.
-std::filesystem::path objectsScene(const std::string& more = "") {
+std::filesystem::path objectsScene() {
   return writeScene("levels", R"(
 [environment]
 background = [0.3, 0.4, 0.5]
@@ -51,7 +51,7 @@ name = "side"
 position = [-2, 1, 0]
 rotation = [0, 90, 0]
 size = [3, 2]
-)" + more);
+)");
 }
 
 Options optionsFor(const std::filesystem::path& file, const std::string& meshError,
@@ -106,19 +106,6 @@ TEST(LevelPictures, SettingTradesTrianglesForError) {
     error = rmse;
     triangles = simplified.mirrorTriangles;
   }
-}
-
-TEST(LevelPictures, ShadowsKeepAllTriangles) {
-  QuietSession session(
-      headless(objectsScene("[[light]]\nposition = [-1, 3, 3]\nintensity = 20\ncasts_shadow = true\n"), small));
-  set(session, {{"reflection.skip_unchanged", "false"}});
-  EXPECT_EQ(drawn(session, "4").picture.rgba, drawn(session, "0").picture.rgba);
-  set(session, {{"effects.shadows", "false"}});
-  EXPECT_LT(drawn(session, "4").mirrorTriangles, drawn(session, "0").mirrorTriangles / 2);
-}
-
-TEST(LevelPictures, BothRenderPathsDrawTheSameBytes) {
-  expectSameOnBothPaths(optionsFor(objectsScene(), "1"), {0.0});
 }
 
 // Objects and camera move, stop and come back. An image with another level must not count as unchanged.

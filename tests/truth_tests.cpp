@@ -95,31 +95,5 @@ TEST_P(LookAlikes, AreDrawnWithTheirOwnColors) {
 
 INSTANTIATE_TEST_SUITE_P(Lights, LookAlikes, testing::Values(0, 1, int{gpu::fixedLights}, int{gpu::fixedLights} + 1));
 
-TEST(NearTruth, OrderIsKeptNearerThanNear) {
-  const std::filesystem::path file = writeScene("near", R"(
-[environment]
-background = [0.3, 0.4, 0.5]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-near = 10
-[[object]]
-model = "MODELS/torus_knot.obj"
-position = [0.1, 1, 1]
-[[object]]
-model = "MODELS/teapot.obj"
-position = [0, 0.8, 0]
-[[light]]
-position = [2, 3, 4]
-intensity = 20
-[[mirror]]
-position = [0, 1, -2]
-size = [6, 4]
-)");
-  constexpr PictureSize size{320, 180};
-  expectTruth(file, size, 4, trace(file, size, 4));
-}
-
 }  // namespace
 }  // namespace speculum
