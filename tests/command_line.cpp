@@ -9,6 +9,7 @@
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
+#include "scene_text.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {
@@ -116,11 +117,11 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 
-// Compares with a run of 256 pictures a frame, which is slower by more than any noise.
+// Compares with a run of 64 pictures a frame, which is slower by more than any noise.
 TEST_F(CommandLine, BenchComparesRunsInTurn) {
   const ProcessResult result =
-      speculum({"bench", "--scene", scene_, "--size", "32x18", "--frames", "2", "--warmup", "0",
-                "--against-set=view.accumulate=256", "--rounds", "1", "--json", out("r.json")});
+      speculum({"bench", "--scene", scene_, "--size", "32x18", "--frames", "3", "--warmup", "1",
+                "--against-set=view.accumulate=64", "--rounds", "1", "--json", out("r.json")});
   ASSERT_EQ(result.exitCode, 0) << result.output;
   const double ratio = readJson(out("r.json"))["ratios"]["gpu_ms"]["median"];
   EXPECT_GT(ratio, 0.0);
@@ -249,9 +250,10 @@ TEST_F(CommandLine, NegativeRadianceExitsOne) {
 
 // Otherwise a scene that stands still would measure nothing.
 TEST_F(CommandLine, BenchRendersEveryImageByDefault) {
+  const std::string still = writeScene("still", wallScene);
   const auto bench = [&](const std::string& skips) {
-    succeed({"bench", "--scene", "single_plane", "--size", "64x36", "--frames", "5", "--warmup", "1", "--json",
-             out("b.json"), skips});
+    succeed({"bench", "--scene", still, "--size", "64x36", "--frames", "5", "--warmup", "1", "--json", out("b.json"),
+             skips});
     return readJson(out("b.json"));
   };
   const auto mirrorPasses = [](const nlohmann::json& json) {
@@ -345,9 +347,9 @@ TEST_F(CommandLine, BookmarkIsACamera) {
 }
 
 TEST_F(CommandLine, ShippedScenesAreFoundFromAnyDirectory) {
-  for (const char* name : {"no_mirror", "no_mirror.toml", "scenes/no_mirror.toml"}) {
-    const std::string command = "cd / && exec '" + binaryDir().string() + "/speculum' render --scene " + name +
-                                " --size 32x18 --out '" + out("n.png") + "'";
+  for (const char* name : {"hard/corner", "hard/corner.toml", "scenes/hard/corner.toml"}) {
+    const std::string command = "cd / && exec '" + binaryDir().string() + "/speculum' reference --scene " + name +
+                                " --size 8x8 --samples 1 --out '" + out("n.png") + "'";
     const ProcessResult result = runProcess({"bash", "-c", command});
     EXPECT_EQ(result.exitCode, 0) << result.output;
   }

@@ -118,7 +118,7 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine);
   };
-  const int cuts = fullTests() ? 1000 : 20;
+  const int cuts = fullTests() ? 1000 : 12;
   int hidden = 0;
   size_t passes = 0;
   size_t passesOfAll = 0;
