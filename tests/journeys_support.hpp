@@ -71,10 +71,20 @@ class Journey : public testing::Test {
     window_ = runProcess({"xdotool", "search", "--name", "Speculum$"}).output;
     window_ = window_.substr(0, window_.find('\n'));
   }
+  // Draws so many frames. A window that draws only changes stops once it sleeps.
   void run(int frames) {
-    const int last = demo_->framesDrawn() + frames;
-    ASSERT_TRUE(waitFor([&] { return demo_->framesDrawn() >= last; }));
+    int drawn = demo_->framesDrawn();
+    const int last = drawn + frames;
+    int sleeps = -1;
+    ASSERT_TRUE(waitFor([&] {
+      const bool slept = demo_->framesDrawn() == drawn && !view().settings.current.view.continuous;
+      sleeps = slept ? sleeps + 1 : 0;
+      drawn = demo_->framesDrawn();
+      return drawn >= last || sleeps > 2;
+    }));
   }
+  // Waits until nothing changes any more.
+  void settle() { run(1'000'000); }
   template <typename Done>
   bool waitFor(const Done& done) {
     const auto end = Clock::now() + std::chrono::seconds(300);  // only what hangs takes that long

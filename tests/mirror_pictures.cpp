@@ -1,4 +1,4 @@
-// Images of several mirrors in one frame: overlapping, nested, many; their seams, memory and barriers.
+// Images of several mirrors in one frame: overlapping, nested, many; their seams and memory.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -259,33 +259,6 @@ TEST(MirrorPictures, TurningAwayReleasesTheMirrorsMemory) {
   EXPECT_EQ(with.picture().rgba, without.picture().rgba);
   EXPECT_LE(with.device().allocatedBytes(), without.device().allocatedBytes() + 4096);
 }
-
-class OmittedBarrier : public testing::TestWithParam<const char*> {};
-
-// Synchronisation validation sees more in render passes than in dynamic rendering; both paths have the same barriers.
-TEST_P(OmittedBarrier, IsNoticed) {
-  Options options = headless(writeScene("barriers", room + left + right), {64, 36});
-  options.renderPath = RenderPath::renderPass;
-  // Switches off the check, whose own barriers would hide the missing one.
-  set(options, {{"debug.check_finite", "false"}, {"reflection.skip_unchanged", "false"}});
-  // Images that keep their samples have no single-sample color.
-  const bool single = std::string(GetParam()) == "offscreenBeforeWrite";
-  set(options, {{"debug.omit_barrier", GetParam()}, {"view.samples", "4"}, {"reflection.samples", single ? "1" : "4"}});
-  Session session(options);
-  for (int i = 0; i < 3; ++i) {
-    // Captures only for readbackToCopy, because the barriers of a capture would hide other missing ones.
-    session.draw(0.1 * i, std::string(GetParam()) == "readbackToCopy");
-  }
-  session.renderer().waitIdle();
-  EXPECT_GT(session.device().validationMessages(), 0) << GetParam();
-}
-
-INSTANTIATE_TEST_SUITE_P(Kinds, OmittedBarrier,
-                         testing::Values("offscreenBeforeWrite", "offscreenSamplesBeforeWrite",
-                                         "offscreenDepthBeforeWrite", "offscreenToSample", "mainBeforeWrite",
-                                         "mainSamplesBeforeWrite", "mainDepthBeforeWrite", "mainToSample",
-                                         "swapchainBeforeWrite", "readbackToCopy"),
-                         [](const auto& info) { return std::string(info.param); });
 
 // Draws a mirror in a mirror at half the resolution, with several samples. The bytes are those of a picture of half the
 // size, enlarged.
