@@ -205,7 +205,7 @@ class AccuracyJourney : public Journey {
  protected:
   // A small picture is soon traced.
   AccuracyJourney() : Journey(wallScene.substr(0, wallScene.find("[[mirror]]")), idle()) {
-    demo_->window().resize(500, small);
+    demo_->window().resize(360, small);
     run(3);
     click("panel.Accuracy");
   }
