@@ -98,7 +98,7 @@ TEST(PlanLimits, MirrorsOfOnePlaneTakeShortTime) {
 TEST(PlanLimits, MirrorsInMirrorsPlanWithinTheBounds) {
   const std::string deep =
       "[settings]\nreflection = { max_depth = 32, max_passes = 1000000, min_pixels = 0, min_throughput = 0 }\n";
-  for (const int mirrors : testing_support::fullTests() ? std::vector{20, 200} : std::vector{200}) {
+  for (const int mirrors : testing_support::fullTests() ? std::vector{20, 200} : std::vector{20}) {
     std::string text = deep;
     for (int i = 0; i < mirrors; ++i) {
       const std::string angle = std::to_string(360.0 * i / mirrors);
