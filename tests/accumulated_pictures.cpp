@@ -282,7 +282,7 @@ std::vector<std::string> scenes() {
     return {"bounced_light", "facing_mirrors", "gallery", "many_mirrors", "mirror_ball", "mirror_maze",
             "no_mirror",     "outdoors",       "pool",    "rough",        "shadows",     "single_plane"};
   }
-  return {"shadows", "single_plane"};
+  return {"shadows"};
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, AccumulationTruth, testing::ValuesIn(scenes()),
