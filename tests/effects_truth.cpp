@@ -193,14 +193,12 @@ TEST(ExactEffects, ThroughputIsPerChannel) {
 }
 
 TEST(ExactEffects, UpdateIntervalChangesNoByte) {
-  Options options = headless(sourceFile("tests/golden/effects.toml"), small);
-  const Image8 expected = draw(options);
-  set(options, {{"reflection.update_interval", "3"}});
-  QuietSession session(options);
+  QuietSession session(headless(sourceFile("tests/golden/effects.toml"), small));
+  const Image8 expected = picture(session, 0.0);
+  set(session, {{"reflection.update_interval", "3"}});
+  session.restart();
   for (int frame = 0; frame < 3; ++frame) {
-    session.draw(0.0, true);
-    session.finish();
-    EXPECT_EQ(session.picture().rgba, expected.rgba) << "frame " << frame;
+    EXPECT_EQ(picture(session, 0.0).rgba, expected.rgba) << "frame " << frame;
   }
 }
 
