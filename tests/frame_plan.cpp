@@ -96,6 +96,7 @@ TEST(FramePlan, RaysTakeThePlaceOfPasses) {
   EXPECT_EQ(planOf(scene, settings).passes.size(), 1u);
   const Scene far = sceneWith({wall({0, 0, -200}, 0)});
   EXPECT_TRUE(planOf(far, settings).passes.empty());
+  EXPECT_TRUE(planOf(far, settings).effects.traces());
   expectSkipped(planOf(far, settings), 0, SkipReason::rays);
   settings.reflection.method = ReflectionMethod::rays;
   settings.reflection.maxDepth = 0;

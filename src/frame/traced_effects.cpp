@@ -17,7 +17,7 @@ bool isBlack(const glm::dvec3& color) {
 }
 
 bool mayTrace(const Scene& scene, const Settings& settings) {
-  return settings.reflection.method == ReflectionMethod::rays ||
+  return settings.reflection.method != ReflectionMethod::raster ||
          std::ranges::any_of(scene.lights, &PointLight::castsShadow) ||
          std::ranges::any_of(scene.objects, [](const Object& o) { return o.mirror.has_value(); }) ||
          std::ranges::any_of(scene.mirrors,
