@@ -1,6 +1,5 @@
 // Computes the radiance that a surface reflects by following rays from mirror to mirror, as docs/picture.md defines it:
-// for rippled, rough and curved mirrors, whose reflections no image of a plane can show. Needs trace.glsl,
-// traced_light.glsl and microfacet.glsl.
+// for curved mirrors, and for planar ones that rays show. Needs trace.glsl, traced_light.glsl and microfacet.glsl.
 
 struct Bounce {
   Surface surface;  // relative; of a mirror, the layer under the reflection

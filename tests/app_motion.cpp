@@ -310,6 +310,15 @@ TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
   EXPECT_EQ(last(scene).curvedLookup, CurvedLookup::environment);
 }
 
+TEST(MotionLevels, ImagesReplaceTheRaysOfMirrors) {
+  Settings chosen;
+  chosen.reflection.method = ReflectionMethod::rays;
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 4, true);
+  EXPECT_EQ(levels.front().settings.reflection.method, ReflectionMethod::rays);
+  EXPECT_EQ(levels.at(1).settings.reflection.method, ReflectionMethod::raster);
+  EXPECT_EQ(levels.back().settings.reflection.method, ReflectionMethod::raster);
+}
+
 TEST(FrameWork, CountsTheRaysOfEffects) {
   Scene scene;
   scene.mirrors = {{.roughness = 0.2}};
@@ -324,7 +333,7 @@ TEST(FrameWork, CountsTheRaysOfEffects) {
   EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 4 * 1e4);
   settings.effects.perSample = false;
   EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 1e4);
-  plan.main.mirrors.push_back({.scatters = true, .polygon = {{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}}});
+  plan.main.mirrors.push_back({.byRays = true, .polygon = {{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}}});
   const FrameWork work = workOf(plan, scene, state, settings);
   EXPECT_NEAR(work.roughRays, 8 * 2 * 1e4, 1e-3) << "a reflected ray and one to the light";
   Settings to = settings;

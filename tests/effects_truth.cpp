@@ -40,6 +40,8 @@ scale = [0.6, 0.6, -0.6]
 
 const std::string plainLight = "[[light]]\nposition = [-1.6, 2, 1.2]\nintensity = 5\ncolor = [0.6, 0.7, 1]\n";
 
+const std::string byRays = "[settings]\n\"reflection.method\" = \"rays\"\n";
+
 // Returns the root mean square difference in radiance, over the pixels whose `counts` is set.
 double rootMeanSquare(const LinearImage& drawn, const LinearImage& reference, const std::vector<bool>& counts) {
   double sum = 0.0;
@@ -99,6 +101,7 @@ TEST_P(ExactEffects, EqualTheRayTracer) {
   constexpr double time = 1.7;
   const std::filesystem::path file = corner("effects_" + std::string(GetParam().name), GetParam().rest);
   EXPECT_EQ(tracedEffectsOf(truthOptions(file, size, 3), time), GetParam().effects);
+  studio_->settings.reflection.method = settingsOf(loadScene(file)).reflection.method;
   expectTruth(*studio_, file, trace(file, size, 3, time), time);
 }
 
@@ -127,12 +130,36 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"curved_mirror",
              plainLight + wall + nearBall + "mirror = { reflectance = [0.9, 0.8, 0.6], base_color = [0.1, 0, 0] }\n",
              "curved "},
+        Case{"all_mirrors_by_rays",
+             shadowLight + wall + "casts_light = true\n" + side + "fresnel = \"schlick\"\ntwo_sided = true\n" + pool +
+                 ripple + byRays,
+             "shadows ripple casts_light "},
         Case{"curved_mirror_with_all",
              shadowLight + plainLight + wall + "casts_light = true\n" + pool + ripple +
                  "[[object]]\nmodel = \"MODELS/torus_knot.obj\"\nposition = [0.2, 0.7, 1.2]\nscale = 0.4\n"
                  "mirror = { reflectance = [0.2, 0.2, 0.2], fresnel = \"schlick\" }\n",
              "shadows ripple casts_light curved "}),
     [](const auto& info) { return std::string(info.param.name); });
+
+class MirrorsByRays : public testing::TestWithParam<const char*> {};
+
+TEST_P(MirrorsByRays, EqualTheRayTracer) {
+  const std::filesystem::path file = sourceFile("scenes/" + std::string(GetParam()) + ".toml");
+  Options options = truthOptions(file, {160, 90}, 4);
+  set(options, {{"reflection.method", "rays"}});
+  Gpu gpu(options);
+  Studio studio(gpu, options);
+  expectTruth(studio, file, trace(file, {160, 90}, 4));
+  EXPECT_TRUE(studio.plan.passes.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, MirrorsByRays,
+                         testing::Values("gallery", "facing_mirrors", "hard/far_from_origin", "hard/corner",
+                                         "hard/nested", "hard/eye_at_the_mirror", "hard/behind_the_mirror"),
+                         [](const auto& info) {
+                           const std::string name = info.param;
+                           return name.substr(name.find('/') + 1);
+                         });
 
 // Far from the origin the same rays are traced.
 TEST(ExactEffects, EqualTheTracerFarFromOrigin) {

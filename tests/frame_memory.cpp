@@ -71,6 +71,23 @@ TEST(MemoryFit, TracedEffectsNeedADeviceThatCan) {
   EXPECT_EQ(without.plan.passes.size(), 1u);
 }
 
+TEST(MemoryFit, RaysReplacePassesWhereTheyPay) {
+  const Scene scene = wallScene();
+  Settings settings;
+  settings.reflection.samples = settings.view.samples = 1;
+  const auto passes = [&](ReflectionMethod method, TargetLimits limits) {
+    settings.reflection.method = method;
+    limits.budgetBytes = 1ull << 40;
+    limits.largestSide = 4096;
+    return planWithin(limits, scene, evaluate(scene, 0.0), settings, 40, 20).plan.passes.size();
+  };
+  EXPECT_EQ(passes(ReflectionMethod::rays, {}), 0u);
+  EXPECT_EQ(passes(ReflectionMethod::rays, {.tracesRays = false}), 1u);
+  EXPECT_EQ(passes(ReflectionMethod::automatic, {}), 1u);
+  EXPECT_EQ(passes(ReflectionMethod::automatic, {.cpu = true}), 0u);
+  EXPECT_EQ(passes(ReflectionMethod::raster, {.cpu = true}), 1u);
+}
+
 TEST(MemoryFit, PlansUnchangedWithNothingLeftToLower) {
   const FittedPlan least = fit(1);
   EXPECT_EQ(least.settings.reflection.scale, 0.125);

@@ -83,6 +83,27 @@ TEST(FramePlan, BudgetGoesToTheBestFirst) {
   expectSkipped(p, 2, SkipReason::maxPasses);
 }
 
+TEST(FramePlan, RaysTakeThePlaceOfPasses) {
+  Settings settings;
+  settings.reflection.method = ReflectionMethod::rays;
+  const Scene scene = sceneWith({wall({0, 0, -5}, 0)});
+  const FramePlan p = planOf(scene, settings);
+  EXPECT_TRUE(p.passes.empty());
+  EXPECT_TRUE(p.main.mirrors.at(0).byRays);
+  EXPECT_TRUE(p.effects.traces());
+  expectSkipped(p, 0, SkipReason::rays);
+  settings.reflection.method = ReflectionMethod::automatic;
+  EXPECT_EQ(planOf(scene, settings).passes.size(), 1u);
+  const Scene far = sceneWith({wall({0, 0, -200}, 0)});
+  EXPECT_TRUE(planOf(far, settings).passes.empty());
+  EXPECT_TRUE(planOf(far, settings).effects.traces());
+  expectSkipped(planOf(far, settings), 0, SkipReason::rays);
+  settings.reflection.method = ReflectionMethod::rays;
+  settings.reflection.maxDepth = 0;
+  EXPECT_FALSE(planOf(scene, settings).effects.traces());
+  EXPECT_FALSE(planOf(scene).effects.traces());
+}
+
 TEST(FramePlan, FacingMirrorsRecurseDeepestFirst) {
   Settings settings;
   settings.reflection.maxDepth = 6;

@@ -45,7 +45,7 @@ TEST(Settings, EveryDescriptionIsWhole) {
 Settings changed(const SettingField& field) {
   Settings settings;
   for (const char* value : {"true", "false", "2", "0.5", "1", "32", "oblique", "aces", "trilinear", "image",
-                            "environment", "map", "256", "software", "0.1,0.2,0.3", "queue"}) {
+                            "environment", "map", "256", "software", "0.1,0.2,0.3", "queue", "rays"}) {
     if (!setSetting(settings, field.key, value) && !sameSetting(field, settings, Settings())) {
       return settings;
     }

@@ -58,14 +58,16 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
     work.lightRays += texels * points * toLights;
   }
   for (const MirrorDraw& draw : pass.mirrors) {
-    if (draw.scatters && !draw.back) {
+    if (draw.byRays && !draw.back) {
       const bool rough = settings.roughness && scene.mirrors[static_cast<size_t>(draw.mirror)].roughness > 0.0;
       const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
                                      pass.view.pictureSize.y);
       const bool rippled = settings.ripple && scene.mirrors[static_cast<size_t>(draw.mirror)].ripple;
-      // Rays follow ripples at every sample, whatever effects.per_sample is, and rough mirrors once a pixel.
-      const double rays = area * (1.0 + toLights) * (rippled ? samples : 1.0);
-      (rough ? work.roughRays : work.rippleRays) += rays * (rough ? settings.roughSamples : 1);
+      // Rays follow rough mirrors once a pixel and others at every sample, whatever effects.per_sample is.
+      const double rays = area * (1.0 + toLights) * (rough && !rippled ? 1.0 : samples);
+      (rough     ? work.roughRays
+       : rippled ? work.rippleRays
+                 : work.smoothRays) += rays * (rough ? settings.roughSamples : 1);
     }
   }
   for (const int i : pass.instances) {
@@ -134,8 +136,9 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   const bool shadowMaps = effects.shadowLookup == ShadowLookup::map &&
                           (from.effects.shadowLookup == ShadowLookup::traced || !effects.castsLight);
   work.lightRays *= shadowMaps ? 0.0 : rays;
-  work.rippleRays *=
-      effects.rippleLookup == ReflectionSource::image ? 0.0 : squared(view) * to.view.samples / from.view.samples;
+  const double sampleRays = squared(view) * to.view.samples / from.view.samples;
+  work.rippleRays *= effects.rippleLookup == ReflectionSource::image ? 0.0 : sampleRays;
+  work.smoothRays *= to.reflection.method == ReflectionMethod::raster ? 0.0 : sampleRays;
   work.curvedRays *= effects.curvedLookup == CurvedLookup::environment ? 0.0 : rays;
   work.roughRays *= effects.roughLookup == ReflectionSource::image
                         ? 0.0
@@ -158,7 +161,7 @@ CostModel::Vector CostModel::guess(const FrameWork& work) const {
   const double further = work.mainTexels * (work.viewSamples - 1) + work.mirrorTexels * (work.mirrorSamples - 1);
   Vector ms{work.plainTexels, work.passes,
             work.triangles,   work.mainTexels + work.mirrorTexels + work.mapTexels,
-            further,          work.lightRays + work.rippleRays + work.curvedRays + work.roughRays};
+            further,          work.lightRays + work.rippleRays + work.smoothRays + work.curvedRays + work.roughRays};
   std::ranges::transform(ms, prices_, ms.begin(), std::multiplies());
   return ms;
 }

@@ -18,6 +18,7 @@ struct FrameWork {
   // Estimated rays: from drawn surfaces to lights, and from mirrors of each kind, with the rays from hits to lights.
   double lightRays = 0.0;
   double rippleRays = 0.0;
+  double smoothRays = 0.0;
   double curvedRays = 0.0;
   double roughRays = 0.0;
   int viewSamples = 1;

@@ -60,9 +60,9 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
 }
 
 std::string_view reasonText(SkipReason reason) {
-  static constexpr std::array<std::string_view, 9> texts = {
-      "behind the eye",        "seen from behind", "outside the view",  "hidden",   "below Min. pixels",
-      "below Min. throughput", "above Max. depth", "above Max. passes", "unchanged"};
+  static constexpr std::array<std::string_view, 10> texts = {
+      "behind the eye",        "seen from behind", "outside the view",  "hidden",    "below Min. pixels",
+      "below Min. throughput", "above Max. depth", "above Max. passes", "unchanged", "by rays"};
   return texts[static_cast<size_t>(reason)];
 }
 

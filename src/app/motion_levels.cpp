@@ -27,6 +27,7 @@ Settings lowered(Settings settings, const Settings& limit) {
   view.scale = std::min(view.scale, limit.view.scale);
   view.samples = std::min(view.samples, limit.view.samples);
   view.meshError = std::max(view.meshError, limit.view.meshError);
+  reflection.method = std::min(reflection.method, limit.reflection.method);
   reflection.scale = std::min(reflection.scale, limit.reflection.scale);
   reflection.samples = std::min(reflection.samples, limit.reflection.samples);
   reflection.maxDepth = std::min(reflection.maxDepth, limit.reflection.maxDepth);
@@ -166,6 +167,7 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   using E = EffectSettings;
+  step([](Settings& s) { s.reflection.method = ReflectionMethod::raster; });  // dearer only where mirrors are small
   replace(rays.shadows || rays.castsLight || rays.curved, [](E& effects) { effects.perSample = false; });
   replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowLookup = ShadowLookup::map; });
   simplify(0.5, 0.0);
@@ -216,6 +218,7 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
     }
   };
   const EffectSettings& effects = settings.effects;
+  add(reflection.method != chosen.reflection.method, "mirrors from images");
   add(effects.castsLight != chosen.effects.castsLight, "no light off mirrors");
   add(effects.shadowLookup != chosen.effects.shadowLookup, "shadows from maps");
   add(effects.curvedLookup != chosen.effects.curvedLookup, "curved mirrors from maps");

@@ -136,6 +136,7 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
   limits_.largestSide =
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
                                  device.limits().maxViewportDimensions[1]}));
+  limits_.cpu = device.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
   tracesRays_ =
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
   bufferLimits_ = traceBufferLimits(device.limits());

@@ -240,9 +240,9 @@ void Planner::reuseMean() {
 }  // namespace
 
 std::string_view skipReasonName(SkipReason reason) {
-  static constexpr std::array<std::string_view, 9> names = {"behind",    "backface",   "outside",
-                                                            "hidden",    "min_pixels", "min_throughput",
-                                                            "max_depth", "max_passes", "unchanged"};
+  static constexpr std::array<std::string_view, 10> names = {
+      "behind",         "backface",  "outside",    "hidden",    "min_pixels",
+      "min_throughput", "max_depth", "max_passes", "unchanged", "rays"};
   return names[static_cast<size_t>(reason)];
 }
 

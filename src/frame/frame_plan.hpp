@@ -22,6 +22,7 @@ enum class SkipReason {
   maxDepth,       // reflection.max_depth
   maxPasses,      // reflection.max_passes was spent on better ones
   unchanged,      // its cached image is reused
+  rays,           // rays show its reflection
 };
 std::string_view skipReasonName(SkipReason reason);
 
@@ -29,7 +30,7 @@ std::string_view skipReasonName(SkipReason reason);
 struct MirrorDraw {
   int mirror = 0;                      // index into Scene::mirrors
   bool back = false;                   // its painted back is seen
-  bool scatters = false;               // rippled or rough: rays are traced, since an image of its plane lacks that
+  bool byRays = false;                 // rays show its reflection, not an image of its plane
   bool blurs = false;                  // rough: the image of its plane is blurred
   bool ripples = false;                // rippled: the image of its plane is looked up where ripples reflect to
   int pass = -1;                       // index into FramePlan::passes of the pass that renders its image; -1: none

@@ -58,7 +58,7 @@ class Numbers {
   void add(const SimplifiedInstance& simplified) { addAll(simplified.instance, simplified.level); }
   // A cached image is compared by itself; a mirror without an image shows the background.
   void add(const MirrorDraw& draw) {
-    addAll(draw.cached.has_value(), draw.mirror, draw.back, draw.scatters, draw.blurs, draw.ripples, draw.polygon,
+    addAll(draw.cached.has_value(), draw.mirror, draw.back, draw.byRays, draw.blurs, draw.ripples, draw.polygon,
            draw.plane, draw.layer);
   }
 

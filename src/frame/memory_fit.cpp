@@ -134,6 +134,9 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
+  if (reflection.method == ReflectionMethod::automatic && !limits.cpu) {
+    reflection.method = ReflectionMethod::raster;  // measured on GPUs with rays by shaders: scripts/crossover
+  }
   plan();
   if (!limits.tracesRays && fitted.plan.effects.any()) {
     EffectSettings& effects = fitted.settings.effects;
@@ -143,10 +146,11 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
     effects.ripple = effects.ripple && effects.rippleLookup == ReflectionSource::image;
     effects.castsLight = false;
     effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
-    fitted.message +=
-        (fitted.message.empty() ? "" : "; ") + std::string(
-                                                   "effects.* that trace rays are left out: the device lacks "
-                                                   "geometryShader, storage buffers, or room in them for the scene");
+    reflection.method = ReflectionMethod::raster;
+    fitted.message += (fitted.message.empty() ? "" : "; ") +
+                      std::string(
+                          "effects.* that trace rays, and reflection.method=rays, are left out: the device lacks "
+                          "geometryShader, storage buffers, or room in them for the scene");
     plan();
   }
   int& shadowMapSize = fitted.settings.effects.shadowMapSize;

@@ -16,6 +16,7 @@ struct TargetLimits {
   uint64_t budgetBytes = 0;  // for all render targets together
   int largestSide = 0;       // pixels of a picture, at any resolution
   bool tracesRays = true;    // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
+  bool cpu = false;          // the device is a CPU
 };
 
 struct FittedPlan {

@@ -185,10 +185,12 @@ void MirrorSearch::propose(int node, Sight sight) {
       pass.channels * reflectanceBound(material, allSettings_.effects, sight.draw.plane, view.eye, sight.visible);
   const bool deep = static_cast<int>(view.path.size()) >= settings_.maxDepth;
   const bool reflects = !deep && largest(throughput) >= settings_.minThroughput;
-  sight.draw.scatters = scatters(material, allSettings_.effects, reflects);
-  sight.draw.blurs = reflects && !sight.draw.scatters && isRough(material, allSettings_.effects);
-  sight.draw.ripples = reflects && !sight.draw.scatters && isRippled(material, allSettings_.effects);
-  const bool needsPass = !sight.draw.scatters;
+  const glm::dvec2 texels = view.pictureSize / glm::dvec2(plan_.width, plan_.height);
+  const int samples = view.path.empty() ? allSettings_.view.samples : settings_.samples;
+  sight.draw.byRays = followedByRays(material, allSettings_, reflects, area * texels.x * texels.y * samples);
+  sight.draw.blurs = reflects && !sight.draw.byRays && isRough(material, allSettings_.effects);
+  sight.draw.ripples = reflects && !sight.draw.byRays && isRippled(material, allSettings_.effects);
+  const bool needsPass = !sight.draw.byRays;
   pass.mirrors.push_back(std::move(sight.draw));
   if (deep) {
     return skipMirror(plan_, view, mirror, SkipReason::maxDepth, "max_depth " + std::to_string(settings_.maxDepth));
@@ -199,10 +201,11 @@ void MirrorSearch::propose(int node, Sight sight) {
   if (largest(throughput) < settings_.minThroughput) {
     return skipMirror(plan_, view, mirror, SkipReason::minThroughput, number(largest(throughput)));
   }
-  if (needsPass) {
-    candidates_.push({area * largest(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
-                      throughput, discovered_++});
+  if (!needsPass) {
+    return skipMirror(plan_, view, mirror, SkipReason::rays);
   }
+  candidates_.push({area * largest(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
+                    throughput, discovered_++});
 }
 
 void MirrorSearch::expand(const Candidate& candidate) {

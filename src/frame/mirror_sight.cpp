@@ -5,6 +5,13 @@
 
 namespace speculum {
 
+namespace {
+
+// Rays for as many samples take as long as a pass. Measured on lavapipe (docs/scaling.md).
+constexpr double samplesOfAPass = 1500.0;
+
+}  // namespace
+
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
   const double height = glm::dot(mirror.normal, eye - mirror.origin);
   return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
@@ -56,10 +63,13 @@ bool isRippled(const Mirror& mirror, const EffectSettings& effects) {
   return effects.ripple && mirror.ripple;
 }
 
-bool scatters(const Mirror& mirror, const EffectSettings& effects, bool reflects) {
+bool followedByRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples) {
+  const EffectSettings& effects = settings.effects;
   const bool roughRays = isRough(mirror, effects) && effects.roughLookup == ReflectionSource::traced;
   const bool rippleRays = isRippled(mirror, effects) && effects.rippleLookup == ReflectionSource::traced;
-  return (reflects && roughRays) || rippleRays;
+  const ReflectionMethod method = settings.reflection.method;
+  const bool pays = method == ReflectionMethod::automatic && samples < samplesOfAPass;
+  return (reflects && (roughRays || pays || method == ReflectionMethod::rays)) || rippleRays;
 }
 
 }  // namespace speculum

@@ -55,6 +55,7 @@ constexpr ChoiceSetting choice(std::span<const std::string_view> names) {
           [](Settings& settings, int index) { at<Member>.of(settings) = static_cast<Enum>(index); }, names};
 }
 
+constexpr std::array<std::string_view, 3> reflectionMethods{"raster", "auto", "rays"};
 constexpr std::array<std::string_view, 3> clipMethods{"clip_distance", "oblique", "none"};
 constexpr std::array<std::string_view, 2> toneMaps{"clamp", "aces"};
 constexpr std::array<std::string_view, 2> textureFilters{"bilinear", "trilinear"};
@@ -66,6 +67,11 @@ constexpr SettingNeed environmentMaps{"effects.curved_lookup", "environment"};
 constexpr SettingNeed shadowMaps{"effects.shadow_lookup", "map"};
 
 constexpr SettingField fields[] = {
+    {.key = "reflection.method",
+     .kind = choice<&R::method>(reflectionMethods),
+     .label = "Method",
+     .text = "mirrors by images that passes render, or by rays; auto: small ones by rays if the device is a CPU",
+     .cost = "A ray costs more than a texel, but no pass for each mirror."},
     {.key = "reflection.scale",
      .kind = NumberSetting{at<&R::scale>, 0.125, 4.0},
      .label = "Mirror resolution",

@@ -15,7 +15,12 @@ namespace speculum {
 enum class ClipMethod { clipDistance, oblique, none };
 enum class TextureFilter { bilinear, trilinear };
 
+// What shows a planar mirror's reflection: an image that a pass renders, whichever of the two is likely to take less
+// time, or rays.
+enum class ReflectionMethod { raster, automatic, rays };
+
 struct ReflectionSettings {
+  ReflectionMethod method = ReflectionMethod::raster;
   double scale = 1.0;  // resolution of mirror images relative to the main view
   int samples = 4;
   int maxDepth = 4;

@@ -16,8 +16,9 @@ bool isBlack(const glm::dvec3& color) {
   return color == glm::dvec3(0.0);
 }
 
-bool hasTracedEffects(const Scene& scene) {
-  return std::ranges::any_of(scene.lights, &PointLight::castsShadow) ||
+bool mayTrace(const Scene& scene, const Settings& settings) {
+  return settings.reflection.method != ReflectionMethod::raster ||
+         std::ranges::any_of(scene.lights, &PointLight::castsShadow) ||
          std::ranges::any_of(scene.objects, [](const Object& o) { return o.mirror.has_value(); }) ||
          std::ranges::any_of(scene.mirrors,
                              [](const Mirror& m) { return m.roughness > 0.0 || m.ripple || m.castsLight; });
@@ -64,21 +65,20 @@ class Collector {
     const Mirror& mirror = scene_.mirrors[draw.mirror];
     lit_.mirrors = lit_.mirrors || !isBlack(draw.back ? mirror.backColor : mirror.baseColor);
     const std::string name = nameOf("mirror", mirror.name, draw.mirror);
-    const bool rough = settings_.roughness && mirror.roughness > 0.0 && (draw.scatters || draw.blurs);
-    effects_.roughRays = effects_.roughRays || (rough && draw.scatters);
+    const bool rough = settings_.roughness && mirror.roughness > 0.0 && (draw.byRays || draw.blurs);
+    effects_.roughRays = effects_.roughRays || (rough && draw.byRays);
     if (rough && !effects_.roughness) {
       effects_.roughness = name;
     }
-    const bool rippled = settings_.ripple && mirror.ripple && (draw.scatters || draw.ripples);
-    effects_.rippleRays = effects_.rippleRays || (rippled && draw.scatters);
+    const bool rippled = settings_.ripple && mirror.ripple && (draw.byRays || draw.ripples);
+    effects_.rippleRays = effects_.rippleRays || (rippled && draw.byRays);
+    effects_.mirrorRays = effects_.mirrorRays || (draw.byRays && !rough && !rippled);
     if (rippled && !effects_.ripple) {
       effects_.ripple = name;
     }
   }
 
-  // Reflected rays may meet anything in the scene.
-  bool reflectsRays() const { return effects_.roughRays || effects_.curvedRays || effects_.rippleRays; }
-  bool anythingLit() const { return lit_.mirrors || lit_.anyInstance || reflectsRays(); }
+  bool anythingLit() const { return lit_.mirrors || lit_.anyInstance || effects_.reflects(); }
 
   void addShadows() {
     const std::vector<int> lights = settings_.shadows && anythingLit() ? shadowLights(scene_) : std::vector<int>();
@@ -89,7 +89,7 @@ class Collector {
     // Light that a mirror reflects is shadowed before and after the mirror, which no map of the light shows.
     effects_.shadowMaps =
         settings_.shadowLookup == ShadowLookup::map && lights.size() <= mostShadowMaps && !effects_.castsLight;
-    effects_.shadowRays = !effects_.shadowMaps || reflectsRays();
+    effects_.shadowRays = !effects_.shadowMaps || effects_.reflects();
   }
 
   void addMirroredLights() {
@@ -124,7 +124,7 @@ class Collector {
   // Says whether the reflected light reaches something drawn. The light's mirror image shines through the mirror's
   // polygon as through a window, and lights only objects that meet the cone through it.
   bool reachesSomething(const MirroredLight& path) const {
-    if (lit_.mirrors || reflectsRays()) {
+    if (lit_.mirrors || effects_.reflects()) {
       return true;
     }
     const MirrorState& mirror = state_.mirrors[path.mirror];
@@ -172,7 +172,7 @@ std::vector<int> shadowLights(const Scene& scene) {
 
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
                             std::span<const PlannedPass* const> passes) {
-  if (!hasTracedEffects(scene)) {
+  if (!mayTrace(scene, settings)) {
     return {};
   }
   Collector collector(scene, state, settings.effects);

@@ -18,7 +18,8 @@ struct MirroredLight {
   int mirror = 0;  // index into Scene::mirrors
 };
 
-// The effects that images of planes cannot show. Each names the first node that calls for it, if anything drawn does.
+// The effects that images of planes cannot show, and other work of rays. An effect names the first node that calls for
+// it, if anything drawn does.
 struct TracedEffects {
   std::optional<std::string> shadows;
   bool shadowMaps = false;  // what is drawn looks shadows up in maps
@@ -30,10 +31,13 @@ struct TracedEffects {
   std::optional<std::string> castsLight;
   std::optional<std::string> curved;
   bool curvedRays = false;  // curved mirrors are traced, not looked up in environment maps
+  bool mirrorRays = false;  // smooth mirrors are traced, not shown by images
   std::vector<MirroredLight> mirroredLights;
 
   // Says whether any ray is traced through the scene's triangles.
-  bool traces() const { return roughRays || curvedRays || shadowRays || rippleRays; }
+  bool traces() const { return shadowRays || reflects(); }
+  // Says whether rays follow reflections. They may meet anything in the scene.
+  bool reflects() const { return roughRays || curvedRays || rippleRays || mirrorRays; }
   bool any() const { return traces() || castsLight; }
 };
 

@@ -441,9 +441,9 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
                       .reprojected = draw.cached && draw.cached->moved,
                       .blurs = draw.blurs,
                       .ripples = ripples,
-                      .scatters = draw.scatters,
-                      .rippled = ripples || (draw.scatters && effects.ripple && mirror.ripple),
-                      .rough = draw.blurs || (draw.scatters && effects.roughness && mirror.roughness > 0.0),
+                      .byRays = draw.byRays,
+                      .rippled = ripples || (draw.byRays && effects.ripple && mirror.ripple),
+                      .rough = draw.blurs || (draw.byRays && effects.roughness && mirror.roughness > 0.0),
                       .fresnel = !draw.back && isSchlick(mirror.fresnel, effects),
                       .base = mirror.baseColor != glm::dvec3(0.0)};
     range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;

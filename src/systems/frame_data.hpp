@@ -49,7 +49,7 @@ struct MirrorRange {
   Lookup lookup = Lookup::fetch;  // of its image
   bool blurs = false;             // a rough mirror blurs its image
   bool ripples = false;           // a rippled mirror displaces its image
-  bool scatters = false;          // its reflection is traced
+  bool byRays = false;            // its reflection is traced
   bool rippled = false;
   bool rough = false;
   bool fresnel = false;

@@ -25,8 +25,8 @@ MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& 
 
 bool MirrorSystem::tracesRays(Shading shading, const TraceVariant& trace) {
   switch (shading) {
-    case Shading::scattered:
-    case Shading::scatteredBySample:
+    case Shading::byRays:
+    case Shading::byRaysAtSamples:
       return true;
     case Shading::ownSample:
     case Shading::ownSampleAdded:
@@ -60,13 +60,13 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.adds = true;
   }
   if (tracesRays(shading, variant.trace)) {
-    const bool scattered = shading == Shading::scattered || shading == Shading::scatteredBySample;
-    desc.frag = tracingShader(scattered                     ? "mirror_scattered"
+    const bool byRays = shading == Shading::byRays || shading == Shading::byRaysAtSamples;
+    desc.frag = tracingShader(byRays                        ? "mirror_rays"
                               : shading == Shading::average ? "mirror_average_traced"
                                                             : "mirror_traced",
                               variant.trace);
     desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT &&
-                         (shading == Shading::scatteredBySample || (variant.trace.perSample && !scattered));
+                         (shading == Shading::byRaysAtSamples || (variant.trace.perSample && !byRays));
     desc.setLayouts.push_back(info.trace.layout());
     addConstants(variant.trace, desc.fragConstants);
   }
@@ -86,8 +86,8 @@ void MirrorSystem::countPipelines(EffectLedger& ledger) const {
   pipelines_.forEach([&](const Variant& variant) {
     ledger.pipeline(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
-    ledger.pipeline(EffectKind::ripple, variant.shading == Shading::scatteredBySample || variant.ripples);
-    ledger.pipeline(EffectKind::roughness, variant.shading == Shading::scattered || variant.blurs);
+    ledger.pipeline(EffectKind::ripple, variant.ripples);
+    ledger.pipeline(EffectKind::roughness, variant.blurs);
   });
 }
 
@@ -100,8 +100,9 @@ void MirrorSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool ima
 
 std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const MirrorImage* image,
                                                           const PassFormat& format) const {
-  if (mirror.scatters) {
-    return {mirror.rippled ? Shading::scatteredBySample : Shading::scattered};
+  if (mirror.byRays) {
+    // Many rays a pixel smooth edges in a rough mirror.
+    return {mirror.rough && !mirror.rippled ? Shading::byRays : Shading::byRaysAtSamples};
   }
   if (!image || image->samples == VK_SAMPLE_COUNT_1_BIT) {
     return {Shading::single};
@@ -138,8 +139,10 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
     case Shading::ownSampleAdded:
       variant.reprojected = mirror.reprojected;
       break;
-    case Shading::scattered:
-    case Shading::scatteredBySample:
+    case Shading::byRays:
+    case Shading::byRaysAtSamples:
+      variant.blurs = mirror.rough;
+      variant.ripples = mirror.rippled;
       break;
   }
   return variant;
@@ -173,7 +176,7 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, siz
       } else if (variant.shadowed) {
         drawn.bindSet(scope.commands(), 2, info.shadows.set());
       }
-      scope.beginLabel(mirror.scatters ? "traced mirror" : "mirror");
+      scope.beginLabel(mirror.byRays ? "traced mirror" : "mirror");
       vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
       scope.endLabel();
       ++draws;

@@ -1,4 +1,4 @@
-// The fragment shader of rippled and rough mirrors, whose reflections no image of a plane can show.
+// The fragment shader of mirrors whose reflections rays show.
 #include "interface.glsl"
 #include "shading.glsl"
 #include "mirror_plane.glsl"

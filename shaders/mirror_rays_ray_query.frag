@@ -2,4 +2,4 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_query : require
 #define RAY_QUERY
-#include "mirror_scattered.glsl"
+#include "mirror_rays.glsl"

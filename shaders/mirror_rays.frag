@@ -1,3 +1,3 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "mirror_scattered.glsl"
+#include "mirror_rays.glsl"
