@@ -270,7 +270,7 @@ TEST(SaveScene, EverySettingReadsBack) {
   Settings other;
   for (const SettingField& field : settingFields()) {
     for (const char* value : {"true", "false", "0.123456789", "0.5", "1e-3", "2", "32", "512", "oblique", "aces",
-                              "trilinear", "image", "environment", "map", "software", "1,0,0.25", "x"}) {
+                              "trilinear", "image", "environment", "map", "software", "rays", "1,0,0.25", "x"}) {
       if (sameSetting(field, other, Settings())) {
         setSetting(other, field.key, value);
       }

@@ -30,13 +30,13 @@ TEST_F(PanelTest, SettingsAreEditedAndReset) {
 }
 
 TEST_F(PanelTest, ResetArrowIsReachedByKeyboard) {
-  drag("reflection.max_depth", 0.2, 60);
-  ASSERT_NE(settings_.current.reflection.maxDepth, 4);
+  drag("view.exposure", 0.2, 60);
+  ASSERT_NE(settings_.current.view.exposure, 1.0);
   // The drag left the keyboard's focus on the slider; the arrow is to its right.
   tap(ImGuiKey_RightArrow);
   tap(ImGuiKey_RightArrow);
   tap(ImGuiKey_Space);
-  EXPECT_EQ(settings_.current.reflection.maxDepth, 4);
+  EXPECT_EQ(settings_.current.view.exposure, 1.0);
 }
 
 TEST_F(PanelTest, TimeRowScrubsAndSteps) {
