@@ -45,7 +45,7 @@ struct Window {
   double mirrors = 1.0;
   double raysOfTexel = 0.0;
   MotionController controller{device.isCpu};
-  std::vector<MotionLevel> levels = motionLevels({}, {}, {}, 1 + 4, true);
+  std::vector<MotionLevel> levels = motionLevels({}, {}, {}, 1 + 4, true, false);
   uint64_t number = 0;
   std::deque<std::pair<uint64_t, double>> inFlight;  // frames whose times have not arrived yet
   std::vector<double> times{};                       // ms
@@ -226,7 +226,7 @@ TEST(MotionController, TakesMapsOnlyWhereRaysAreSlow) {
     Device device = fastCpu;
     device.ray = ray;
     Window run{device};
-    run.levels = motionLevels(scene, {}, {}, 1 + 4, true);
+    run.levels = motionLevels(scene, {}, {}, 1 + 4, true, false);
     run.raysOfTexel = 0.2;
     run.mirrors = 0.0;
     run.stand(6);
@@ -248,7 +248,7 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
   chosen.reflection.updateInterval = 3;
   chosen.reflection.meshError = 1.0;
   const std::vector<MotionLevel> front{{Settings(), 0.01}};
-  const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4, true, false);
   ASSERT_GT(levels.size(), 5u);
   EXPECT_TRUE(sameMainView(levels[0].settings, chosen));
   for (const auto& [settings, error] : levels) {
@@ -265,7 +265,7 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
 TEST(MotionLevels, FollowTheMeasuredFront) {
   MotionLevel point{Settings(), 0.02};
   point.settings.view.scale = 0.6;
-  const std::vector<MotionLevel> levels = motionLevels({}, {}, std::span(&point, 1), 1 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels({}, {}, std::span(&point, 1), 1 + 4, true, false);
   EXPECT_EQ(levels[1].settings.view.scale, 0.6);
   EXPECT_EQ(levels[1].settings.view.samples, 4);
   EXPECT_EQ(levels[1].error, 0.02);
@@ -278,7 +278,7 @@ TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
   point.settings.view.meshError = point.settings.reflection.meshError = 1.0;
   const auto mostError = [&](bool simplifies) {
     double most = 0.0;
-    for (const MotionLevel& level : motionLevels({}, {}, std::span(&point, 1), 1 + 4, simplifies)) {
+    for (const MotionLevel& level : motionLevels({}, {}, std::span(&point, 1), 1 + 4, simplifies, false)) {
       most = std::max({most, level.settings.view.meshError, level.settings.reflection.meshError});
     }
     return most;
@@ -289,7 +289,7 @@ TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
 
 TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
   const auto last = [](const Scene& scene, const Settings& chosen = {}) {
-    return motionLevels(scene, chosen, {}, 1 + 4, true).back().settings.effects;
+    return motionLevels(scene, chosen, {}, 1 + 4, true, false).back().settings.effects;
   };
   Scene scene;
   EXPECT_EQ(last(scene), EffectSettings());
@@ -313,10 +313,17 @@ TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
 TEST(MotionLevels, ImagesReplaceTheRaysOfMirrors) {
   Settings chosen;
   chosen.reflection.method = ReflectionMethod::rays;
-  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 4, true, false);
   EXPECT_EQ(levels.front().settings.reflection.method, ReflectionMethod::rays);
   EXPECT_EQ(levels.at(1).settings.reflection.method, ReflectionMethod::raster);
   EXPECT_EQ(levels.back().settings.reflection.method, ReflectionMethod::raster);
+  const auto last = [](const Scene& scene, bool cpuDevice) {
+    return motionLevels(scene, {}, {}, 1 + 4, true, cpuDevice).back().settings.reflection.method;
+  };
+  const Scene scene{{.mirrors = {Mirror()}}};
+  EXPECT_EQ(last(scene, true), ReflectionMethod::automatic);
+  EXPECT_EQ(last(scene, false), ReflectionMethod::raster);
+  EXPECT_EQ(last({}, true), ReflectionMethod::raster);
 }
 
 TEST(FrameWork, CountsTheRaysOfEffects) {

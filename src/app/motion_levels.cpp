@@ -124,7 +124,7 @@ double addedError(const Settings& chosen, const Settings& lower) {
 }  // namespace
 
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
-                                      unsigned sampleCounts, bool simplifies) {
+                                      unsigned sampleCounts, bool simplifies, bool cpuDevice) {
   const RayUse rays = raysOf(scene, chosen.effects);
   std::vector<MotionLevel> levels{{chosen}};
   const auto add = [&](const Settings& settings, double error) {
@@ -167,7 +167,9 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   using E = EffectSettings;
-  step([](Settings& s) { s.reflection.method = ReflectionMethod::raster; });  // dearer only where mirrors are small
+  step([&](Settings& s) {
+    s.reflection.method = cpuDevice && !scene.mirrors.empty() ? ReflectionMethod::automatic : ReflectionMethod::raster;
+  });
   replace(rays.shadows || rays.castsLight || rays.curved, [](E& effects) { effects.perSample = false; });
   replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowLookup = ShadowLookup::map; });
   simplify(0.5, 0.0);
@@ -218,7 +220,8 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
     }
   };
   const EffectSettings& effects = settings.effects;
-  add(reflection.method != chosen.reflection.method, "mirrors from images");
+  add(chosen.reflection.method == ReflectionMethod::rays && reflection.method != ReflectionMethod::rays,
+      "mirrors from images");
   add(effects.castsLight != chosen.effects.castsLight, "no light off mirrors");
   add(effects.shadowLookup != chosen.effects.shadowLookup, "shadows from maps");
   add(effects.curvedLookup != chosen.effects.curvedLookup, "curved mirrors from maps");

@@ -17,9 +17,10 @@ struct MotionLevel {
 // Returns levels for a picture of a scene with these settings, each cheaper than the one before: the settings
 // themselves, the front of the scene's measured sweep (most accurate first; may be empty), then steps in an order that
 // holds for most scenes (docs/window.md). No level is above the first in any setting. `sampleCounts` are those that the
-// device has, as a sum. `simplifies`: whether levels may simplify meshes.
+// device has, as a sum. `simplifies`: whether levels may simplify meshes. `cpuDevice`: small mirrors may be cheaper by
+// rays.
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
-                                      unsigned sampleCounts, bool simplifies);
+                                      unsigned sampleCounts, bool simplifies, bool cpuDevice);
 
 // Describes what a level gives up: "0.5 scale, 1 sample, FLIP about 0.05", or "full quality".
 std::string motionText(const Settings& chosen, const MotionLevel& level);

@@ -57,7 +57,7 @@ FittedPlan Pace::planWithinBudget(const Request& request, const Planner& plan) {
   Settings chosen = request.chosen;
   chosen.view.accumulate = 1;
   const std::vector<MotionLevel> levels =
-      motionLevels(request.scene, chosen, request.front, sampleCounts_, request.simplifies);
+      motionLevels(request.scene, chosen, request.front, sampleCounts_, request.simplifies, cpuDevice_);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
     fitted = plan(settings, 0);
     return work_;

@@ -104,11 +104,12 @@ void Planner::findShadows() {
   plan_.shadowMaps = shadowMaps(scene_, state_, allSettings_, readers);
 }
 
-// Chooses mesh levels. Traced rays and shadow maps rule them out: rays start on what is drawn but meet full meshes, and
-// maps hold full meshes, so a level would stand in the shadow of its own mesh. Drawing without a clip plane rules them
-// out too: an object may then be nearer than the mirror, and a level's error is allowed for the mirror's distance.
+// Chooses mesh levels. Rays from objects and shadow maps rule them out: rays start on what is drawn but meet full
+// meshes, and maps hold full meshes, so a level would stand in the shadow of its own mesh. Drawing without a clip plane
+// rules them out too: an object may then be nearer than the mirror, and a level's error is allowed for the mirror's
+// distance.
 void Planner::simplify() {
-  if (settings_.clip == ClipMethod::none || plan_.effects.traces() || plan_.effects.shadowMaps) {
+  if (settings_.clip == ClipMethod::none || plan_.effects.tracesFromObjects() || plan_.effects.shadowMaps) {
     return;
   }
   for (PassNode& node : nodes_) {

@@ -8,7 +8,7 @@ namespace speculum {
 namespace {
 
 // Rays for as many samples take as long as a pass. Measured on lavapipe (docs/scaling.md).
-constexpr double samplesOfAPass = 1500.0;
+constexpr double samplesOfAPass = 4000.0;
 
 }  // namespace
 

@@ -55,7 +55,7 @@ constexpr ChoiceSetting choice(std::span<const std::string_view> names) {
           [](Settings& settings, int index) { at<Member>.of(settings) = static_cast<Enum>(index); }, names};
 }
 
-constexpr std::array<std::string_view, 3> reflectionMethods{"raster", "auto", "rays"};
+constexpr std::array<std::string_view, 3> reflectionMethods{"auto", "raster", "rays"};
 constexpr std::array<std::string_view, 3> clipMethods{"clip_distance", "oblique", "none"};
 constexpr std::array<std::string_view, 2> toneMaps{"clamp", "aces"};
 constexpr std::array<std::string_view, 2> textureFilters{"bilinear", "trilinear"};
@@ -126,7 +126,7 @@ constexpr SettingField fields[] = {
      .kind = NumberSetting{at<&R::meshError>, 0.0, 16.0},
      .label = "Mesh error",
      .text = "largest error of simplified objects in mirror images; 0: all triangles",
-     .cost = "Saves vertices; shading shifts a little. Ignored while rays are traced.",
+     .cost = "Saves vertices; shading shifts a little. Ignored while shadows or curved mirrors are traced.",
      .unit = "texels",
      .slider = SettingSlider{0.0, 16.0}},
     {.key = "reflection.clip",
@@ -158,7 +158,7 @@ constexpr SettingField fields[] = {
      .kind = NumberSetting{at<&V::meshError>, 0.0, 16.0},
      .label = "Mesh error",
      .text = "largest error of simplified objects in the main view; 0: all triangles",
-     .cost = "Saves vertices; shading shifts a little. Ignored while rays are traced.",
+     .cost = "Saves vertices; shading shifts a little. Ignored while shadows or curved mirrors are traced.",
      .unit = "texels",
      .changes = mainView,
      .slider = SettingSlider{0.0, 16.0}},

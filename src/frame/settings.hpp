@@ -15,9 +15,9 @@ namespace speculum {
 enum class ClipMethod { clipDistance, oblique, none };
 enum class TextureFilter { bilinear, trilinear };
 
-// What shows a planar mirror's reflection: an image that a pass renders, whichever of the two is likely to take less
-// time, or rays.
-enum class ReflectionMethod { raster, automatic, rays };
+// What shows a planar mirror's reflection: whichever is likely to take less time, an image that a pass renders, or
+// rays.
+enum class ReflectionMethod { automatic, raster, rays };
 
 struct ReflectionSettings {
   ReflectionMethod method = ReflectionMethod::raster;
