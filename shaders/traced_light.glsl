@@ -11,7 +11,8 @@ vec3 mirrorReflectance(uint mirror, float cosine) {
 // A light, or its image in a mirror, as it illuminates a point.
 struct Incoming {
   bool arrives;
-  vec3 toLight;  // from the point
+  vec3 toLight;    // from the point
+  vec3 clearance;  // as LightData::clearance
   float radius;
   vec3 irradiance;  // at 1 m, with the mirror's reflectance
   bool castsShadow;
@@ -20,7 +21,8 @@ struct Incoming {
 };
 
 Incoming directLight(LightData light, vec3 position) {
-  return Incoming(true, light.position - position, light.radius, light.irradiance, light.castsShadow != 0, none, 1.0);
+  return Incoming(true, light.position - position, light.clearance, light.radius, light.irradiance,
+                  light.castsShadow != 0, none, 1.0);
 }
 
 // Returns the light that a mirror casts onto a point. It arrives if the straight line to the light's image crosses the
@@ -30,10 +32,11 @@ Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
   vec3 normal = mirrorTexel(mirror, 1).xyz;
   bool sameSide = path.side * dot(normal, tracePosition - mirrorTexel(mirror, 0).xyz) > 0.0;
   vec3 toLight = path.image - tracePosition;
-  float crossing = min(meetMirror(mirror, tracePosition, toLight), 1.0);  // rounding may put it behind the image
-  bool arrives = sameSide && self.plane != planeOf(mirror) && crossing > 0.0;
+  float crossing = meetMirror(mirror, tracePosition, toLight);
+  bool arrives = sameSide && self.plane != planeOf(mirror) && crossing > 0.0 && crossing < 1.0;
   vec3 reflectance = mirrorReflectance(mirror, abs(dot(normal, safeNormalize(toLight))));
-  return Incoming(arrives, toLight, path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror, crossing);
+  return Incoming(arrives, toLight, vec3(0.0), path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror,
+                  crossing);
 }
 
 Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
@@ -51,7 +54,7 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
   Skip skip = self;
   skip.secondPlane = incoming.mirror == none ? none : planeOf(incoming.mirror);
   vec3 origin = tracePosition;
-  vec3 direction = incoming.toLight;
+  vec3 direction = incoming.toLight + incoming.clearance;
   float tMax = incoming.crossing;
   bool last = incoming.mirror == none;
   bool hidden = false;

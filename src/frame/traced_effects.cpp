@@ -1,12 +1,10 @@
 #include "frame/traced_effects.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "frame/frame_plan.hpp"
 #include "frame/scene_names.hpp"
 #include "geometry/reflection.hpp"
-#include "scene/plane_slack.hpp"
 
 namespace speculum {
 
@@ -109,8 +107,7 @@ class Collector {
 
   double heightOf(const MirroredLight& path) const {
     const MirrorState& mirror = state_.mirrors[path.mirror];
-    const double height = glm::dot(mirror.normal, state_.lights[path.light].position - mirror.origin);
-    return std::abs(height) > planeSlack(mirror) ? height : 0.0;
+    return glm::dot(mirror.normal, state_.lights[path.light].position - mirror.origin);
   }
 
   bool bounces(const MirroredLight& path) const {

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "geometry/affine.hpp"
-#include "scene/plane_slack.hpp"
 
 namespace speculum {
 
@@ -38,25 +37,22 @@ glm::dvec3 mirroredLight(const TraceWorld& world, const ShadingPoint& point, int
   const glm::dvec3& position = world.lights()[light].position;
   const double pointSide = glm::dot(plane.normal, point.position - plane.origin);
   const double lightSide = glm::dot(plane.normal, position - plane.origin);
-  const double slack = planeSlack(plane);
-  const bool sameSide =
-      pointSide > 0.0 ? lightSide > slack : material.twoSided && pointSide < 0.0 && lightSide < -slack;
+  const bool sameSide = pointSide > 0.0 ? lightSide > 0.0 : material.twoSided && pointSide < 0.0 && lightSide < 0.0;
   if (!sameSide || (point.self.mirror >= 0 && world.mirrors()[point.self.mirror].plane == plane.plane)) {
     return glm::dvec3(0.0);
   }
   const glm::dvec3 toImage = position - 2.0 * lightSide * plane.normal - point.position;
-  const Ray leg{point.position, toImage};
-  const auto met = world.meetMirror(leg, mirror);
-  if (!met || glm::dot(point.normal, toImage) <= 0.0) {
+  const Ray leg{point.position, toImage, 0.0, 1.0};
+  const auto crossing = world.meetMirror(leg, mirror);
+  if (!crossing || glm::dot(point.normal, toImage) <= 0.0) {
     return glm::dvec3(0.0);
   }
-  const double crossing = std::min(*met, 1.0);  // rounding may put it behind the image
   if (source.castsShadow) {
     Skip first = point.self;
     first.secondMirror = mirror;
-    const glm::dvec3 bounce = leg.at(crossing);
+    const glm::dvec3 bounce = leg.at(*crossing);
     const Skip second{.mirror = mirror};
-    if (world.occluded({point.position, toImage, 0.0, crossing}, first) ||
+    if (world.occluded({point.position, toImage, 0.0, *crossing}, first) ||
         world.occluded({bounce, position - bounce, 0.0, 1.0}, second)) {
       return glm::dvec3(0.0);
     }

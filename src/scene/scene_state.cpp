@@ -6,7 +6,7 @@
 
 #include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
-#include "scene/plane_slack.hpp"
+#include "scene/beside_mirrors.hpp"
 
 namespace speculum {
 
@@ -52,7 +52,16 @@ glm::dvec3 firstEdge(const std::vector<glm::dvec3>& polygon, const glm::dvec3& n
   throw std::invalid_argument("a mirror's polygon has no edge");
 }
 
-MirrorState mirrorState(const Mirror& mirror, double time) {
+double slackOf(const std::vector<glm::dvec3>& polygon) {
+  const glm::dvec3 center = vertexMean(polygon);
+  double radius = 0.0;
+  for (const glm::dvec3& p : polygon) {
+    radius = std::max(radius, glm::length(p - center));
+  }
+  return 1e-9 * radius + 1e-15 * glm::length(center);
+}
+
+MirrorState placedMirror(const Mirror& mirror, double time) {
   MirrorState state;
   if (!mirror.polygon.empty()) {
     state.polygon = mirror.polygon;
@@ -70,6 +79,12 @@ MirrorState mirrorState(const Mirror& mirror, double time) {
   const glm::dvec3 x = 0.5 * mirror.size.x * state.axisX;
   const glm::dvec3 y = 0.5 * mirror.size.y * state.axisY;
   state.polygon = {state.origin - x - y, state.origin + x - y, state.origin + x + y, state.origin - x + y};
+  return state;
+}
+
+MirrorState mirrorState(const Mirror& mirror, double time) {
+  MirrorState state = placedMirror(mirror, time);
+  state.slack = slackOf(state.polygon);
   return state;
 }
 
@@ -95,11 +110,10 @@ struct Placed {
   const Mirror* mirror = nullptr;
   MirrorState* state = nullptr;
   Bounds bounds;
-  double slack = 0.0;
 };
 
 Placed placedAs(const Mirror& mirror, MirrorState& state) {
-  Placed placed{.mirror = &mirror, .state = &state, .slack = planeSlack(state)};
+  Placed placed{.mirror = &mirror, .state = &state};
   for (const glm::dvec3& p : state.polygon) {
     placed.bounds.add(p);
   }
@@ -108,7 +122,7 @@ Placed placedAs(const Mirror& mirror, MirrorState& state) {
 
 bool inOnePlane(const Placed& a, const Placed& b) {
   const Plane plane{a.state->polygon[0], a.state->normal};
-  const double slack = std::max(a.slack, b.slack);
+  const double slack = std::max(a.state->slack, b.state->slack);
   return std::ranges::all_of(b.state->polygon, [&](const auto& p) { return std::abs(plane.distance(p)) <= slack; });
 }
 
@@ -127,7 +141,7 @@ bool edgeSeparates(const Placed& a, const Placed& b, double slack) {
 }
 
 bool overlap(const Placed& a, const Placed& b) {
-  const double slack = std::max(a.slack, b.slack);
+  const double slack = std::max(a.state->slack, b.state->slack);
   const glm::dvec3 gap = glm::max(a.bounds.low - b.bounds.high, b.bounds.low - a.bounds.high);
   return std::max({gap.x, gap.y, gap.z}) <= slack && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
 }
@@ -223,6 +237,12 @@ SceneState evaluate(const Scene& scene, double timeSeconds) {
     state.mirrors.push_back(mirrorState(mirror, timeSeconds));
   }
   findLayers(scene.mirrors, state.mirrors);
+  const bool bounces = std::ranges::any_of(scene.mirrors, &Mirror::castsLight);
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    if (bounces || scene.lights[i].castsShadow) {
+      state.lights[i].position = besideMirrors(state.lights[i].position, state.mirrors);
+    }
+  }
   return state;
 }
 

@@ -44,6 +44,7 @@ struct InstanceState {
   double radius = 0.0;     // metres
 };
 
+// A light within MirrorState::slack of mirrors' planes is moved in front of the first mirror of each.
 struct LightState {
   glm::dvec3 position{0.0};  // world
 };
@@ -54,7 +55,8 @@ struct MirrorState {
   glm::dvec3 normal{0.0, 0.0, 1.0};  // world, unit, to the front
   glm::dvec3 axisX{1.0, 0.0, 0.0};   // world, unit; for ripples
   glm::dvec3 axisY{0.0, 1.0, 0.0};
-  int plane = 0;  // first mirror of the same plane; its own index if there is none before it
+  double slack = 0.0;  // metres; how far from its plane rounding can put what lies in it
+  int plane = 0;       // first mirror of the same plane; its own index if there is none before it
   // Where mirrors of one plane overlap, a side that reflects covers a back; otherwise the mirror listed first covers. A
   // layer is 0, or one more than the largest layer of the mirrors that cover this one.
   int frontLayer = 0;  // seen from its front

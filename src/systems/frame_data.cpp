@@ -8,6 +8,7 @@
 #include "frame/mesh_level.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame/shadow_map.hpp"
+#include "scene/beside_mirrors.hpp"
 #include "systems/gpu_conversion.hpp"
 
 namespace speculum {
@@ -152,6 +153,21 @@ glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod
   return projection;
 }
 
+namespace {
+
+std::vector<glm::vec3> clearancesOf(const Scene& scene, const SceneState& state) {
+  std::vector<glm::vec3> clearances(scene.lights.size());
+  for (size_t i = 0; i < clearances.size(); ++i) {
+    const glm::dvec3& light = state.lights[i].position;
+    if (scene.lights[i].castsShadow) {
+      clearances[i] = glm::vec3(besideMirrors(light, state.mirrors, state.camera.eye) - light);
+    }
+  }
+  return clearances;
+}
+
+}  // namespace
+
 VkDescriptorType FrameData::typeOf(uint32_t kind) {
   return kind == passBlocks || kind == mirrors ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
                                                : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -183,6 +199,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   mirrorVertices_.clear();
   passes_.clear();
   const Source source{scene, state, settings, environment, plan};
+  clearances_ = clearancesOf(scene, state);
   size_t drawn = plan.main.instances.size();
   for (const PlannedPass& pass : plan.passes) {
     drawn += pass.instances.size();
@@ -284,6 +301,7 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
                        .castsShadow = light.castsShadow,
                        .glow = radiance(light.color * light.glow),
                        .hasGlyph = hasGlyph(light, source.settings.effects),
+                       .clearance = clearances_[i],
                        .shadowMap = map == maps.end() ? gpu::noShadowMap : static_cast<uint32_t>(map - maps.begin())});
   }
   std::copy_n(lights_.end() - static_cast<std::ptrdiff_t>(order.size()),

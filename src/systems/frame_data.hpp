@@ -126,6 +126,7 @@ class FrameData {
   std::vector<PassBlock> passBlocks_;
   std::vector<MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
+  std::vector<glm::vec3> clearances_;  // LightData::clearance of each light of the scene
   std::vector<gpu::InstanceData> instances_;
   std::vector<gpu::EnvironmentData> environments_;
   std::vector<glm::vec4> mirrorVertices_;

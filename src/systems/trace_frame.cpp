@@ -10,6 +10,7 @@
 
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
+#include "scene/beside_mirrors.hpp"
 #include "systems/gpu_conversion.hpp"
 
 namespace speculum {
@@ -342,7 +343,7 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
   std::vector<gpu::LightPath> paths;
   for (const MirroredLight& mirrored : effects.mirroredLights) {
     const PointLight& light = scene_.lights[mirrored.light];
-    const glm::dvec3& position = state.lights[mirrored.light].position;
+    const glm::dvec3 position = besideMirrors(state.lights[mirrored.light].position, state.mirrors, state.camera.eye);
     const MirrorState& mirror = state.mirrors[mirrored.mirror];
     const glm::dvec3 image = reflectPoint(position, {mirror.origin, mirror.normal});
     paths.push_back({.image = glm::vec3(image - state.camera.eye),

@@ -6,12 +6,14 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <thread>
 
 #include "app/demo.hpp"
 #include "geometry/affine.hpp"
 #include "image/color.hpp"
 #include "naive_arithmetic.hpp"
+#include "random.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 #include "virtual_display.hpp"
@@ -186,6 +188,39 @@ TEST(LightOnASurface, LampOnAMirrorMatchesTheTracer) {
                                    text(center + 0.3 * turn[0] + height * turn[2]) + "\nintensity = 4\n"));
   }
   expectTruths(files, {160, 90}, 1);
+}
+
+// A box with a lamp on a mirror that casts light, or on several that do not, or so near to them that single precision
+// does not tell its side.
+std::string boxWithLampOnMirrors(Random& random) {
+  const glm::dvec3 lamp = random.inBox(0.7);
+  const bool castsLight = random.chance(0.6);
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+      << cameraText(lamp + 1.5 * random.direction(), lamp)
+      << objectText("MODELS/box.obj", {0, 0, 0}, random.inBox(180.0), 6.0, {0.6, 0.6, 0.6})
+      << "[[light]]\nposition = " << text(lamp) << "\nintensity = 4\ncasts_shadow = true\n";
+  for (double mirrors = castsLight ? 1.0 : random.uniform(1.0, 4.0); mirrors >= 1.0; mirrors -= 1.0) {
+    const glm::dvec3 rotation = random.inBox(180.0);
+    const double height = std::stod(random.pick(std::array{"0", "1e-13", "1e-8", "1e-7", "1e-6"}));
+    const glm::dvec3 local(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.chance(0.5) ? height : -height);
+    out << "[[mirror]]\n"
+        << rectangleText(lamp + rotationFromDegrees(rotation) * local, rotation, 1.2, 1.0)
+        << "casts_light = " << (castsLight ? "true" : "false")
+        << "\ntwo_sided = " << (random.chance(0.4) ? "true" : "false") << "\n";
+  }
+  return out.str();
+}
+
+TEST(LightOnASurface, ShadowsOfLampsOnMirrorsMatchTheTracer) {
+  Random random(11);
+  Gpu gpu(truthOptions(writeScene("lamp_on_mirrors", boxWithLampOnMirrors(random)), {96, 54}, 1));
+  for (int i = 0; i < 16; ++i) {
+    SCOPED_TRACE(i);
+    const auto file = writeScene("lamp_on_mirrors_" + std::to_string(i), boxWithLampOnMirrors(random));
+    Studio studio(gpu, truthOptions(file, {96, 54}, 1));
+    expectTruth(studio, file, trace(file, {96, 54}, 1));
+  }
 }
 
 // lightRadiance of shading.glsl without its floors and bounds, in float.
