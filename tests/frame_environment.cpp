@@ -131,7 +131,7 @@ TEST(EnvironmentMap, IsRenderedWhenItsContentChanged) {
   Frames frames(room());
   EXPECT_EQ(frames.rendered(), 1);
   EXPECT_EQ(frames.rendered(), 0);
-  const int serial = frames.plan.maps[0].serial;
+  const uint64_t serial = frames.plan.maps[0].serial;
   frames.scene.camera.position.x += 0.1;
   frames.scene.camera.target.x += 0.1;
   EXPECT_EQ(frames.rendered(), 0) << "a map does not depend on who looks";
@@ -179,7 +179,7 @@ TEST(EnvironmentMap, ImagesThatShowItAreRenderedToo) {
   ASSERT_EQ(frames.plan.passes.size(), 1u);
   for (int frame = 0; frame < 6; ++frame) {
     frames.scene.objects[box].position.y += frame == 0 ? 0.1 : 0.0;
-    const int serial = frames.plan.maps[0].serial;
+    const uint64_t serial = frames.plan.maps[0].serial;
     frames.next();
     const bool mapIsNew = frames.plan.maps[0].serial != serial;
     EXPECT_EQ(frames.plan.passes.size(), frame == 0 || mapIsNew ? 1u : 0u) << "frame " << frame;

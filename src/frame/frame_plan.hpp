@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,7 +45,7 @@ struct MirrorDraw {
 struct PlannedPass {
   View view;
   int parent = -1;             // index into FramePlan::passes; -1: the main view
-  int depth = -1;              // depth level of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
+  int depth = -1;              // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
   double areaPx = 0.0;         // area of the mirror's visible region, in texels of its image
   double throughput = 1.0;     // upper bound over that region, largest channel, with this mirror's own reflectance
   glm::dvec3 channels{1.0};    // upper bound of each channel
@@ -70,7 +71,7 @@ struct EnvironmentMap {
   glm::dvec3 high{0.0};
   Settings settings;              // when they were rendered
   std::vector<uint64_t> content;  // as CachedImage::content
-  int serial = 0;                 // changes each time that any map is rendered
+  uint64_t serial = 0;            // changes each time that any map is rendered
   int age = 1;                    // frames since it was rendered or last found unchanged, in the next frame
   int due = 1;                    // age at which it is rendered anew
   int cacheIndex = -1;            // index into FrameCache::maps of the map that is reused; -1: this frame renders it
@@ -94,7 +95,7 @@ struct ShadowMap {
   std::string name;               // of the light, for users
   int size = 0;                   // texels of each side of a face
   std::vector<ShadowFace> faces;  // in the order of faceAxes()
-  int serial = 0;                 // grows each time that a face of this map is rendered
+  uint64_t serial = 0;            // grows each time that a face of this map is rendered
 };
 
 // Kinds of recorded passes.

@@ -15,9 +15,9 @@ struct ImageSurroundings {
   const SceneState& state;
   const Settings& settings;
   const Projection& projection;
-  const TracedEffects& effects;           // of all passes
-  std::vector<std::pair<int, int>> maps;  // environment maps that may be looked up: instance, EnvironmentMap::serial
-  int shadowSerial = 0;                   // largest ShadowMap::serial
+  const TracedEffects& effects;                // of all passes
+  std::vector<std::pair<int, uint64_t>> maps;  // environment maps that may be looked up: instance, their serial
+  uint64_t shadowSerial = 0;                   // largest ShadowMap::serial
 };
 
 // Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on. Images with

@@ -125,7 +125,7 @@ void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, c
 
 void reuseMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
                const ImageSurroundings& around, const View& main) {
-  int serial = 0;
+  uint64_t serial = 0;
   for (const EnvironmentMap& map : before) {
     serial = std::max(serial, map.serial);
   }

@@ -203,11 +203,11 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
                      const SceneState& state) {
   const bool reuses = std::ranges::equal(
       maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
-  int serial = 0;
+  uint64_t serial = 0;
   for (const ShadowMap& map : before) {
     serial = std::max(serial, map.serial);
   }
-  const int next = serial + 1;
+  const uint64_t next = serial + 1;
   for (size_t i = 0; i < maps.size(); ++i) {
     maps[i].serial = reuses ? before[i].serial : next;
     for (size_t f = 0; f < maps[i].faces.size(); ++f) {
