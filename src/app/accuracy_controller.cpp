@@ -15,7 +15,7 @@ namespace {
 constexpr int heatBarSteps = 32;
 
 std::string aboutText(const SweepResults& results) {
-  return std::to_string(results.points.size()) + " choices of settings at " + std::to_string(results.width) + "x" +
+  return std::to_string(results.points.size()) + " configurations at " + std::to_string(results.width) + "x" +
          std::to_string(results.height) + ", reference of " + std::to_string(results.truthSamples) + " samples a pixel";
 }
 

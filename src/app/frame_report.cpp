@@ -145,7 +145,7 @@ bool FrameReport::drewScene(uint64_t frame) const {
   return std::ranges::any_of(drawn_, [&](const DrawnFrame& drawn) { return drawn.number == frame; });
 }
 
-// Lists passes of reused images too, because nobody can read a list that changes from frame to frame.
+// Lists passes of cached images too, because nobody can read a list that changes from frame to frame.
 void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& timings,
                                std::span<const RecordedPass> passes, std::span<const RecordedPass> timed) {
   const FramePlan& plan = frame.plan;

@@ -32,7 +32,7 @@ struct Effect {
 // Returns the settings (at least one) that leave an effect out of the picture.
 std::vector<SettingChange> settingsWithout(EffectKind effect);
 
-// Says whether an object with a texture is drawn, or seen in a reused image.
+// Says whether an object with a texture is drawn, or seen in a cached image.
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);
 
 // Returns all effects, in the order of EffectKind.

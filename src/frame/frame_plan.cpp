@@ -73,7 +73,7 @@ class Planner {
   std::vector<PassNode> nodes_;
 };
 
-// Finds the environment and shadow maps, and the effects that maps and passes call for. Passes of reused images count.
+// Finds the environment and shadow maps, and the effects that maps and passes call for. Passes of cached images count.
 void Planner::findEffects() {
   std::vector<const PlannedPass*> passes;
   collect(0, passes);
@@ -192,7 +192,7 @@ int Planner::record(int node) {
   return index;
 }
 
-// Lists the passes that a reused image replaces.
+// Lists the passes that a cached image replaces.
 void Planner::recordReused(int node) {
   for (const int child : nodes_[node].children) {
     recordReused(child);
@@ -212,7 +212,7 @@ void Planner::reuseImage(MirrorDraw& draw, const PassNode& node) {
   plan_.cached.push_back(image);
 }
 
-// Drops skipped mirrors that are seen only in reused images.
+// Drops skipped mirrors that are seen only in cached images.
 void Planner::dropSkipsInReused() {
   std::vector<bool> reused(scene_.mirrors.size(), false);
   for (const CachedImage& image : plan_.cached) {

@@ -25,7 +25,7 @@ uint64_t pixels(const PixelRect& rect) {
   return static_cast<uint64_t>(rect.area());
 }
 
-// Returns the pixels of the reused images.
+// Returns the pixels of the cached images.
 uint64_t cachedPixels(const FramePlan& plan) {
   uint64_t sum = 0;
   for (const CachedImage& image : plan.cached) {

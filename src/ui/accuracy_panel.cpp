@@ -252,7 +252,7 @@ void accuracy(PanelContext& ui) {
   } else if (accuracy.points.empty() && accuracy.about.empty()) {
     ImGui::TextWrapped(
         "Finds the settings that are the most accurate within a time: 1. traces how this view should look, 2. draws it "
-        "with each choice of settings and compares, 3. takes the times.");
+        "with each configuration and compares, 3. takes the times.");
   }
   if (!accuracy.about.empty()) {
     ImGui::TextWrapped("%s", accuracy.about.c_str());
