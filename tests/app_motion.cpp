@@ -480,7 +480,7 @@ TEST_F(PacedScene, SlowPicturesAreDrawnTileByTile) {
                                            return whole;
                                          });
     // A tenth of the tiles is dear.
-    const TileRange tiles = tilesOf(fitted.plan, 0);
+    const TileRange tiles = tilesOfPasses(fitted.plan)[0];
     ms = 0.0;
     for (size_t tile = tiles.first; tile < tiles.end; ++tile) {
       ms += tile % 500 < 50 ? 5.0 : 0.5;

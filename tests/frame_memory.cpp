@@ -43,6 +43,19 @@ TEST(MemoryFit, LowersMirrorSamplesViewSamplesScale) {
   EXPECT_LT(fit(16'000'000).settings.reflection.scale, 1.0);
 }
 
+TEST(MemoryFit, CountsThePictureThatStaysShown) {
+  const Scene scene = wallScene();
+  Settings settings;
+  settings.view.accumulate = 64;
+  const auto scale = [&](bool keepsPicture) {
+    const TargetLimits limits{.budgetBytes = 105'000'000, .largestSide = 4096, .keepsPicture = keepsPicture};
+    return planWithin(limits, scene, evaluate(scene, 0.0), settings, 1000, 1000).settings.reflection.scale;
+  };
+  // Per pixel: main 8 + 4, sums 32; mirror image 8 + 4; what stays 8 + 4 * (8 + 4).
+  EXPECT_EQ(scale(false), 1.0);
+  EXPECT_EQ(scale(true), 0.5);
+}
+
 TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
   const Scene scene = wallScene();
   Settings settings;

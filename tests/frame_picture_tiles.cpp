@@ -37,15 +37,13 @@ TEST(PictureTiles, PassesFollowEachOther) {
   plan.passes[1].view.rect = {0, 0, 10, 10};
   plan.main.view.rect = {0, 0, 128, 128};
   EXPECT_EQ(tileCount(plan), 2u + 1u + 4u);
-  EXPECT_EQ(tilesOf(plan, 2), (TileRange{0, 4})) << "all";
+  EXPECT_EQ(tilesOfPasses(plan), (std::vector<TileRange>{{0, 2}, {0, 1}, {0, 4}})) << "all";
   EXPECT_TRUE(beginsPicture(plan) && endsPicture(plan));
   plan.tiles = {1, 5};
-  EXPECT_EQ(tilesOf(plan, 0), (TileRange{1, 2}));
-  EXPECT_EQ(tilesOf(plan, 1), (TileRange{0, 1}));
-  EXPECT_EQ(tilesOf(plan, 2), (TileRange{0, 2}));
+  EXPECT_EQ(tilesOfPasses(plan), (std::vector<TileRange>{{1, 2}, {0, 1}, {0, 2}}));
   EXPECT_FALSE(beginsPicture(plan) || endsPicture(plan));
   plan.tiles = {5, 7};
-  EXPECT_TRUE(tilesOf(plan, 0).empty());
+  EXPECT_TRUE(tilesOfPasses(plan)[0].empty());
   EXPECT_TRUE(endsPicture(plan));
 }
 

@@ -181,6 +181,21 @@ TEST_F(Saving, NewSceneAsksFirstAndSavesElsewhere) {
   EXPECT_EQ(edit().proposedFile, documentsDir() / "Speculum" / "untitled.toml");
   send(SaveAs{"mine"});
   EXPECT_EQ(loadScene(documentsDir() / "Speculum" / "mine.toml").lights.size(), 2u);
+  EXPECT_EQ(shownScene(), "mine");
+  EXPECT_EQ(std::ranges::count(view().browser.scenes, "untitled", &SceneEntry::name), 0);
+}
+
+TEST_F(Saving, NewScenesAreListedWhileShown) {
+  send(NewScene{});
+  waitFor([&] { return shownScene() == "untitled"; });
+  const std::string path = environment("PATH");
+  setEnvironment("PATH", "");
+  send(AskWhatToOpen{});
+  setEnvironment("PATH", path);
+  EXPECT_EQ(edit().proposedFile, dataDirectory("scenes") / "") << "not where the new scene comes from";
+  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  waitFor([&] { return shownScene() == "no_mirror"; });
+  EXPECT_EQ(std::ranges::count(view().browser.scenes, "untitled", &SceneEntry::name), 0);
 }
 
 // Changes made while a scene is loading bring up the prompt once it is loaded.

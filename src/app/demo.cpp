@@ -149,14 +149,14 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const bool captured = workspace_.capture().wanted();
   frame->capture = capture_ || captured;
   const bool bare = workspace_.capture().bare();
-  FittedPlan fitted;
+  const FittedPlan* fitted = nullptr;
   try {
-    fitted = planFrame(*frame, state);
+    fitted = &planFrame(*frame, state);
     const std::optional<TargetRequest>& target = output_.target;
-    const std::optional<DebugView> debug = target ? workspace_.report().target(*target, fitted.plan, fitted.settings,
+    const std::optional<DebugView> debug = target ? workspace_.report().target(*target, fitted->plan, fitted->settings,
                                                                                device_.limits().standardSampleLocations)
                                                   : std::nullopt;
-    sceneRenderer_->record(*frame, state, fitted.settings, fitted.plan, bare ? std::nullopt : debug);
+    sceneRenderer_->record(*frame, state, fitted->settings, fitted->plan, bare ? std::nullopt : debug);
   } catch (const DeviceLostError&) {
     throw;
   } catch (const SurfaceLostError&) {
@@ -164,7 +164,8 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   } catch (const std::exception& error) {
     return abandonFrame(*frame, error.what());
   }
-  const FramePlan& plan = fitted.plan;
+  const FramePlan& plan = fitted->plan;
+  const Settings& settings = fitted->settings;
   if (!bare) {
     ui_->record(renderer_.beginOverlay(*frame));
   }
@@ -177,20 +178,19 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   renderer_.endFrame(*frame);
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
-  workspace_.report().update({workspace_.scene(), state, fitted.settings, plan, number, cpuMs, sinceLastMs}, renderer_,
+  workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs}, renderer_,
                              *sceneRenderer_, output_.hoveredPath);
   const auto radiance = [&] {
-    const ViewSettings& view = fitted.settings.view;
-    return toDisplay(sceneRenderer_->radiance(), view.exposure, view.toneMap);
+    return toDisplay(sceneRenderer_->radiance(), settings.view.exposure, settings.view.toneMap);
   };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
-  workspace_.frameDrawn({workspace_.scene(), state, fitted.settings, plan.width, plan.height},
+  workspace_.frameDrawn({workspace_.scene(), state, settings, plan.width, plan.height},
                         endsPicture(plan) ? radiance : std::function<Image8()>(), picture ? &*picture : nullptr);
-  frameSettings_ = fitted.settings;
+  frameSettings_ = settings;
   message_ = currentMessage();
 }
 
-FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
+const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool showsMain = output_.target && output_.target->path.empty();
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
   const Settings settings = settingsOfFrame();
@@ -209,7 +209,7 @@ FittedPlan Demo::planFrame(Frame& frame, const SceneState& state) {
                               .front = workspace_.accuracy().front(),
                               .simplifies = levels_.ready(workspace_.scene(), scenes_),
                               .input = changes_};
-  FittedPlan fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
+  const FittedPlan& fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });
   const bool pauses = !pace_.text().empty() && workspace_.animates();

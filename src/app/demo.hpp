@@ -80,7 +80,7 @@ class Demo : private WorkspaceHost {
   void endWithPanels(Frame& frame);
   void abandonFrame(Frame& frame, const std::string& why);
   void drawFrame(double seconds, double sinceLastMs);
-  FittedPlan planFrame(Frame& frame, const SceneState& state);
+  const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   bool timesPasses(bool movementEnded);
   Settings settingsOfFrame() const;
   std::string currentMessage();

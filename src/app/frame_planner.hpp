@@ -11,7 +11,7 @@ namespace speculum {
 // them, until a setting changes, which may free memory.
 class FramePlanner {
  public:
-  explicit FramePlanner(const Device& device) : planner_(device) {}
+  explicit FramePlanner(const Device& device) : planner_(device, true) {}
 
   // Plans a frame for picture number `picture` of a mean, and uploads its textures. With `rendersMain` the main view is
   // not reused. While `settingsMove`, as with a slider that is held, textures are not tried again, because each trial

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "frame/picture_offset.hpp"
+#include "frame/picture_tiles.hpp"
 
 namespace speculum {
 
@@ -37,7 +38,7 @@ void Pace::begin(const CameraPose& camera, bool otherwise, double seconds) {
   }
 }
 
-FittedPlan Pace::plan(const Request& request, const Planner& plan) {
+const FittedPlan& Pace::plan(const Request& request, const Planner& plan) {
   const Planner counted = [&](const Settings& settings, int picture) {
     FittedPlan fitted = plan(settings, picture);
     work_ = workOf(fitted.plan, request.scene, request.state, fitted.settings);
@@ -45,35 +46,34 @@ FittedPlan Pace::plan(const Request& request, const Planner& plan) {
   };
   drawsTiles_ = false;
   if (moving() && request.budgetMs > 0.0) {
-    return planMoving(request, counted);
+    planMoving(request, counted);
+  } else {
+    controller_.setStill();
+    planStill(request, counted);
   }
-  controller_.setStill();
-  return planStill(request, counted);
+  return fitted_;
 }
 
-// Plans the frame within the budget, and sets text_ to what the picture gives up for that.
-FittedPlan Pace::planWithinBudget(const Request& request, const Planner& plan) {
-  FittedPlan fitted;
+// Plans the frame within the budget. The text says what the picture gives up for that.
+void Pace::planWithinBudget(const Request& request, const Planner& plan) {
   Settings chosen = request.chosen;
   chosen.view.accumulate = 1;
   const std::vector<MotionLevel> levels =
       motionLevels(request.scene, chosen, request.front, sampleCounts_, request.simplifies, cpuDevice_);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
-    fitted = plan(settings, 0);
+    fitted_ = plan(settings, 0);
     return work_;
   });
   text_ = motionText(chosen, levels[level]);
-  return fitted;
 }
 
-FittedPlan Pace::planMoving(const Request& request, const Planner& plan) {
+void Pace::planMoving(const Request& request, const Planner& plan) {
   shown_.reset();
-  FittedPlan fitted = planWithinBudget(request, plan);
+  planWithinBudget(request, plan);
   text_ = "Moving: " + text_;
-  return fitted;
 }
 
-FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
+void Pace::planStill(const Request& request, const Planner& plan) {
   pictures_ = moving() ? 1 : stillPictures(request.chosen);
   const std::pair shown(request.chosen, request.shown);
   if (std::exchange(shown_, shown) != shown || moving()) {
@@ -89,35 +89,35 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
   settings.view.accumulate = 1;
   if (pictures_ == 1) {
     picture_ = pictures_;
-    return plan(settings, 0);
+    fitted_ = plan(settings, 0);
+    return;
   }
   if (picture_ < 0) {
-    FittedPlan first = plan(settings, 0);
+    fitted_ = plan(settings, 0);
     picture_ = 0;
     // Draws this frame in full quality if it is fast; a slow one would only delay the mean, whose pictures have one
     // sample.
     if (request.budgetMs <= 0.0 || controller_.predict(work_) <= request.budgetMs) {
-      return first;
+      return;
     }
     Settings mean = settings;
     mean.view.accumulate = pictures_;
     if (controller_.predict(scaledWork(work_, settings, pictureSettings(mean))) > longestWait * request.budgetMs) {
       slow_.emplace();
-      first = planWithinBudget(request, plan);
+      planWithinBudget(request, plan);
       draft_ = text_ = "Draft: " + text_;
-      return first;
+      return;
     }
   }
   settings.view.accumulate = pictures_;
   if (!slow_ && picture_ > 0 && request.budgetMs > 0.0) {
     slow_.emplace();
   }
-  FittedPlan fitted;
   if (!slow_ || slow_->finished()) {
-    fitted = plan(settings, picture_);
+    fitted_ = plan(settings, picture_);
     const double ms = controller_.predict(work_);
-    if (slow_ && ms > longestWait * request.budgetMs && drawnInTiles(fitted)) {
-      slow_->begin(std::move(fitted), ms);
+    if (slow_ && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
+      slow_->begin(tileCount(fitted_.plan), ms);
       slowWork_ = work_;
     }
   }
@@ -126,18 +126,18 @@ FittedPlan Pace::planStill(const Request& request, const Planner& plan) {
     const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
     besidesMs_ = cpuMs_ + controller_.predict({.plainTexels = pixels});
     // At least half of the time goes to the tiles, whatever the rest of a frame takes.
-    fitted = slow_->next(std::max((request.input ? 1.0 : tilesShare) * request.budgetMs - besidesMs_, besidesMs_));
+    fitted_.plan.tiles =
+        slow_->next(std::max((request.input ? 1.0 : tilesShare) * request.budgetMs - besidesMs_, besidesMs_));
     if (!slow_->finished()) {
       const double percent = std::floor(100.0 * slow_->share());
       text_ = picture_ == 0 && !draft_.empty()
                   ? fmt::format("{}; first picture {:.0f} %", draft_, percent)
                   : fmt::format("{} of {} pictures, next {:.0f} %", picture_, pictures_, percent);
-      return fitted;
+      return;
     }
   }
   picture_ = std::min(picture_ + 1, pictures_);
   text_ = fmt::format("{} of {} pictures", picture_, pictures_);
-  return fitted;
 }
 
 void Pace::drawn(uint64_t number, double cpuMs, bool usual) {

@@ -70,10 +70,10 @@ class Pace {
     bool simplifies = false;             // likewise
     bool input = false;                  // there is some, which a frame with tiles must not hold up
   };
-  // Plans the frame. Calls `plan` a few times with settings and the number of a picture in their mean; returns the plan
-  // of the last call.
+  // Plans the frame. Calls `plan` a few times, or not at all between tiles of a picture, with settings and the number
+  // of a picture in their mean; returns the plan of the last call, valid until the next frame's.
   using Planner = std::function<FittedPlan(const Settings&, int picture)>;
-  FittedPlan plan(const Request& request, const Planner& plan);
+  const FittedPlan& plan(const Request& request, const Planner& plan);
 
   // Call when the frame was recorded: `cpuMs` without waiting; `usual` says that its times are those of such a frame.
   void drawn(uint64_t number, double cpuMs, bool usual);
@@ -84,9 +84,10 @@ class Pace {
   const std::string& text() const { return text_; }
 
  private:
-  FittedPlan planWithinBudget(const Request& request, const Planner& plan);
-  FittedPlan planMoving(const Request& request, const Planner& plan);
-  FittedPlan planStill(const Request& request, const Planner& plan);
+  // These set fitted_ and text_.
+  void planWithinBudget(const Request& request, const Planner& plan);
+  void planMoving(const Request& request, const Planner& plan);
+  void planStill(const Request& request, const Planner& plan);
 
   using Clock = std::chrono::steady_clock;
   struct Drawn {
@@ -103,7 +104,8 @@ class Pace {
   double seconds_ = 0.0;  // since the last frame
   Clock::time_point begun_;
   std::deque<Drawn> drawn_;
-  FrameWork work_;  // of the frame that was planned last
+  FittedPlan fitted_;  // of the frame that was planned last
+  FrameWork work_;     // of fitted_
   std::string text_;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;

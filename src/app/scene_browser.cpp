@@ -42,6 +42,11 @@ fs::path SceneBrowser::newScene() {
   return dataDirectory("scenes") / "new" / "untitled.toml";
 }
 
+bool SceneBrowser::isNew(const fs::path& scene) {
+  std::error_code none;
+  return fs::equivalent(scene, newScene(), none);
+}
+
 SceneBrowser::SceneBrowser() {
   std::istringstream lines(readTextIfAny(recentFile()));
   std::error_code none;
@@ -53,10 +58,10 @@ SceneBrowser::SceneBrowser() {
 }
 
 void SceneBrowser::remember(const fs::path& file) {
-  std::error_code none;
-  if (fs::equivalent(file, newScene(), none)) {
+  if (isNew(file)) {
     return;
   }
+  std::error_code none;
   const fs::path whole = fs::absolute(file, none).lexically_normal();
   std::erase(view_.recent, whole);
   view_.recent.insert(view_.recent.begin(), whole);
@@ -80,10 +85,16 @@ void SceneBrowser::list(const fs::path& file) {
   for (const fs::path& shipped : filesIn(dataDirectory("scenes"))) {
     add(shipped);
   }
-  for (const SceneEntry& entry : before) {
-    add(entry.file);
-  }
+  addSaved(before);
   view_.shown = add(file);
+}
+
+void SceneBrowser::addSaved(const std::vector<SceneEntry>& scenes) {
+  for (const SceneEntry& entry : scenes) {
+    if (!isNew(entry.file)) {
+      add(entry.file);
+    }
+  }
 }
 
 size_t SceneBrowser::add(const fs::path& file) {
@@ -100,13 +111,18 @@ size_t SceneBrowser::add(const fs::path& file) {
 
 bool SceneBrowser::show(const fs::path& file, bool withFolder) {
   remember(file);
+  const bool leavesNew = isNew(view_.scenes[view_.shown].file) && !isNew(file);
+  if (leavesNew) {
+    indices_.clear();
+    addSaved(std::exchange(view_.scenes, {}));
+  }
   const size_t known = view_.scenes.size();
   view_.shown = add(file);
   const bool fresh = view_.scenes.size() > known;
   if (fresh && withFolder) {
     list(file);
   }
-  return fresh;
+  return fresh || leavesNew;
 }
 
 std::vector<Image8> SceneBrowser::thumbnails() const {

@@ -16,13 +16,14 @@ class SceneBrowser {
   // before; `file` is shown.
   void list(const std::filesystem::path& file);
   // Marks the file as shown. Adds a file from elsewhere at the end of the list or, with `withFolder`, the scenes of its
-  // folder. Returns true if the list changed.
+  // folder. A new scene is listed while it is shown. Returns true if the list changed.
   bool show(const std::filesystem::path& file, bool withFolder);
   std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
 
   // Loads a scene or a model on a thread of its own, and cancels one that is loading.
   void open(const std::filesystem::path& file, const Options& options);
   static std::filesystem::path newScene();  // file of the scene that a new one begins as
+  static bool isNew(const std::filesystem::path& scene);
   // Returns the first of the files that can be opened. Throws InputError if there is none.
   static std::filesystem::path choose(const std::vector<std::filesystem::path>& files);
   void cancelLoading() { load_.cancel(); }
@@ -42,6 +43,7 @@ class SceneBrowser {
 
   void remember(const std::filesystem::path& file);  // among the recent ones, for later sessions too
   size_t add(const std::filesystem::path& file);     // its index
+  void addSaved(const std::vector<SceneEntry>& scenes);
 
   BrowserView view_;
   std::map<std::filesystem::path, size_t> indices_;  // into BrowserView::scenes, by canonical path

@@ -129,7 +129,7 @@ int exitCodeOfChecks(int validationMessages, uint64_t nonFinite) {
   return validationMessages > 0 || nonFinite > 0 ? 1 : 0;
 }
 
-BudgetPlanner::BudgetPlanner(const Device& device) {
+BudgetPlanner::BudgetPlanner(const Device& device, bool keepsPicture) {
   // Leaves a quarter for meshes, textures and other programs. Reads the budget only once, so that plans of equal frames
   // are equal.
   limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
@@ -137,6 +137,7 @@ BudgetPlanner::BudgetPlanner(const Device& device) {
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
                                  device.limits().maxViewportDimensions[1]}));
   limits_.cpu = device.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  limits_.keepsPicture = keepsPicture;
   tracesRays_ =
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
   bufferLimits_ = traceBufferLimits(device.limits());

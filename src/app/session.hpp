@@ -48,7 +48,8 @@ int exitCodeOfChecks(int validationMessages, uint64_t nonFinite);
 // Calls planWithin() with the device's limits, and logs when it begins to lower settings.
 class BudgetPlanner {
  public:
-  explicit BudgetPlanner(const Device& device);
+  // `keepsPicture` as in TargetLimits.
+  explicit BudgetPlanner(const Device& device, bool keepsPicture = false);
   FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
                   const FrameCache& cache, int picture = 0);
   const std::string& message() const { return message_; }  // of the last plan; empty if nothing was lowered

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "frame/picture_tiles.hpp"
-
 namespace speculum {
 
 namespace {
@@ -13,11 +11,9 @@ constexpr double caution = 4.0;  // a tile that was never drawn may take that mu
 
 }  // namespace
 
-void SlowPicture::begin(FittedPlan plan, double ms) {
-  plan_ = std::move(plan);
+void SlowPicture::begin(size_t count, double ms) {
   tiles_ = {};
   totalMs_ = 0.0;
-  const size_t count = tileCount(plan_.plan);
   const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
   if (before.empty()) {
     std::ranges::fill(tileMs_, caution * ms / static_cast<double>(count));
@@ -30,7 +26,7 @@ void SlowPicture::begin(FittedPlan plan, double ms) {
   measured_ = measured_ * count / before.size();
 }
 
-FittedPlan SlowPicture::next(double ms) {
+TileRange SlowPicture::next(double ms) {
   tiles_ = {tiles_.end, tiles_.end + 1};
   for (double sum = tileMs_[tiles_.first]; tiles_.end < tileMs_.size(); ++tiles_.end) {
     sum += tileMs_[tiles_.end];
@@ -38,8 +34,7 @@ FittedPlan SlowPicture::next(double ms) {
       break;
     }
   }
-  plan_.plan.tiles = tiles_;
-  return plan_;
+  return tiles_;
 }
 
 void SlowPicture::took(double ms) {

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "frame/memory_fit.hpp"
+#include <vector>
+
+#include "frame/frame_plan.hpp"
 
 namespace speculum {
 
@@ -8,10 +10,11 @@ namespace speculum {
 // of each tile, for the next pictures of the same view.
 class SlowPicture {
  public:
-  // Begins a picture that is expected to take `ms` if it is the first; others are expected to take as long as the last.
-  void begin(FittedPlan plan, double ms);
-  // Returns the plan with the next tiles, at least one, that are expected to take `ms` together.
-  FittedPlan next(double ms);
+  // Begins a picture of `count` tiles. It is expected to take `ms` if it is the first; others are expected to take as
+  // long as the last.
+  void begin(size_t count, double ms);
+  // Returns the next tiles, at least one, that are expected to take `ms` together.
+  TileRange next(double ms);
   // Call with the time that they took.
   void took(double ms);
 
@@ -20,7 +23,6 @@ class SlowPicture {
   double totalMs() const { return totalMs_; }
 
  private:
-  FittedPlan plan_;
   std::vector<double> tileMs_;
   TileRange tiles_;         // of the last next()
   size_t measured_ = 0;     // tiles, from the first on, whose times were measured

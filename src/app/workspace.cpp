@@ -312,11 +312,17 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   tookBack_ = false;
 }
 
+// Returns the scene's folder; for a new one that of the scenes that come with the program.
+fs::path Workspace::folderToOpen() const {
+  std::error_code none;
+  const fs::path folder = fs::absolute(scene().file, none).parent_path();
+  return (SceneBrowser::isNew(scene().file) ? folder.parent_path() : folder) / "";
+}
+
 // The desktop's dialog, if it has one that can be started; else a prompt of the window.
 void Workspace::askWhatToOpen() {
-  const fs::path folder = fs::absolute(scene().file).parent_path() / "";
-  if (!fileDialog_.open(folder)) {
-    document_->askWhatToOpen(folder);
+  if (!fileDialog_.open(folderToOpen())) {
+    document_->askWhatToOpen(folderToOpen());
   }
 }
 
@@ -325,7 +331,7 @@ void Workspace::takeChosenFile() {
   if (answer && answer->file) {
     open(*answer->file);
   } else if (answer && answer->failed && !document_->prompting()) {
-    document_->askWhatToOpen(fs::absolute(scene().file).parent_path() / "");
+    document_->askWhatToOpen(folderToOpen());
   }
 }
 

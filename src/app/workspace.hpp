@@ -102,6 +102,7 @@ class Workspace {
   const DocumentController& document() const { return *document_; }
 
  private:
+  std::filesystem::path folderToOpen() const;
   void askWhatToOpen();
   void takeChosenFile();
   void forgetRecoveryIfSaved();

@@ -52,6 +52,12 @@ uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   return peak;
 }
 
+uint64_t mainBytes(const FramePlan& plan, const Settings& settings) {
+  const auto samples = static_cast<uint64_t>(settings.view.samples);
+  const uint64_t multisampled = samples > 1 ? samples * colorBytes : 0;
+  return pixels(plan.main.view.rect) * (colorBytes + multisampled + samples * depthBytes);
+}
+
 // Returns the pixels of the depth images, which the ranges use one after the other.
 uint64_t depthPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   std::vector<uint64_t> largest;
@@ -111,12 +117,10 @@ uint64_t shadowBytes(const FramePlan& plan) {
 }
 
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
-  const auto viewSamples = static_cast<uint64_t>(settings.view.samples);
   const auto imageSamples = static_cast<uint64_t>(settings.reflection.samples);
-  const uint64_t multisampled = viewSamples > 1 ? viewSamples * colorBytes : 0;
   const std::vector<PassRange> ranges = independentPasses(plan);
   const uint64_t sums = settings.view.accumulate > 1 ? sumBytes : 0;
-  return pixels(plan.main.view.rect) * (colorBytes + multisampled + viewSamples * depthBytes + sums) +
+  return mainBytes(plan, settings) + pixels(plan.main.view.rect) * sums +
          peakPixels(plan, ranges) * imageSamples * colorBytes + depthPixels(plan, ranges) * imageSamples * depthBytes +
          environmentBytes(plan) + shadowBytes(plan);
 }
@@ -165,14 +169,18 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                       " pixels: lowered effects.shadow_map_size to " + std::to_string(shadowMapSize);
     plan();
   }
-  if (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && reflection.updateInterval == 1) {
+  // The picture that stays shown was drawn with the samples that were asked for.
+  const uint64_t kept =
+      limits.keepsPicture && settings.view.accumulate > 1 ? mainBytes(fitted.plan, settings) : uint64_t{0};
+  const auto needed = [&] { return kept + targetBytes(fitted.plan, fitted.settings); };
+  if (needed() > limits.budgetBytes && reflection.updateInterval == 1) {
     cache.images = {};
     plan();
   }
-  const uint64_t wanted = targetBytes(fitted.plan, fitted.settings);
+  const uint64_t wanted = needed();
   std::string what;
   std::string lowered;
-  while (targetBytes(fitted.plan, fitted.settings) > limits.budgetBytes && lower(fitted.settings, fitted.plan, what)) {
+  while (needed() > limits.budgetBytes && lower(fitted.settings, fitted.plan, what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
     plan();
   }

@@ -13,10 +13,11 @@ namespace speculum {
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 
 struct TargetLimits {
-  uint64_t budgetBytes = 0;  // for all render targets together
-  int largestSide = 0;       // pixels of a picture, at any resolution
-  bool tracesRays = true;    // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
-  bool cpu = false;          // the device is a CPU
+  uint64_t budgetBytes = 0;   // for all render targets together
+  int largestSide = 0;        // pixels of a picture, at any resolution
+  bool keepsPicture = false;  // one stays shown until the first picture of a mean is drawn, as in the window
+  bool tracesRays = true;     // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
+  bool cpu = false;           // the device is a CPU
 };
 
 struct FittedPlan {

@@ -1,6 +1,7 @@
 #include "frame/picture_tiles.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace speculum {
 
@@ -28,17 +29,16 @@ size_t tileCount(const FramePlan& plan) {
   return count;
 }
 
-TileRange tilesOf(const FramePlan& plan, size_t pass) {
-  const size_t count = tilesIn(rectOf(plan, pass));
-  if (!plan.tiles) {
-    return {0, count};
-  }
+std::vector<TileRange> tilesOfPasses(const FramePlan& plan) {
+  const TileRange drawn = plan.tiles.value_or(TileRange{0, SIZE_MAX});
+  std::vector<TileRange> tiles;
   size_t before = 0;
-  for (size_t i = 0; i < pass; ++i) {
-    before += tilesIn(rectOf(plan, i));
+  for (size_t pass = 0; pass <= plan.passes.size(); ++pass) {
+    const size_t end = before + tilesIn(rectOf(plan, pass));
+    tiles.push_back({std::clamp(drawn.first, before, end) - before, std::clamp(drawn.end, before, end) - before});
+    before = end;
   }
-  const auto within = [&](size_t tile) { return std::clamp(tile, before, before + count) - before; };
-  return {within(plan.tiles->first), within(plan.tiles->end)};
+  return tiles;
 }
 
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles) {

@@ -10,9 +10,8 @@ inline constexpr int tileSide = 64;
 
 // Returns the number of tiles of all passes of mirrors, in the order of recording, and of the main view after them.
 size_t tileCount(const FramePlan& plan);
-// Returns the tiles that this frame draws of passes[pass], or of the main view if `pass` is passes.size(), counted
-// within the pass.
-TileRange tilesOf(const FramePlan& plan, size_t pass);
+// Returns the tiles that this frame draws of each of these passes, counted within the pass.
+std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
 // Returns few rectangles that together are these tiles of an image, which are counted row by row.
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
 // Say whether this frame draws the first tile of its picture, and the last one.

@@ -100,6 +100,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   resources_.prepare(frame, settings.effects.textures, textured);
   resources_.prepareLevels(frame, meshesWithLevels(plan, state));
   pictureSize_ = {plan.width, plan.height};
+  tiles_ = tilesOfPasses(plan);
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
   const FrameInfo info{.frame = frame,
@@ -289,7 +290,7 @@ void SceneRenderer::recordMirrors(const FrameInfo& info) {
     return;
   }
   for (size_t i = 0; i < info.plan.passes.size(); ++i) {
-    if (!tilesOf(info.plan, i).empty()) {
+    if (!tiles_[i].empty()) {
       recordMirrorRange(info, {i, i + 1});
     }
   }
@@ -297,7 +298,7 @@ void SceneRenderer::recordMirrors(const FrameInfo& info) {
 
 // Releases and checks images after the whole range, because barriers are recorded only before and after it.
 void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& range) {
-  const TileRange tiles = tilesOf(info.plan, range.first);  // of all passes, or of the only one
+  const TileRange tiles = tiles_[range.first];  // of all passes, or of the only one
   if (tiles.first == 0) {
     passTargets_ = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
   }
@@ -344,8 +345,7 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
 void SceneRenderer::recordMain(const FrameInfo& info) {
   const PlannedPass& main = info.plan.main;
   const size_t index = info.plan.passes.size();
-  const TileRange tiles = tilesOf(info.plan, index);
-  if (!info.plan.mainReused && !tiles.empty()) {
+  if (!info.plan.mainReused && !tiles_[index].empty()) {
     const PassDesc whole = fullPass("main view", main_->targets());
     PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment);
     desc.storeSamples = main_->desc().readSamples;
@@ -420,8 +420,7 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
 // Counts the draws of the first tile only: the others repeat them.
 void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass) {
   const auto [width, height] = desc.renderArea.extent;
-  const TileRange tiles = tilesOf(info.plan, index);
-  for (const PixelRect& rect : tileRects(static_cast<int>(width), static_cast<int>(height), tiles)) {
+  for (const PixelRect& rect : tileRects(static_cast<int>(width), static_cast<int>(height), tiles_[index])) {
     PassDesc part = desc;
     part.renderArea = part.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
     const EffectLedger ledger = ledger_;

@@ -114,6 +114,7 @@ class SceneRenderer {
   TexelProbe probe_;
   std::unique_ptr<OffScreen> main_;
   std::unique_ptr<OffScreen> earlierMain_;  // shown while tiles of main_ are drawn; null if main_ is
+  std::vector<TileRange> tiles_;            // of each pass and the main view, that the frame draws
   std::vector<PassTargets> passTargets_;    // of the mirror passes drawn last; their next tiles may follow
   bool unfinished_ = false;                 // the last frame drew tiles, and not the last ones of its picture
   glm::ivec2 pictureSize_{0};               // of the last recorded frame
