@@ -117,6 +117,27 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 
+TEST_F(CommandLine, LinkLoopsAreNamedInOneLine) {
+  const std::string loop = out("loop");
+  std::filesystem::create_symlink("loop", loop);
+  replaceFile(out("lost.toml"), "[[case]]\nscene = 'loop'\n");
+  replaceFile(out("masked.toml"), "[[case]]\nscene = 'no_mirror'\nmask = 'loop'\n");
+  replaceFile(out("cases.toml"), "[[case]]\nscene = 'no_mirror'\n");
+  const std::string links = ": cannot be read: Too many levels of symbolic links (";
+  for (const auto& [arguments, says] : std::vector<UsageCase>{
+           {{"render", "--out", out("x.png"), "--scene", loop}, loop + ":1: file" + links},
+           {{"render", "--out", out("x.png"), "--scene", loop + "/x.toml"}, loop + "/x.toml:1: file" + links},
+           {{"compare", loop, loop}, loop + links},
+           {{"regress", out("lost.toml")}, "scene: is 'loop' (a file beside this one"},
+           {{"regress", out("masked.toml")}, "mask: is 'loop' (a PNG file"},
+           {{"regress", out("cases.toml"), "--out", loop}, loop + " cannot be made (a folder for the report)"}}) {
+    const ProcessResult result = speculum(arguments);
+    EXPECT_EQ(result.exitCode, 2) << result.output;
+    EXPECT_NE(result.output.find(says), std::string::npos) << result.output;
+    EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
+  }
+}
+
 // Compares with a run of 64 pictures a frame, which is slower by more than any noise.
 TEST_F(CommandLine, BenchComparesRunsInTurn) {
   const ProcessResult result =

@@ -19,7 +19,7 @@ using nlohmann::ordered_json;
 
 // Returns nothing for a file that is absent or broken: its contents are measured again.
 std::optional<ordered_json> readJson(const fs::path& file) {
-  if (!fs::exists(file)) {
+  if (!isFile(file)) {
     return std::nullopt;
   }
   try {
@@ -60,7 +60,7 @@ SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {
   }
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error || !fs::is_directory(folder_)) {
+  if (error || !isFolder(folder_)) {
     throw std::runtime_error(folder_.string() + ": cannot be made (a folder in a writable place is needed)");
   }
   load();
@@ -75,7 +75,7 @@ void SweepStore::load() {
   try {
     for (const auto& [key, value] : json->items()) {
       Measurement measurement = readMeasurement(file, value);
-      const auto kept = [&](const std::string& name) { return name.empty() || fs::exists(folder_ / name); };
+      const auto kept = [&](const std::string& name) { return name.empty() || isFile(folder_ / name); };
       if (!kept(measurement.picture) || !kept(measurement.heatMap)) {
         measurement.errors.reset();
       }

@@ -14,6 +14,7 @@
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "app/stats.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "reference/throughput.hpp"
@@ -73,7 +74,7 @@ int benchAgainst(const Options& options) {
   };
   const std::vector<std::string> own = command(executablePath());
   std::vector<std::string> other =
-      command(options.againstBinary.empty() ? executablePath() : std::filesystem::absolute(options.againstBinary));
+      command(options.againstBinary.empty() ? executablePath() : wholePath(options.againstBinary));
   for (const auto& [key, value] : options.againstSettings) {
     other.insert(other.end(), {"--set", key + "=" + value});
   }

@@ -16,10 +16,11 @@ namespace {
 // local time.
 std::filesystem::path newPath(const std::string& scene, const std::string& ending) {
   const std::filesystem::path folder = picturesDir() / "Speculum";
-  std::filesystem::create_directories(folder);
+  std::error_code error;  // of a folder that cannot be made, as writing into it says
+  std::filesystem::create_directories(folder, error);
   const std::string name = fmt::format("{}_{:%Y-%m-%d_%H-%M-%S}", scene, fmt::localtime(std::time(nullptr)));
   std::filesystem::path path = folder / (name + ending);
-  for (int number = 2; std::filesystem::exists(path); ++number) {
+  for (int number = 2; std::filesystem::exists(path, error); ++number) {
     path = folder / (name + "_" + std::to_string(number) + ending);
   }
   return path;
@@ -32,15 +33,15 @@ std::optional<std::string> Capture::toggleRecording(const std::string& scene, bo
     folder_.reset();
     return recorded_;
   }
-  try {
-    folder_ = newPath(scene, "");
-    std::filesystem::create_directory(*folder_);
-    frames_ = 0;
-    bare_ = !withPanel;
-    return std::nullopt;
-  } catch (const std::filesystem::filesystem_error& error) {
-    return "Not recorded: " + std::string(error.what());
+  const std::filesystem::path folder = newPath(scene, "");
+  std::error_code error;
+  if (!std::filesystem::create_directory(folder, error)) {
+    return "Not recorded: " + folder.string() + " cannot be made: " + error.message();
   }
+  folder_ = folder;
+  frames_ = 0;
+  bare_ = !withPanel;
+  return std::nullopt;
 }
 
 std::string Capture::record(const Image8& picture) {

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "image/picture_files.hpp"
+#include "platform/files.hpp"
 #include "regress/picture_check.hpp"
 
 namespace speculum {
@@ -79,7 +80,7 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
     }
   }
   std::optional<Image8> picture;
-  if (std::filesystem::exists(subject.picture)) {
+  if (isFile(subject.picture)) {
     picture = readImage8(subject.picture);
   }
   if (!picture || picture->width != actual.width || picture->height != actual.height) {

@@ -96,6 +96,9 @@ int speculumMain(int argc, const char* const* argv) {
       throw std::runtime_error("standard output: cannot be written (check the disk that it goes to)");
     }
     return result;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "%s: %s (check the path)\n", error.path1().c_str(), error.code().message().c_str());
+    return 2;
   } catch (const std::exception& error) {
     // Bad usage, bad input and a missing GPU end here: nothing was done, and the message says what would help.
     std::fprintf(stderr, "%s\n", error.what());

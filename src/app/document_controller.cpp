@@ -6,6 +6,7 @@
 
 #include "accuracy/fingerprint.hpp"
 #include "app/recovery.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -93,7 +94,7 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
 void DocumentController::askWhere() {
   const fs::path file = editor_.document().usualFile();
   findSaveFile();
-  proposed_ = fs::absolute(saveFile_.value_or(ownFolder() / file.filename()));
+  proposed_ = wholePath(saveFile_.value_or(ownFolder() / file.filename()));
   note_.clear();
   prompt_ = Prompt::saveAs;
 }
@@ -139,15 +140,14 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings)
       throw SaveError(file.string() + ": not saved: it comes with the program");
     }
     editor_.document().save(file, settingChanges(settingsAtLoad_, settings), file == refused_);
-    note_ = "Saved " + fs::absolute(file).lexically_normal().string();
+    note_ = "Saved " + wholePath(file).string();
     loaded_.settings = settings;
     refused_.reset();
     saved_ = true;
     findSaveFile();
     return true;
   } catch (const SaveError& error) {
-    std::error_code none;
-    const bool overwritable = file.extension() == ".toml" && fs::is_regular_file(file, none);
+    const bool overwritable = file.extension() == ".toml" && isFile(file);
     note_ = error.what();
     note_ += overwritable ? "\nSave once more to overwrite it." : "";
     refused_ = overwritable ? std::optional(file) : std::nullopt;

@@ -195,7 +195,7 @@ int runRegress(const Options& options) {
   run.command.insert(run.command.end(), options.arguments.begin(), options.arguments.end());
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
-  if (!std::filesystem::is_directory(options.out)) {
+  if (!isFolder(options.out)) {
     throw UsageError("--out: " + options.out.string() + " cannot be made (a folder for the report)");
   }
   std::vector<WorkerJob> jobs;

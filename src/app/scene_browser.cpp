@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "image/picture_files.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -61,8 +62,7 @@ void SceneBrowser::remember(const fs::path& file) {
   if (isNew(file)) {
     return;
   }
-  std::error_code none;
-  const fs::path whole = fs::absolute(file, none).lexically_normal();
+  const fs::path whole = wholePath(file);
   std::erase(view_.recent, whole);
   view_.recent.insert(view_.recent.begin(), whole);
   view_.recent.resize(std::min(view_.recent.size(), mostRecent));
@@ -104,7 +104,7 @@ size_t SceneBrowser::add(const fs::path& file) {
     const bool model = isModelFile(file);
     view_.scenes.push_back({.name = (model ? file.filename() : file.stem()).string(),
                             .title = model ? std::string() : sceneTitle(file),
-                            .file = fs::absolute(file, error).lexically_normal()});
+                            .file = wholePath(file)});
   }
   return known->second;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "edit/outline.hpp"
+#include "platform/files.hpp"
 #include "scene/input_error.hpp"
 
 namespace speculum {
@@ -339,8 +340,7 @@ std::filesystem::path SceneEditor::modelFile(const std::filesystem::path& model)
     return model;
   }
   const std::filesystem::path file = (document_.scene().file.parent_path() / model).lexically_normal();
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) {
+  if (!isFile(file)) {
     throw InputError(oneLine(file.string() + ": there is no such file (name a Wavefront OBJ file)"));
   }
   return file;

@@ -42,8 +42,11 @@ const Bookmark& bookmarkNamed(const std::string& name, const Scene& scene) {
 std::filesystem::path findScene(const std::string& wanted) {
   namespace fs = std::filesystem;
   const fs::path path = wanted.empty() ? "gallery.toml" : fs::path(wanted);
-  // A folder with the scene's name, for example of its pictures, must not hide the scene.
-  if (!wanted.empty() && fs::exists(path) && !fs::is_directory(path)) {
+  // A folder with the scene's name, for example of its pictures, must not hide the scene. Loading says why a path
+  // cannot be followed.
+  std::error_code none;
+  const fs::file_type type = fs::status(path, none).type();
+  if (!wanted.empty() && type != fs::file_type::not_found && type != fs::file_type::directory) {
     return path;
   }
   if (const std::optional<fs::path> shipped = shippedScene(path)) {

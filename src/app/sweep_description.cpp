@@ -26,7 +26,8 @@ void addFile(Fingerprint& fingerprint, const fs::path& file) {
 
 void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
     files.push_back(entry.path());
   }
   std::ranges::sort(files);

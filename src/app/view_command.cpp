@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -41,9 +42,10 @@ std::string quoted(const std::string& argument) {
 
 // Returns the name of a scene that comes with the program, else the path.
 std::string sceneText(const std::filesystem::path& file) {
-  const std::filesystem::path path = std::filesystem::weakly_canonical(file);
+  std::error_code none;
+  const std::filesystem::path path = std::filesystem::weakly_canonical(wholePath(file), none);
   const std::filesystem::path name =
-      path.lexically_relative(std::filesystem::weakly_canonical(dataDirectory("scenes")));
+      path.lexically_relative(std::filesystem::weakly_canonical(dataDirectory("scenes"), none));
   return name.empty() || *name.begin() == ".." ? path.string() : (name.parent_path() / name.stem()).string();
 }
 
@@ -68,7 +70,7 @@ std::vector<std::string> deviceArguments(const Options& options) {
     arguments.insert(arguments.end(), {"--render-path", std::string(renderPathName(options.renderPath))});
   }
   if (!options.shaderDir.empty()) {
-    arguments.insert(arguments.end(), {"--shader-dir", std::filesystem::absolute(options.shaderDir).string()});
+    arguments.insert(arguments.end(), {"--shader-dir", wholePath(options.shaderDir).string()});
   }
   return arguments;
 }

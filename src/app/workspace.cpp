@@ -5,6 +5,7 @@
 #include "app/pace.hpp"
 #include "app/recovery.hpp"
 #include "app/view_command.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -314,8 +315,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
 
 // Returns the scene's folder; for a new one that of the scenes that come with the program.
 fs::path Workspace::folderToOpen() const {
-  std::error_code none;
-  const fs::path folder = fs::absolute(scene().file, none).parent_path();
+  const fs::path folder = wholePath(scene().file).parent_path();
   return (SceneBrowser::isNew(scene().file) ? folder.parent_path() : folder) / "";
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "platform/files.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {
@@ -50,7 +51,7 @@ double newest(const std::vector<fs::path>& files) {
 ShaderLibrary::ShaderLibrary(Device& device, fs::path spirvDir, fs::path glslDir)
     : device_(device), spirvDir_(std::move(spirvDir)), glslDir_(std::move(glslDir)) {
   if (watching()) {
-    if (!fs::is_directory(glslDir_)) {
+    if (!isFolder(glslDir_)) {
       throw std::runtime_error("--shader-dir: " + glslDir_.string() +
                                " is not a directory (give the one with the GLSL files)");
     }
@@ -63,7 +64,7 @@ VkShaderModule ShaderLibrary::module(const std::string& name) {
   if (entry.module) {
     return entry.module.get();
   }
-  if (watching() && fs::exists(glslDir_ / name)) {
+  if (watching() && isFile(glslDir_ / name)) {
     entry.sources = {glslDir_ / name};
     compile(name, entry);
     collectErrors();

@@ -165,7 +165,7 @@ void check(const fs::path& file, const std::string& text, const SceneContent& co
   }
   for (const Object& object : content.objects) {
     std::error_code error;
-    if (fs::is_directory(fs::absolute(file).parent_path(), error) &&
+    if (isFolder(wholePath(file).parent_path()) &&
         !fs::equivalent(file.parent_path() / object.model, meshes[object.mesh].source, error)) {
       refuse(file, "its model " + meshes[object.mesh].source.string() + " would not be found as '" + object.model + "'",
              "put the model back, or save into another folder");

@@ -11,6 +11,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "platform/folders.hpp"
+
 namespace speculum {
 
 namespace fs = std::filesystem;
@@ -228,6 +230,22 @@ void keepNewest(const fs::path& folder, size_t kept, const std::function<bool(co
   }
 }
 
+bool isFile(const fs::path& path) {
+  std::error_code none;
+  return fs::is_regular_file(path, none);
+}
+
+bool isFolder(const fs::path& path) {
+  std::error_code none;
+  return fs::is_directory(path, none);
+}
+
+fs::path wholePath(const fs::path& path) {
+  std::error_code none;
+  const fs::path whole = fs::absolute(path, none);
+  return (whole.empty() ? path : whole).lexically_normal();
+}
+
 bool isWritable(const fs::path& file) {
   std::error_code ignored;
   return ::access((fs::exists(file, ignored) ? file : folderOf(file)).c_str(), W_OK) == 0;
@@ -242,9 +260,9 @@ std::optional<double> modificationTime(const fs::path& file) {
 }
 
 TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (fs::temp_directory_path() / "speculum-XXXXXX").string();
+  std::string name = (temporaryFolder() / "speculum-XXXXXX").string();
   if (!::mkdtemp(name.data())) {
-    throw std::runtime_error("no temporary directory could be made at " + name + " (is it writable?)");
+    throw std::runtime_error("no temporary directory could be made at " + name + " (name a writable folder in TMPDIR)");
   }
   path_ = name;
 }

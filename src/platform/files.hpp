@@ -43,6 +43,11 @@ bool storeFile(const std::filesystem::path& file, std::string_view text);
 void keepNewest(const std::filesystem::path& folder, size_t kept,
                 const std::function<bool(const std::filesystem::path&)>& count = {});
 
+// Say what a path leads to, behind links; false if that cannot be found out.
+bool isFile(const std::filesystem::path& path);
+bool isFolder(const std::filesystem::path& path);
+// Returns the path from the root on, without "." and "..", or the path itself if the working folder was deleted.
+std::filesystem::path wholePath(const std::filesystem::path& path);
 bool isWritable(const std::filesystem::path& file);  // the folder of a file that does not exist
 
 // Seconds since an arbitrary epoch with sub-second resolution; nothing for a file that does not exist.

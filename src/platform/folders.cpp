@@ -3,6 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "platform/files.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {
@@ -18,7 +19,7 @@ fs::path userDir(const char* variable, const char* fallback) {
     return base / "speculum";
   }
   const std::string home = environment("HOME");
-  return (home.empty() ? fs::temp_directory_path() : fs::path(home) / fallback) / "speculum";
+  return (home.empty() ? temporaryFolder() : fs::path(home) / fallback) / "speculum";
 }
 
 // The folder that the file of xdg-user-dirs names: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
@@ -43,10 +44,15 @@ fs::path desktopDir(const std::string& variable, const char* fallback) {
       return folder;
     }
   }
-  return home.empty() ? fs::temp_directory_path() : fs::path(home) / fallback;
+  return home.empty() ? temporaryFolder() : fs::path(home) / fallback;
 }
 
 }  // namespace
+
+fs::path temporaryFolder() {
+  const fs::path folder = environment("TMPDIR");
+  return folder.empty() ? fs::path("/tmp") : folder;
+}
 
 fs::path executablePath() {
   return fs::read_symlink("/proc/self/exe");
@@ -76,8 +82,7 @@ fs::path dataDirectory(std::string_view name) {
                                  up.parent_path().parent_path() / name};
   std::string searched;
   for (const fs::path& candidate : candidates) {
-    std::error_code error;
-    if (fs::is_directory(candidate, error)) {
+    if (isFolder(candidate)) {
       return candidate;
     }
     searched += (searched.empty() ? "" : ", ") + candidate.string();

@@ -5,6 +5,7 @@
 
 namespace speculum {
 
+std::filesystem::path temporaryFolder();  // $TMPDIR or /tmp, whether or not it exists
 std::filesystem::path executablePath();
 std::filesystem::path userCacheDir();   // $XDG_CACHE_HOME/speculum or ~/.cache/speculum; not created
 std::filesystem::path userConfigDir();  // $XDG_CONFIG_HOME/speculum or ~/.config/speculum; not created

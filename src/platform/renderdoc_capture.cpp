@@ -1,4 +1,5 @@
 #include "platform/renderdoc_capture.hpp"
+#include "platform/files.hpp"
 
 #include <dlfcn.h>
 
@@ -62,13 +63,18 @@ void captureWithRenderDoc(const std::filesystem::path& file, const std::function
         "--capture: RenderDoc is not loaded (install it and set ENABLE_VULKAN_RENDERDOC_CAPTURE=1 for the command)");
   }
   // RenderDoc appends its own suffix to the name.
-  api->setCaptureFilePathTemplate(std::filesystem::absolute(file).replace_extension().c_str());
+  api->setCaptureFilePathTemplate(wholePath(file).replace_extension().c_str());
   api->startFrameCapture(nullptr, nullptr);
   draw();
-  if (!api->endFrameCapture(nullptr, nullptr)) {
-    throw std::runtime_error("--capture: RenderDoc could not write " + file.string());
+  std::error_code error;
+  if (api->endFrameCapture(nullptr, nullptr)) {
+    std::filesystem::rename(lastCapture(*api), file, error);
+  } else {
+    error = std::make_error_code(std::errc::io_error);
   }
-  std::filesystem::rename(lastCapture(*api), file);
+  if (error) {
+    throw std::runtime_error("--capture: RenderDoc could not write " + file.string() + ": " + error.message());
+  }
 }
 
 }  // namespace speculum

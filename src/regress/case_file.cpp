@@ -7,6 +7,7 @@
 
 #include "accuracy/setting_values.hpp"
 #include "frame/settings.hpp"
+#include "platform/files.hpp"
 #include "regress/driver.hpp"
 #include "scene/camera_text.hpp"
 #include "scene/scene_sections.hpp"
@@ -70,9 +71,9 @@ std::optional<std::string> CaseReader::text(const TableReader& table, Key key) c
 void CaseReader::apply(const TableReader& table, Draft& draft, const std::string& key, const std::string& value) const {
   if (key == "scene") {
     draft.scene = value;
-    const std::optional<fs::path> shipped = fs::is_regular_file(beside(value)) ? std::nullopt : shippedScene(value);
+    const std::optional<fs::path> shipped = isFile(beside(value)) ? std::nullopt : shippedScene(value);
     draft.common.scene = shipped.value_or(beside(value));
-    if (!fs::is_regular_file(draft.common.scene)) {
+    if (!isFile(draft.common.scene)) {
       table.fail(key, "is '" + value + "'", "a file beside this one, or a name of speculum scenes, is needed");
     }
   } else if (key == "camera") {
@@ -167,7 +168,7 @@ void CaseReader::read(const TableReader& table, Draft& draft) const {
   draft.common.timeout = table.number("timeout", draft.common.timeout, seconds);
   if (const auto mask = text(table, "mask")) {
     draft.common.mask = beside(*mask);
-    if (!fs::is_regular_file(*draft.common.mask)) {
+    if (!isFile(*draft.common.mask)) {
       table.fail("mask", "is '" + *mask + "'", "a PNG file is needed");
     }
   }

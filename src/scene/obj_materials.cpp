@@ -168,19 +168,18 @@ Material materialOf(const tinyobj::material_t& source) {
 }  // namespace
 
 bool ObjMaterials::isThere(std::string_view name) const {
-  std::error_code ignored;
-  return fs::is_regular_file(relativeTo(objFile_, std::string(name)), ignored);
+  return isFile(relativeTo(objFile_, std::string(name)));
 }
 
 bool ObjMaterials::read(std::string_view name) {
   const fs::path file = relativeTo(objFile_, std::string(trimmed(name)));
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
+  if (!isFile(file)) {
     spdlog::warn("{}: there is no material file '{}', its faces get the default material", objFile_.string(),
                  file.string());
     missingFile_ = true;
     return false;
   }
+  std::error_code ignored;
   if (!filesRead_.insert(fs::weakly_canonical(file, ignored)).second) {
     return true;
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "platform/files.hpp"
 #include "scene/input_error.hpp"
 #include "scene/model_scene.hpp"
 #include "scene/scene_sections.hpp"
@@ -80,8 +81,7 @@ std::optional<int> knownMesh(const Scene& scene, const fs::path& file) {
 int meshIndex(const TableReader& object, Scene& scene, ModelProgress& progress) {
   const std::string model = object.text("model");
   const fs::path file = modelFile(scene, model);
-  std::error_code error;
-  if (model.empty() || !fs::is_regular_file(file, error)) {
+  if (model.empty() || !isFile(file)) {
     object.fail("model", "there is no file '" + file.string() + "'",
                 "name a Wavefront OBJ file, relative to the scene file");
   }

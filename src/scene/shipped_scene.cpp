@@ -1,5 +1,6 @@
 #include "scene/shipped_scene.hpp"
 
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -10,7 +11,7 @@ std::optional<std::filesystem::path> shippedScene(const std::filesystem::path& w
     const fs::path scenes = dataDirectory("scenes");
     for (const fs::path& candidate : {scenes / wanted, scenes.parent_path() / wanted,
                                       scenes / (wanted.string() + ".toml"), scenes.parent_path() / "models" / wanted}) {
-      if (fs::is_regular_file(candidate)) {
+      if (isFile(candidate)) {
         return candidate;
       }
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "platform/files.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -144,8 +145,7 @@ void openFile(PanelContext& ui) {
   if (!chosen) {
     return;
   }
-  std::error_code none;
-  if (std::filesystem::is_directory(*chosen, none)) {
+  if (isFolder(*chosen)) {
     return enter(files, *chosen);
   }
   ui.send(OpenScene{*chosen});

@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "ui/glfw_input.hpp"
@@ -37,19 +38,16 @@ DescriptorPoolHandle createPool(Device& device) {
 
 // Returns a sans serif font of the system whose digits are equally wide; empty if there is none.
 std::filesystem::path findFont() {
-  std::error_code none;
   for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
                            "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
                            "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
-    if (std::filesystem::is_regular_file(file, none)) {
+    if (isFile(file)) {
       return file;
     }
   }
   const ProcessResult found = runProcess({"fc-match", "-f", "%{file}", "sans-serif:fontformat=TrueType"});
-  return found.exitCode == 0 && std::filesystem::is_regular_file(found.output, none)
-             ? std::filesystem::path(found.output)
-             : std::filesystem::path();
+  return found.exitCode == 0 && isFile(found.output) ? std::filesystem::path(found.output) : std::filesystem::path();
 }
 
 void addFont(ImFontAtlas& atlas, float pixels) {
