@@ -2,7 +2,9 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "geometry/projection.hpp"
 
@@ -112,6 +114,81 @@ TEST(Grown, AcuteCornersAndRepeatedOnesStayNear) {
 TEST(Grown, LeavesPolygonsInTheEyesPlane) {
   const std::vector<glm::dvec4> clip = {{0, 0, 0, 1}, {1e-14, 0, 0, 1e-13}, {0, 0.5, 0, 1}};
   EXPECT_EQ(grown(clip, 64, 32, 1.0), clip);
+}
+
+// Polygons are given by their places in a plane, whose points are at distance w from the eye.
+std::vector<glm::dvec4> inPlane(std::span<const glm::dvec2> polygon) {
+  std::vector<glm::dvec4> clip;
+  for (const glm::dvec2& p : polygon) {
+    clip.emplace_back(p, 0.001, 3.0 + 0.9 * p.x - 0.4 * p.y);
+  }
+  return clip;
+}
+
+bool inside(std::span<const glm::dvec4> polygon, const glm::dvec2& p) {
+  int left = 0;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2 a(polygon[i]);
+    const glm::dvec2 b(polygon[(i + 1) % polygon.size()]);
+    left += (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0.0;
+  }
+  return left == 0 || left == static_cast<int>(polygon.size());
+}
+
+TEST(PartsOutside, AreWhatTheCoverLeaves) {
+  EXPECT_TRUE(rc::check("points of two polygons", [&] {
+    const auto number = [](double low, double high) {
+      return low + (high - low) * *rc::gen::inRange(0, 1'000'001) / 1'000'000.0;
+    };
+    const auto polygon = [&](double size) {
+      std::vector<glm::dvec2> corners;
+      const int count = *rc::gen::inRange(3, 8);
+      const glm::dvec2 center(number(-0.7, 0.7), number(-0.7, 0.7));
+      const double turn = number(0.0, 6.28);
+      for (int i = 0; i < count; ++i) {
+        const double angle = turn + 2.0 * std::numbers::pi * i / count;
+        corners.push_back(center + size * glm::dvec2(std::cos(angle), std::sin(angle)));
+      }
+      return corners;
+    };
+    const std::vector<glm::dvec2> corners = polygon(number(0.05, 1.0));
+    std::vector<glm::dvec2> covering = polygon(number(0.05, 1.0));
+    if (*rc::gen::arbitrary<bool>()) {
+      // Shares an edge, from one side or the other.
+      const bool across = *rc::gen::arbitrary<bool>();
+      const glm::dvec2 a = corners[0];
+      const glm::dvec2 b = corners[1];
+      const glm::dvec2 aside = glm::dvec2(a.y - b.y, b.x - a.x) * (across ? -1.0 : 1.0);
+      covering = {a, b, b + aside, a + aside};
+    }
+    if (*rc::gen::arbitrary<bool>()) {
+      std::ranges::reverse(covering);
+    }
+    const std::vector<glm::dvec4> whole = inPlane(corners);
+    const std::vector<glm::dvec4> cover = inPlane(covering);
+    const auto parts = partsOutside(whole, cover);
+    for (const auto& part : parts) {
+      for (const glm::dvec4& v : part) {
+        RC_ASSERT(std::abs(v.w - inPlane(std::array{glm::dvec2(v)})[0].w) < 1e-14);
+      }
+    }
+    for (int i = 0; i < 50; ++i) {
+      const glm::dvec2 p(number(-1.7, 1.7), number(-1.7, 1.7));
+      const auto within = std::ranges::count_if(parts, [&](const auto& part) { return inside(part, p); });
+      RC_ASSERT(within == (inside(whole, p) && !inside(cover, p) ? 1 : 0));
+    }
+  }));
+}
+
+using Parts = std::vector<std::vector<glm::dvec4>>;
+
+TEST(PartsOutside, WholeWhereNothingIsCovered) {
+  const std::vector<glm::dvec4> square = inPlane(std::array<glm::dvec2, 4>{{{0, 0}, {0.1, 0}, {0.1, 0.3}, {0, 0.3}}});
+  const std::vector<glm::dvec4> beside =
+      inPlane(std::array<glm::dvec2, 4>{{{0.1, 0}, {0.7, 0}, {0.7, 0.3}, {0.1, 0.3}}});
+  EXPECT_EQ(partsOutside(square, beside), Parts{square});
+  EXPECT_EQ(partsOutside(square, inPlane(std::array<glm::dvec2, 3>{{{0, 0}, {0.1, 0.1}, {0.1, 0.1}}})), Parts{square});
+  EXPECT_TRUE(partsOutside(square, square).empty());
 }
 
 }  // namespace

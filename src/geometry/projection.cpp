@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace speculum {
 
@@ -148,6 +149,75 @@ std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, do
     moved[i] += glm::dvec4(step, 0.0, 0.0);
   }
   return moved;
+}
+
+namespace {
+
+glm::dvec3 homogeneous(const glm::dvec4& v) {
+  return {v.x, v.y, v.w};
+}
+
+// Returns the part with dot(line, homogeneous(v)) >= 0; nothing if it is no wider than rounding.
+std::vector<glm::dvec4> cutBy(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
+  constexpr double least = 1e-13;
+  std::vector<glm::dvec4> kept;
+  bool wide = false;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec4& v = polygon[i];
+    const glm::dvec4& next = polygon[(i + 1) % polygon.size()];
+    const double from = glm::dot(line, homogeneous(v));
+    const double to = glm::dot(line, homogeneous(next));
+    wide |= from > least * glm::length(line) * glm::length(homogeneous(v));
+    if (from >= 0.0) {
+      kept.push_back(v);
+    }
+    if ((from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0)) {
+      kept.push_back(glm::mix(v, next, from / (from - to)));
+    }
+  }
+  return wide ? kept : std::vector<glm::dvec4>();
+}
+
+// Returns the lines of the polygon's edges, positive inside.
+std::vector<glm::dvec3> edgeLines(std::span<const glm::dvec4> polygon) {
+  glm::dvec3 inside(0.0);
+  for (const glm::dvec4& v : polygon) {
+    inside += homogeneous(v);
+  }
+  std::vector<glm::dvec3> lines;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = homogeneous(polygon[i]);
+    const glm::dvec3 b = homogeneous(polygon[(i + 1) % polygon.size()]);
+    const glm::dvec3 line = glm::cross(a, b);
+    // Rounding would give an edge that is too short any direction.
+    if (glm::length(line) > 1e-13 * glm::length(a) * glm::length(b)) {
+      lines.push_back(line * sign(glm::dot(line, inside)));
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::vector<glm::dvec4>> partsOutside(std::span<const glm::dvec4> polygon,
+                                                  std::span<const glm::dvec4> cover) {
+  const std::vector<glm::dvec4> whole(polygon.begin(), polygon.end());
+  const std::vector<glm::dvec3> lines = edgeLines(cover);
+  std::vector<glm::dvec4> rest = whole;
+  std::vector<std::vector<glm::dvec4>> parts;
+  for (const glm::dvec3& line : lines) {
+    if (std::vector<glm::dvec4> part = cutBy(rest, -line); !part.empty()) {
+      parts.push_back(std::move(part));
+    }
+    rest = cutBy(rest, line);
+    if (rest.empty()) {
+      return {whole};
+    }
+  }
+  if (lines.size() < 3) {
+    parts = {whole};
+  }
+  return parts;
 }
 
 }  // namespace speculum

@@ -1,6 +1,7 @@
 #include "systems/frame_data.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -401,26 +402,22 @@ void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygo
   }
 }
 
-// Adds the polygon as triangles, and around it a fringe that is seen only instead of the background. Where mirrors
-// share an edge, or end at a body, rounding may leave a gap of one sample; the fringe of one of them fills it. Widening
-// the mirror itself would be worse: it would hide what it ends at, and its image has nothing to show beyond its edge.
-void addTriangles(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size) {
-  addFan(vertices, clip);
-  const std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
+// Adds a fringe around the polygon that is seen only instead of the background. Where mirrors share an edge, or end at
+// a body, rounding may leave a gap of one sample; the fringe of one of them fills it. Widening the mirror itself would
+// be worse: it would hide what it ends at, and its image has nothing to show beyond its edge. The fringe of a polygon
+// in parts is also behind them, because there may be gaps between parts.
+void addFringe(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size,
+               bool inParts) {
+  std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
   const auto far = [](const glm::dvec4& v) { return glm::vec4(v.x, v.y, fringeDepth * v.w, v.w); };
+  if (inParts) {
+    std::ranges::transform(outer, outer.begin(), far);
+    return addFan(vertices, outer);
+  }
   for (size_t i = 0; i < clip.size(); ++i) {
     const size_t next = (i + 1) % clip.size();
     vertices.insert(vertices.end(), {far(clip[i]), far(outer[i]), far(outer[next])});
     vertices.insert(vertices.end(), {far(clip[i]), far(outer[next]), far(clip[next])});
-  }
-}
-
-// Moves a mirror behind those that cover it in its plane, by 16 steps of a float at the largest depth: more than
-// rounding moves the depth of any of their pixels. The mirror stays in front of whatever is twice as far.
-void moveBack(std::vector<glm::dvec4>& clip, int layer, double largestDepth) {
-  constexpr double step = 0x1p-20;
-  for (glm::dvec4& v : clip) {
-    v.z = std::max(0.5 * v.z, v.z - layer * step * largestDepth * v.w);
   }
 }
 
@@ -437,18 +434,28 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     }
     return clip;
   };
-  const auto largestDepth = [&](int plane) {
-    double largest = 0.0;
-    for (const MirrorDraw& draw : pass.mirrors) {
-      if (source.state.mirrors[draw.mirror].plane == plane) {
-        for (const glm::dvec4& v : clipPolygon(draw)) {
-          largest = std::max(largest, v.z / v.w);
+  // Depth cannot order mirrors of one plane: it is rounded in each triangle in its own way.
+  const auto visibleParts = [&](const MirrorDraw& draw, const std::vector<glm::dvec4>& clip) {
+    std::vector<std::vector<glm::dvec4>> parts{clip};
+    for (size_t i = 0; draw.layer > 0 && i < pass.mirrors.size(); ++i) {
+      const MirrorDraw& other = pass.mirrors[i];
+      if (other.layer < draw.layer && state.mirrors[other.mirror].plane == state.mirrors[draw.mirror].plane) {
+        const std::vector<glm::dvec4> cover = clipPolygon(other);
+        std::vector<std::vector<glm::dvec4>> left;
+        for (const std::vector<glm::dvec4>& part : parts) {
+          std::ranges::move(partsOutside(part, cover), std::back_inserter(left));
         }
+        parts = std::move(left);
       }
     }
-    return largest;
+    return parts;
   };
   for (const MirrorDraw& draw : pass.mirrors) {
+    const std::vector<glm::dvec4> clip = clipPolygon(draw);
+    const std::vector<std::vector<glm::dvec4>> parts = visibleParts(draw, clip);
+    if (parts.empty()) {
+      continue;
+    }
     const Mirror& mirror = scene.mirrors[draw.mirror];
     const View* image = imageView(draw, plan);
     const bool ripples = draw.ripples && image;
@@ -468,11 +475,10 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
     mirrors_.push_back({mirrorData(draw, mirror, state, effects, pass.view, image)});
-    std::vector<glm::dvec4> clip = clipPolygon(draw);
-    if (draw.layer > 0) {
-      moveBack(clip, draw.layer, largestDepth(state.mirrors[draw.mirror].plane));
+    for (const std::vector<glm::dvec4>& part : parts) {
+      addFan(mirrorVertices_, part);
     }
-    addTriangles(mirrorVertices_, clip, pass.view.pictureSize * overscan(pass.view));
+    addFringe(mirrorVertices_, clip, pass.view.pictureSize * overscan(pass.view), parts.size() != 1);
     range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;
     data.mirrors.push_back(range);
   }

@@ -155,6 +155,26 @@ TEST(MirrorsInOnePlane, CoverInTheOrderOfTheFile) {
   expectTruths(files, large, 3);
 }
 
+// Seen from a micrometre above their plane, so that depth changes by most of its range from pixel to pixel.
+TEST(MirrorsInOnePlane, CoverUnderAGrazingEye) {
+  Random random(3);
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < 16; ++i) {
+    const glm::dvec3 eye(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), std::pow(10.0, random.uniform(-6, -4)));
+    std::ostringstream scene;
+    scene << "[environment]\nbackground = [0.8, 0.4, 0.8]\nambient = [0.3, 0.3, 0.1]\n"
+          << cameraText(eye, eye + glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.0));
+    for (int mirror = 0; mirror < 3; ++mirror) {
+      scene << "[[mirror]]\n"
+            << rectangleText({random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0.0}, {0, 0, random.uniform(0, 90)},
+                             random.uniform(1, 2), random.uniform(1, 2))
+            << "reflectance = " << random.vec(0.2, 0.9) << "\n";
+    }
+    files.push_back(writeScene("grazing_plane_" + std::to_string(i), scene.str()));
+  }
+  expectTruths(files, size, 1);
+}
+
 TEST(MirrorsInOnePlane, RaysMeetThePlaneOnce) {
   Random random(8);
   std::vector<std::filesystem::path> files;
