@@ -1,4 +1,6 @@
 // Parts of the window that stand alone.
+#include <gtest/gtest.h>
+
 #include <atomic>
 #include <cmath>
 #include <thread>

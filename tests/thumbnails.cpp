@@ -1,4 +1,6 @@
 // The thumbnails of the gallery show their scenes.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 

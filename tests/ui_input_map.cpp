@@ -1,10 +1,11 @@
 // Keys and gamepad buttons, and the list of them.
-#include "ui/input_map.hpp"
+#include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
 #include "picture_support.hpp"
+#include "ui/input_map.hpp"
 
 namespace speculum {
 namespace {
