@@ -135,7 +135,9 @@ bool inside(std::span<const glm::dvec4> polygon, const glm::dvec2& p) {
   return left == 0 || left == static_cast<int>(polygon.size());
 }
 
-TEST(PartsOutside, AreWhatTheCoverLeaves) {
+using Parts = std::vector<std::vector<glm::dvec4>>;
+
+TEST(CutAway, LeavesWhatIsNotCovered) {
   EXPECT_TRUE(rc::check("points of two polygons", [&] {
     const auto number = [](double low, double high) {
       return low + (high - low) * *rc::gen::inRange(0, 1'000'001) / 1'000'000.0;
@@ -166,7 +168,8 @@ TEST(PartsOutside, AreWhatTheCoverLeaves) {
     }
     const std::vector<glm::dvec4> whole = inPlane(corners);
     const std::vector<glm::dvec4> cover = inPlane(covering);
-    const auto parts = partsOutside(whole, cover);
+    Parts parts{whole};
+    cutAway(parts, cover);
     for (const auto& part : parts) {
       for (const glm::dvec4& v : part) {
         RC_ASSERT(std::abs(v.w - inPlane(std::array{glm::dvec2(v)})[0].w) < 1e-14);
@@ -180,15 +183,17 @@ TEST(PartsOutside, AreWhatTheCoverLeaves) {
   }));
 }
 
-using Parts = std::vector<std::vector<glm::dvec4>>;
-
-TEST(PartsOutside, WholeWhereNothingIsCovered) {
+TEST(CutAway, LeavesTheWholeWhereNothingIsCovered) {
   const std::vector<glm::dvec4> square = inPlane(std::array<glm::dvec2, 4>{{{0, 0}, {0.1, 0}, {0.1, 0.3}, {0, 0.3}}});
   const std::vector<glm::dvec4> beside =
       inPlane(std::array<glm::dvec2, 4>{{{0.1, 0}, {0.7, 0}, {0.7, 0.3}, {0.1, 0.3}}});
-  EXPECT_EQ(partsOutside(square, beside), Parts{square});
-  EXPECT_EQ(partsOutside(square, inPlane(std::array<glm::dvec2, 3>{{{0, 0}, {0.1, 0.1}, {0.1, 0.1}}})), Parts{square});
-  EXPECT_TRUE(partsOutside(square, square).empty());
+  Parts parts{square};
+  cutAway(parts, beside);
+  EXPECT_EQ(parts, Parts{square});
+  cutAway(parts, inPlane(std::array<glm::dvec2, 3>{{{0, 0}, {0.1, 0.1}, {0.1, 0.1}}}));
+  EXPECT_EQ(parts, Parts{square});
+  cutAway(parts, square);
+  EXPECT_TRUE(parts.empty());
 }
 
 }  // namespace

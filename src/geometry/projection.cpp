@@ -157,17 +157,23 @@ glm::dvec3 homogeneous(const glm::dvec4& v) {
   return {v.x, v.y, v.w};
 }
 
-// Returns the part with dot(line, homogeneous(v)) >= 0; nothing if it is no wider than rounding.
+// Says whether the polygon lies on the positive side by more than rounding.
+bool reaches(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
+  const double least = 1e-13 * glm::length(line);
+  return std::ranges::any_of(polygon, [&](const glm::dvec4& v) {
+    const glm::dvec3 p = homogeneous(v);
+    return glm::dot(line, p) > least * glm::length(p);
+  });
+}
+
+// Returns the part on the positive side.
 std::vector<glm::dvec4> cutBy(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
-  constexpr double least = 1e-13;
   std::vector<glm::dvec4> kept;
-  bool wide = false;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec4& v = polygon[i];
     const glm::dvec4& next = polygon[(i + 1) % polygon.size()];
     const double from = glm::dot(line, homogeneous(v));
     const double to = glm::dot(line, homogeneous(next));
-    wide |= from > least * glm::length(line) * glm::length(homogeneous(v));
     if (from >= 0.0) {
       kept.push_back(v);
     }
@@ -175,7 +181,7 @@ std::vector<glm::dvec4> cutBy(std::span<const glm::dvec4> polygon, const glm::dv
       kept.push_back(glm::mix(v, next, from / (from - to)));
     }
   }
-  return wide ? kept : std::vector<glm::dvec4>();
+  return kept;
 }
 
 // Returns the lines of the polygon's edges, positive inside.
@@ -199,25 +205,25 @@ std::vector<glm::dvec3> edgeLines(std::span<const glm::dvec4> polygon) {
 
 }  // namespace
 
-std::vector<std::vector<glm::dvec4>> partsOutside(std::span<const glm::dvec4> polygon,
-                                                  std::span<const glm::dvec4> cover) {
-  const std::vector<glm::dvec4> whole(polygon.begin(), polygon.end());
+void cutAway(std::vector<std::vector<glm::dvec4>>& parts, std::span<const glm::dvec4> cover) {
   const std::vector<glm::dvec3> lines = edgeLines(cover);
-  std::vector<glm::dvec4> rest = whole;
-  std::vector<std::vector<glm::dvec4>> parts;
-  for (const glm::dvec3& line : lines) {
-    if (std::vector<glm::dvec4> part = cutBy(rest, -line); !part.empty()) {
-      parts.push_back(std::move(part));
-    }
-    rest = cutBy(rest, line);
-    if (rest.empty()) {
-      return {whole};
-    }
-  }
   if (lines.size() < 3) {
-    parts = {whole};
+    return;
   }
-  return parts;
+  std::vector<std::vector<glm::dvec4>> left;
+  for (std::vector<glm::dvec4>& part : parts) {
+    if (!std::ranges::all_of(lines, [&](const glm::dvec3& line) { return reaches(part, line); })) {
+      left.push_back(std::move(part));
+      continue;
+    }
+    for (const glm::dvec3& line : lines) {
+      if (reaches(part, -line)) {
+        left.push_back(cutBy(part, -line));
+        part = cutBy(part, line);
+      }
+    }
+  }
+  parts = std::move(left);
 }
 
 }  // namespace speculum

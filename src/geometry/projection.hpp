@@ -59,9 +59,8 @@ double screenArea(std::span<const glm::dvec4> clip, double width, double height)
 // than its edges would take it; a polygon with a vertex in the eye's plane stays as it is.
 std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, double height, double pixels);
 
-// The convex parts of a convex polygon that a second one in its plane does not cover. Vertices are in clip space, with
-// w >= 0; depth is interpolated.
-std::vector<std::vector<glm::dvec4>> partsOutside(std::span<const glm::dvec4> polygon,
-                                                  std::span<const glm::dvec4> cover);
+// Takes what a convex polygon covers away from others in its plane, which become more and smaller convex parts.
+// Vertices are in clip space, with w >= 0; depth is interpolated.
+void cutAway(std::vector<std::vector<glm::dvec4>>& parts, std::span<const glm::dvec4> cover);
 
 }  // namespace speculum

@@ -1,7 +1,6 @@
 #include "systems/frame_data.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -440,12 +439,7 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     for (size_t i = 0; draw.layer > 0 && i < pass.mirrors.size(); ++i) {
       const MirrorDraw& other = pass.mirrors[i];
       if (other.layer < draw.layer && state.mirrors[other.mirror].plane == state.mirrors[draw.mirror].plane) {
-        const std::vector<glm::dvec4> cover = clipPolygon(other);
-        std::vector<std::vector<glm::dvec4>> left;
-        for (const std::vector<glm::dvec4>& part : parts) {
-          std::ranges::move(partsOutside(part, cover), std::back_inserter(left));
-        }
-        parts = std::move(left);
+        cutAway(parts, clipPolygon(other));
       }
     }
     return parts;
