@@ -132,7 +132,7 @@ TEST_F(AccuracyCommand, StoredSweepMeetsABudget) {
   const nlohmann::json poor = chosen("quality.budget_ms=0.000001");
   EXPECT_FALSE(poor["quality"]["met"]);
   for (const SweepPoint& point : results.points) {
-    if (point.name == poor["quality"]["point"]) {
+    if (point.name == poor["quality"]["point"].get<std::string>()) {
       for (const SettingChange& change : point.changes) {
         const nlohmann::json& value = poor["settings"][change.key];
         EXPECT_EQ(value.is_string() ? value.get<std::string>() : value.dump(), change.value) << change.key;
