@@ -40,12 +40,13 @@ class FaultTest : public testing::Test {
     if (place == Place::early) {
       command.push_back("XDG_DATA_HOME=" + layer + "/data");
     } else {
-      // The layer that the loader finds first in these folders is nearest to the program.
+      // Nearest to the program is the layer that the loader finds first in these folders, for newer loaders the first
+      // one of these names.
       const std::string validation = "/usr/share/vulkan/explicit_layer.d:";
       const bool inner = place == Place::inner;
       command.push_back("VK_ADD_LAYER_PATH=" + (inner ? validation : "") + layer);
-      command.push_back("VK_INSTANCE_LAYERS=VK_LAYER_SPECULUM_fault" +
-                        std::string(inner ? ":VK_LAYER_KHRONOS_validation" : ""));
+      command.push_back("VK_INSTANCE_LAYERS=" + std::string(inner ? "VK_LAYER_KHRONOS_validation:" : "") +
+                        "VK_LAYER_SPECULUM_fault");
     }
     // The check of queue submissions, which the program turns on where this is not set, crashes in vkDeviceWaitIdle
     // while images are presented (layer of 1.3.239).

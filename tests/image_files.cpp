@@ -111,7 +111,7 @@ TEST(ImageFiles, DamagedFilesAreRefused) {
 std::string pngHeader(uint8_t highByteOfSides) {
   const char high = static_cast<char>(highByteOfSides);
   return std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16) + std::string("\0\0", 2) + high + '\0' +
-         std::string("\0\0", 2) + high + std::string("\0\x08\x06\0\0\0\0\0\0\0", 10);
+         std::string("\0\0", 2) + high + std::string("\0\x08\x06\0\0\0\0\0\0\0\0\0\0\1IDAT\0\0\0\0\0", 23);
 }
 
 TEST(ImageFiles, HugePicturesAreRefused) {

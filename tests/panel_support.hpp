@@ -139,6 +139,21 @@ class PanelTest : public testing::Test {
     ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
     run(2);
   }
+#if IMGUI_VERSION_NUM < 18700
+  static void holdShift(bool down) {
+    ImGui::GetIO().KeyShift = down;
+  }
+  static void holdControl(bool down) {
+    ImGui::GetIO().KeyCtrl = down;
+  }
+#else
+  static void holdShift(bool down) {
+    ImGui::GetIO().AddKeyEvent(ImGuiMod_Shift, down);
+  }
+  static void holdControl(bool down) {
+    ImGui::GetIO().AddKeyEvent(ImGuiMod_Ctrl, down);
+  }
+#endif
   void tap(ImGuiKey key) {
     for (const bool down : {true, false}) {
 #if IMGUI_VERSION_NUM < 18700

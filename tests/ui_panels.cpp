@@ -349,9 +349,9 @@ class Inspector : public PanelTest {
   void typeNumber(const std::string& row, double part, const std::string& number) {
     appliesEdits_ = true;
     click(row, part);
-    ImGui::GetIO().KeyCtrl = true;
+    holdControl(true);
     tap(ImGuiKey_A);
-    ImGui::GetIO().KeyCtrl = false;
+    holdControl(false);
     type(number);
     tap(ImGuiKey_Enter);
     run(2);
@@ -361,10 +361,10 @@ class Inspector : public PanelTest {
 
 TEST_F(Inspector, ListSelectsAndToggles) {
   EXPECT_EQ(clickFor<SelectNode>("edit.node.1").node, (Selection{Selection::Kind::mirror, 1}));
-  ImGui::GetIO().KeyShift = true;
+  holdShift(true);
   EXPECT_EQ(clickFor<ToggleNode>("edit.node.0").node, (Selection{Selection::Kind::mirror, 0}));
-  ImGui::GetIO().KeyShift = false;
-  ImGui::GetIO().KeyCtrl = true;
+  holdShift(false);
+  holdControl(true);
   clickFor<ToggleNode>("edit.node.0");
 }
 

@@ -60,9 +60,7 @@ int runCommand(const Options& options) {
   static const std::map<std::string, int (*)(const Options&)> commands = {
       {"demo",
        [](const Options& wanted) {
-         if (wanted.platform) {
-           chooseWindowPlatform(*wanted.platform);
-         }
+         chooseWindowPlatform(wanted.platform);
          return runDemo(wanted);
        }},
       {"render", runRender},

@@ -51,12 +51,15 @@ void separateShaderCaches() {
   }
 }
 
-// Checks across submissions have no structure of their own in the layers of 2023; only this variable turns them on. It
-// is read when the instance is made, so a value that the user has set is kept.
-void enableQueueSubmitValidation() {
-  constexpr const char* variable = "VK_LAYER_ENABLES";
-  if (environment(variable).empty()) {
-    setEnvironment(variable, "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT");
+// Some checks have no structure, and are turned on by variables that are read when the instance is made: those across
+// submissions in the layers of 2023, those of what shaders access in newer ones. A value that the user has set is kept.
+void enableSynchronisationChecks() {
+  for (const auto& [variable, value] :
+       {std::pair{"VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT"},
+        std::pair{"VK_KHRONOS_VALIDATION_SYNCVAL_SHADER_ACCESSES_HEURISTIC", "1"}}) {
+    if (environment(variable).empty()) {
+      setEnvironment(variable, value);
+    }
   }
 }
 
@@ -69,7 +72,7 @@ std::vector<const char*> chooseLayers(const DeviceOptions& options) {
         "--validation: VK_LAYER_KHRONOS_validation is missing (install vulkan-validationlayers, or see "
         "VK_LAYER_PATH)");
   }
-  enableQueueSubmitValidation();
+  enableSynchronisationChecks();
   return {validationLayer};
 }
 
@@ -97,7 +100,12 @@ std::vector<std::string> DebugMessages::latest() const {
 VkBool32 DebugMessages::receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
                                 const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
   const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  static_cast<DebugMessages*>(self)->add(error, data->pMessage ? data->pMessage : "");
+  std::string text = data->pMessage ? data->pMessage : "";
+  // Older layers begin the text with this name.
+  if (data->pMessageIdName && text.find(data->pMessageIdName) == std::string::npos) {
+    text = std::string(data->pMessageIdName) + ": " + text;
+  }
+  static_cast<DebugMessages*>(self)->add(error, text);
   return VK_FALSE;
 }
 

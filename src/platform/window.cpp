@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "platform/process.hpp"
+
 namespace speculum {
 
 namespace {
@@ -105,15 +107,18 @@ std::optional<ScreenRect> rescuedWindow(const ScreenRect& window, std::span<cons
   return ScreenRect{area.x + (area.width - width) / 2, area.y + (area.height - height) / 2, width, height};
 }
 
-void chooseWindowPlatform(const std::string& platform) {
+void chooseWindowPlatform(const std::optional<std::string>& platform) {
   const bool wayland = platform == "wayland";
 #if GLFW_VERSION_MAJOR > 3 || GLFW_VERSION_MINOR >= 4
-  glfwInitHint(GLFW_PLATFORM, wayland ? GLFW_PLATFORM_WAYLAND : GLFW_PLATFORM_X11);
+  // Wayland's library complains on standard error if it is tried without this variable.
+  if (platform || environment("XDG_RUNTIME_DIR").empty()) {
+    glfwInitHint(GLFW_PLATFORM, wayland ? GLFW_PLATFORM_WAYLAND : GLFW_PLATFORM_X11);
+  }
 #else
   const std::string installed = glfwGetVersionString();
-  if (installed.find(wayland ? "Wayland" : "X11") == std::string::npos) {
+  if (platform && installed.find(wayland ? "Wayland" : "X11") == std::string::npos) {
     throw std::runtime_error("--platform: GLFW is installed as '" + installed + "' (install " +
-                             (wayland ? "libglfw3-wayland" : "libglfw3") + " for " + platform + ")");
+                             (wayland ? "libglfw3-wayland" : "libglfw3") + " for " + *platform + ")");
   }
 #endif
 }

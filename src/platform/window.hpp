@@ -95,9 +95,9 @@ struct WindowOptions {
   bool visible = true;
 };
 
-// Makes GLFW open windows by "x11" or "wayland". Call it before the first window. GLFW before 3.4 is built for only one
-// of them; throws std::runtime_error if that is the other.
-void chooseWindowPlatform(const std::string& platform);
+// Makes GLFW open windows by "x11" or "wayland", or by what the session has. Call it before the first window. GLFW
+// before 3.4 is built for only one of them; throws std::runtime_error if that is the other.
+void chooseWindowPlatform(const std::optional<std::string>& platform);
 
 // A rectangle in screen coordinates of the desktop.
 struct ScreenRect {
