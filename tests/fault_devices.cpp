@@ -8,9 +8,11 @@ using namespace testing_support;
 
 class Devices : public FaultTest {
  protected:
-  // Two devices: the driver twice.
+  // Two devices: lavapipe twice, whose file is named differently on Debian 12 and 13.
   std::string twoDevices() {
-    const std::filesystem::path driver = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+    const std::filesystem::path folder = "/usr/share/vulkan/icd.d";
+    const bool older = std::filesystem::exists(folder / "lvp_icd.x86_64.json");
+    const std::filesystem::path driver = folder / (older ? "lvp_icd.x86_64.json" : "lvp_icd.json");
     std::filesystem::copy_file(driver, folder_.path() / "second.json");
     return "VK_ICD_FILENAMES=" + driver.string() + ":" + (folder_.path() / "second.json").string();
   }
