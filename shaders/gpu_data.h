@@ -309,7 +309,8 @@ struct ProbeConstants {
 #ifdef __cplusplus
 static_assert(offsetof(ViewData, clipPlane) == 112 && offsetof(ViewData, hasSky) == 156 &&
               offsetof(ViewData, traceOffset) == 208 && offsetof(ViewData, firstLight) == 240 && sizeof(ViewData) == 256);
-static_assert(offsetof(LightData, irradiance) == 16 && offsetof(LightData, clearance) == 48 && sizeof(LightData) == 64 && sizeof(ShadowMapData) == 96);
+static_assert(offsetof(LightData, irradiance) == 16 && offsetof(LightData, clearance) == 48 && sizeof(LightData) == 64);
+static_assert(sizeof(ShadowMapData) == 96);
 static_assert(offsetof(MaterialData, specular) == 16 && sizeof(MaterialData) == 48);
 static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(InstanceData, traceInstance) == 176 &&
               sizeof(InstanceData) == 192);

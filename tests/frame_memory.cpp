@@ -56,6 +56,17 @@ TEST(MemoryFit, CountsThePictureThatStaysShown) {
   EXPECT_EQ(scale(true), 0.5);
 }
 
+TEST(MemoryFit, ThePictureThatStaysHasTheSamplesThatFitted) {
+  const Scene scene = wallScene();
+  Settings settings;
+  settings.view.samples = 8;
+  settings.view.accumulate = 64;
+  const TargetLimits limits{.budgetBytes = 103'000'000, .largestSide = 4096, .keepsPicture = true};
+  const FittedPlan fitted = planWithin(limits, scene, evaluate(scene, 0.0), settings, 1000, 1000);
+  // Per pixel: with 8 samples 8 + 8 * (8 + 4), which never fitted; what stays has 4, 8 + 4 * (8 + 4).
+  EXPECT_EQ(fitted.settings.reflection.scale, 0.5);
+}
+
 TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
   const Scene scene = wallScene();
   Settings settings;

@@ -125,14 +125,25 @@ std::vector<glm::dvec4> inPlane(std::span<const glm::dvec2> polygon) {
   return clip;
 }
 
-bool inside(std::span<const glm::dvec4> polygon, const glm::dvec2& p) {
-  int left = 0;
+// Twice the areas of the triangles of a point and the polygon's edges.
+std::vector<double> edgeAreas(std::span<const glm::dvec4> polygon, const glm::dvec2& p) {
+  std::vector<double> areas;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec2 a(polygon[i]);
     const glm::dvec2 b(polygon[(i + 1) % polygon.size()]);
-    left += (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0.0;
+    areas.push_back((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
   }
-  return left == 0 || left == static_cast<int>(polygon.size());
+  return areas;
+}
+
+bool inside(std::span<const glm::dvec4> polygon, const glm::dvec2& p) {
+  const std::vector<double> areas = edgeAreas(polygon, p);
+  const auto left = std::ranges::count_if(areas, [](double area) { return area > 0.0; });
+  return left == 0 || left == static_cast<std::ptrdiff_t>(areas.size());
+}
+
+bool onAnEdgesLine(std::span<const glm::dvec4> polygon, const glm::dvec2& p) {
+  return std::ranges::any_of(edgeAreas(polygon, p), [](double area) { return std::abs(area) < 1e-9; });
 }
 
 using Parts = std::vector<std::vector<glm::dvec4>>;
@@ -177,6 +188,9 @@ TEST(CutAway, LeavesWhatIsNotCovered) {
     }
     for (int i = 0; i < 50; ++i) {
       const glm::dvec2 p(number(-1.7, 1.7), number(-1.7, 1.7));
+      if (onAnEdgesLine(whole, p) || onAnEdgesLine(cover, p)) {
+        continue;
+      }
       const auto within = std::ranges::count_if(parts, [&](const auto& part) { return inside(part, p); });
       RC_ASSERT(within == (inside(whole, p) && !inside(cover, p) ? 1 : 0));
     }

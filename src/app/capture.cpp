@@ -16,7 +16,7 @@ namespace {
 // local time.
 std::filesystem::path newPath(const std::string& scene, const std::string& ending) {
   const std::filesystem::path folder = picturesDir() / "Speculum";
-  std::error_code error;  // of a folder that cannot be made, as writing into it says
+  std::error_code error;  // ignored: writing into the folder will fail and say why
   std::filesystem::create_directories(folder, error);
   const std::string name = fmt::format("{}_{:%Y-%m-%d_%H-%M-%S}", scene, fmt::localtime(std::time(nullptr)));
   std::filesystem::path path = folder / (name + ending);

@@ -140,7 +140,7 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings)
       throw SaveError(file.string() + ": not saved: it comes with the program");
     }
     editor_.document().save(file, settingChanges(settingsAtLoad_, settings), file == refused_);
-    note_ = "Saved " + wholePath(file).string();
+    note_ = "Saved " + wholePath(file).lexically_normal().string();
     loaded_.settings = settings;
     refused_.reset();
     saved_ = true;

@@ -20,6 +20,16 @@ constexpr double leastScale = 0.125;
 constexpr int smallShadowMap = 256;     // texels of a face's side
 constexpr int smallEnvironment = 64;    // likewise
 constexpr int environmentInterval = 8;  // frames
+// Of a scene whose hierarchy takes no longer than about two frames to build.
+constexpr size_t mostTriangles = 100'000;
+
+size_t triangleCount(const Scene& scene) {
+  size_t indices = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    indices += mesh.indices.size();
+  }
+  return indices / 3;
+}
 
 Settings lowered(Settings settings, const Settings& limit) {
   ViewSettings& view = settings.view;
@@ -167,9 +177,9 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   using E = EffectSettings;
-  step([&](Settings& s) {
-    s.reflection.method = cpuDevice && !scene.mirrors.empty() ? ReflectionMethod::automatic : ReflectionMethod::raster;
-  });
+  // Rays need a hierarchy of all triangles, which is built before the first frame that moves.
+  const bool mayTrace = cpuDevice && !scene.mirrors.empty() && triangleCount(scene) <= mostTriangles;
+  step([&](Settings& s) { s.reflection.method = mayTrace ? ReflectionMethod::automatic : ReflectionMethod::raster; });
   replace(rays.shadows || rays.castsLight || rays.curved, [](E& effects) { effects.perSample = false; });
   replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowLookup = ShadowLookup::map; });
   simplify(0.5, 0.0);

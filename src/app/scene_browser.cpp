@@ -62,7 +62,7 @@ void SceneBrowser::remember(const fs::path& file) {
   if (isNew(file)) {
     return;
   }
-  const fs::path whole = wholePath(file);
+  const fs::path whole = wholePath(file).lexically_normal();
   std::erase(view_.recent, whole);
   view_.recent.insert(view_.recent.begin(), whole);
   view_.recent.resize(std::min(view_.recent.size(), mostRecent));
@@ -104,7 +104,7 @@ size_t SceneBrowser::add(const fs::path& file) {
     const bool model = isModelFile(file);
     view_.scenes.push_back({.name = (model ? file.filename() : file.stem()).string(),
                             .title = model ? std::string() : sceneTitle(file),
-                            .file = wholePath(file)});
+                            .file = wholePath(file).lexically_normal()});
   }
   return known->second;
 }

@@ -138,8 +138,8 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
-  if (reflection.method == ReflectionMethod::automatic && !limits.cpu) {
-    reflection.method = ReflectionMethod::raster;  // measured on GPUs with rays by shaders: scripts/crossover
+  if (reflection.method == ReflectionMethod::automatic && (!limits.cpu || !limits.tracesRays)) {
+    reflection.method = ReflectionMethod::raster;  // on GPUs always faster (docs/scaling.md)
   }
   plan();
   if (!limits.tracesRays && fitted.plan.effects.any()) {
@@ -169,9 +169,15 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                       " pixels: lowered effects.shadow_map_size to " + std::to_string(shadowMapSize);
     plan();
   }
-  // The picture that stays shown was drawn with the samples that were asked for.
-  const uint64_t kept =
-      limits.keepsPicture && settings.view.accumulate > 1 ? mainBytes(fitted.plan, settings) : uint64_t{0};
+  // The picture that stays shown was drawn with the samples that were asked for, or as many as fitted.
+  uint64_t kept = 0;
+  if (limits.keepsPicture && settings.view.accumulate > 1) {
+    Settings before = settings;
+    while (before.view.samples > 1 && mainBytes(fitted.plan, before) > limits.budgetBytes) {
+      before.view.samples /= 2;
+    }
+    kept = mainBytes(fitted.plan, before);
+  }
   const auto needed = [&] { return kept + targetBytes(fitted.plan, fitted.settings); };
   if (needed() > limits.budgetBytes && reflection.updateInterval == 1) {
     cache.images = {};

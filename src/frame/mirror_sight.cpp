@@ -7,7 +7,7 @@ namespace speculum {
 
 namespace {
 
-// Rays for as many samples take as long as a pass. Measured on lavapipe (docs/scaling.md).
+// Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/scaling.md).
 constexpr double samplesOfAPass = 4000.0;
 
 }  // namespace

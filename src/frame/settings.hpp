@@ -15,8 +15,8 @@ namespace speculum {
 enum class ClipMethod { clipDistance, oblique, none };
 enum class TextureFilter { bilinear, trilinear };
 
-// What shows a planar mirror's reflection: whichever is likely to take less time, an image that a pass renders, or
-// rays.
+// What shows a planar mirror's reflection. raster: an image that a pass renders. automatic: whichever is likely to be
+// faster.
 enum class ReflectionMethod { automatic, raster, rays };
 
 struct ReflectionSettings {

@@ -157,13 +157,15 @@ glm::dvec3 homogeneous(const glm::dvec4& v) {
   return {v.x, v.y, v.w};
 }
 
-// Says whether the polygon lies on the positive side by more than rounding.
+// Returns on which side of the line a vertex lies, and how far; 0 within rounding, so that cuts repeat no vertex.
+double sideOf(const glm::dvec3& line, const glm::dvec4& v) {
+  const glm::dvec3 p = homogeneous(v);
+  const double distance = glm::dot(line, p);
+  return std::abs(distance) > 1e-13 * glm::length(line) * glm::length(p) ? distance : 0.0;
+}
+
 bool reaches(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
-  const double least = 1e-13 * glm::length(line);
-  return std::ranges::any_of(polygon, [&](const glm::dvec4& v) {
-    const glm::dvec3 p = homogeneous(v);
-    return glm::dot(line, p) > least * glm::length(p);
-  });
+  return std::ranges::any_of(polygon, [&](const glm::dvec4& v) { return sideOf(line, v) > 0.0; });
 }
 
 // Returns the part on the positive side.
@@ -172,8 +174,8 @@ std::vector<glm::dvec4> cutBy(std::span<const glm::dvec4> polygon, const glm::dv
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec4& v = polygon[i];
     const glm::dvec4& next = polygon[(i + 1) % polygon.size()];
-    const double from = glm::dot(line, homogeneous(v));
-    const double to = glm::dot(line, homogeneous(next));
+    const double from = sideOf(line, v);
+    const double to = sideOf(line, next);
     if (from >= 0.0) {
       kept.push_back(v);
     }
@@ -184,7 +186,7 @@ std::vector<glm::dvec4> cutBy(std::span<const glm::dvec4> polygon, const glm::dv
   return kept;
 }
 
-// Returns the lines of the polygon's edges, positive inside.
+// Returns the lines of the polygon's edges, positive inside; none if it is no wider than rounding.
 std::vector<glm::dvec3> edgeLines(std::span<const glm::dvec4> polygon) {
   glm::dvec3 inside(0.0);
   for (const glm::dvec4& v : polygon) {
@@ -197,7 +199,11 @@ std::vector<glm::dvec3> edgeLines(std::span<const glm::dvec4> polygon) {
     const glm::dvec3 line = glm::cross(a, b);
     // Rounding would give an edge that is too short any direction.
     if (glm::length(line) > 1e-13 * glm::length(a) * glm::length(b)) {
-      lines.push_back(line * sign(glm::dot(line, inside)));
+      const double distance = glm::dot(line, inside);
+      if (!(std::abs(distance) > 1e-13 * glm::length(line) * glm::length(inside))) {
+        return {};
+      }
+      lines.push_back(line * sign(distance));
     }
   }
   return lines;

@@ -243,7 +243,7 @@ bool isFolder(const fs::path& path) {
 fs::path wholePath(const fs::path& path) {
   std::error_code none;
   const fs::path whole = fs::absolute(path, none);
-  return (whole.empty() ? path : whole).lexically_normal();
+  return whole.empty() ? path : whole;
 }
 
 bool isWritable(const fs::path& file) {

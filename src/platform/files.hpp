@@ -46,7 +46,7 @@ void keepNewest(const std::filesystem::path& folder, size_t kept,
 // Say what a path leads to, behind links; false if that cannot be found out.
 bool isFile(const std::filesystem::path& path);
 bool isFolder(const std::filesystem::path& path);
-// Returns the path from the root on, without "." and "..", or the path itself if the working folder was deleted.
+// Returns the path from the root on, or the path itself if the working folder was deleted.
 std::filesystem::path wholePath(const std::filesystem::path& path);
 bool isWritable(const std::filesystem::path& file);  // the folder of a file that does not exist
 

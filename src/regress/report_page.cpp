@@ -201,7 +201,7 @@ std::string junitXml(const RegressRun& run) {
 
 std::string githubErrors(const RegressRun& run) {
   // A relative path would be one of the repository, and the command may have been run in a folder of it.
-  const std::string file = escapedCommand(wholePath(run.file).string(), true);
+  const std::string file = escapedCommand(wholePath(run.file).lexically_normal().string(), true);
   std::string text;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     if (needsAttention(run.outcomes[i])) {

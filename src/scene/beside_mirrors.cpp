@@ -30,8 +30,8 @@ glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> m
       away = std::max(away, distance);
     }
   }
-  // In turns (Kaczmarz) the point comes to the same distance from all, so that among mirrors which reflect to each
-  // other light takes the ways that it takes in the limit.
+  // Moving to each plane in turn (Kaczmarz's method) brings the point to the same distance from all of them. Where
+  // distances differ, rounding would decide which mirrors the light reaches by way of others.
   glm::dvec3 point = light;
   for (int turn = 0; turn < 50; ++turn) {
     for (const Plane& plane : planes) {

@@ -403,21 +403,60 @@ void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygo
 
 // Adds a fringe around the polygon that is seen only instead of the background. Where mirrors share an edge, or end at
 // a body, rounding may leave a gap of one sample; the fringe of one of them fills it. Widening the mirror itself would
-// be worse: it would hide what it ends at, and its image has nothing to show beyond its edge. The fringe of a polygon
-// in parts is also behind them, because there may be gaps between parts.
-void addFringe(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size,
-               bool inParts) {
-  std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
+// be worse: it would hide what it ends at, and its image has nothing to show beyond its edge.
+void addFringe(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size) {
+  const std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
   const auto far = [](const glm::dvec4& v) { return glm::vec4(v.x, v.y, fringeDepth * v.w, v.w); };
-  if (inParts) {
-    std::ranges::transform(outer, outer.begin(), far);
-    return addFan(vertices, outer);
-  }
   for (size_t i = 0; i < clip.size(); ++i) {
     const size_t next = (i + 1) % clip.size();
     vertices.insert(vertices.end(), {far(clip[i]), far(outer[i]), far(outer[next])});
     vertices.insert(vertices.end(), {far(clip[i]), far(outer[next]), far(clip[next])});
   }
+}
+
+using Polygon = std::vector<glm::dvec4>;  // convex, in clip space
+
+// Returns the polygon behind those that cover it in its plane, by a thousandth of the distance, and by more than
+// rounding moves any depth in the plane.
+Polygon movedBack(Polygon clip, int layer, double largestDepth) {
+  for (glm::dvec4& v : clip) {
+    const double step = std::max(0x1p-10 * v.z, 0x1p-16 * largestDepth * v.w);
+    v.z = std::max(fringeDepth * v.w, v.z - layer * step);
+  }
+  return clip;
+}
+
+// Returns what is drawn of the mirror pass.mirrors[index], whose polygons are given. Depth cannot order mirrors of one
+// plane, because it is rounded in each triangle in its own way, so what others cover is cut away. The whole mirror is
+// drawn behind its parts: it fills gaps of one sample between them, and stands for parts that would be too many.
+std::vector<Polygon> partsToDraw(const PlannedPass& pass, const SceneState& state, std::span<const Polygon> polygons,
+                                 size_t index) {
+  constexpr size_t mostParts = 64;
+  const MirrorDraw& draw = pass.mirrors[index];
+  std::vector<Polygon> parts{polygons[index]};
+  if (draw.layer == 0) {
+    return parts;
+  }
+  double largestDepth = 0.0;
+  for (size_t i = 0; i < polygons.size(); ++i) {
+    const MirrorDraw& other = pass.mirrors[i];
+    if (state.mirrors[other.mirror].plane != state.mirrors[draw.mirror].plane) {
+      continue;
+    }
+    for (const glm::dvec4& v : polygons[i]) {
+      largestDepth = std::max(largestDepth, v.z / v.w);
+    }
+    if (other.layer < draw.layer && parts.size() <= mostParts) {
+      cutAway(parts, polygons[i]);
+    }
+  }
+  if (parts.size() > mostParts) {
+    parts.clear();
+  } else if (parts.empty()) {
+    return parts;
+  }
+  parts.push_back(movedBack(polygons[index], draw.layer, largestDepth));
+  return parts;
 }
 
 }  // namespace
@@ -426,27 +465,16 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
                            PassData& data) {
   const auto& [scene, state, settings, environment, plan] = source;
   const EffectSettings& effects = settings.effects;
-  const auto clipPolygon = [&](const MirrorDraw& draw) {
-    std::vector<glm::dvec4> clip;
+  std::vector<Polygon> polygons;
+  for (const MirrorDraw& draw : pass.mirrors) {
+    Polygon& clip = polygons.emplace_back();
     for (const glm::dvec3& p : draw.polygon) {
       clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
     }
-    return clip;
-  };
-  // Depth cannot order mirrors of one plane: it is rounded in each triangle in its own way.
-  const auto visibleParts = [&](const MirrorDraw& draw, const std::vector<glm::dvec4>& clip) {
-    std::vector<std::vector<glm::dvec4>> parts{clip};
-    for (size_t i = 0; draw.layer > 0 && i < pass.mirrors.size(); ++i) {
-      const MirrorDraw& other = pass.mirrors[i];
-      if (other.layer < draw.layer && state.mirrors[other.mirror].plane == state.mirrors[draw.mirror].plane) {
-        cutAway(parts, clipPolygon(other));
-      }
-    }
-    return parts;
-  };
-  for (const MirrorDraw& draw : pass.mirrors) {
-    const std::vector<glm::dvec4> clip = clipPolygon(draw);
-    const std::vector<std::vector<glm::dvec4>> parts = visibleParts(draw, clip);
+  }
+  for (size_t i = 0; i < pass.mirrors.size(); ++i) {
+    const MirrorDraw& draw = pass.mirrors[i];
+    const std::vector<Polygon> parts = partsToDraw(pass, state, polygons, i);
     if (parts.empty()) {
       continue;
     }
@@ -469,10 +497,10 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
     mirrors_.push_back({mirrorData(draw, mirror, state, effects, pass.view, image)});
-    for (const std::vector<glm::dvec4>& part : parts) {
+    for (const Polygon& part : parts) {
       addFan(mirrorVertices_, part);
     }
-    addFringe(mirrorVertices_, clip, pass.view.pictureSize * overscan(pass.view), parts.size() != 1);
+    addFringe(mirrorVertices_, polygons[i], pass.view.pictureSize * overscan(pass.view));
     range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;
     data.mirrors.push_back(range);
   }
