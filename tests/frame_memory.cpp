@@ -56,7 +56,7 @@ TEST(MemoryFit, CountsThePictureThatStaysShown) {
   EXPECT_EQ(scale(true), 0.5);
 }
 
-TEST(MemoryFit, ThePictureThatStaysHasTheSamplesThatFitted) {
+TEST(MemoryFit, KeptPictureHasTheSamplesThatFitted) {
   const Scene scene = wallScene();
   Settings settings;
   settings.view.samples = 8;

@@ -20,7 +20,7 @@ constexpr double leastScale = 0.125;
 constexpr int smallShadowMap = 256;     // texels of a face's side
 constexpr int smallEnvironment = 64;    // likewise
 constexpr int environmentInterval = 8;  // frames
-// Of a scene whose hierarchy takes no longer than about two frames to build.
+// Scenes with more triangles are not traced while they move: their hierarchy would delay the first frame.
 constexpr size_t mostTriangles = 100'000;
 
 size_t triangleCount(const Scene& scene) {

@@ -36,7 +36,7 @@ std::optional<fs::path> newestRecovery() {
   fs::file_time_type time;
   for (const auto& record : fs::directory_iterator(recordFolder(), none)) {
     const fs::path copy = readTextIfAny(record);
-    if (fs::is_regular_file(copy, none) && (!newest || record.last_write_time(none) > time)) {
+    if (isFile(copy) && (!newest || record.last_write_time(none) > time)) {
       newest = copy;
       time = record.last_write_time(none);
     }

@@ -50,9 +50,8 @@ bool SceneBrowser::isNew(const fs::path& scene) {
 
 SceneBrowser::SceneBrowser() {
   std::istringstream lines(readTextIfAny(recentFile()));
-  std::error_code none;
   for (std::string line; std::getline(lines, line) && view_.recent.size() < mostRecent;) {
-    if (fs::is_regular_file(line, none)) {
+    if (isFile(line)) {
       view_.recent.emplace_back(line);
     }
   }

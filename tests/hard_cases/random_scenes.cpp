@@ -80,46 +80,14 @@ int edgePixels(const Image8& picture) {
   return count;
 }
 
-// Counts pixels that an edge along a column or row of pixels has put on its other side together: they have the colors
-// of their neighbours across the edge. The first of each such line is not counted.
-int pixelsOfAlignedEdges(const Image8& picture, const Image8& expected) {
-  constexpr int shortest = 8;
-  int count = 0;
-  for (const bool columns : {true, false}) {
-    const int lines = columns ? picture.width : picture.height;
-    const int length = columns ? picture.height : picture.width;
-    const auto near = [&](int line, int along, int shift) {
-      const auto* a = columns ? picture.at(line, along) : picture.at(along, line);
-      const auto* b = columns ? expected.at(line + shift, along) : expected.at(along, line + shift);
-      return std::abs(a[0] - b[0]) <= 2 && std::abs(a[1] - b[1]) <= 2 && std::abs(a[2] - b[2]) <= 2;
-    };
-    for (int line = 1; line + 1 < lines; ++line) {
-      for (const int shift : {-1, 1}) {
-        int run = 0;
-        for (int along = 0; along <= length; ++along) {
-          if (along < length && !near(line, along, 0) && near(line, along, shift)) {
-            ++run;
-          } else {
-            count += run >= shortest ? run - 1 : 0;
-            run = 0;
-          }
-        }
-      }
-    }
-  }
-  return count;
-}
-
 // Vertices are snapped to 1/256 pixel in each image that an edge passes through, so a pixel at an edge is on the wrong
-// side with a probability of about 1/256; the pixels of an edge along a column share theirs. Allows twice that and some
-// pixels more, but no patch of wrong pixels.
+// side with a probability of about 1/256. Allows twice that and some pixels more, but no patch of wrong pixels.
 void expectTraced(const Image8& picture, const TraceResult& traced, const std::string& name) {
   const Image8 expected = toDisplay(traced.image, 1.0, ToneMap::clamp);
   const PictureAgreement d = difference(picture, expected, 2, notBackground(traced));
   const int edges = edgePixels(expected);
-  const int over = d.over - pixelsOfAlignedEdges(picture, expected);
-  if (over > 8 + edges / 128 || d.block) {
-    ADD_FAILURE() << name << ": " << over << " of " << d.counted << " pixels differ, " << edges << " are at edges";
+  if (d.over > 8 + edges / 128 || d.block) {
+    ADD_FAILURE() << name << ": " << d.over << " of " << d.counted << " pixels differ, " << edges << " are at edges";
     writeEvidence(picture, expected, name);
   }
 }
