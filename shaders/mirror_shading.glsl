@@ -245,7 +245,8 @@ vec4 scatteredReflection(vec3 ray, vec3 position, vec3 normal) {
   vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));
   vec3 sum = vec3(0.0);
   int taken = 0;
-  for (int drawn = 1; drawn <= mirror.blurSamples; ++drawn) {
+  int lookups = int(countHere(uint(mirror.blurSamples)));
+  for (int drawn = 1; drawn <= lookups; ++drawn) {
     vec3 m = microfacet(normal, mirror.alpha, latticePoint(shift, drawn));
     if (staysAbove(incoming, m, mirror.normal)) {
       sum += imageAlong(incoming - 2.0 * dot(incoming, m) * m, origin);

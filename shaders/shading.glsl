@@ -18,6 +18,10 @@ struct Surface {
   bool glossy;  // the specular color is not black
 };
 
+// A branch or a loop that depends on uniform values alone makes lavapipe of Mesa 22.3 compile the shader again for each
+// draw and keep it. Values are chosen with mix() instead, and loops end at this count. Helper invocations need no light.
+uint countHere(uint count) { return gl_HelperInvocation ? 0 : count; }
+
 vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
 // Products of a matrix that is given by its rows with a point and with a direction.
@@ -81,7 +85,8 @@ vec3 surfaceRadiance(Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
   vec3 radiance = surface.emission + view.ambient * surface.diffuse;
   if (lightCount == manyLights) {
-    for (uint i = 0; i < view.lightCount; ++i) {
+    uint count = countHere(view.lightCount);
+    for (uint i = 0; i < count; ++i) {
       LightData light = lights[view.firstLight + i];
       radiance += litShare(i, light) * lightRadiance(light, surface, toViewer);
     }
@@ -102,7 +107,7 @@ vec3 schlick(vec3 reflectance, float cosine) {
 
 // Reflectance at an angle of incidence, from that at normal incidence.
 vec3 reflectanceAt(vec3 reflectance, uint followsSchlick, float cosine) {
-  return followsSchlick != 0 ? schlick(reflectance, cosine) : reflectance;
+  return mix(reflectance, schlick(reflectance, cosine), bvec3(followsSchlick != 0));
 }
 
 // Says whether a bounce at this depth, after which `channels` of the light are left, shows the background only.
@@ -132,12 +137,10 @@ Surface objectSurface(vec3 position, vec3 normal, MaterialData material, Materia
 }
 
 vec3 backgroundRadiance(vec3 direction) {
-  if (view.hasSky == 0) {
-    return bounded(view.background);
-  }
   float y = safeNormalize(direction).y;
-  return bounded(y >= 0.0 ? mix(view.horizon.rgb, view.zenith.rgb, sqrt(y))
-                          : mix(view.horizon.rgb, view.ground.rgb, min(1.0, -8.0 * y)));
+  vec3 sky = y >= 0.0 ? mix(view.horizon.rgb, view.zenith.rgb, sqrt(y))
+                      : mix(view.horizon.rgb, view.ground.rgb, min(1.0, -8.0 * y));
+  return bounded(mix(view.background, sky, bvec3(view.hasSky != 0)));
 }
 
 // Returns the value as a half-float target can store it: beyond its range some drivers store infinity, and one such
@@ -146,9 +149,8 @@ vec3 backgroundRadiance(vec3 direction) {
 vec4 storable(vec3 radiance, float disparity) {
   vec4 value = vec4(radiance, disparity);
   vec4 stored = clamp(value, 0.0, halfMax);
-  if (view.checksFinite != 0) {
-    // Puts back the NaN that clamp() hides. Finds it by its bits, because compilers may take isnan() for false.
-    stored = mix(stored, value, greaterThan(floatBitsToUint(value) & 0x7fffffffu, uvec4(0x7f800000u)));
-  }
-  return stored;
+  // debug.check_finite puts back the NaN that clamp() hides. It is found by its bits, because compilers may take isnan()
+  // for false.
+  uint largest = view.checksFinite != 0 ? 0x7f800000u : 0x7fffffffu;
+  return mix(stored, value, greaterThan(floatBitsToUint(value) & 0x7fffffffu, uvec4(largest)));
 }
