@@ -150,10 +150,10 @@ TEST_F(CommandLine, BenchComparesRunsInTurn) {
 }
 
 // Waits until the program catches the signal (the last digit of SigCgt holds SIGINT), however slow the machine is. A
-// second later the prices are being measured, which takes ten more.
+// second later the prices are being measured, which takes many more.
 TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
   const std::string script = R"("$0" bench --scene "$1" --size 96x54 --frames 1 --warmup 0 --prices \
-      --set view.accumulate=64 --json "$2" & pid=$!
+      --set view.accumulate=1024 --json "$2" & pid=$!
     while ! grep -q '^SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.05; done
     sleep 1; kill -INT $pid; wait $pid)";
   const std::string program = (binaryDir() / "speculum").string();

@@ -95,10 +95,10 @@ TEST(Device, RenderPathNames) {
 }
 
 TEST(Device, MissingDriverSaysHowToMendIt) {
-  const std::string old = environment("VK_ICD_FILENAMES");
-  setEnvironment("VK_ICD_FILENAMES", "/nonexistent.json");
+  const std::string old = environment("VK_DRIVER_FILES");
+  setEnvironment("VK_DRIVER_FILES", "/nonexistent.json");
   const std::string error = errorOf({});
-  old.empty() ? static_cast<void>(unsetenv("VK_ICD_FILENAMES")) : setEnvironment("VK_ICD_FILENAMES", old);
+  old.empty() ? static_cast<void>(unsetenv("VK_DRIVER_FILES")) : setEnvironment("VK_ICD_FILENAMES", old);
   EXPECT_NE(error.find("install"), std::string::npos) << error;
 }
 

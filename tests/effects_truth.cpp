@@ -209,10 +209,9 @@ TEST(ExactEffects, ThroughputIsPerChannel) {
                                        "[[mirror]]\nposition = [0, 1, -1.6]\nsize = [4, 2]\n"
                                        "reflectance = [1, 0.1, 0.1]\n" +
                                        pool + ripple + "reflectance = [0.1, 1, 0.1]\n");
-  const Scene scene = loadScene(file);
-  const RayTracer tracer(scene, evaluate(scene, 0.0));
-  Truth truth{.traced = *tracer.render(
-                  {.width = size.width, .height = size.height, .samples = 1, .maxDepth = 4, .minThroughput = 0.3})};
+  Truth truth = trace(file, size, 4);
+  truth.tracing.options.minThroughput = 0.3;
+  truth.traced = truth.tracing.result();
   truth.picture = toDisplay(truth.traced.image, 1.0, ToneMap::clamp);
   Options options = truthOptions(file, size, 4);
   set(options, {{"reflection.min_throughput", "0.3"}});

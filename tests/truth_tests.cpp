@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "image/color.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
 #include "shaders/gpu_data.h"
@@ -35,6 +36,22 @@ INSTANTIATE_TEST_SUITE_P(HardScenes, SceneTruth,
                                          "hard/near_plane", "hard/grazing", "hard/beside_the_eye", "hard/nested",
                                          "hard/turning_fast"),
                          [](const auto& info) { return std::string(info.param).substr(5); });
+
+// Edges may lie anywhere within 1/256 pixel, and no farther.
+TEST(Tracing, NearestAllowsPartsOfAPixel) {
+  const Truth truth = trace(sourceFile("scenes/facing_mirrors.toml"), {160, 90}, 4);
+  const auto moved = [&](double x, double y) {
+    return toDisplay(truth.tracing.result({x, y}).image, truth.tracing.exposure, truth.tracing.toneMap);
+  };
+  const auto differing = [](const Image8& a, const Image8& b) { return difference(a, b, 2).over; };
+  const Image8 little = moved(1.0 / 256.0, -1.0 / 256.0);
+  EXPECT_GT(differing(little, truth.picture), 5);
+  EXPECT_EQ(differing(little, truth.tracing.nearest(little)), 0);
+  for (const glm::dvec2 far : {glm::dvec2(1.0 / 16.0, 0.0), glm::dvec2(0.0, -1.0 / 16.0)}) {
+    const Image8 picture = moved(far.x, far.y);
+    EXPECT_GT(differing(picture, truth.tracing.nearest(picture)), differing(picture, truth.picture) / 2);
+  }
+}
 
 TEST(ObjectFields, EmissionReplacesTheMaterials) {
   const std::filesystem::path file = writeScene("emission", R"(

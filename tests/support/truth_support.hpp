@@ -10,9 +10,26 @@
 // The rasteriser against the ray tracer, one sample each.
 namespace speculum::testing_support {
 
+// A scene as the tracer draws it.
+struct Tracing {
+  Scene scene;
+  SceneState state;
+  TraceOptions options;
+  double exposure = 1.0;
+  ToneMap toneMap = ToneMap::clamp;
+
+  // The picture may be moved by `offset`, in pixels.
+  TraceResult result(const glm::dvec2& offset = {0.0, 0.0}) const;
+
+  // Returns the picture with each channel as near to `actual` as it gets where the scene moves by up to 1/256 pixel.
+  // Vulkan rounds vertices to a grid of 1/256 pixel and leaves open how, so an edge may lie anywhere within it.
+  Image8 nearest(const Image8& actual) const;
+};
+
 struct Truth {
-  Image8 picture;
+  Tracing tracing;
   TraceResult traced;
+  Image8 picture;
 };
 
 Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, double time = 0.0);
@@ -21,7 +38,8 @@ Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, d
 std::vector<std::pair<std::string, std::string>> truthSettings(int maxDepth);
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth);
 
-// Expects every pixel that is not background within 2/255, except one in a thousand, but no 3x3 block of exceptions.
+// Expects every pixel that is not background within 2/255, except one in a thousand, but no 3x3 block of exceptions. If
+// there are more, compares with Tracing::nearest().
 void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDepth, const Truth& truth,
                  double time = 0.0);
 
