@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <fstream>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -43,6 +46,24 @@ TEST(Machine, KeepsFreedMemory) {
   EXPECT_GT(faultsOfAllocating(), 16 * 1000);
   keepFreedMemory();
   EXPECT_LT(faultsOfAllocating(), 1000);
+}
+
+TEST(Machine, ReleasesFreedMemory) {
+  keepFreedMemory();
+  std::vector<std::unique_ptr<std::vector<char>>> blocks;
+  for (int i = 0; i < 400; ++i) {
+    blocks.push_back(std::make_unique<std::vector<char>>(100 << 10, 'x'));
+  }
+  const auto last = std::move(blocks.back());  // keeps the heap's end where it is
+  blocks.clear();
+  const auto resident = [] {
+    long pages = 0;
+    std::ifstream("/proc/self/statm") >> pages >> pages;
+    return pages * ::sysconf(_SC_PAGESIZE);
+  };
+  const long before = resident();
+  releaseFreedMemory();
+  EXPECT_LT(resident(), before - (30 << 20));
 }
 
 TEST(Machine, KeepsTheUsersMallocThresholds) {

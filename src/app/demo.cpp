@@ -9,6 +9,7 @@
 #include "app/device_view.hpp"
 #include "frame/picture_tiles.hpp"
 #include "image/color.hpp"
+#include "platform/machine.hpp"
 #include "platform/process.hpp"
 #include "ui/input_map.hpp"
 
@@ -172,6 +173,9 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const Clock::time_point end = Clock::now();
   const double cpuMs = milliseconds(end - start);
   const bool newPipelines = std::exchange(pipelines_, sceneRenderer_->pipelineCount()) != pipelines_;
+  if (std::exchange(compiled_, newPipelines) && !newPipelines) {
+    releaseFreedMemory();  // of loading and compiling
+  }
   pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;

@@ -102,6 +102,7 @@ class Demo : private WorkspaceHost {
   bool changes_ = false;       // something changes in this step
   bool changeBegins_ = false;  // something changes, and did not in the step before
   size_t pipelines_ = 0;       // after the last frame
+  bool compiled_ = false;      // pipelines, in the last frame
   int scenes_ = 0;             // number of scenes shown before this one
   LevelJob levels_;
   bool sceneIsNew_ = true;  // no picture of it was drawn

@@ -13,4 +13,7 @@ uint64_t peakResidentBytes();      // of this process
 // the same pages in again at the next draw. The user's own MALLOC_ variables take precedence.
 void keepFreedMemory();
 
+// Returns what is freed so far to the system. Takes some milliseconds.
+void releaseFreedMemory();
+
 }  // namespace speculum

@@ -10,6 +10,7 @@
 #include "frame/shadow_map.hpp"
 #include "scene/beside_mirrors.hpp"
 #include "systems/gpu_conversion.hpp"
+#include "systems/mirror_polygons.hpp"
 
 namespace speculum {
 
@@ -387,94 +388,14 @@ void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, in
   environments_.push_back(data);
 }
 
-namespace {
-
-// Pixels: the error of vertices snapped to 1/256 of a pixel. A wider fringe shows at recursion depth 32.
-constexpr double fringeWidth = 1.0 / 256.0;
-// Depth behind everything but the background.
-constexpr double fringeDepth = 1e-25;
-
-// Triangles of a convex polygon in clip space.
-void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygon) {
-  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
-    vertices.insert(vertices.end(), {polygon[0], polygon[i], polygon[i + 1]});
-  }
-}
-
-// Adds a fringe around the polygon that is seen only instead of the background. Where mirrors share an edge, or end at
-// a body, rounding may leave a gap of one sample; the fringe of one of them fills it. Widening the mirror itself would
-// be worse: it would hide what it ends at, and its image has nothing to show beyond its edge.
-void addFringe(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size) {
-  const std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
-  const auto far = [](const glm::dvec4& v) { return glm::vec4(v.x, v.y, fringeDepth * v.w, v.w); };
-  for (size_t i = 0; i < clip.size(); ++i) {
-    const size_t next = (i + 1) % clip.size();
-    vertices.insert(vertices.end(), {far(clip[i]), far(outer[i]), far(outer[next])});
-    vertices.insert(vertices.end(), {far(clip[i]), far(outer[next]), far(clip[next])});
-  }
-}
-
-using Polygon = std::vector<glm::dvec4>;  // convex, in clip space
-
-// Returns the polygon behind those that cover it in its plane, by a thousandth of the distance, and by more than
-// rounding moves any depth in the plane.
-Polygon movedBack(Polygon clip, int layer, double largestDepth) {
-  for (glm::dvec4& v : clip) {
-    const double step = std::max(0x1p-10 * v.z, 0x1p-16 * largestDepth * v.w);
-    v.z = std::max(fringeDepth * v.w, v.z - layer * step);
-  }
-  return clip;
-}
-
-// Returns what is drawn of the mirror pass.mirrors[index], whose polygons are given. Depth cannot order mirrors of one
-// plane, because it is rounded in each triangle in its own way, so what others cover is cut away. The whole mirror is
-// drawn behind its parts: it fills gaps of one sample between them, and stands for parts that would be too many.
-std::vector<Polygon> partsToDraw(const PlannedPass& pass, const SceneState& state, std::span<const Polygon> polygons,
-                                 size_t index) {
-  constexpr size_t mostParts = 64;
-  const MirrorDraw& draw = pass.mirrors[index];
-  std::vector<Polygon> parts{polygons[index]};
-  if (draw.layer == 0) {
-    return parts;
-  }
-  double largestDepth = 0.0;
-  for (size_t i = 0; i < polygons.size(); ++i) {
-    const MirrorDraw& other = pass.mirrors[i];
-    if (state.mirrors[other.mirror].plane != state.mirrors[draw.mirror].plane) {
-      continue;
-    }
-    for (const glm::dvec4& v : polygons[i]) {
-      largestDepth = std::max(largestDepth, v.z / v.w);
-    }
-    if (other.layer < draw.layer && parts.size() <= mostParts) {
-      cutAway(parts, polygons[i]);
-    }
-  }
-  if (parts.size() > mostParts) {
-    parts.clear();
-  } else if (parts.empty()) {
-    return parts;
-  }
-  parts.push_back(movedBack(polygons[index], draw.layer, largestDepth));
-  return parts;
-}
-
-}  // namespace
-
 void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection,
                            PassData& data) {
   const auto& [scene, state, settings, environment, plan] = source;
   const EffectSettings& effects = settings.effects;
-  std::vector<Polygon> polygons;
-  for (const MirrorDraw& draw : pass.mirrors) {
-    Polygon& clip = polygons.emplace_back();
-    for (const glm::dvec3& p : draw.polygon) {
-      clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
-    }
-  }
+  const std::vector<ClipPolygon> polygons = mirrorPolygons(pass, projection);
   for (size_t i = 0; i < pass.mirrors.size(); ++i) {
     const MirrorDraw& draw = pass.mirrors[i];
-    const std::vector<Polygon> parts = partsToDraw(pass, state, polygons, i);
+    const std::vector<ClipPolygon> parts = partsToDraw(pass, state, polygons, i);
     if (parts.empty()) {
       continue;
     }
@@ -497,7 +418,7 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
     mirrors_.push_back({mirrorData(draw, mirror, state, effects, pass.view, image)});
-    for (const Polygon& part : parts) {
+    for (const ClipPolygon& part : parts) {
       addFan(mirrorVertices_, part);
     }
     addFringe(mirrorVertices_, polygons[i], pass.view.pictureSize * overscan(pass.view));
@@ -512,7 +433,7 @@ void FrameData::addMask(const PlannedPass& pass, const FramePlan& plan, const Se
   }
   const glm::dvec2 drawn = overscan(pass.view);
   const double reach = lookupReach(settings, device_.limits().standardSampleLocations);
-  std::vector<glm::dvec4> clip;
+  ClipPolygon clip;
   for (const glm::dvec2& p : passMask(pass.view, plan.projection, reach)) {
     clip.emplace_back(p / drawn, 0.0, 1.0);  // infinitely far
   }

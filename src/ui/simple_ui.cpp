@@ -184,6 +184,7 @@ void SimpleUI::initVulkan() {
   // Later backends upload the fonts themselves.
   renderer_.uploader().run([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
   ImGui_ImplVulkan_DestroyFontUploadObjects();
+  ImGui::GetIO().Fonts->ClearTexData();
 #endif
 }
 

@@ -1,0 +1,85 @@
+#include "systems/mirror_polygons.hpp"
+
+#include <algorithm>
+
+#include "geometry/projection.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Pixels: the error of vertices snapped to 1/256 of a pixel. A wider fringe shows at recursion depth 32.
+constexpr double fringeWidth = 1.0 / 256.0;
+// Depth behind everything but the background.
+constexpr double fringeDepth = 1e-25;
+
+// Returns the polygon behind those that cover it in its plane, by a thousandth of the distance, and by more than
+// rounding moves any depth in the plane.
+ClipPolygon movedBack(ClipPolygon clip, int layer, double largestDepth) {
+  for (glm::dvec4& v : clip) {
+    const double step = std::max(0x1p-10 * v.z, 0x1p-16 * largestDepth * v.w);
+    v.z = std::max(fringeDepth * v.w, v.z - layer * step);
+  }
+  return clip;
+}
+
+}  // namespace
+
+std::vector<ClipPolygon> mirrorPolygons(const PlannedPass& pass, const glm::dmat4& projection) {
+  std::vector<ClipPolygon> polygons;
+  for (const MirrorDraw& draw : pass.mirrors) {
+    ClipPolygon& clip = polygons.emplace_back();
+    for (const glm::dvec3& p : draw.polygon) {
+      clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
+    }
+  }
+  return polygons;
+}
+
+std::vector<ClipPolygon> partsToDraw(const PlannedPass& pass, const SceneState& state,
+                                     std::span<const ClipPolygon> polygons, size_t index) {
+  constexpr size_t mostParts = 64;
+  const MirrorDraw& draw = pass.mirrors[index];
+  std::vector<ClipPolygon> parts{polygons[index]};
+  if (draw.layer == 0) {
+    return parts;
+  }
+  double largestDepth = 0.0;
+  for (size_t i = 0; i < polygons.size(); ++i) {
+    const MirrorDraw& other = pass.mirrors[i];
+    if (state.mirrors[other.mirror].plane != state.mirrors[draw.mirror].plane) {
+      continue;
+    }
+    for (const glm::dvec4& v : polygons[i]) {
+      largestDepth = std::max(largestDepth, v.z / v.w);
+    }
+    if (other.layer < draw.layer && parts.size() <= mostParts) {
+      cutAway(parts, polygons[i]);
+    }
+  }
+  if (parts.size() > mostParts) {
+    parts.clear();
+  } else if (parts.empty()) {
+    return parts;
+  }
+  parts.push_back(movedBack(polygons[index], draw.layer, largestDepth));
+  return parts;
+}
+
+void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygon) {
+  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+    vertices.insert(vertices.end(), {polygon[0], polygon[i], polygon[i + 1]});
+  }
+}
+
+void addFringe(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size) {
+  const std::vector<glm::dvec4> outer = grown(clip, size.x, size.y, fringeWidth);
+  const auto far = [](const glm::dvec4& v) { return glm::vec4(v.x, v.y, fringeDepth * v.w, v.w); };
+  for (size_t i = 0; i < clip.size(); ++i) {
+    const size_t next = (i + 1) % clip.size();
+    vertices.insert(vertices.end(), {far(clip[i]), far(outer[i]), far(outer[next])});
+    vertices.insert(vertices.end(), {far(clip[i]), far(outer[next]), far(clip[next])});
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "frame/frame_plan.hpp"
+#include "scene/scene_state.hpp"
+
+// What is drawn of the mirrors of a pass.
+namespace speculum {
+
+using ClipPolygon = std::vector<glm::dvec4>;  // convex, in clip space
+
+// Returns the polygons of pass.mirrors. `projection` takes view space to clip space.
+std::vector<ClipPolygon> mirrorPolygons(const PlannedPass& pass, const glm::dmat4& projection);
+
+// Returns what is drawn of the mirror pass.mirrors[index], whose polygons are given. Depth cannot order mirrors of one
+// plane, because it is rounded in each triangle in its own way, so what others cover is cut away. The whole mirror is
+// drawn behind its parts: it fills gaps of one sample between them, and stands for parts that would be too many.
+std::vector<ClipPolygon> partsToDraw(const PlannedPass& pass, const SceneState& state,
+                                     std::span<const ClipPolygon> polygons, size_t index);
+
+// Adds the triangles of a convex polygon in clip space.
+void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygon);
+
+// Adds a fringe around the polygon that is seen only instead of the background. Where mirrors share an edge, or end at
+// a body, rounding may leave a gap of one sample; the fringe of one of them fills it. Widening the mirror itself would
+// be worse: it would hide what it ends at, and its image has nothing to show beyond its edge. `size` is the target's,
+// in pixels.
+void addFringe(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size);
+
+}  // namespace speculum
