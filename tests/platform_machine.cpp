@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <memory>
 #include <thread>
@@ -75,6 +76,14 @@ TEST(Machine, KeepsTheUsersMallocThresholds) {
   EXPECT_GT(faultsOfAllocating(), 16 * 1000);
 }
 #endif
+
+TEST(Machine, KnowsWhenTheProcessStarted) {
+  const double first = millisecondsSinceStart();
+  EXPECT_GE(first, 0.0);
+  EXPECT_LT(first, 60e3);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_GE(millisecondsSinceStart(), first + 40.0);
+}
 
 TEST(Machine, PeakMemoryIsPlausible) {
   EXPECT_GT(peakResidentBytes(), uint64_t{1} << 20);

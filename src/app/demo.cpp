@@ -111,6 +111,9 @@ void Demo::presentPanels() {
   updateUi(0.0);
   if (std::optional<Frame> frame = renderer_.beginFrame()) {
     endWithPanels(*frame);
+    if (framesDrawn_ == 0) {
+      spdlog::info("first frame, of the panels, {:.0f} ms after the start", millisecondsSinceStart());
+    }
   }
 }
 
@@ -180,6 +183,9 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
+  if (framesDrawn_ == 0) {
+    spdlog::info("first picture {:.0f} ms after the start", millisecondsSinceStart());
+  }
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
   workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs}, renderer_,

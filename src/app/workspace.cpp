@@ -18,6 +18,8 @@ template <typename... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;  // clang needs it before version 17
 
 // Finds the models that come with the program.
 std::vector<fs::path> findShippedModels() {
