@@ -18,11 +18,11 @@ TEST(PassTree, MirrorsHangBelowTheirParents) {
                                             {"a > c", {0, 2}, "outside"},
                                             {"a > b > a", {0, 1, 0}, "max_depth"},
                                             {"d > a", {3, 0}, "outside"}};
-  const std::vector<PassNode> roots = passTree(passes, skipped);
+  const std::vector<PassBranch> roots = passTree(passes, skipped);
   ASSERT_EQ(roots.size(), 2u);
   EXPECT_EQ(roots[1].pass, 5);
   EXPECT_TRUE(roots[1].children.empty());
-  const PassNode& main = roots[0];
+  const PassBranch& main = roots[0];
   EXPECT_EQ(main.pass, 4);
   EXPECT_EQ(main.skipped, std::vector<int>{0});
   ASSERT_EQ(main.children.size(), 2u);
@@ -42,7 +42,7 @@ TEST(PassTree, IsEmptyWithoutPasses) {
 TEST(PassTree, ReusedImagesAreNotListedTwice) {
   const std::vector<PassView> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
   const std::vector<SkippedView> skipped = {{"a", {0}, "unchanged"}, {"b", {1}, "hidden"}};
-  const std::vector<PassNode> roots = passTree(passes, skipped);
+  const std::vector<PassBranch> roots = passTree(passes, skipped);
   ASSERT_EQ(roots.size(), 1u);
   EXPECT_EQ(roots[0].skipped, std::vector<int>{1});
 }

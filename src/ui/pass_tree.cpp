@@ -10,8 +10,8 @@ bool isSeenIn(const std::vector<int>& path, const std::vector<int>& parent) {
   return path.size() == parent.size() + 1 && std::equal(parent.begin(), parent.end(), path.begin());
 }
 
-PassNode nodeOf(int pass, std::span<const PassView> passes, std::span<const SkippedView> skipped) {
-  PassNode node{.pass = pass};
+PassBranch nodeOf(int pass, std::span<const PassView> passes, std::span<const SkippedView> skipped) {
+  PassBranch node{.pass = pass};
   const std::vector<int>& path = passes[static_cast<size_t>(pass)].path;
   const auto isListed = [&](const std::vector<int>& mirror) {
     return std::ranges::any_of(passes, [&](const PassView& other) { return other.path == mirror; });
@@ -31,14 +31,14 @@ PassNode nodeOf(int pass, std::span<const PassView> passes, std::span<const Skip
 
 }  // namespace
 
-std::vector<PassNode> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped) {
-  std::vector<PassNode> roots;
+std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped) {
+  std::vector<PassBranch> roots;
   for (size_t i = 0; i < passes.size(); ++i) {
     if (!passes[i].path.empty()) {
       continue;
     }
     const int pass = static_cast<int>(i);
-    roots.push_back(passes[i].kind == PassKind::main ? nodeOf(pass, passes, skipped) : PassNode{.pass = pass});
+    roots.push_back(passes[i].kind == PassKind::main ? nodeOf(pass, passes, skipped) : PassBranch{.pass = pass});
   }
   return roots;
 }

@@ -9,16 +9,16 @@
 namespace speculum {
 
 // A pass with what is seen in it.
-struct PassNode {
+struct PassBranch {
   int pass = -1;             // index into FrameView::passes
   std::vector<int> skipped;  // indices into FrameView::skipped: mirrors seen in it that have no pass of their own
-  std::vector<PassNode> children;
+  std::vector<PassBranch> children;
 };
 
 // Returns the main view, with every mirror pass below the pass that it is seen in, and then the passes that are no
 // view. Leaves out mirrors, with a pass or skipped, whose parent is not listed. A mirror whose image is reused is
 // listed with the pass that rendered it, not among the skipped ones.
-std::vector<PassNode> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped);
+std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped);
 
 // Returns the last mirror in a pass's name, which is enough in a tree that shows its parents.
 std::string pathEnd(const std::string& name);

@@ -52,7 +52,7 @@ void textAcrossColumns(const std::string& text) {
   ImGui::PopClipRect();
 }
 
-void skippedRows(PanelContext& ui, const PassNode& node) {
+void skippedRows(PanelContext& ui, const PassBranch& node) {
   if (node.skipped.empty()) {
     return;
   }
@@ -86,7 +86,7 @@ void skippedRows(PanelContext& ui, const PassNode& node) {
   ImGui::TreePop();
 }
 
-void passRow(PanelContext& ui, const PassNode& node) {
+void passRow(PanelContext& ui, const PassBranch& node) {
   const PassView& pass = ui.view.frame.passes[static_cast<size_t>(node.pass)];
   std::optional<std::vector<int>>& target = ui.state.targets.path;
   const bool shown = hasTarget(pass) && target == pass.path;
@@ -123,7 +123,7 @@ void passRow(PanelContext& ui, const PassNode& node) {
   if (!open) {
     return;
   }
-  for (const PassNode& child : node.children) {
+  for (const PassBranch& child : node.children) {
     passRow(ui, child);
   }
   skippedRows(ui, node);
@@ -183,7 +183,7 @@ void passes(PanelContext& ui) {
   ImGui::TableSetupColumn("Depth (m)", ImGuiTableColumnFlags_WidthFixed, 1.1f * width);
   header();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
-  for (const PassNode& node : passTree(frame.passes, frame.skipped)) {
+  for (const PassBranch& node : passTree(frame.passes, frame.skipped)) {
     passRow(ui, node);
   }
   ImGui::PopStyleVar();
