@@ -82,6 +82,7 @@ class RegressPage(Page):
         self.assertEqual(self.shows(), "actual")
         self.js("arguments[0].dispatchEvent(new PointerEvent('pointerenter'))", self.pane("actual"))
         self.assertEqual(self.shows(), "expected")
+        self.assertEqual(self.text("[data-case=seam] .pane:has(.frame.actual) > p"), "expected, in the place of the actual one")
         self.js("arguments[0].dispatchEvent(new PointerEvent('pointerleave'))", self.pane("actual"))
         self.assertEqual(self.shows(), "actual")
 

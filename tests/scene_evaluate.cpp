@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "geometry/polygon.hpp"
+#include "scene/beside_mirrors.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
@@ -186,6 +187,33 @@ TEST(LookAt, RefusesMissingDirections) {
   EXPECT_THROW(lookAt({1, 2, 3}, {1, 2, 3}, {0, 1, 0}, 60, 0.1), std::invalid_argument);
   EXPECT_THROW(lookAt({0, 0, 0}, {0, -3, 0}, {0, 1, 0}, 60, 0.1), std::invalid_argument);
   EXPECT_THROW(lookAt({0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 60, 0.1), std::invalid_argument);
+}
+
+// Three planes through a light, in all positions to each other but the most acute.
+TEST(BesideMirrors, IsAsFarFromEachPlane) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  int compared = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 light(normal(random), normal(random), normal(random));
+    std::vector<MirrorState> mirrors(3);
+    for (int k = 0; k < 3; ++k) {
+      mirrors[k].normal = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+      mirrors[k].origin = light + glm::cross(mirrors[k].normal, glm::dvec3(normal(random), 1.0, 0.5));
+      mirrors[k].slack = 1e-9 * (k + 1);
+      mirrors[k].plane = k;
+    }
+    const glm::dvec3 edge = glm::cross(mirrors[0].normal, mirrors[1].normal);
+    if (glm::length(edge) < 0.02 || std::abs(glm::dot(edge, mirrors[2].normal)) < 0.02 * glm::length(edge)) {
+      continue;
+    }
+    ++compared;
+    const glm::dvec3 point = besideMirrors(light, mirrors);
+    for (const MirrorState& mirror : mirrors) {
+      EXPECT_NEAR(glm::dot(mirror.normal, point - mirror.origin), 3e-9, 1e-13);
+    }
+  }
+  EXPECT_GT(compared, 1900);
 }
 
 TEST(Environment, BackgroundWithoutSky) {

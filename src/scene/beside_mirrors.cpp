@@ -10,6 +10,8 @@ namespace speculum {
 
 namespace {
 
+constexpr double thinnestWedge = 0.01;  // radians; in a thinner one the point would be too far from the light
+
 // Floats round by 6e-8. Rays come from points up to about a hundred times as far from the eye as the light.
 double floatRounding(const glm::dvec3& light, const MirrorState& mirror, const glm::dvec3& eye) {
   return 4e-6 * glm::length(light - eye) + 5e-7 * glm::length(light - mirror.origin);
@@ -30,10 +32,23 @@ glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> m
       away = std::max(away, distance);
     }
   }
-  // Moving to each plane in turn (Kaczmarz's method) brings the point to the same distance from all of them. Where
-  // distances differ, rounding would decide which mirrors the light reaches by way of others.
+  // The same distance from all of them: where distances differ, rounding would decide which mirrors the light reaches
+  // by way of others. Each step keeps the distances from the planes before it, for up to three planes.
   glm::dvec3 point = light;
-  for (int turn = 0; turn < 50; ++turn) {
+  std::vector<glm::dvec3> taken;  // orthonormal
+  for (const Plane& plane : planes) {
+    glm::dvec3 step = plane.normal;
+    for (const glm::dvec3& direction : taken) {
+      step -= glm::dot(step, direction) * direction;
+    }
+    const double length2 = glm::dot(step, step);
+    if (length2 > thinnestWedge * thinnestWedge) {
+      point += (away - plane.distance(point)) / length2 * step;
+      taken.push_back(step / std::sqrt(length2));
+    }
+  }
+  // Moving to each plane in turn (Kaczmarz's method) brings the point between more planes.
+  for (int turn = 0; taken.size() < planes.size() && turn < 50; ++turn) {
     for (const Plane& plane : planes) {
       point += (away - plane.distance(point)) * plane.normal;
     }

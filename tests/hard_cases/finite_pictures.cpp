@@ -212,6 +212,23 @@ std::string boxWithLampOnMirrors(Random& random) {
   return out.str();
 }
 
+// Planes that leave the lamp a narrow wedge.
+TEST(LightOnASurface, LampInANarrowWedgeMatchesTheTracer) {
+  const glm::dvec3 lamp(0.678, 0.626, -0.596);
+  std::ostringstream scene;
+  scene << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+        << cameraText({-0.569, 1.337, -0.162}, lamp)
+        << objectText("MODELS/box.obj", {0, 0, 0}, {17, 77, -81}, 6.0, {0.6, 0.6, 0.6})
+        << "[[light]]\nposition = " << text(lamp) << "\nintensity = 4\ncasts_shadow = true\n";
+  for (const glm::dvec3 rotation : {glm::dvec3(105.6, -119.26, 19.27), {60.12, -85.25, 25.87}, {-90.6, 120, -44.85}}) {
+    scene << "[[mirror]]\n"
+          << rectangleText(lamp + rotationFromDegrees(rotation) * glm::dvec3(0.2, 0.1, 0.0), rotation, 1.2, 1.0)
+          << "casts_light = false\n";
+  }
+  const auto file = writeScene("lamp_in_a_wedge", scene.str());
+  expectTruth(file, {96, 54}, 1, trace(file, {96, 54}, 1));
+}
+
 TEST(LightOnASurface, ShadowsOfLampsOnMirrorsMatchTheTracer) {
   Random random(11);
   Gpu gpu(truthOptions(writeScene("lamp_on_mirrors", boxWithLampOnMirrors(random)), {96, 54}, 1));

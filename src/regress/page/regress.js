@@ -42,16 +42,18 @@ function makeModes(one, actual, panes) {
   split.show(pictureOf(one, 'expected'));
   split.frame.append(marker(one));
   let timer = 0;
+  let mode = 'swap';
+  const text = actual.pane.querySelector('p');
   const showOther = shown => {
     expected.hidden = !shown;
     actual.frame.dataset.shows = shown ? 'expected' : 'actual';
+    text.textContent = mode === 'slider' ? 'expected | actual; drag the divider'
+      : shown ? 'expected, in the place of the actual one' : mode === 'blink' ? 'actual' : caption('actual', one);
   };
   actual.frame.querySelector('img').after(expected);
-  showOther(false);
   const modes = ['swap', 'blink', 'slider'];
   const buttons = modes.map(mode => make('button', { type: 'button', 'data-mode': mode },
                                          { swap: 'Swap under the pointer', blink: 'Blink', slider: 'Slider' }[mode]));
-  let mode = '';
   const choose = next => {
     mode = next;
     clearInterval(timer);
@@ -93,7 +95,7 @@ function pictures(one) {
 function numbers({ figures }) {
   if (!figures.length) return null;
   return make('table', { class: 'numbers' },
-    make('thead', {}, make('tr', {}, ['', 'is', 'at most'].map(text => make('th', { scope: 'col' }, text)))),
+    make('thead', {}, make('tr', {}, ['', 'Measured', 'Limit'].map(text => make('th', { scope: 'col' }, text)))),
     make('tbody', {}, figures.map(({ label, value, limit, over }) => make('tr', { class: over ? 'over' : null },
       make('th', { scope: 'row' }, label), make('td', {}, value), make('td', {}, limit)))));
 }
@@ -120,7 +122,7 @@ function caseTable(cases, selection) {
   const figureColumn = (heading, start) => ({ heading, number: true, cell: ({ one }) =>
     ({ content: figure(one, start), key: Number.parseFloat(figure(one, start)) || 0 }) });
   return makeTable({
-    caption: 'Failures first; the headings sort.', label: 'All cases', groups: [['', 6]], footer: [], sorted: 0,
+    caption: 'Failures first. Click a heading to sort.', label: 'All cases', groups: [['', 6]], footer: [], sorted: 0,
     columns: [
       { heading: 'Result', cell: ({ one, index }) => ({ content: verdictBadge(one), key: index }) },
       { heading: 'Case', rowHeading: true, cell: ({ one }) =>
