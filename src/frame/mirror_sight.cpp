@@ -8,7 +8,7 @@ namespace speculum {
 namespace {
 
 // Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/scaling.md).
-constexpr double samplesOfAPass = 4000.0;
+constexpr double samplesOfAPass = 1500.0;
 
 }  // namespace
 
