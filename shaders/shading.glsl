@@ -18,8 +18,9 @@ struct Surface {
   bool glossy;  // the specular color is not black
 };
 
-// A branch or a loop that depends on uniform values alone makes lavapipe of Mesa 22.3 compile the shader again for each
-// draw and keep it. Values are chosen with mix() instead, and loops end at this count. Helper invocations need no light.
+// A branch or a loop that depends on uniform values alone makes lavapipe of Mesa 22.3 compile a large shader again for
+// each draw and keep it. Values are chosen with mix() instead, and loops end at this count, which is not uniform because
+// it depends on gl_HelperInvocation. Helper invocations need no light.
 uint countHere(uint count) { return gl_HelperInvocation ? 0 : count; }
 
 vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }

@@ -104,7 +104,8 @@ Bounce objectBounce(Hit hit, vec3 traceOrigin, vec3 direction) {
 // Returns the glow of the first glyph that the ray meets before `t`, and sets `t` to its parameter.
 vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
   vec3 glow = vec3(0.0);
-  for (uint i = view.firstLight; i < view.firstLight + view.lightCount; ++i) {
+  uint end = view.firstLight + countHere(view.lightCount);
+  for (uint i = view.firstLight; i < end; ++i) {
     vec3 center = lights[i].position - origin;
     float radius = lights[i].radius;
     float middle = dot(direction, center);

@@ -98,7 +98,7 @@ TEST(Device, MissingDriverSaysHowToMendIt) {
   const std::string old = environment("VK_DRIVER_FILES");
   setEnvironment("VK_DRIVER_FILES", "/nonexistent.json");
   const std::string error = errorOf({});
-  old.empty() ? static_cast<void>(unsetenv("VK_DRIVER_FILES")) : setEnvironment("VK_ICD_FILENAMES", old);
+  old.empty() ? static_cast<void>(unsetenv("VK_DRIVER_FILES")) : setEnvironment("VK_DRIVER_FILES", old);
   EXPECT_NE(error.find("install"), std::string::npos) << error;
 }
 

@@ -289,9 +289,10 @@ TEST(MirrorPictures, DriverKeepsNoMemoryOfFrames) {
       }
       return least;
     };
+    leastOf(10);  // its threads take some 12 MB late
     const double before = leastOf(10);
     leastOf(20);
-    EXPECT_LT(leastOf(10), before + 15.0) << file;  // its threads take some 12 MB late
+    EXPECT_LT(leastOf(10), before + 15.0) << file;
   }
 }
 

@@ -189,7 +189,7 @@ TEST(LookAt, RefusesMissingDirections) {
   EXPECT_THROW(lookAt({0, 0, 0}, {0, 0, 1}, {0, 0, 0}, 60, 0.1), std::invalid_argument);
 }
 
-// Three planes through a light, in all positions to each other but the most acute.
+// Three planes through a light. Between the most acute ones the point is nearer, so that it stays beside the light.
 TEST(BesideMirrors, IsAsFarFromEachPlane) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -204,16 +204,17 @@ TEST(BesideMirrors, IsAsFarFromEachPlane) {
       mirrors[k].plane = k;
     }
     const glm::dvec3 edge = glm::cross(mirrors[0].normal, mirrors[1].normal);
-    if (glm::length(edge) < 0.02 || std::abs(glm::dot(edge, mirrors[2].normal)) < 0.02 * glm::length(edge)) {
+    const glm::dvec3 point = besideMirrors(light, mirrors);
+    EXPECT_LT(glm::distance(point, light), 200.0 * 3e-9);
+    if (glm::length(edge) < 0.2 || std::abs(glm::dot(edge, mirrors[2].normal)) < 0.2 * glm::length(edge)) {
       continue;
     }
     ++compared;
-    const glm::dvec3 point = besideMirrors(light, mirrors);
     for (const MirrorState& mirror : mirrors) {
       EXPECT_NEAR(glm::dot(mirror.normal, point - mirror.origin), 3e-9, 1e-13);
     }
   }
-  EXPECT_GT(compared, 1900);
+  EXPECT_GT(compared, 1400);
 }
 
 TEST(Environment, BackgroundWithoutSky) {

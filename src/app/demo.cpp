@@ -112,7 +112,7 @@ void Demo::presentPanels() {
   if (std::optional<Frame> frame = renderer_.beginFrame()) {
     endWithPanels(*frame);
     if (framesDrawn_ == 0) {
-      spdlog::info("first frame, of the panels, {:.0f} ms after the start", millisecondsSinceStart());
+      spdlog::info("first frame, of the panels, submitted {:.0f} ms after the start", millisecondsSinceStart());
     }
   }
 }
@@ -177,14 +177,14 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const double cpuMs = milliseconds(end - start);
   const bool newPipelines = std::exchange(pipelines_, sceneRenderer_->pipelineCount()) != pipelines_;
   if (std::exchange(compiled_, newPipelines) && !newPipelines) {
-    releaseFreedMemory();  // of loading and compiling
+    releaseFreedMemory();  // loading and compiling leave much
   }
   pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
   if (framesDrawn_ == 0) {
-    spdlog::info("first picture {:.0f} ms after the start", millisecondsSinceStart());
+    spdlog::info("first picture submitted {:.0f} ms after the start", millisecondsSinceStart());
   }
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();

@@ -28,7 +28,7 @@ VkExtent2D chooseExtent(const VkSurfaceCapabilitiesKHR& caps, const Window& wind
   return extent;
 }
 
-// One image is shown, one waits, one is drawn.
+// At least three: one is shown, one waits, one is drawn.
 uint32_t chooseImageCount(const VkSurfaceCapabilitiesKHR& caps) {
   const uint32_t wanted = std::max(caps.minImageCount, 3u);
   return caps.maxImageCount == 0 ? wanted : std::min(wanted, caps.maxImageCount);

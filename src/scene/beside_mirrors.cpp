@@ -10,7 +10,8 @@ namespace speculum {
 
 namespace {
 
-constexpr double thinnestWedge = 0.01;  // radians; in a thinner one the point would be too far from the light
+constexpr double thinnestWedge = 0.01;  // sine of the angle between two planes
+constexpr double farthest = 100.0;      // from the light, in distances from the planes
 
 // Floats round by 6e-8. Rays come from points up to about a hundred times as far from the eye as the light.
 double floatRounding(const glm::dvec3& light, const MirrorState& mirror, const glm::dvec3& eye) {
@@ -47,8 +48,10 @@ glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> m
       taken.push_back(step / std::sqrt(length2));
     }
   }
-  // Moving to each plane in turn (Kaczmarz's method) brings the point between more planes.
-  for (int turn = 0; taken.size() < planes.size() && turn < 50; ++turn) {
+  const bool tooFar = glm::distance(point, light) > farthest * away;
+  point = tooFar ? light : point;
+  // For more planes, or where they leave hardly any room, moving to each in turn (Kaczmarz's method) is a compromise.
+  for (int turn = 0; (tooFar || taken.size() < planes.size()) && turn < 50; ++turn) {
     for (const Plane& plane : planes) {
       point += (away - plane.distance(point)) * plane.normal;
     }

@@ -57,7 +57,10 @@ class RandomScenes : public testing::TestWithParam<unsigned> {
   static void SetUpTestSuite() { gpu_ = std::make_unique<Gpu>(headless("", size)); }
   static void TearDownTestSuite() {
     gpu_.reset();
-    EXPECT_GE(views_, scenes_ > 3 ? 2 * scenes_ : 0) << "few views see a mirror";
+    // scripts/test-gpu runs each scene in a process of its own, and a single one may have few views.
+    if (scenes_ > 3) {
+      EXPECT_GE(views_, 2 * scenes_) << "few views see a mirror";
+    }
   }
 
   static inline std::unique_ptr<Gpu> gpu_;

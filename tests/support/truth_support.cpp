@@ -26,6 +26,7 @@ TraceResult Tracing::result(const glm::dvec2& offset) const {
   SceneState moved = state;
   CameraPose& camera = moved.camera;
   const double tangent = 2.0 * std::tan(0.5 * camera.verticalFov) / options.height;  // of one pixel
+  // The tracer turns rays by the transpose, so this moves them by `offset` pixels.
   glm::dmat3 shear(1.0);
   shear[0][2] = -tangent * offset.x;
   shear[1][2] = tangent * offset.y;

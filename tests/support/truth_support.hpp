@@ -21,8 +21,8 @@ struct Tracing {
   // The picture may be moved by `offset`, in pixels.
   TraceResult result(const glm::dvec2& offset = {0.0, 0.0}) const;
 
-  // Returns the picture with each channel as near to `actual` as it gets where the scene moves by up to 1/256 pixel.
-  // Vulkan rounds vertices to a grid of 1/256 pixel and leaves open how, so an edge may lie anywhere within it.
+  // Clamps each channel of `actual` to the range that it has in nine pictures, moved by -1/256, 0 or 1/256 pixel each
+  // way. Vulkan rounds vertices to a grid of 1/256 pixel and leaves open how, so an edge may lie anywhere within it.
   Image8 nearest(const Image8& actual) const;
 };
 
