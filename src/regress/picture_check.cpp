@@ -78,7 +78,7 @@ PictureCheck checkPicture(const Image8& expected, const Image8& actual, const Re
       fmt::format("{} of the pixels differ by more than {}/255 (limit {})", percent(share), maxDiff, most));
   const bool blocks = limits.block.value_or(true);
   const std::string at = found.block ? fmt::format("at {}, {}", found.block->x, found.block->y) : "none";
-  add({"3x3 block of such pixels", at, blocks ? "none" : "–", blocks && found.block},
+  add({"3x3 block of such pixels", at, blocks ? "not allowed" : "–", blocks && found.block},
       fmt::format("every pixel of the 3x3 block {} differs by more than {}/255", at, maxDiff));
   add({"largest difference", fmt::format("{}/255", found.largest), "–", false}, "");
   // FLIP takes longer than everything else.
