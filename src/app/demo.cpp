@@ -176,13 +176,13 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const Clock::time_point end = Clock::now();
   const double cpuMs = milliseconds(end - start);
   const bool newPipelines = std::exchange(pipelines_, sceneRenderer_->pipelineCount()) != pipelines_;
-  if (std::exchange(compiled_, newPipelines) && !newPipelines) {
-    releaseFreedMemory();  // loading and compiling leave much
-  }
   pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
+  if (std::exchange(compiled_, newPipelines) && !newPipelines) {
+    releaseFreedMemory();  // loading and compiling leave much
+  }
   if (framesDrawn_ == 0) {
     spdlog::info("first picture submitted {:.0f} ms after the start", millisecondsSinceStart());
   }
