@@ -4,7 +4,7 @@ layout(constant_id = 2) const bool shadows = false;
 layout(constant_id = 3) const bool castsLight = false;
 layout(constant_id = 4) const bool perSample = false;  // one invocation for each sample, and rays through it
 
-vec3 mirrorReflectance(uint mirror, float cosine) {
+vec3 tracedMirrorReflectance(uint mirror, float cosine) {
   return reflectanceAt(traceMirrors[mirror].reflectance, traceMirrors[mirror].schlick, cosine);
 }
 
@@ -34,7 +34,7 @@ Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
   vec3 toLight = path.image - tracePosition;
   float crossing = meetMirror(mirror, tracePosition, toLight);
   bool arrives = sameSide && self.plane != planeOf(mirror) && crossing > 0.0 && crossing < 1.0;
-  vec3 reflectance = mirrorReflectance(mirror, abs(dot(normal, safeNormalize(toLight))));
+  vec3 reflectance = tracedMirrorReflectance(mirror, abs(dot(normal, safeNormalize(toLight))));
   return Incoming(arrives, toLight, vec3(0.0), path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror,
                   crossing);
 }

@@ -36,7 +36,7 @@ Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front)
   }
   vec3 normal = side * rippled(mirror, tracePosition);
   bounce.surface = mirrorLayer(position, normal, traceMirrors[mirror].baseColor);
-  bounce.reflectance = mirrorReflectance(mirror, -dot(normal, direction));
+  bounce.reflectance = tracedMirrorReflectance(mirror, -dot(normal, direction));
   return bounce;
 }
 

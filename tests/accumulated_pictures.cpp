@@ -51,7 +51,7 @@ TEST(Accumulation, IsTheMeanOfItsPictures) {
     EXPECT_EQ(mean.view.samples, pictures == 3 ? 4 : 1);
     session.draw(0.0, true);
     const LinearImage accumulated = session.radiance();
-    const Image8 display = toDisplay(accumulated, mean.view.exposure, mean.view.toneMap);
+    const Image8 display = toDisplay(accumulated, mean.view.displayCurve());
     EXPECT_EQ(difference(session.picture(), display, 1).over, 0) << "neither exposure nor tone curve changes the sum";
     if (pictures == 17) {
       continue;  // drawn at a lower scale and enlarged
@@ -176,11 +176,11 @@ TEST_P(Tiles, ChangeNoByte) {
   const size_t passes = session.sceneRenderer().passes().size();
   drawTiles(session, 1, 0);
   const LinearImage second = session.radiance();
-  for (const size_t step : {3, 1}) {
+  for (const size_t step : {48, 7}) {
     drawTiles(session, 0, step);
     EXPECT_TRUE(session.radiance().pixels == first.pixels) << step;
     EXPECT_EQ(session.sceneRenderer().passes().size(), passes);
-    drawTiles(session, 1, 2, 4);
+    drawTiles(session, 1, 20, 60);
     EXPECT_TRUE(session.radiance().pixels == first.pixels) << "an unfinished picture is not shown";
     drawTiles(session, 1, step);
     EXPECT_TRUE(session.radiance().pixels == second.pixels) << step;
@@ -204,15 +204,34 @@ TEST(UnfinishedTiles, AreNotShownAndCanBeDropped) {
   session.draw(1.0, false);
   set(session, {{"view.accumulate", "16"}});
   for (int i = 0; i < 3; ++i) {
-    drawTiles(session, 0, 1, 3);
+    drawTiles(session, 0, 20, 60);
     EXPECT_TRUE(session.radiance().pixels == draft.pixels) << "the picture before stays";
   }
-  drawTiles(session, 0, 1);
+  drawTiles(session, 0, 20);
   EXPECT_TRUE(session.radiance().pixels == whole.pixels);
-  drawTiles(session, 1, 1, 2);
+  drawTiles(session, 1, 20, 40);
   set(session, {{"view.accumulate", "1"}});
   session.draw(1.0, false);
   EXPECT_TRUE(session.radiance().pixels == draft.pixels);
+}
+
+// Several samples a pixel; mirrors read the images of others sample by sample, or averaged at another render scale.
+TEST(MultisampledTiles, ChangeNoByte) {
+  for (const char* scale : {"1", "0.5"}) {
+    Options options = inTiles("facing_mirrors");
+    set(options, {{"view.accumulate", "1"}, {"view.samples", "4"}, {"reflection.samples", "4"}});
+    set(options, {{"reflection.scale", scale}});
+    QuietSession session(options);
+    drawTiles(session, 0, 0);
+    const LinearImage whole = session.radiance();
+    for (const size_t step : {31, 9}) {
+      session.restart();
+      drawTiles(session, 0, step);
+      EXPECT_TRUE(session.radiance().pixels == whole.pixels) << scale << " " << step;
+      drawTiles(session, 0, step);
+      EXPECT_TRUE(session.radiance().pixels == whole.pixels) << scale << ": unchanged images are shown again";
+    }
+  }
 }
 
 // Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
@@ -277,15 +296,8 @@ TEST_P(AccumulationTruth, FallsToTheNoiseFloor) {
   EXPECT_LE(flip.back(), 1.1 * floor);
 }
 
-std::vector<std::string> scenes() {
-  if (fullTests()) {
-    return {"bounced_light", "facing_mirrors", "gallery", "many_mirrors", "mirror_ball", "mirror_maze",
-            "no_mirror",     "outdoors",       "pool",    "rough",        "shadows",     "single_plane"};
-  }
-  return {"shadows"};
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, AccumulationTruth, testing::ValuesIn(scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, AccumulationTruth,
+                         testing::ValuesIn(fullTests() ? sceneNames() : std::vector<std::string>{"shadows"}),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

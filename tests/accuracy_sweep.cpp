@@ -255,7 +255,7 @@ class TracingSubject : public SweepSubject {
     const auto result = tracer_.render(
         {.width = 48, .height = 27, .samples = 16, .maxDepth = settings.reflection.maxDepth, .minThroughput = 0.0});
     return std::vector<Image8>(static_cast<size_t>(settings.reflection.updateInterval),
-                               toDisplay(result->image, settings.view.exposure, settings.view.toneMap));
+                               toDisplay(result->image, settings.view.displayCurve()));
   }
   FrameCost cost(const Settings& settings) override {
     ++timed;

@@ -476,7 +476,7 @@ TEST_F(PacedScene, SlowPicturesAreDrawnTileByTile) {
                                           .input = input},
                                          [&](const Settings& settings, int) {
                                            FittedPlan whole{.settings = settings};
-                                           const auto side = static_cast<int>(3200 * settings.view.scale);
+                                           const auto side = static_cast<int>(800 * settings.view.scale);
                                            whole.plan.main.view.rect = {0, 0, side, side};
                                            return whole;
                                          });
@@ -522,6 +522,38 @@ TEST_F(PacedScene, SlowPicturesAreDrawnTileByTile) {
   while (frame(2).plan.tiles->end < 2500) {
   }
   EXPECT_LE(wholePicture(false, 2).size(), 20u) << "a slow program does not leave one tile for each frame";
+}
+
+TEST_F(PacedScene, SingleSlowPictureIsDrawnInTiles) {
+  chosen_.quality.stillPictures = 1;
+  double ms = 1000.0;
+  const auto frame = [&] {
+    pace_.finished({.frame = number_, .gpuMs = ms});
+    pace_.begin({}, false, 0.1);
+    const FittedPlan fitted = pace_.plan({.scene = scene_, .state = state_, .chosen = chosen_, .budgetMs = budget},
+                                         [&](const Settings& settings, int picture) {
+                                           EXPECT_EQ(picture, 0);
+                                           FittedPlan whole{.settings = settings};
+                                           whole.plan.main.view.rect = {0, 0, 160, 160};
+                                           return whole;
+                                         });
+    pace_.drawn(++number_, 0.0, false);
+    return fitted;
+  };
+  EXPECT_FALSE(frame().plan.tiles);
+  EXPECT_EQ(pace_.text().rfind("Draft: ", 0), 0u) << pace_.text();
+  size_t end = 0;
+  ms = budget;
+  while (end < 100) {
+    EXPECT_TRUE(pace_.wantsFrame());
+    const FittedPlan fitted = frame();
+    ASSERT_TRUE(fitted.plan.tiles);
+    EXPECT_EQ(fitted.plan.tiles->first, end);
+    EXPECT_EQ(fitted.settings.view.samples, 4);
+    end = fitted.plan.tiles->end;
+  }
+  EXPECT_FALSE(pace_.wantsFrame());
+  EXPECT_EQ(pace_.text(), "");
 }
 
 TEST(Pace, BudgetFollowsDeviceAndMonitor) {

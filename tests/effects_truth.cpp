@@ -212,7 +212,7 @@ TEST(ExactEffects, ThroughputIsPerChannel) {
   Truth truth = trace(file, size, 4);
   truth.tracing.options.minThroughput = 0.3;
   truth.traced = truth.tracing.result();
-  truth.picture = toDisplay(truth.traced.image, 1.0, ToneMap::clamp);
+  truth.picture = toDisplay(truth.traced.image);
   Options options = truthOptions(file, size, 4);
   set(options, {{"reflection.min_throughput", "0.3"}});
   expectAlike(draw(options), truth.picture, 2, "effects_throughput", notBackground(truth.traced));

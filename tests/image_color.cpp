@@ -36,51 +36,51 @@ TEST(Srgb, EveryCodeSurvivesDecodingAndDisplay) {
   for (int code = 0; code < 256; ++code) {
     LinearImage image(1, 1);
     image.at(0, 0) = glm::vec3(static_cast<float>(srgbDecode(code / 255.0)));
-    EXPECT_EQ(toDisplay(image, 1.0, ToneMap::clamp).at(0, 0)[0], code);
+    EXPECT_EQ(toDisplay(image).at(0, 0)[0], code);
   }
 }
 
-uint8_t shown(float linear, double exposure, ToneMap toneMap) {
+uint8_t shown(float linear, const DisplayCurve& curve = {}) {
   LinearImage image(1, 1);
   image.at(0, 0) = glm::vec3(linear);
-  return toDisplay(image, exposure, toneMap).at(0, 0)[1];
+  return toDisplay(image, curve).at(0, 0)[1];
 }
 
 TEST(ToDisplay, RoundsToTheNearestCode) {
   // Half way between the codes 127 and 128.
   const double middle = srgbDecode(127.5 / 255.0);
-  EXPECT_EQ(shown(static_cast<float>(middle * (1 - 1e-5)), 1.0, ToneMap::clamp), 127);
-  EXPECT_EQ(shown(static_cast<float>(middle * (1 + 1e-5)), 1.0, ToneMap::clamp), 128);
+  EXPECT_EQ(shown(static_cast<float>(middle * (1 - 1e-5))), 127);
+  EXPECT_EQ(shown(static_cast<float>(middle * (1 + 1e-5))), 128);
 }
 
 TEST(ToDisplay, ExposureScalesRadiance) {
-  EXPECT_EQ(shown(0.25f, 2.0, ToneMap::clamp), shown(0.5f, 1.0, ToneMap::clamp));
-  EXPECT_EQ(shown(0.5f, 1.0, ToneMap::clamp), 188);
-  EXPECT_EQ(shown(0.5f, 2.0, ToneMap::clamp), 255);
+  EXPECT_EQ(shown(0.25f, {2.0, ToneMap::clamp}), shown(0.5f));
+  EXPECT_EQ(shown(0.5f), 188);
+  EXPECT_EQ(shown(0.5f, {2.0, ToneMap::clamp}), 255);
 }
 
 TEST(ToDisplay, AcesFollowsNarkowiczFit) {
   // 0.5 -> 0.5 * 1.285 / (0.5 * 1.805 + 0.14) = 0.61630695...
-  EXPECT_EQ(shown(0.5f, 1.0, ToneMap::aces), std::lround(255 * srgbEncode(0.5 * 1.285 / (0.5 * 1.805 + 0.14))));
-  EXPECT_EQ(shown(0.5f, 1.0, ToneMap::aces), 206);
-  EXPECT_EQ(shown(1e6f, 1.0, ToneMap::aces), 255);
-  EXPECT_EQ(shown(0.0f, 1.0, ToneMap::aces), 0);
+  EXPECT_EQ(shown(0.5f, {1.0, ToneMap::aces}), std::lround(255 * srgbEncode(0.5 * 1.285 / (0.5 * 1.805 + 0.14))));
+  EXPECT_EQ(shown(0.5f, {1.0, ToneMap::aces}), 206);
+  EXPECT_EQ(shown(1e6f, {1.0, ToneMap::aces}), 255);
+  EXPECT_EQ(shown(0.0f, {1.0, ToneMap::aces}), 0);
 }
 
 TEST(ToDisplay, TakesEveryFloat) {
   const float infinity = std::numeric_limits<float>::infinity();
   for (const ToneMap toneMap : {ToneMap::clamp, ToneMap::aces}) {
-    EXPECT_EQ(shown(infinity, 1.0, toneMap), 255);
-    EXPECT_EQ(shown(-infinity, 1.0, toneMap), 0);
-    EXPECT_EQ(shown(-0.5f, 1.0, toneMap), 0);
-    EXPECT_EQ(shown(std::numeric_limits<float>::quiet_NaN(), 1.0, toneMap), 0);
+    EXPECT_EQ(shown(infinity, {1.0, toneMap}), 255);
+    EXPECT_EQ(shown(-infinity, {1.0, toneMap}), 0);
+    EXPECT_EQ(shown(-0.5f, {1.0, toneMap}), 0);
+    EXPECT_EQ(shown(std::numeric_limits<float>::quiet_NaN(), {1.0, toneMap}), 0);
   }
 }
 
 TEST(ToDisplay, IsOpaqueAndKeepsPixelPositions) {
   LinearImage image(3, 2);
   image.at(2, 1) = glm::vec3(1.0f, 0.0f, 0.5f);
-  const Image8 display = toDisplay(image, 1.0, ToneMap::clamp);
+  const Image8 display = toDisplay(image);
   ASSERT_EQ(display.width, 3);
   ASSERT_EQ(display.height, 2);
   const uint8_t* pixel = display.at(2, 1);

@@ -119,7 +119,7 @@ class NumberRanges : public testing::Test {
   static Image8 trace(const Scene& scene, double time) {
     const TraceResult traced = *RayTracer(scene, evaluate(scene, time))
                                     .render({.width = size.width, .height = size.height, .samples = 1, .maxDepth = 2});
-    return toDisplay(traced.image, 1.0, ToneMap::clamp);
+    return toDisplay(traced.image);
   }
 
   std::filesystem::path file_ = writeScene("numbers", everyNumber);

@@ -87,13 +87,12 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   if (!second) {
     return std::nullopt;
   }
-  const ViewSettings& view = request.settings.view;
-  truth.floor = errorsAgainst(truth, toDisplay(second->image, view.exposure, view.toneMap), request.settings);
+  truth.floor = errorsAgainst(truth, toDisplay(second->image, request.settings.view.displayCurve()), request.settings);
   return truth;
 }
 
 ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings, Plane2d* map) {
-  const Image8 shown = toDisplay(truth.image, settings.view.exposure, settings.view.toneMap);
+  const Image8 shown = toDisplay(truth.image, settings.view.displayCurve());
   const CompareOptions options{.mask = &truth.mirrors};
   Comparison comparison = compareImages(comparedImage(shown, "the reference"), comparedImage(picture), options);
   if (map != nullptr) {

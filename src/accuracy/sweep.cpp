@@ -231,7 +231,7 @@ void Sweep::fill(SweepResults& results) {
     results.series.push_back(planned.series);
     fit(results.series.back(), planned, results);
   }
-  const Image8 shown = toDisplay(truth_.image, base_.view.exposure, base_.view.toneMap);
+  const Image8 shown = toDisplay(truth_.image, base_.view.displayCurve());
   results.truthPicture = store_.keepPicture("truth.png", shown);
 }
 

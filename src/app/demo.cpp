@@ -190,9 +190,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   pacer_.frameDrawn();
   workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs}, renderer_,
                              *sceneRenderer_, output_.hoveredPath);
-  const auto radiance = [&] {
-    return toDisplay(sceneRenderer_->radiance(), settings.view.exposure, settings.view.toneMap);
-  };
+  const auto radiance = [&] { return toDisplay(sceneRenderer_->radiance(), settings.view.displayCurve()); };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
   workspace_.frameDrawn({workspace_.scene(), state, settings, plan.width, plan.height},
                         endsPicture(plan) ? radiance : std::function<Image8()>(), picture ? &*picture : nullptr);

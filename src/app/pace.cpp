@@ -20,11 +20,9 @@ constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and witho
 constexpr double leastShare = 0.1;   // of such a frame's time is its tiles'
 constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
 
-// Says whether a picture of a mean can be drawn in tiles: the samples of a tile are not kept until the next.
+// Says whether tiles can draw the picture; debug.check_finite looks at whole ones.
 bool drawnInTiles(const FittedPlan& fitted) {
-  const Settings& settings = fitted.settings;
-  return !fitted.plan.mainReused && !settings.debug.checkFinite && settings.view.samples == 1 &&
-         settings.reflection.samples == 1;
+  return !fitted.plan.mainReused && !fitted.settings.debug.checkFinite;
 }
 
 }  // namespace
@@ -87,17 +85,20 @@ void Pace::planStill(const Request& request, const Planner& plan) {
   text_.clear();
   Settings settings = request.chosen;
   settings.view.accumulate = 1;
-  if (pictures_ == 1) {
+  const bool single = pictures_ == 1;
+  if (moving() || (single && request.budgetMs <= 0.0)) {
     picture_ = pictures_;
     fitted_ = plan(settings, 0);
     return;
   }
   if (picture_ < 0) {
     fitted_ = plan(settings, 0);
-    picture_ = 0;
     // Draws this frame in full quality if it is fast; a slow one would only delay the mean, whose pictures have one
     // sample.
-    if (request.budgetMs <= 0.0 || controller_.predict(work_) <= request.budgetMs) {
+    picture_ = 0;
+    if (request.budgetMs <= 0.0 ||
+        controller_.predict(work_) <= (single ? longestWait * request.budgetMs : request.budgetMs)) {
+      picture_ = single ? 1 : 0;
       return;
     }
     Settings mean = settings;
@@ -114,7 +115,7 @@ void Pace::planStill(const Request& request, const Planner& plan) {
     slow_.emplace();
   }
   if (!slow_ || slow_->finished()) {
-    fitted_ = plan(settings, picture_);
+    fitted_ = plan(settings, single ? 0 : picture_);
     const double ms = controller_.predict(work_);
     if (slow_ && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
       slow_->begin(tileCount(fitted_.plan), ms);
@@ -129,15 +130,23 @@ void Pace::planStill(const Request& request, const Planner& plan) {
     fitted_.plan.tiles =
         slow_->next(std::max((request.input ? 1.0 : tilesShare) * request.budgetMs - besidesMs_, besidesMs_));
     if (!slow_->finished()) {
-      const double percent = std::floor(100.0 * slow_->share());
-      text_ = picture_ == 0 && !draft_.empty()
-                  ? fmt::format("{}; first picture {:.0f} %", draft_, percent)
-                  : fmt::format("{} of {} pictures, next {:.0f} %", picture_, pictures_, percent);
+      text_ = tilesText();
       return;
     }
   }
   picture_ = std::min(picture_ + 1, pictures_);
-  text_ = fmt::format("{} of {} pictures", picture_, pictures_);
+  if (!single) {
+    text_ = fmt::format("{} of {} pictures", picture_, pictures_);
+  }
+}
+
+std::string Pace::tilesText() const {
+  const double percent = std::floor(100.0 * slow_->share());
+  if (picture_ == 0 && !draft_.empty()) {
+    return fmt::format("{}; first picture {:.0f} %", draft_, percent);
+  }
+  return pictures_ == 1 ? fmt::format("Picture {:.0f} %", percent)
+                        : fmt::format("{} of {} pictures, next {:.0f} %", picture_, pictures_, percent);
 }
 
 void Pace::drawn(uint64_t number, double cpuMs, bool usual) {

@@ -33,8 +33,9 @@ class Movement {
 };
 
 // Chooses the quality of the window's frames: while something moves, as much of the chosen settings as fits into a
-// budget of milliseconds; otherwise all of them, or where that takes longer a draft that fits, then the mean of
-// pictures with offsets (view.accumulate), one in each frame or, where one takes long, over several (FramePlan::tiles).
+// budget of milliseconds; otherwise all of them, or where that takes longer a draft that fits, then the picture or the
+// mean of pictures with offsets (view.accumulate), one in each frame or, where one takes long, over several
+// (FramePlan::tiles).
 class Pace {
  public:
   // `sampleCounts`: bits of the sample counts that the device supports, as VkSampleCountFlags.
@@ -88,6 +89,7 @@ class Pace {
   void planWithinBudget(const Request& request, const Planner& plan);
   void planMoving(const Request& request, const Planner& plan);
   void planStill(const Request& request, const Planner& plan);
+  std::string tilesText() const;
 
   using Clock = std::chrono::steady_clock;
   struct Drawn {

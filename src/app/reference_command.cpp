@@ -50,7 +50,7 @@ int runReference(const Options& options) {
   if (options.out.extension() == ".exr") {
     writeExr(files.at(0), result->image);
   } else {
-    writePng(files.at(0), toDisplay(result->image, loaded.settings.view.exposure, loaded.settings.view.toneMap));
+    writePng(files.at(0), toDisplay(result->image, loaded.settings.view.displayCurve()));
   }
   return 0;
 }

@@ -83,7 +83,7 @@ PassGroup::PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::sp
     }
   }
   const PassDesc& any = passes.front();
-  if (!any.loadColor) {
+  if (!any.loadColor && !any.keepsSamples) {
     discard(samples);
   }
   discard(depths);

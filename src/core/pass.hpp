@@ -42,7 +42,7 @@ struct PassDesc {
   std::string name;
   PassTargets targets;
   // Pixels of the target; only these are cleared and written. Outside them a resolved or single-sample offscreen color
-  // is kept; depth, multisampled color and swapchain images are kept only when loaded.
+  // is kept, and multisampled color with `keepsSamples` or when loaded; depth and swapchain images only when loaded.
   VkRect2D renderArea{};
   PassViewport viewport;
   VkRect2D scissor{};  // pixels of the target, within the render area
@@ -52,6 +52,7 @@ struct PassDesc {
   bool loadColor = false;   // else cleared
   bool storeDepth = false;
   bool storeSamples = false;       // keeps multisampled color for passes that load or read it
+  bool keepsSamples = false;       // outside the render area too
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
   bool grouped = false;            // its barriers are those of its PassGroup
   bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path

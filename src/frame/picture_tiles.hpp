@@ -4,9 +4,9 @@
 
 namespace speculum {
 
-// Side in texels of the tiles of a picture that several frames draw. Lavapipe rasterizes in tiles of this size, so that
-// even there a pass that is drawn in parts has the same bytes.
-inline constexpr int tileSide = 64;
+// Side in texels of the tiles of a picture that several frames draw. A multiple of 4, the side of lavapipe's blocks, so
+// that even there a pass that is drawn in parts has the same bytes; small, because one core may take 1 ms for a pixel.
+inline constexpr int tileSide = 16;
 
 // Returns the number of tiles of all passes of mirrors, in the order of recording, and of the main view after them.
 size_t tileCount(const FramePlan& plan);

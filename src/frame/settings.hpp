@@ -47,6 +47,7 @@ struct ViewSettings {
   bool wireframe = false;
   bool continuous = false;  // the window draws all the time
 
+  DisplayCurve displayCurve() const { return {exposure, toneMap}; }
   bool operator==(const ViewSettings&) const = default;
 };
 

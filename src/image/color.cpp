@@ -12,11 +12,11 @@ double acesFit(double x) {
   return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
 }
 
-uint8_t displayCode(double linear, double exposure, ToneMap toneMap) {
+uint8_t displayCode(double linear, const DisplayCurve& curve) {
   // The bound is the largest half float; beyond it the fit's numerator and denominator both overflow.
-  const double x = exposure * linear;
+  const double x = curve.exposure * linear;
   const double exposed = x > 0.0 ? std::min(x, 65504.0) : 0.0;
-  const double mapped = toneMap == ToneMap::aces ? acesFit(exposed) : exposed;
+  const double mapped = curve.toneMap == ToneMap::aces ? acesFit(exposed) : exposed;
   return static_cast<uint8_t>(std::floor(255.0 * srgbEncode(std::min(mapped, 1.0)) + 0.5));
 }
 
@@ -32,11 +32,11 @@ double srgbDecode(double encoded) {
   return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
-Image8 toDisplay(const LinearImage& image, double exposure, ToneMap toneMap) {
+Image8 toDisplay(const LinearImage& image, const DisplayCurve& curve) {
   Image8 display(image.width, image.height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      display.rgba[i * 4 + c] = displayCode(image.pixels[i][c], exposure, toneMap);
+      display.rgba[i * 4 + c] = displayCode(image.pixels[i][c], curve);
     }
   }
   return display;

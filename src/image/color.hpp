@@ -10,7 +10,13 @@ enum class ToneMap { clamp, aces };
 double srgbEncode(double linear);
 double srgbDecode(double encoded);
 
-// Applies exposure, tone curve and sRGB curve and rounds to the nearest 8 bits, as the shader display.frag does.
-Image8 toDisplay(const LinearImage& image, double exposure, ToneMap toneMap);
+// What turns radiance into a picture, besides the sRGB curve.
+struct DisplayCurve {
+  double exposure = 1.0;
+  ToneMap toneMap = ToneMap::clamp;
+};
+
+// Applies exposure, tone curve and sRGB curve and rounds to the nearest 8 bits, as shaders/display.glsl does.
+Image8 toDisplay(const LinearImage& image, const DisplayCurve& curve = {});
 
 }  // namespace speculum

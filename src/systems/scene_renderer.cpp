@@ -423,6 +423,7 @@ void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDes
   for (const PixelRect& rect : tileRects(static_cast<int>(width), static_cast<int>(height), tiles_[index])) {
     PassDesc part = desc;
     part.renderArea = part.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
+    part.keepsSamples = info.plan.tiles.has_value();
     const EffectLedger ledger = ledger_;
     drawScene(info, index, part, pass);
     if (rect.x > 0 || rect.y > 0) {

@@ -63,10 +63,20 @@ void FrameHistory::clear() {
 }
 
 std::vector<float> FrameHistory::series(Figure figure) const {
+  const auto ms = [&](const Row& row) {
+    switch (figure) {
+      case Figure::frame:
+        return row.frameMs;
+      case Figure::cpu:
+        return row.cpuMs;
+      case Figure::gpu:
+        break;
+    }
+    return row.gpuMs;
+  };
   std::vector<float> values;
   for (const Row& row : rows_) {
-    const double ms = figure == Figure::frame ? row.frameMs : figure == Figure::cpu ? row.cpuMs : row.gpuMs;
-    values.push_back(static_cast<float>(ms));
+    values.push_back(static_cast<float>(ms(row)));
   }
   return values;
 }

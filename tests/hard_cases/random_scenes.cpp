@@ -89,7 +89,7 @@ int edgePixels(const Image8& picture) {
 // an edge lies along pixel centres, more are on the wrong side: these are compared with Tracing::nearest().
 void expectTraced(const Image8& picture, const Tracing& tracing, const std::string& name) {
   const TraceResult traced = tracing.result();
-  Image8 expected = toDisplay(traced.image, 1.0, ToneMap::clamp);
+  Image8 expected = toDisplay(traced.image);
   const int edges = edgePixels(expected);
   const auto agreement = [&] { return difference(picture, expected, 2, notBackground(traced)); };
   const auto holds = [&](const PictureAgreement& d) { return d.over <= 8 + edges / 128 && !d.block; };
@@ -150,8 +150,7 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
     const Image8 picture = expectNoSwitchMatters(drawn, settings, name);
     if (!withEffects && settings.view.scale == 1.0 && settings.reflection.meshError == 0.0) {
       // Other resolutions may soften a few pixels, but no patch may differ.
-      const Image8 expected =
-          toDisplay(plain.tracing(size, settings.reflection.maxDepth).result().image, 1.0, ToneMap::clamp);
+      const Image8 expected = toDisplay(plain.tracing(size, settings.reflection.maxDepth).result().image);
       if (difference(picture, expected, 90).block) {
         ADD_FAILURE() << name << " differs at other settings";
         writeEvidence(picture, expected, name + "_settings");

@@ -40,6 +40,17 @@ std::filesystem::path sourceFile(const std::string& relative) {
   return sourceDir() / relative;
 }
 
+std::vector<std::string> sceneNames(const std::string& prefix) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(sourceFile("scenes/" + prefix))) {
+    if (entry.path().extension() == ".toml") {
+      names.push_back(prefix + entry.path().stem().string());
+    }
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 Options headless(const std::filesystem::path& scene, PictureSize size) {
   keepDriverLoaded();
   Options options;

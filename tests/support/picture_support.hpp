@@ -57,4 +57,8 @@ void writeShaders(const std::filesystem::path& directory, const std::string& sha
 
 std::filesystem::path sourceFile(const std::string& relative);
 
+// Returns the names of the scenes that ship, "gallery", or with a prefix those of a folder, "hard/" gives
+// "hard/corner".
+std::vector<std::string> sceneNames(const std::string& prefix = "");
+
 }  // namespace speculum::testing_support

@@ -40,7 +40,7 @@ Image8 Tracing::nearest(const Image8& actual) const {
   std::vector<uint8_t> high(actual.rgba.size(), 0);
   for (const double y : {-step, 0.0, step}) {
     for (const double x : {-step, 0.0, step}) {
-      const Image8 picture = toDisplay(result({x, y}).image, exposure, toneMap);
+      const Image8 picture = toDisplay(result({x, y}).image, curve);
       for (size_t i = 0; i < low.size(); ++i) {
         low[i] = std::min(low[i], picture.rgba[i]);
         high[i] = std::max(high[i], picture.rgba[i]);
@@ -65,10 +65,9 @@ Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, d
                            .maxDepth = maxDepth,
                            .minThroughput = settings.reflection.minThroughput,
                            .clearColor = settings.view.clearColor},
-                          settings.view.exposure,
-                          settings.view.toneMap}};
+                          settings.view.displayCurve()}};
   truth.traced = truth.tracing.result();
-  truth.picture = toDisplay(truth.traced.image, settings.view.exposure, settings.view.toneMap);
+  truth.picture = toDisplay(truth.traced.image, settings.view.displayCurve());
   return truth;
 }
 

@@ -15,8 +15,7 @@ struct Tracing {
   Scene scene;
   SceneState state;
   TraceOptions options;
-  double exposure = 1.0;
-  ToneMap toneMap = ToneMap::clamp;
+  DisplayCurve curve;
 
   // The picture may be moved by `offset`, in pixels.
   TraceResult result(const glm::dvec2& offset = {0.0, 0.0}) const;
