@@ -9,6 +9,7 @@
 #include "app/camera_controller.hpp"
 #include "app/frame_pacer.hpp"
 #include "app/frame_report.hpp"
+#include "frame/picture_tiles.hpp"
 #include "platform/gamepad.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
@@ -140,7 +141,7 @@ TEST(FrameReport, TilesOfAPictureAreOneFrame) {
   const SceneState state;
   const Settings settings;
   FramePlan plan;
-  plan.main.view.rect = {0, 0, 128, 128};
+  plan.main.view.rect = {0, 0, 2 * tileSide, 2 * tileSide};
   FrameReport report;
   report.updateTimes({scene, state, settings, plan, 1, 1.0, NAN}, {});
   uint64_t number = 1;
@@ -227,6 +228,28 @@ TEST(FrameReport, EarlierTimesAreMarked) {
   EXPECT_EQ(rows[1].gpuMs, 90.0) << "a frame that draws the panels only";
   EXPECT_TRUE(rows[0].reused);
   EXPECT_FALSE(rows[1].reused);
+}
+
+TEST(FrameReport, TiledPicturesHaveNoTimesOfPasses) {
+  const Scene scene;
+  const SceneState state;
+  const Settings settings;
+  const std::vector<RecordedPass> passes = {{{.kind = PassKind::main}, "main view"}};
+  FrameReport report;
+  FramePlan plan;
+  plan.main.view.rect = {0, 0, tileSide, tileSide};
+  const auto frame = [&](uint64_t number, const FrameTimings& timings) {
+    const RecordedFrame recorded{scene, state, settings, plan, number, 1.0, 1.0};
+    report.updateTimes(recorded, timings);
+    report.updatePasses(recorded, timings, passes, plan.tiles ? std::vector<RecordedPass>() : passes);
+  };
+  frame(1, {});
+  frame(2, {.frame = 1, .gpuMs = 5.0, .passes = {{.gpuMs = 5.0}}});
+  EXPECT_EQ(report.view().passes[0].gpuMs, 5.0);
+  plan.tiles = {0, 1};
+  frame(3, {});
+  EXPECT_TRUE(std::isnan(report.view().passes[0].gpuMs)) << "not those of the draft";
+  EXPECT_EQ(report.view().timedGpuMs, 0.0);
 }
 
 TEST(CameraControl, FramesSpheresInAnyPictureShape) {

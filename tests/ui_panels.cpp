@@ -1,4 +1,6 @@
 // Commands that clicks on the panels send, and the state that panels keep.
+#include <imgui_internal.h>
+
 #include "panel_support.hpp"
 
 namespace speculum {
@@ -157,6 +159,28 @@ TEST_F(PanelTest, FilesAreChosenFromTheWindowsOwnList) {
   EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, config_.path() / "models" / "a.obj"));
 }
 
+TEST_F(PanelTest, PromptsFitNarrowWindows) {
+  ImGui::GetIO().DisplaySize = {300.0f, 500.0f};
+  for (const auto& [prompt, field] : {std::pair(Prompt::open, "open.typed"), std::pair(Prompt::saveAs, "edit.file")}) {
+    edit_.proposedFile = config_.path();
+    edit_.prompt = prompt;
+    run(4);
+    EXPECT_GE(widget(field).x, 0);
+    EXPECT_LT(widget(field).x + widget(field).width, 300);
+    edit_.prompt = Prompt::none;
+    run(4);
+  }
+}
+
+TEST_F(PanelTest, ModelsWithoutASceneCanBeSaved) {
+  click("menu.File");
+  click("menu.Save");
+  EXPECT_FALSE(sent<Save>());
+  edit_.isModel = true;
+  run(2);
+  clickFor<Save>("menu.Save");
+}
+
 TEST_F(PanelTest, GalleryOpensScenes) {
   click("panel.Scenes", 0.1);
   run(2);
@@ -289,17 +313,43 @@ TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
   clickFor<ClearHistory>("performance.clear");
 }
 
+TEST_F(PanelTest, PerformanceRowsSelectTheirMirrors) {
+  frame_.passes = {{{.path = {1}}, "mirror wall"}};
+  frame_.history.add(4, 1.0, 0.5);
+  frame_.history.addGpu(4, 3.0, std::vector<std::pair<std::string, double>>{{"mirror wall", 2.0}});
+  click("panel.Performance", 0.1);
+  run(2);
+  const Selection wall{Selection::Kind::mirror, 1};
+  EXPECT_EQ(clickFor<SelectNode>("name.mirror wall", 0.1).node, wall);
+  EXPECT_EQ(output_.hoveredPath, std::vector<int>{1});
+}
+
+TEST_F(PanelTest, TooltipsLeaveDraggedSlidersInSight) {
+  const auto tooltip = [] {
+    const auto& windows = ImGui::GetCurrentContext()->Windows;
+    return std::any_of(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
+      return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
+    });
+  };
+  hover("view.exposure", 0.3);
+  EXPECT_TRUE(tooltip());
+  hold(true);
+  EXPECT_FALSE(tooltip());
+  hold(false);
+}
+
 TEST_F(PanelTest, EscapeClosesWindowsFromTheTop) {
   windows_->toggleInspector();
   run(3);
   windows_->toggleHelp();
   run(3);
-  EXPECT_TRUE(windows_->closeTop());
+  EXPECT_TRUE(windows_->closeTop(false));
   EXPECT_FALSE(windows_->state().help);
+  EXPECT_FALSE(windows_->closeTop(false));
   EXPECT_TRUE(windows_->state().inspector);
-  EXPECT_TRUE(windows_->closeTop());
+  EXPECT_TRUE(windows_->closeTop(true));
   EXPECT_FALSE(windows_->state().inspector);
-  EXPECT_FALSE(windows_->closeTop()) << "the main panel stays";
+  EXPECT_FALSE(windows_->closeTop(true)) << "the main panel stays";
   windows_->setVisible(false);
   windows_->toggleInspector();
   EXPECT_TRUE(windows_->visible());
@@ -536,8 +586,18 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
   click("accuracy.slider", 0.05);
   ASSERT_TRUE(sent<ApplyPoint>());
   EXPECT_EQ(std::get<ApplyPoint>(commands_.front()).point, 0);
+}
+
+TEST_F(AccuracyWindow, BoundsBeginWhereSettingsWereMeasured) {
+  accuracy_.current = 2;
+  run(2);
   click("quality.max_error", 0.1);
-  EXPECT_GT(settings_.current.quality.maxError, 0.0);
+  EXPECT_NEAR(settings_.current.quality.maxError, 0.2, 1e-9);
+  accuracy_.current = -1;
+  accuracy_.points[0].ms = 123.4;
+  run(2);
+  click("quality.budget_ms", 0.1);
+  EXPECT_NEAR(settings_.current.quality.budgetMs, 130.0, 1e-9) << "the fastest of the front fits";
 }
 
 TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
@@ -620,6 +680,11 @@ TEST_F(TargetsWindow, PointedSkippedMirrorsAreReported) {
   run(2);
   hover("skipped.mirror door", 0.1);
   EXPECT_EQ(output_.hoveredPath, std::vector<int>{1});
+  const Selection door{Selection::Kind::mirror, 1};
+  EXPECT_EQ(clickFor<SelectNode>("skipped.mirror door", 0.1).node, door);
+  frame_.skipped[0].path = {7};
+  click("skipped.mirror door", 0.1);
+  EXPECT_FALSE(sent<SelectNode>()) << "it was deleted since the last frame";
   moveTo(700, 600);
   EXPECT_TRUE(output_.hoveredPath.empty());
 }

@@ -154,7 +154,7 @@ TEST_F(Editing, ClickOnAHandleChangesNothing) {
 
 TEST_F(Editing, EscapeCancelsTheDragThenDeselects) {
   clickBall();
-  host_.inspector = false;
+  EXPECT_TRUE(host_.inspector);
   moveTo(ballAt_ + glm::dvec2(60.0, 0.0));
   press(true);
   moveTo(ballAt_ + glm::dvec2(120.0, 0.0));
@@ -166,6 +166,9 @@ TEST_F(Editing, EscapeCancelsTheDragThenDeselects) {
   send(Escape{});
   EXPECT_FALSE(edit().selected);
   EXPECT_EQ(edit().undo, "");
+  EXPECT_TRUE(host_.inspector);
+  send(Escape{});
+  EXPECT_FALSE(host_.inspector);
   send(Escape{});
   EXPECT_FALSE(host_.closed);
   send(Quit{});

@@ -53,7 +53,7 @@ class FakeHost : public WorkspaceHost {
   void toggleInspector() override { inspector = !inspector; }
   void openInspector() override { inspector = true; }
   bool inspectorCovers(const glm::dvec2& place) const override { return place.x > inspectorFrom; }
-  bool closeTopWindow() override { return std::exchange(inspector, false); }
+  bool closeTopWindow(bool panels) override { return panels && std::exchange(inspector, false); }
 
   int scenesUsed = 0;
   bool failsNext = false;

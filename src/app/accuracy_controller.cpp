@@ -101,6 +101,7 @@ void AccuracyController::setResults(SweepResults results) {
   view_.about.clear();
   budget_ = {};
   chosen_ = -1;
+  isRough_ = false;
   settings_.reset();
 }
 
@@ -132,6 +133,7 @@ void AccuracyController::takeResults() {
   if (const auto status = sweep_.progress(); status && status->rough && rough_ != status->rough) {
     rough_ = status->rough;
     setResults(*rough_);
+    isRough_ = true;
     measured_ = requested_;
     measuredTime_ = requestedTime_;
     view_.about = roughText(results_) + " Better ones follow.";
@@ -167,6 +169,7 @@ void AccuracyController::applyBudget(Settings& settings) {
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
     view_.choice = choice->why;
+    view_.choice += isRough_ ? " (rough figures)" : "";
     chosen_ = choice->point;
   } else {
     const bool bounded = budget_.ms > 0.0 || budget_.error > 0.0;

@@ -63,6 +63,7 @@ class AccuracyController {
   double measuredTime_ = 0.0;
   bool coverChanged_ = false;
   SweepResults results_;
+  bool isRough_ = false;                                   // results_ are of few pixels and samples
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
   std::optional<Settings> settings_;                       // settings for which the current point was found
   std::vector<MotionLevel> frontLevels_;

@@ -64,7 +64,7 @@ class Demo : private WorkspaceHost {
   void toggleInspector() override { ui_->windows().toggleInspector(); }
   void openInspector() override { ui_->windows().openInspector(); }
   bool inspectorCovers(const glm::dvec2& place) const override { return ui_->windows().inspectorCovers(place); }
-  bool closeTopWindow() override { return ui_->holdsEscape() || ui_->windows().closeTop(); }
+  bool closeTopWindow(bool panels) override { return ui_->holdsEscape() || ui_->windows().closeTop(panels); }
 
   void installInput();
   void handleKey(const KeyEvent& event);

@@ -178,6 +178,7 @@ void DocumentController::fill(EditView& view, const Settings& settings) const {
   editor_.fill(view);
   view.unsaved = hasUnsaved(settings);
   view.saveFile = saveFile_;
+  view.isModel = isModelFile(loaded_.scene.file);
   view.prompt = prompt_;
   view.proposedFile = proposed_;
   view.note = note_;

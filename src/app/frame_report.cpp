@@ -62,7 +62,7 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
 std::string_view reasonText(SkipReason reason) {
   static constexpr std::array<std::string_view, 10> texts = {
       "behind the eye",        "seen from behind", "outside the view",  "hidden",    "below Min. pixels",
-      "below Min. throughput", "above Max. depth", "above Max. passes", "unchanged", "by rays"};
+      "below Min. throughput", "above Max. depth", "above Max. passes", "unchanged", "shown by rays"};
   return texts[static_cast<size_t>(reason)];
 }
 
@@ -192,6 +192,13 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     if (row != rows.end()) {
       row->gpuMs = timings.passes[i].gpuMs;
       row->timed = true;
+    }
+  }
+  if (plan.tiles) {
+    view_.timedGpuMs = 0.0;
+    for (PassView& row : rows) {
+      row.gpuMs = std::nan("");
+      row.timed = false;
     }
   }
   view_.passes = std::move(rows);

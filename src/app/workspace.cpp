@@ -130,7 +130,10 @@ void Workspace::apply(const Command& command) {
                    }
                  },
                  [&](const Quit&) { quit(); },
-                 [&](const SelectNode& c) { editor().select(c.node); },
+                 [&](const SelectNode& c) {
+                   editor().select(c.node);
+                   host_.openInspector();
+                 },
                  [&](const ToggleNode& c) { editor().toggle(c.node); },
                  [&](const SelectNext& c) {
                    editor().selectNext(c.step);
@@ -442,16 +445,19 @@ void Workspace::quit() {
   }
 }
 
-// Ends one thing at a time: drag, window, selection, message.
+// Ends one thing at a time: drag, menu, selection, window, message.
 void Workspace::escape() {
   if (editor().dragging()) {
     return editor().cancelDrag();
   }
-  if (host_.closeTopWindow()) {
+  if (host_.closeTopWindow(false)) {
     return;
   }
   if (editor().document().selection()) {
     return editor().select({});
+  }
+  if (host_.closeTopWindow(true)) {
+    return;
   }
   problem_.clear();
   status_.clear();

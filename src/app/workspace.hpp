@@ -40,7 +40,8 @@ class WorkspaceHost {
   virtual void openInspector() = 0;
   // Says whether the inspector is closed and would open over that place, in screen coordinates of the window.
   virtual bool inspectorCovers(const glm::dvec2& place) const = 0;
-  virtual bool closeTopWindow() = 0;  // false if there is none
+  // Closes a menu or the list of keys, or with `panels` the top window. Returns false if there is none.
+  virtual bool closeTopWindow(bool panels) = 0;
 };
 
 // The scene that is shown and everything that users do with it: each action comes here as a command, from panels, keys,

@@ -187,22 +187,22 @@ void MirrorSearch::propose(int node, Sight sight) {
   const bool reflects = !deep && largest(throughput) >= settings_.minThroughput;
   const glm::dvec2 texels = view.pictureSize / glm::dvec2(plan_.width, plan_.height);
   const int samples = view.path.empty() ? allSettings_.view.samples : settings_.samples;
-  sight.draw.byRays = followedByRays(material, allSettings_, reflects, area * texels.x * texels.y * samples);
+  const std::string_view rays = whyRays(material, allSettings_, reflects, area * texels.x * texels.y * samples);
+  sight.draw.byRays = !rays.empty();
   sight.draw.blurs = reflects && !sight.draw.byRays && isRough(material, allSettings_.effects);
   sight.draw.ripples = reflects && !sight.draw.byRays && isRippled(material, allSettings_.effects);
-  const bool needsPass = !sight.draw.byRays;
   pass.mirrors.push_back(std::move(sight.draw));
   if (deep) {
     return skipMirror(plan_, view, mirror, SkipReason::maxDepth, "max_depth " + std::to_string(settings_.maxDepth));
   }
-  if (needsPass && area < settings_.minPixels) {
+  if (rays.empty() && area < settings_.minPixels) {
     return skipMirror(plan_, view, mirror, SkipReason::minPixels, number(area) + " px");
   }
   if (largest(throughput) < settings_.minThroughput) {
     return skipMirror(plan_, view, mirror, SkipReason::minThroughput, number(largest(throughput)));
   }
-  if (!needsPass) {
-    return skipMirror(plan_, view, mirror, SkipReason::rays);
+  if (!rays.empty()) {
+    return skipMirror(plan_, view, mirror, SkipReason::rays, std::string(rays));
   }
   candidates_.push({area * largest(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
                     throughput, discovered_++});

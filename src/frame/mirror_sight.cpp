@@ -63,13 +63,22 @@ bool isRippled(const Mirror& mirror, const EffectSettings& effects) {
   return effects.ripple && mirror.ripple;
 }
 
-bool followedByRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples) {
+std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples) {
   const EffectSettings& effects = settings.effects;
-  const bool roughRays = isRough(mirror, effects) && effects.roughLookup == ReflectionSource::traced;
-  const bool rippleRays = isRippled(mirror, effects) && effects.rippleLookup == ReflectionSource::traced;
+  if (isRippled(mirror, effects) && effects.rippleLookup == ReflectionSource::traced) {
+    return "ripples";
+  }
+  if (!reflects) {
+    return "";
+  }
+  if (isRough(mirror, effects) && effects.roughLookup == ReflectionSource::traced) {
+    return "rough";
+  }
   const ReflectionMethod method = settings.reflection.method;
-  const bool pays = method == ReflectionMethod::automatic && samples < samplesOfAPass;
-  return (reflects && (roughRays || pays || method == ReflectionMethod::rays)) || rippleRays;
+  if (method == ReflectionMethod::automatic && samples < samplesOfAPass) {
+    return "faster, since it covers few pixels";
+  }
+  return method == ReflectionMethod::rays ? "reflection.method" : "";
 }
 
 }  // namespace speculum

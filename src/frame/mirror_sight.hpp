@@ -38,9 +38,9 @@ glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects,
 bool isRough(const Mirror& mirror, const EffectSettings& effects);
 bool isRippled(const Mirror& mirror, const EffectSettings& effects);
 
-// Says whether rays show what the mirror reflects, which is seen in `samples` samples: if reflection.method says so,
-// and where an image of its plane cannot. At a limit of depth or throughput the mirror reflects the background alone,
-// so only ripples count.
-bool followedByRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples);
+// Returns why rays show what the mirror reflects, which is seen in `samples` samples: because reflection.method says
+// so, or because an image of its plane cannot; empty if an image shows it. At a limit of depth or throughput the mirror
+// reflects the background alone, so only ripples count.
+std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples);
 
 }  // namespace speculum

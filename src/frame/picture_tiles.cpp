@@ -44,11 +44,13 @@ std::vector<TileRange> tilesOfPasses(const FramePlan& plan) {
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles) {
   std::vector<PixelRect> rects;
   const auto columns = static_cast<size_t>(tilesAlong(width));
-  for (size_t tile = tiles.first; tile < tiles.end;) {
+  const size_t count = tilesIn({0, 0, width, height});
+  for (size_t tile = count - tiles.end; tile < count - tiles.first;) {
     const size_t row = tile / columns;
     const size_t column = tile % columns;
-    const size_t wholeRows = column == 0 ? (tiles.end - tile) / columns : 0;
-    const size_t across = wholeRows > 0 ? columns : std::min(columns - column, tiles.end - tile);
+    const size_t left = count - tiles.first - tile;
+    const size_t wholeRows = column == 0 ? left / columns : 0;
+    const size_t across = wholeRows > 0 ? columns : std::min(columns - column, left);
     const size_t down = std::max<size_t>(wholeRows, 1);
     const int x = static_cast<int>(column) * tileSide;
     const int y = static_cast<int>(row) * tileSide;
@@ -56,6 +58,7 @@ std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles) 
                      std::min(static_cast<int>(down) * tileSide, height - y)});
     tile += across * down;
   }
+  std::ranges::reverse(rects);
   return rects;
 }
 

@@ -12,7 +12,9 @@ inline constexpr int tileSide = 16;
 size_t tileCount(const FramePlan& plan);
 // Returns the tiles that this frame draws of each of these passes, counted within the pass.
 std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
-// Returns few rectangles that together are these tiles of an image, which are counted row by row.
+// Returns few rectangles that together are these tiles of an image, in the order to draw them: tiles are counted row by
+// row from the last to the first. With several samples, lavapipe of Mesa 22.3 also writes to the row above a scissor
+// rectangle and to the column left of it, which in this order are drawn later.
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
 // Say whether this frame draws the first tile of its picture, and the last one.
 bool beginsPicture(const FramePlan& plan);

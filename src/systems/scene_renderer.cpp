@@ -420,13 +420,14 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
 // Counts the draws of the first tile only: the others repeat them.
 void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass) {
   const auto [width, height] = desc.renderArea.extent;
+  bool first = tiles_[index].first == 0;
   for (const PixelRect& rect : tileRects(static_cast<int>(width), static_cast<int>(height), tiles_[index])) {
     PassDesc part = desc;
     part.renderArea = part.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
     part.keepsSamples = info.plan.tiles.has_value();
     const EffectLedger ledger = ledger_;
     drawScene(info, index, part, pass);
-    if (rect.x > 0 || rect.y > 0) {
+    if (!std::exchange(first, false)) {
       recorded_.pop_back();
       ledger_ = ledger;
     }

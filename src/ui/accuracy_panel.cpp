@@ -187,6 +187,18 @@ void frontSlider(PanelContext& ui) {
   recordWidget(ui, "accuracy.slider");
 }
 
+// Returns the first bound when one is switched on: what the settings in use were measured to take, or else the fastest
+// of the front, rounded up to two digits.
+double firstBound(const AccuracyView& accuracy, double PointView::*figure, double usual) {
+  if (accuracy.front.empty()) {
+    return usual;
+  }
+  const int point = accuracy.current >= 0 ? accuracy.current : accuracy.front.front();
+  const double value = accuracy.points[point].*figure;
+  const double step = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-6))) - 1.0);
+  return step * std::ceil(value / step);
+}
+
 void budget(PanelContext& ui) {
   QualitySettings& quality = ui.settings.quality;
   const auto bound = [&](double& value, double usual, const char* format, const char* key) {
@@ -206,10 +218,11 @@ void budget(PanelContext& ui) {
       }
     }
   };
-  bound(quality.budgetMs, 16.0, "%.2f", "quality.budget_ms");
-  bound(quality.maxError, 0.05, "%.4f", "quality.max_error");
-  if (!ui.view.accuracy.choice.empty()) {
-    ImGui::TextWrapped("%s", ui.view.accuracy.choice.c_str());
+  const AccuracyView& accuracy = ui.view.accuracy;
+  bound(quality.budgetMs, firstBound(accuracy, &PointView::ms, 16.0), "%.2f", "quality.budget_ms");
+  bound(quality.maxError, firstBound(accuracy, &PointView::error, 0.05), "%.4f", "quality.max_error");
+  if (!accuracy.choice.empty()) {
+    ImGui::TextWrapped("%s", accuracy.choice.c_str());
   }
 }
 

@@ -76,7 +76,7 @@ std::span<const ShortcutGroup> shortcutGroups() {
          plain("Tab", "Show or hide the panels", Key::tab, TogglePanel{}),
          pointer("arrows", "Walk through the panel's widgets; Space presses"),
          plain("F1", "Show or hide this list", Key::f1, ToggleHelp{}),
-         plain("Esc", "Cancel the drag, close the top window, deselect", Key::escape, Escape{}),
+         plain("Esc", "Cancel the drag, deselect, close the top window", Key::escape, Escape{}),
          withControl(plain("Ctrl+Q", "Quit", Key::q, Quit{}))}}}};
   return groups;
 }

@@ -98,12 +98,12 @@ void historyButtons(PanelContext& ui) {
   ImGui::SameLine();
   commandButton(ui, "Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, Redo{}, !edit.redo.empty());
   commandButton(ui, "Save", "edit.save", "Ctrl+S   " + (edit.saveFile ? edit.saveFile->string() : "Asks for a file"),
-                Save{}, edit.unsaved);
+                Save{}, edit.unsaved || edit.isModel);
   ImGui::SameLine();
   commandButton(ui, "Save as...", "edit.save_as", "Ctrl+Shift+S", AskWhereToSave{});
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : "saved");
+  ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : edit.isModel ? "a model, no scene yet" : "saved");
 }
 
 // Draws a button for each mirror that the node was picked through; a click selects it.

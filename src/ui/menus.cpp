@@ -31,7 +31,7 @@ void fileMenu(PanelContext& ui) {
   }
   ImGui::Separator();
   const EditView& edit = ui.view.edit;
-  item(ui, "Save", Save{}, edit.unsaved);
+  item(ui, "Save", Save{}, edit.unsaved || edit.isModel);
   item(ui, "Save as...", AskWhereToSave{});
   ImGui::Separator();
   item(ui, "Save screenshot", TakeScreenshot{true});

@@ -223,11 +223,12 @@ WindowRect PanelWindows::freeRect() const {
   return visible_ ? dock_.freeRect() : WindowRect{{0.0f, 0.0f}, {display.x, display.y}};
 }
 
-bool PanelWindows::closeTop() {
+bool PanelWindows::closeTop(bool closesPanels) {
   const auto close = [&](const ImGuiWindow& window) {
     const std::string_view name = window.Name;
     const auto panel = std::ranges::find(panelNames, name, &PanelName::name);
     bool* open = name == panels::helpTitle        ? &state_.help
+                 : !closesPanels                  ? nullptr
                  : name == panels::inspectorTitle ? &state_.inspector
                  : panel != panelNames.end()      ? &(state_.choices.*panel->open)
                                                   : nullptr;

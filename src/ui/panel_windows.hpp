@@ -26,7 +26,9 @@ class PanelWindows {
   bool inspectorCovers(const glm::vec2& place) const;  // closed, it would open there
   // Display without panels, in screen coordinates.
   WindowRect freeRect() const;
-  bool closeTop();  // closes the top window except the main panel; false if there is none
+  // Closes the list of keys, or with `closesPanels` the top window except the main panel. Returns false if there is
+  // none.
+  bool closeTop(bool closesPanels);
 
  private:
   void mainPanel(PanelContext& ui);

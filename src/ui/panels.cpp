@@ -117,7 +117,9 @@ void describe(PanelContext& ui, std::string_view key) {
 void tip(const std::string& text) {
   // A widget with the keyboard's focus counts as hovered, but its tooltip would cover the next widgets.
   const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
-  if (!byKeyboard && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+  // Nor may it cover the value of a slider that is dragged.
+  const bool held = ImGui::IsItemActive();
+  if (!byKeyboard && !held && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
     ImGui::TextUnformatted(text.c_str());

@@ -78,8 +78,8 @@ void skippedRows(PanelContext& ui, const PassBranch& node) {
     textAcrossColumns(why);
     recordWidget(ui, "skipped." + skip.name);
     if (nameHovered || ImGui::IsItemHovered()) {
-      ui.output.hoveredPath = skip.path;
-      ImGui::SetTooltip("%s\n%s", skip.name.c_str(), why.c_str());
+      ImGui::SetTooltip("%s\n%s\nA click selects the mirror.", skip.name.c_str(), why.c_str());
+      mirrorRow(ui, skip.path);
     }
   }
   ImGui::Unindent(ImGui::GetTreeNodeToLabelSpacing());
@@ -115,7 +115,8 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   if (pass.reused) {
     tip("The image of an earlier frame is reused. The time is that of rendering it.");
   } else if (!pass.timed) {
-    tip(std::isnan(pass.gpuMs) ? "Not timed yet." : "Time of an earlier frame.");
+    tip(std::isnan(pass.gpuMs) ? "Not timed. Pictures that several frames draw are timed as a whole."
+                               : "Time of an earlier frame.");
   }
   figure(std::to_string(pass.draws));
   figure(pass.areaPx > 0.0 ? fmt::format("{:.0f}", pass.areaPx) : "");
@@ -163,14 +164,24 @@ void passOutline(const PanelContext& ui) {
   }
 }
 
+void mirrorRow(PanelContext& ui, const std::vector<int>& path) {
+  ui.output.hoveredPath = path;
+  // The path is that of the last frame; an edit may have removed mirrors since.
+  const bool exists = static_cast<size_t>(path.back()) < ui.view.edit.scene->mirrors.size();
+  if (exists && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    ui.send(SelectNode{{Selection::Kind::mirror, path.back()}});
+  }
+}
+
 void passes(PanelContext& ui) {
   const FrameView& frame = ui.view.frame;
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
   }
-  ImGui::TextWrapped("GPU %s   Memory %s MiB", duration(frame.timedGpuMs).c_str(),
+  ImGui::TextWrapped("GPU %s   Memory %s MiB",
+                     duration(frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs).c_str(),
                      mebibytes(frame.deviceBytes).c_str());
-  tip("GPU time of the last frame whose passes were timed. Timing slows a frame, so few are.");
+  tip("GPU time of the last frame whose passes were timed, or of the last frame if none was. Timing slows a frame.");
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("passes", 5, flags)) {
     return;

@@ -42,7 +42,12 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
     return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
   });
   ImGui::TextUnformatted(shown.c_str());
-  tip(name);
+  const auto pass = std::ranges::find(ui.view.frame.passes, name, &PassView::name);
+  const bool ofMirror = pass != ui.view.frame.passes.end() && !pass->path.empty();
+  recordWidget(ui, "name." + name, name + (ofMirror ? "\nA click selects the mirror." : ""));
+  if (ofMirror && ImGui::IsItemHovered()) {
+    mirrorRow(ui, pass->path);
+  }
   for (const double share : {0.5, 0.95}) {
     ImGui::TableNextColumn();
     const std::string text = milliseconds(percentile(values, share));

@@ -13,6 +13,12 @@ namespace {
 
 constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
 
+// Width of fields, which leaves room for the prompt's border in a narrow window.
+float fieldWidth() {
+  const float em = ImGui::GetFontSize();
+  return std::clamp(ImGui::GetIO().DisplaySize.x - 3.0f * em, 8.0f * em, 34.0f * em);
+}
+
 bool beginPrompt(const char* title) {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
   return ImGui::BeginPopupModal(title, nullptr, flags);
@@ -60,7 +66,7 @@ void unsavedChanges(PanelContext& ui) {
 }
 
 void saveAs(PanelContext& ui) {
-  ImGui::SetNextItemWidth(34.0f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(fieldWidth());
   if (ImGui::IsWindowAppearing()) {
     ui.state.saveAs = ui.view.edit.proposedFile.string();
     ImGui::SetKeyboardFocusHere();
@@ -114,14 +120,16 @@ void openFile(PanelContext& ui) {
     ImGui::SetKeyboardFocusHere();
   }
   std::optional<std::filesystem::path> chosen;
-  ImGui::SetNextItemWidth(34.0f * em);
+  ImGui::SetNextItemWidth(fieldWidth());
   if (ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
     chosen = files.folder / files.typed;
   }
   recordWidget(ui, "open.typed");
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + fieldWidth());
   ImGui::TextDisabled("%s", files.folder.c_str());
+  ImGui::PopTextWrapPos();
   const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
-  ImGui::BeginChild("files", {34.0f * em, std::min(20.0f * em, ImGui::GetIO().DisplaySize.y - others)}, true);
+  ImGui::BeginChild("files", {fieldWidth(), std::min(20.0f * em, ImGui::GetIO().DisplaySize.y - others)}, true);
   if (ImGui::Selectable("..")) {
     chosen = files.folder.parent_path();
   }

@@ -65,7 +65,7 @@ struct FrameView {
   bool still = false;    // later frames drew the panels only
   double cpuMs = 0.0;
   double gpuMs = 0.0;
-  double timedGpuMs = 0.0;  // of the last frame whose passes were timed; only some frames are
+  double timedGpuMs = 0.0;  // of the last frame whose passes were timed; only some frames are; 0: none was
   FrameHistory history;
   uint64_t deviceBytes = 0;
   uint64_t budgetBytes = 0;
@@ -158,6 +158,7 @@ struct EditView {
   std::string undo;                           // label of the step; empty: none
   std::string redo;
   bool unsaved = false;                           // scene or settings have changes to save
+  bool isModel = false;                           // the scene shows a model and has no file yet
   std::optional<std::filesystem::path> saveFile;  // file that Save writes; none: it asks for one
   Prompt prompt = Prompt::none;
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
