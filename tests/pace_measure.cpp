@@ -51,8 +51,13 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// Without a path the animation is paused, and the picture converges.
 Measured follow(const Options& options, Path path) {
   Demo demo(options);
+  if (path == nullptr) {
+    demo.apply(SetPaused{true});
+    path = [](double) { return GamepadState(); };
+  }
   const auto start = std::chrono::steady_clock::now();
   demo.setGamepadSource([&] { return std::optional(path(secondsSince(start))); });
   Measured measured;
@@ -98,11 +103,23 @@ double meanError(const Options& options, const std::vector<Shown>& shown) {
   return sum / static_cast<double>(shown.size());
 }
 
+// The frames of a still picture, which must let the panels answer.
+void measureStill(const Options& options) {
+  std::vector<double> ms = follow(options, nullptr).frameMs;
+  std::sort(ms.begin(), ms.end());
+  std::printf("| %s | still | | %.0f | %.0f, longest %.0f | | |\n", options.scene.c_str(), ms[ms.size() / 2],
+              ms[ms.size() * 95 / 100], ms.back());
+  std::fflush(stdout);
+}
+
 void measure(const std::string& scene) {
   Options options;
   options.scene = scene;
   options.presentMode = PresentMode::immediate;
   for (const auto& [name, path] : paths) {
+    if (std::getenv("PACE_STILL")) {
+      continue;
+    }
     Measured measured = follow(options, path);
     std::vector<double>& ms = measured.frameMs;
     std::sort(ms.begin(), ms.end());
@@ -115,6 +132,7 @@ void measure(const std::string& scene) {
                 ms[ms.size() / 2], ms[ms.size() * 95 / 100], scale, meanError(options, measured.shown));
     std::fflush(stdout);
   }
+  measureStill(options);
 }
 
 }  // namespace
