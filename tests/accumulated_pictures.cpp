@@ -234,6 +234,31 @@ TEST(MultisampledTiles, ChangeNoByte) {
   }
 }
 
+// A small rough mirror whose rays would be too many for one draw if it filled the picture.
+TEST(LongDraws, AreDividedWithoutATrace) {
+  Options options = headless(writeScene("small_rough", wallScene + "roughness = 0.3\n"), {64, 36});
+  set(options, {{"effects.rough_samples", "4096"}, {"view.scale", "1"}});
+  QuietSession session(options);
+  session.setCamera(lookAt({0.0, 0.0, 60.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 30.0, 0.1));
+  session.draw(0.0, true);
+  session.finish();
+  const Image8 whole = session.picture();
+  const std::vector<RecordedPass> passes = session.lastFrame().passes;
+  const uint64_t frame = session.lastFrame().timings.frame;
+  set(session, {{"debug.check_finite", "false"}});
+  session.draw(0.0, true);
+  session.finish();
+  EXPECT_EQ(session.picture().rgba, whole.rgba);
+  EXPECT_GE(session.lastFrame().timings.frame, frame + 4) << "several frames drew it";
+  ASSERT_EQ(session.lastFrame().passes.size(), passes.size());
+  for (size_t i = 0; i < passes.size(); ++i) {
+    EXPECT_EQ(session.lastFrame().passes[i].name, passes[i].name);
+    EXPECT_EQ(session.lastFrame().passes[i].draws, passes[i].draws);
+    EXPECT_GT(session.lastFrame().timings.passes[i].gpuMs, 0.0);
+  }
+  EXPECT_FALSE(session.lastFrame().plan.tiles);
+}
+
 // Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {

@@ -35,6 +35,36 @@ TEST(PictureTiles, RectanglesCoverAnImageOnce) {
   }
 }
 
+TEST(PictureTiles, LongPicturesHaveSeveralParts) {
+  FramePlan plan;
+  plan.main.view.rect = {0, 0, 1600, 1600};
+  Settings settings;
+  const auto parts = [&] { return partsOf(plan, settings); };
+  EXPECT_EQ(parts(), std::vector<std::optional<TileRange>>{std::nullopt}) << "no rays";
+  plan.effects.shadowRays = true;
+  const size_t count = tileCount(plan);
+  const auto expectParts = [&](size_t number) {
+    const auto all = parts();
+    EXPECT_EQ(all.size(), number);
+    size_t end = 0;
+    for (const std::optional<TileRange>& part : all) {
+      ASSERT_TRUE(part);
+      EXPECT_EQ(part->first, end);
+      end = part->end;
+    }
+    EXPECT_EQ(end, count);
+  };
+  expectParts(2);
+  settings.effects.perSample = true;
+  expectParts(5);
+  settings.effects.perSample = false;
+  plan.effects.roughRays = true;
+  settings.effects.roughSamples = 1 << 20;
+  expectParts(count);
+  settings.debug.checkFinite = true;
+  EXPECT_EQ(parts(), std::vector<std::optional<TileRange>>{std::nullopt});
+}
+
 TEST(PictureTiles, PassesFollowEachOther) {
   FramePlan plan;
   plan.passes.resize(2);

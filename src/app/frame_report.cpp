@@ -122,7 +122,7 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
       average(view_.frameMs, ms, !std::exchange(averages_, true));
     }
     view_.history.add(frame.number, ms, tiles_.cpuMs);
-    drawn_.push_front({frame.number, tiles_.cpuMs, tiles_.gpuMs});
+    drawn_.push_front({frame.number, tiles_.cpuMs, tiles_.gpuMs, !frame.plan.tiles});
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
   }
   const auto timed = std::ranges::find(drawn_, timings.frame, &DrawnFrame::number);
@@ -141,8 +141,8 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
   view_.history.addGpu(timings.frame, view_.gpuMs, passes);
 }
 
-bool FrameReport::drewScene(uint64_t frame) const {
-  return std::ranges::any_of(drawn_, [&](const DrawnFrame& drawn) { return drawn.number == frame; });
+bool FrameReport::drewPicture(uint64_t frame) const {
+  return std::ranges::any_of(drawn_, [&](const DrawnFrame& drawn) { return drawn.number == frame && drawn.whole; });
 }
 
 // Lists passes of cached images too, because nobody can read a list that changes from frame to frame.
@@ -182,7 +182,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   }
   std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
   // The times belong to an earlier frame, whose plan may have differed.
-  const size_t times = drewScene(timings.frame) ? std::min(timed.size(), timings.passes.size()) : 0;
+  const size_t times = drewPicture(timings.frame) ? std::min(timed.size(), timings.passes.size()) : 0;
   if (times > 0) {
     view_.timedGpuMs = timings.gpuMs;
     std::ranges::for_each(rows, [](PassView& row) { row.timed = false; });

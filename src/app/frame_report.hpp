@@ -42,7 +42,7 @@ class FrameReport {
   const FrameView& view() const { return view_; }
 
  private:
-  bool drewScene(uint64_t frame) const;  // among the latest
+  bool drewPicture(uint64_t frame) const;  // the whole of one, among the latest frames
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
   void updateSkipped(const RecordedFrame& frame);
   void addTiles(const RecordedFrame& frame, const FrameTimings& timings);
@@ -51,6 +51,7 @@ class FrameReport {
     uint64_t number = 0;
     double cpuMs = 0.0;
     double earlierGpuMs = 0.0;  // of frames that drew other tiles of its picture
+    bool whole = true;          // there are none
   };
   // Frames so far that drew tiles of a picture.
   struct Tiles {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "frame/picture_tiles.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 #include "scene/shipped_scene.hpp"
@@ -191,53 +192,65 @@ const DrawnFrame& Session::draw(double time, bool capture, const std::function<b
 }
 
 void Session::drawPicture(bool capture) {
-  Frame frame = renderer_.beginFrame().value();
+  const bool last = frame_.pictures + 1 == loaded_.settings.view.accumulate;
+  std::optional<Frame> frame = renderer_.beginFrame().value();
   collectFinished();
-  const Clock::time_point recording = Clock::now();
+  Clock::time_point recording = Clock::now();
   FrameCache cache = sceneRenderer_.cache();
   cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
   FittedPlan fitted =
       planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, cache, frame_.pictures);
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
-  const bool last = frame_.pictures + 1 == loaded_.settings.view.accumulate;
-  frame.capture = capture && last;
-  sceneRenderer_.record(frame, frame_.state, frame_.settings, frame_.plan, std::nullopt, last);
+  for (const std::optional<TileRange>& part : partsOf(frame_.plan, frame_.settings)) {
+    if (!frame) {
+      frame = renderer_.beginFrame().value();
+      collectFinished();
+      recording = Clock::now();
+    }
+    frame_.plan.tiles = part;
+    const bool shown = last && endsPicture(frame_.plan);
+    frame->capture = capture && shown;
+    sceneRenderer_.record(*frame, frame_.state, frame_.settings, frame_.plan, std::nullopt, shown);
+    frame_.cpuMs += millisecondsSince(recording);
+    unfinished_.push_back({frame->number, beginsPicture(frame_.plan)});
+    renderer_.endFrame(*frame);
+    frame.reset();
+  }
+  frame_.plan.tiles.reset();
   frame_.ledger.add(sceneRenderer_.ledger());
-  frame_.cpuMs += millisecondsSince(recording);
   ++frame_.pictures;
-  unfinished_.push_back(frame.number);
-  renderer_.endFrame(frame);
 }
 
-// Adds up passes by their ids, because pictures of a mean may differ in passes at the edge of the view.
+// Adds up passes by their ids, because several frames may draw parts of a pass, and pictures of a mean may differ in
+// passes at the edge of the view. A pass that is new stands behind the one before it.
 void Session::collectFinished() {
   while (!unfinished_.empty()) {
-    const FrameTimings* timings = renderer_.timingsOf(unfinished_.front());
+    const FrameTimings* timings = renderer_.timingsOf(unfinished_.front().number);
     if (!timings) {
       return;
     }
-    const std::span<const RecordedPass> passes = sceneRenderer_.passesOf(unfinished_.front());
+    const std::span<const RecordedPass> passes = sceneRenderer_.passesOf(unfinished_.front().number);
+    place_ = unfinished_.front().beginsPicture ? 0 : place_;
     unfinished_.pop_front();
     frame_.timings.frame = timings->frame;
     frame_.timings.gpuMs += timings->gpuMs;
-    size_t place = 0;
     for (size_t i = 0; i < passes.size(); ++i) {
       const auto known = std::ranges::find_if(
           frame_.passes, [&](const RecordedPass& pass) { return static_cast<const PassId&>(pass) == passes[i]; });
       if (known == frame_.passes.end()) {
-        place = std::min(place, frame_.passes.size());
-        frame_.passes.insert(frame_.passes.begin() + static_cast<std::ptrdiff_t>(place), passes[i]);
-        frame_.passes[place].draws = 0;
-        frame_.timings.passes.insert(frame_.timings.passes.begin() + static_cast<std::ptrdiff_t>(place), PassTiming{});
+        place_ = std::min(place_, frame_.passes.size());
+        frame_.passes.insert(frame_.passes.begin() + static_cast<std::ptrdiff_t>(place_), passes[i]);
+        frame_.passes[place_].draws = 0;
+        frame_.timings.passes.insert(frame_.timings.passes.begin() + static_cast<std::ptrdiff_t>(place_), PassTiming{});
       } else {
-        place = static_cast<size_t>(known - frame_.passes.begin());
+        place_ = static_cast<size_t>(known - frame_.passes.begin());
       }
-      frame_.passes[place].draws += passes[i].draws;
+      frame_.passes[place_].draws += passes[i].draws;
       if (i < timings->passes.size()) {
-        frame_.timings.passes[place] += timings->passes[i];
+        frame_.timings.passes[place_] += timings->passes[i];
       }
-      ++place;
+      ++place_;
     }
   }
 }

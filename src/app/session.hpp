@@ -120,7 +120,13 @@ class Session {
   SceneRenderer sceneRenderer_;
   BudgetPlanner planner_;
   DrawnFrame frame_;
-  std::deque<uint64_t> unfinished_;  // numbers of the renderer's frames whose figures are not in frame_ yet
+  // The renderer's frames whose figures are not in frame_ yet.
+  struct Unfinished {
+    uint64_t number = 0;
+    bool beginsPicture = true;
+  };
+  std::deque<Unfinished> unfinished_;
+  size_t place_ = 0;  // in frame_.passes, behind the last pass whose figures were added
   std::chrono::steady_clock::time_point start_;
 };
 

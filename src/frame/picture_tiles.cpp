@@ -7,6 +7,8 @@ namespace speculum {
 
 namespace {
 
+constexpr int mostPaths = 1 << 21;
+
 int tilesAlong(int texels) {
   return (texels + tileSide - 1) / tileSide;
 }
@@ -60,6 +62,25 @@ std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles) 
   }
   std::ranges::reverse(rects);
   return rects;
+}
+
+std::vector<std::optional<TileRange>> partsOf(const FramePlan& plan, const Settings& settings) {
+  if (!plan.effects.traces() || settings.debug.checkFinite) {
+    return {std::nullopt};
+  }
+  const int samples = std::max(settings.view.samples, settings.reflection.samples);
+  const int paths = (settings.effects.perSample ? samples : 1) *  // a texel
+                    (plan.effects.roughRays ? settings.effects.roughSamples : 1);
+  const size_t step = std::max(1, mostPaths / (tileSide * tileSide * paths));
+  const size_t count = tileCount(plan);
+  if (count <= step) {
+    return {std::nullopt};
+  }
+  std::vector<std::optional<TileRange>> parts;
+  for (size_t first = 0; first < count; first += step) {
+    parts.emplace_back(TileRange{first, std::min(first + step, count)});
+  }
+  return parts;
 }
 
 bool beginsPicture(const FramePlan& plan) {

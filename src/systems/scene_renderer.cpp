@@ -95,7 +95,8 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                            const std::optional<DebugView>& debug, bool shown) {
   const Environment environment = effectiveEnvironment(scene_, settings);
   releaseDebugViews(debug, *frame.retired);
-  prepareTargets(frame, settings, plan, debug);
+  prepareTargets(frame, settings, plan, debug, shown);
+  frameParts_.clear();
   const bool textured = drawsTextures(scene_, state, settings, plan);
   resources_.prepare(frame, settings.effects.textures, textured);
   resources_.prepareLevels(frame, meshesWithLevels(plan, state));
@@ -141,6 +142,12 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (!unfinished_) {
     endRecord(info, textured);
   }
+  recordedFrames_[frame.number % recordedFrames_.size()] = {frame.number, frameParts_};
+}
+
+void SceneRenderer::add(RecordedPass pass) {
+  frameParts_.push_back(pass);
+  recorded_.push_back(std::move(pass));
 }
 
 // Releases what only the debug view needs, once it is off.
@@ -158,7 +165,7 @@ void SceneRenderer::releaseDebugViews(const std::optional<DebugView>& debug, Ret
 }
 
 void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan,
-                                   const std::optional<DebugView>& debug) {
+                                   const std::optional<DebugView>& debug, bool shown) {
   const bool showsMirror = debug && debug->pass < static_cast<int>(plan.passes.size());
   if (beginsPicture(plan)) {
     if (unfinished_) {
@@ -166,6 +173,11 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
     }
     mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples),
                          showsMirror ? std::optional(debug->pass) : std::nullopt, *frame.retired);
+    if (shown && plan.tiles && !earlierMain_ && !unfinished_ && accumulated() == 0) {
+      earlierMain_ = std::move(main_);
+    } else if (!plan.tiles) {
+      releaseEarlierMain(*frame.retired);
+    }
     prepareMain(settings, plan, *frame.retired);
     environmentTargets_.prepare(plan, *frame.retired);
   }
@@ -186,11 +198,6 @@ void SceneRenderer::prepareMain(const Settings& settings, const FramePlan& plan,
   const VkExtent2D extent = extentOf(plan.main.view.rect.width, plan.main.view.rect.height);
   const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
   const bool readSamples = settings.debug.checkFinite && mainSamples != VK_SAMPLE_COUNT_1_BIT;
-  if (plan.tiles && !earlierMain_ && !unfinished_ && accumulated() == 0) {
-    earlierMain_ = std::move(main_);
-  } else if (!plan.tiles) {
-    releaseEarlierMain(retired);
-  }
   if (!main_ || main_->samples() != mainSamples || main_->desc().readSamples != readSamples) {
     if (main_) {
       main_->retire(retired);
@@ -277,7 +284,7 @@ void SceneRenderer::recordShadows(const FrameInfo& info) {
       scope.countSamples();
       pass.draws = shadowSystem_.record(scope, info, index++);
       ledger_[EffectKind::shadows].draws += pass.draws;
-      recorded_.push_back(std::move(pass));
+      add(std::move(pass));
     }
   }
 }
@@ -364,7 +371,7 @@ void SceneRenderer::recordSum(const FrameInfo& info) {
   if (info.settings.view.accumulate == 1) {
     accumulation_.release(*info.frame.retired);
   } else if (!info.plan.mainReused) {
-    recorded_.push_back(accumulation_.add(info.frame, main_->descriptor(), main_->extent(), info.plan.picture));
+    add(accumulation_.add(info.frame, main_->descriptor(), main_->extent(), info.plan.picture));
   }
 }
 
@@ -376,7 +383,7 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Deb
   if (unfinished_) {
     return;
   }
-  recorded_.push_back(display);
+  add(display);
   if (!debug) {
     return;
   }
@@ -386,7 +393,7 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Deb
                                : display_.recordColor(info.frame, info.plan, *debug,
                                                       {target.descriptor(), target.color().samples()}, info.settings);
   if (view) {
-    recorded_.push_back(*view);
+    add(*view);
   }
   if (debug->probe && showsDepth) {
     probe_.probe(info.frame, watchedDepth_->image(), watchedDepth_->descriptor(), *debug->probe);
@@ -412,9 +419,6 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   mainImage_ = {info.settings, plan.mainContent};
   mirrorTargets_.end(plan, retired);
   cacheRevision_ = renderer_.pipelines().revision();
-  // The times of a frame that drew tiles are those of parts of passes.
-  recordedFrames_[info.frame.number % recordedFrames_.size()] = {
-      info.frame.number, info.plan.tiles ? std::vector<RecordedPass>() : recorded_};
 }
 
 // Counts the draws of the first tile only: the others repeat them.
@@ -429,6 +433,7 @@ void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDes
     drawScene(info, index, part, pass);
     if (!std::exchange(first, false)) {
       recorded_.pop_back();
+      frameParts_.back().draws = 0;
       ledger_ = ledger;
     }
   }
@@ -442,7 +447,7 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
   pass.draws += mirrorSystem_.record(scope, info, index, format);
   pass.draws += pointLightSystem_.record(scope, info, index, format);
   pass.draws += renderSystem_.record(scope, info, index, format);
-  recorded_.push_back(std::move(pass));
+  add(std::move(pass));
 }
 
 void SceneRenderer::watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc) {

@@ -69,7 +69,7 @@ class SceneRenderer {
  private:
   void releaseDebugViews(const std::optional<DebugView>& debug, RetireQueue& retired);
   void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan,
-                      const std::optional<DebugView>& debug);
+                      const std::optional<DebugView>& debug, bool shown);
   void prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void releaseEarlierMain(RetireQueue& retired);
   // Main view that the display pass shows.
@@ -123,7 +123,10 @@ class SceneRenderer {
   MainImage mainImage_;         // content is empty if the main view must not be reused
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
-  std::vector<RecordedPass> recorded_;
+  void add(RecordedPass pass);
+
+  std::vector<RecordedPass> recorded_;    // of the picture
+  std::vector<RecordedPass> frameParts_;  // passes, or parts of them, of the frame; draws count in a pass's first part
   std::array<std::pair<uint64_t, std::vector<RecordedPass>>, framesInFlight + 1> recordedFrames_;  // by frame number
   EffectLedger ledger_;
   std::optional<int> depthPass_;  // pass whose depth the debug view shows; passes.size() is the main view
