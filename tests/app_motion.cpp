@@ -399,6 +399,7 @@ class PacedScene : public testing::Test {
   SceneState state_;
   Settings chosen_;
   uint64_t number_ = 0;  // of the last frame
+  bool divides_ = true;
 };
 
 // Draws on a device whose frames take half a second whatever they draw.
@@ -519,7 +520,7 @@ TEST_F(PacedScene, SlowPicturesAreDrawnTileByTile) {
     EXPECT_LE(std::ranges::max(wholePicture(input)), (input ? 2.0 : 2.6) * budget) << "the dear tiles are known";
   }
   frame(1);
-  EXPECT_EQ(pace_.text().rfind("6 of 16 pictures, next ", 0), 0u) << pace_.text();
+  EXPECT_EQ(pace_.text().rfind("Picture 7 of 16: ", 0), 0u) << pace_.text();
   EXPECT_FALSE(frame(2).plan.tiles) << "another picture is asked for";
   EXPECT_EQ(pace_.text().rfind("Draft: ", 0), 0u) << pace_.text();
   EXPECT_EQ(frame(2).plan.tiles->first, 0u);
@@ -536,13 +537,14 @@ TEST_F(PacedScene, SingleSlowPictureIsDrawnInTiles) {
   const auto frame = [&] {
     pace_.finished({.frame = number_, .gpuMs = ms});
     pace_.begin({}, false, 0.1);
-    const FittedPlan fitted = pace_.plan({.scene = scene_, .state = state_, .chosen = chosen_, .budgetMs = budget},
-                                         [&](const Settings& settings, int picture) {
-                                           EXPECT_EQ(picture, 0);
-                                           FittedPlan whole{.settings = settings};
-                                           whole.plan.main.view.rect = {0, 0, 3200, 3200};
-                                           return whole;
-                                         });
+    const FittedPlan fitted =
+        pace_.plan({.scene = scene_, .state = state_, .chosen = chosen_, .budgetMs = budget, .divides = divides_},
+                   [&](const Settings& settings, int picture) {
+                     EXPECT_EQ(picture, 0);
+                     FittedPlan whole{.settings = settings};
+                     whole.plan.main.view.rect = {0, 0, 3200, 3200};
+                     return whole;
+                   });
     pace_.drawn(++number_, 0.0, false);
     return fitted;
   };
@@ -559,6 +561,11 @@ TEST_F(PacedScene, SingleSlowPictureIsDrawnInTiles) {
     end = fitted.plan.tiles->end;
   }
   EXPECT_FALSE(pace_.wantsFrame());
+  EXPECT_EQ(pace_.text(), "");
+  EXPECT_TRUE(frame().plan.tiles) << "another event, and the picture cannot be shown again";
+  EXPECT_TRUE(pace_.wantsFrame()) << "it is not left unfinished";
+  divides_ = false;
+  EXPECT_FALSE(frame().plan.tiles) << "a target shows a whole pass";
   EXPECT_EQ(pace_.text(), "");
 }
 

@@ -9,6 +9,7 @@
 #include "app/camera_controller.hpp"
 #include "app/frame_pacer.hpp"
 #include "app/frame_report.hpp"
+#include "app/options.hpp"
 #include "frame/picture_tiles.hpp"
 #include "platform/gamepad.hpp"
 #include "scene/scene_loader.hpp"
@@ -230,26 +231,60 @@ TEST(FrameReport, EarlierTimesAreMarked) {
   EXPECT_FALSE(rows[1].reused);
 }
 
-TEST(FrameReport, TiledPicturesHaveNoTimesOfPasses) {
+TEST(Options, FileAloneIsTheScene) {
+  const auto scene = [](std::vector<const char*> arguments) {
+    return std::string(parseOptions(static_cast<int>(arguments.size()), arguments.data()).value().scene);
+  };
+  EXPECT_EQ(scene({"speculum", "rooms/hall.toml", "--frames", "3"}), "rooms/hall.toml");
+  EXPECT_EQ(scene({"speculum", "demo", "thing.obj"}), "thing.obj");
+  EXPECT_EQ(scene({"speculum", "--scene", "pool"}), "pool");
+  EXPECT_THROW(scene({"speculum", "rnder"}), UsageError);
+}
+
+TEST(FrameReport, TimesOfTilesAddUp) {
   const Scene scene;
   const SceneState state;
   const Settings settings;
-  const std::vector<RecordedPass> passes = {{{.kind = PassKind::main}, "main view"}};
+  const std::vector<RecordedPass> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
   FrameReport report;
   FramePlan plan;
-  plan.main.view.rect = {0, 0, tileSide, tileSide};
-  const auto frame = [&](uint64_t number, const FrameTimings& timings) {
+  plan.passes.resize(1);
+  plan.passes[0].view.rect = plan.main.view.rect = {0, 0, tileSide, tileSide};
+  const auto frame = [&](uint64_t number, const FrameTimings& timings, const std::vector<RecordedPass>& timed) {
     const RecordedFrame recorded{scene, state, settings, plan, number, 1.0, 1.0};
-    report.updateTimes(recorded, timings);
-    report.updatePasses(recorded, timings, passes, plan.tiles ? std::vector<RecordedPass>() : passes);
+    report.updateTimes(recorded, timings, timed);
+    if (endsPicture(plan)) {
+      report.updatePasses(recorded, timings, passes, timed);
+    }
   };
-  frame(1, {});
-  frame(2, {.frame = 1, .gpuMs = 5.0, .passes = {{.gpuMs = 5.0}}});
-  EXPECT_EQ(report.view().passes[0].gpuMs, 5.0);
+  const auto timings = [](uint64_t number, const std::vector<double>& ms) {
+    FrameTimings all{.frame = number};
+    for (const double pass : ms) {
+      all.gpuMs += pass;
+      all.passes.push_back({.gpuMs = pass});
+    }
+    return all;
+  };
+  const std::vector<PassView>& rows = report.view().passes;
+  frame(1, {}, {});
+  frame(2, timings(1, {1.0, 5.0}), passes);
+  EXPECT_EQ(rows[1].gpuMs, 5.0);
   plan.tiles = {0, 1};
-  frame(3, {});
-  EXPECT_TRUE(std::isnan(report.view().passes[0].gpuMs)) << "not those of the draft";
+  frame(3, timings(2, {1.0, 5.0}), passes);
+  plan.tiles = {1, 2};
+  frame(4, timings(3, {40.0}), {passes[0]});
+  EXPECT_TRUE(std::isnan(rows[1].gpuMs)) << "not the draft's";
   EXPECT_EQ(report.view().timedGpuMs, 0.0);
+  plan.tiles = {0, 1};
+  frame(5, timings(4, {2.0, 300.0}), passes);
+  EXPECT_EQ(rows[0].gpuMs, 42.0);
+  EXPECT_EQ(rows[1].gpuMs, 300.0);
+  EXPECT_TRUE(rows[0].timed && rows[1].timed);
+  EXPECT_EQ(report.view().timedGpuMs, 342.0);
+  EXPECT_EQ(report.view().history.passSeries("mirror a").back(), 42.0f);
+  plan.tiles = {1, 2};
+  frame(6, timings(5, {40.0}), {passes[0]});
+  EXPECT_EQ(rows[1].gpuMs, 300.0) << "until the next picture is timed";
 }
 
 TEST(CameraControl, FramesSpheresInAnyPictureShape) {

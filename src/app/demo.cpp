@@ -142,7 +142,9 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const bool movedBefore = pace_.moving();
   pace_.begin(state.camera, workspace_.animates() || workspace_.dragging(), seconds);
   const bool timed = timesPasses(movedBefore && !pace_.moving());
-  renderer_.setTimerDetail(timed ? TimerDetail::passes : TimerDetail::frame);
+  // Tiles are timed in each frame, since their sum is the time of a pass; they are waited for anyway.
+  const bool timesTiles = ui_->windows().visible() && pace_.drawsSlowly();
+  renderer_.setTimerDetail(timed || timesTiles ? TimerDetail::passes : TimerDetail::frame);
   const Clock::time_point waits = Clock::now();
   std::optional<Frame> frame = renderer_.beginFrame();
   if (!frame) {
@@ -216,7 +218,8 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                               : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
                               .front = workspace_.accuracy().front(),
                               .simplifies = levels_.ready(workspace_.scene(), scenes_),
-                              .input = changes_};
+                              .input = changes_,
+                              .divides = !output_.target};  // it shows a pass of a whole picture
   const FittedPlan& fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });

@@ -86,20 +86,38 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   view_.usedBytes = budget.usedBytes;
   view_.validationMessages = device.validation() ? device.validationMessages() : -1;
   view_.target.value = texelOf(sceneRenderer.probed(), frame.plan);
-  updateTimes(frame, timings);
+  const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
+  updateTimes(frame, timings, timed);
   if (endsPicture(frame.plan)) {
-    updatePasses(frame, timings, sceneRenderer.passes(), sceneRenderer.passesOf(timings.frame));
+    updatePasses(frame, timings, sceneRenderer.passes(), timed);
     updateEffects(frame, sceneRenderer.ledger());
   }
   updateOutline(frame, hoveredPath);
   updateSkipped(frame);
 }
 
-void FrameReport::addTiles(const RecordedFrame& frame, const FrameTimings& timings) {
+// Adds the times of a frame's passes, or parts of passes.
+void FrameReport::addPasses(const FrameTimings& timings, std::span<const RecordedPass> timed, Tiles& tiles) {
+  tiles.timed = tiles.timed && !timings.passes.empty();
+  for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
+    const auto known = std::ranges::find_if(
+        tiles.passes, [&](const auto& pass) { return static_cast<const PassId&>(pass.first) == timed[i]; });
+    if (known == tiles.passes.end()) {
+      tiles.passes.emplace_back(timed[i], timings.passes[i].gpuMs);
+    } else {
+      known->second += timings.passes[i].gpuMs;
+    }
+  }
+}
+
+void FrameReport::addTiles(const RecordedFrame& frame, const FrameTimings& timings,
+                           std::span<const RecordedPass> timed) {
   if (beginsPicture(frame.plan)) {
     tiles_ = {};
+  } else if (timings.frame == tiles_.number) {
+    tiles_.gpuMs += timings.gpuMs;
+    addPasses(timings, timed, tiles_);
   }
-  tiles_.gpuMs += timings.frame == tiles_.number ? timings.gpuMs : 0.0;
   tiles_.cpuMs += frame.cpuMs;
   tiles_.sinceLastMs += frame.sinceLastMs;
   tiles_.number = frame.number;
@@ -107,8 +125,9 @@ void FrameReport::addTiles(const RecordedFrame& frame, const FrameTimings& timin
 
 // Frames that draw the panels only change no figure: those of the last frame that drew the scene stay. A picture of
 // several frames counts as one frame, the last.
-void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings) {
-  addTiles(frame, timings);
+void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings,
+                              std::span<const RecordedPass> timed) {
+  addTiles(frame, timings, timed);
   const bool drawsScene = !frame.plan.mainReused;
   const bool drewScene = endsPicture(frame.plan) && !std::exchange(view_.still, !drawsScene) && !drawn_.empty();
   if (endsPicture(frame.plan) && drawsScene) {
@@ -122,27 +141,45 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
       average(view_.frameMs, ms, !std::exchange(averages_, true));
     }
     view_.history.add(frame.number, ms, tiles_.cpuMs);
-    drawn_.push_front({frame.number, tiles_.cpuMs, tiles_.gpuMs, !frame.plan.tiles});
+    drawn_.push_front({tiles_, !frame.plan.tiles});
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
+    tilesTimed_ = tilesTimed_ && frame.plan.tiles;
   }
-  const auto timed = std::ranges::find(drawn_, timings.frame, &DrawnFrame::number);
-  if (timed == drawn_.end()) {
+  const auto drawn = std::ranges::find(drawn_, timings.frame, [](const DrawnFrame& d) { return d.tiles.number; });
+  if (drawn == drawn_.end()) {
     return;
   }
-  view_.gpuMs = timed->earlierGpuMs + timings.gpuMs;
+  view_.gpuMs = drawn->tiles.gpuMs + timings.gpuMs;
   if (view_.still || view_.frameMs == 0.0) {
-    view_.cpuMs = timed->cpuMs;
-    view_.frameMs = timed->cpuMs + view_.gpuMs;
+    view_.cpuMs = drawn->tiles.cpuMs;
+    view_.frameMs = drawn->tiles.cpuMs + view_.gpuMs;
   }
   std::vector<std::pair<std::string, double>> passes;
-  for (const PassTiming& pass : timings.passes) {
-    passes.emplace_back(pass.name, pass.gpuMs);
+  if (drawn->whole) {
+    for (const PassTiming& pass : timings.passes) {
+      passes.emplace_back(pass.name, pass.gpuMs);
+    }
+  } else {
+    Tiles tiles = drawn->tiles;
+    addPasses(timings, timed, tiles);
+    for (const auto& [pass, ms] : tiles.timed ? tiles.passes : PassTimes()) {
+      passes.emplace_back(pass.name, ms);
+      const auto row =
+          std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == static_cast<const PassId&>(pass); });
+      if (row != view_.passes.end()) {
+        row->gpuMs = ms;
+        row->timed = true;
+      }
+    }
+    tilesTimed_ = tiles.timed;
+    view_.timedGpuMs = tiles.timed ? view_.gpuMs : 0.0;
   }
   view_.history.addGpu(timings.frame, view_.gpuMs, passes);
 }
 
 bool FrameReport::drewPicture(uint64_t frame) const {
-  return std::ranges::any_of(drawn_, [&](const DrawnFrame& drawn) { return drawn.number == frame && drawn.whole; });
+  return std::ranges::any_of(drawn_,
+                             [&](const DrawnFrame& drawn) { return drawn.whole && drawn.tiles.number == frame; });
 }
 
 // Lists passes of cached images too, because nobody can read a list that changes from frame to frame.
@@ -194,7 +231,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
       row->timed = true;
     }
   }
-  if (plan.tiles) {
+  if (plan.tiles && !tilesTimed_) {
     view_.timedGpuMs = 0.0;
     for (PassView& row : rows) {
       row.gpuMs = std::nan("");

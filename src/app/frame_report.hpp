@@ -32,7 +32,7 @@ class FrameReport {
                                   bool standardSampleLocations);
 
   // Parts of update() that need no device. `passes` belong to this frame, `timed` to the frame that was timed.
-  void updateTimes(const RecordedFrame& frame, const FrameTimings& timings);
+  void updateTimes(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed = {});
   void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> passes,
                     std::span<const RecordedPass> timed);
   void updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered);
@@ -45,26 +45,29 @@ class FrameReport {
   bool drewPicture(uint64_t frame) const;  // the whole of one, among the latest frames
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
   void updateSkipped(const RecordedFrame& frame);
-  void addTiles(const RecordedFrame& frame, const FrameTimings& timings);
+  void addTiles(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed);
 
-  struct DrawnFrame {
-    uint64_t number = 0;
-    double cpuMs = 0.0;
-    double earlierGpuMs = 0.0;  // of frames that drew other tiles of its picture
-    bool whole = true;          // there are none
-  };
-  // Frames so far that drew tiles of a picture.
+  using PassTimes = std::vector<std::pair<RecordedPass, double>>;  // ms
+  // Frames so far that drew a picture: one, or several that drew tiles of it.
   struct Tiles {
     uint64_t number = 0;  // of the last one
     double sinceLastMs = 0.0;
     double cpuMs = 0.0;
     double gpuMs = 0.0;  // without the last one
+    PassTimes passes;    // likewise
+    bool timed = true;   // those are complete
   };
+  struct DrawnFrame {
+    Tiles tiles;
+    bool whole = true;  // one frame drew the picture
+  };
+  static void addPasses(const FrameTimings& timings, std::span<const RecordedPass> timed, Tiles& tiles);
 
   FrameView view_;
   std::deque<DrawnFrame> drawn_;  // that drew the scene and not the panels only, the latest
   Tiles tiles_;
-  bool averages_ = false;  // FrameView::frameMs: its frames followed each other
+  bool tilesTimed_ = false;  // times of passes are of a picture that several frames drew
+  bool averages_ = false;    // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
 };
 

@@ -237,6 +237,19 @@ std::string oneLine(std::string text) {
   return text;
 }
 
+// Returns the arguments with --scene before a scene or model that stands alone: `speculum FILE`, `speculum demo FILE`.
+std::vector<const char*> withSceneOption(int argc, const char* const* argv) {
+  std::vector<const char*> arguments(argv, argv + argc);
+  const size_t place = argc > 1 && argv[1] == std::string_view("demo") ? 2 : 1;
+  if (place < arguments.size()) {
+    const std::filesystem::path file = arguments[place];
+    if (file.extension() == ".toml" || file.extension() == ".obj") {
+      arguments.insert(arguments.begin() + static_cast<std::ptrdiff_t>(place), "--scene");
+    }
+  }
+  return arguments;
+}
+
 }  // namespace
 
 void setCamera(Options& options, const std::string& text) {
@@ -253,7 +266,10 @@ void setCamera(Options& options, const std::string& text) {
   }
 }
 
-std::optional<Options> parseOptions(int argc, const char* const* argv) {
+std::optional<Options> parseOptions(int givenCount, const char* const* givenArguments) {
+  const std::vector<const char*> all = withSceneOption(givenCount, givenArguments);
+  const auto argc = static_cast<int>(all.size());
+  const char* const* argv = all.data();
   Options options;
   Raw raw;
   CLI::App app("Speculum: planar mirrors in Vulkan that can be trusted", "speculum");

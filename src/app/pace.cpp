@@ -79,14 +79,15 @@ void Pace::planStill(const Request& request, const Planner& plan) {
     slow_.reset();
     draft_.clear();
   }
-  if (request.budgetMs <= 0.0) {
+  const bool divides = request.budgetMs > 0.0 && request.divides;
+  if (!divides) {
     slow_.reset();
   }
   text_.clear();
   Settings settings = request.chosen;
   settings.view.accumulate = 1;
   const bool single = pictures_ == 1;
-  if (moving() || (single && request.budgetMs <= 0.0)) {
+  if (moving() || (single && !divides)) {
     picture_ = pictures_;
     fitted_ = plan(settings, 0);
     return;
@@ -146,7 +147,7 @@ std::string Pace::tilesText() const {
     return fmt::format("{}; first picture {:.0f} %", draft_, percent);
   }
   return pictures_ == 1 ? fmt::format("Picture {:.0f} %", percent)
-                        : fmt::format("{} of {} pictures, next {:.0f} %", picture_, pictures_, percent);
+                        : fmt::format("Picture {} of {}: {:.0f} %", picture_ + 1, pictures_, percent);
 }
 
 void Pace::drawn(uint64_t number, double cpuMs, bool usual) {

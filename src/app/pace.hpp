@@ -46,10 +46,14 @@ class Pace {
   void begin(const CameraPose& camera, bool otherwise, double seconds);
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
-  bool wantsFrame() const { return movement_.ending() || (!moving() && picture_ < pictures_); }
+  bool wantsFrame() const {
+    return movement_.ending() || (!moving() && (picture_ < pictures_ || (slow_ && !slow_->finished())));
+  }
   // Says whether the last frame drew tiles of a picture. If so, wait for it before the next events: finished() learns
   // from its time, and no second frame delays them.
   bool drawsTiles() const { return drawsTiles_; }
+  // Says whether the next frames are likely to draw tiles.
+  bool drawsSlowly() const { return !moving() && slow_.has_value(); }
 
   // Identifies what a still picture shows, besides the chosen settings.
   struct Shown {
@@ -70,6 +74,7 @@ class Pace {
     std::span<const MotionLevel> front;  // as motionLevels takes it
     bool simplifies = false;             // likewise
     bool input = false;                  // there is some, which a frame with tiles must not hold up
+    bool divides = true;                 // several frames may draw a picture
   };
   // Plans the frame. Calls `plan` a few times, or not at all between tiles of a picture, with settings and the number
   // of a picture in their mean; returns the plan of the last call, valid until the next frame's.

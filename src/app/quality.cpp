@@ -94,7 +94,7 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
           "--set: quality.budget_ms and quality.max_error choose from a sweep (--sweep-results F, the results.json of "
           "speculum accuracy)");
     }
-    spdlog::warn("quality.budget_ms and quality.max_error wait for a measurement (Accuracy > Measure this view)");
+    spdlog::warn("GPU budget and Max. mean FLIP wait for a measurement (Accuracy > Measure this view)");
     return std::nullopt;
   }
   const SweepResults results = readSweepResults(options.sweepResults);

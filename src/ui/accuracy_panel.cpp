@@ -174,7 +174,7 @@ void frontSlider(PanelContext& ui) {
   const auto place = std::ranges::find(accuracy.front, accuracy.current);
   const bool onFront = place != accuracy.front.end();
   int index = onFront ? static_cast<int>(place - accuracy.front.begin()) : 0;
-  const std::string text = onFront ? accuracy.points[accuracy.current].name : "not on the front";
+  const std::string text = accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "other settings";
   ImGui::TextUnformatted("Fast");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-8.0f * ImGui::GetFontSize());

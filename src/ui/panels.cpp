@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "frame/setting_fields.hpp"
+#include "ui/elide.hpp"
 
 namespace speculum::panels {
 
@@ -151,6 +152,12 @@ void commandButton(PanelContext& ui, const char* label, std::string_view key, co
   if (button(ui, label, key, about, enabled)) {
     ui.send(std::move(command));
   }
+}
+
+std::string thatFits(const std::string& text) {
+  return startThatFits(text, ImGui::GetContentRegionAvail().x, [](std::string_view start) {
+    return ImGui::CalcTextSize(start.data(), start.data() + start.size()).x;
+  });
 }
 
 std::string mebibytes(uint64_t bytes) {

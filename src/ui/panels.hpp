@@ -134,9 +134,10 @@ bool choice(const char* label, int& index, std::span<const std::string> names);
 // Linear numbers, as files have them, up to `most`, and a swatch that opens a picker.
 bool colorEdit(const char* label, glm::dvec3& linear, double most);
 
-std::string mebibytes(uint64_t bytes);  // without the unit
-std::string milliseconds(double ms);    // the same without the unit; "-" for NaN
-std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
+std::string thatFits(const std::string& text);  // its start, if the rest of the line or cell is too short for it
+std::string mebibytes(uint64_t bytes);          // without the unit
+std::string milliseconds(double ms);            // the same without the unit; "-" for NaN
+std::string duration(double ms);                // "3.21 ms", "757 ms", "14.20 s"
 // Text in a color, wrapped at the window's edge.
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};

@@ -72,7 +72,7 @@ void skippedRows(PanelContext& ui, const PassBranch& node) {
     const std::string why = skip.reason + (skip.detail.empty() ? "" : " (" + skip.detail + ")");
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", name.c_str());
+    ImGui::TextDisabled("%s", thatFits(name).c_str());
     const bool nameHovered = ImGui::IsItemHovered();
     ImGui::TableNextColumn();
     textAcrossColumns(why);

@@ -5,7 +5,6 @@
 #include <cfloat>
 #include <cmath>
 
-#include "ui/elide.hpp"
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
 
@@ -38,10 +37,7 @@ std::vector<float> gapsFilled(std::vector<float> values) {
 void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string shown = startThatFits(pathEnd(name), ImGui::GetContentRegionAvail().x, [](std::string_view text) {
-    return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
-  });
-  ImGui::TextUnformatted(shown.c_str());
+  ImGui::TextUnformatted(thatFits(pathEnd(name)).c_str());
   const auto pass = std::ranges::find(ui.view.frame.passes, name, &PassView::name);
   const bool ofMirror = pass != ui.view.frame.passes.end() && !pass->path.empty();
   recordWidget(ui, "name." + name, name + (ofMirror ? "\nA click selects the mirror." : ""));

@@ -76,6 +76,7 @@ void saveAs(PanelContext& ui) {
   if (!ui.view.edit.note.empty()) {
     coloredText(errorColor, ui.view.edit.note);
   }
+  ImGui::TextDisabled("Opens with the scene's own camera. M keeps a view as a bookmark.");
   const size_t commands = ui.output.commands.size();
   answerButton(ui, "Save", "where.save", SaveAs{ui.state.saveAs});
   ImGui::SameLine();

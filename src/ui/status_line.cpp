@@ -33,9 +33,14 @@ void statusLine(const StatusView& status, float width, float right) {
   const float text = ImGui::CalcTextSize(shown.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
   const float most = std::max(width, std::min(mostWidth * display.x, right - 2.0f * margin));
   const bool oneLine = width == 0.0f && text <= most;
-  const float height = statusHeight() - (oneLine ? ImGui::GetTextLineHeightWithSpacing() : 0.0f);
+  const float across = std::clamp(text, width, most);
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const float needed =
+      ImGui::CalcTextSize(shown.c_str(), nullptr, false, across - 2.0f * padding.x).y + 3.0f * padding.y;
+  const float height =
+      std::max(statusHeight() - (oneLine ? ImGui::GetTextLineHeightWithSpacing() : 0.0f), std::ceil(needed));
   ImGui::SetNextWindowPos({margin, std::max(display.y - height - 0.5f * margin, 0.0f)});
-  ImGui::SetNextWindowSize({std::clamp(text, width, most), height});
+  ImGui::SetNextWindowSize({across, height});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImGui::GetStyle().FramePadding);
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
