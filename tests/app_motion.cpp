@@ -455,11 +455,31 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
   }
   EXPECT_EQ(pace_.text(), "3 of 3 pictures");
   EXPECT_FALSE(pace_.wantsFrame());
+  EXPECT_FALSE(pace_.drawsSlowly()) << "each took one frame";
   EXPECT_EQ(frame(1), std::pair(3, 3)) << "the mean again";
   EXPECT_EQ(frame(2), std::pair(1, 0)) << "something else is shown";
   EXPECT_EQ(frame(3, 1e-9), std::pair(1, 0)) << "full quality would take too long";
   EXPECT_EQ(pace_.text().rfind("Draft: 0.1", 0), 0u) << pace_.text();
   EXPECT_EQ(frame(3, 1e-9), std::pair(3, 0));
+}
+
+// As while frames are recorded, or with quality.motion_ms at 0.
+TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutABudget) {
+  chosen_.quality.stillPictures = 3;
+  std::pair<int, int> planned;
+  const auto frame = [&](bool moves) {
+    pace_.begin({}, moves, 1.0);
+    pace_.plan({.scene = scene_, .state = state_, .chosen = chosen_}, [&](const Settings& settings, int picture) {
+      planned = {settings.view.accumulate, picture};
+      return FittedPlan{.settings = settings};
+    });
+    return planned;
+  };
+  frame(false);
+  EXPECT_EQ(frame(false), std::pair(3, 0));
+  EXPECT_EQ(frame(true), std::pair(1, 0));
+  EXPECT_EQ(frame(false), std::pair(1, 0));
+  EXPECT_EQ(frame(false), std::pair(3, 0));
 }
 
 TEST_F(PacedScene, SlowPicturesAreDrawnTileByTile) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "frame/mirror_sight.hpp"
 #include "frame_support.hpp"
 #include "support/random.hpp"
 
@@ -11,6 +12,23 @@ namespace speculum {
 namespace {
 
 using namespace testing_support;
+
+TEST(Rays, SayWhyTheyShowAMirror) {
+  Settings settings;
+  Mirror mirror;
+  const auto why = [&](bool reflects, double samples) { return whyRays(mirror, settings, reflects, samples); };
+  EXPECT_EQ(why(true, 10.0), "");
+  settings.reflection.method = ReflectionMethod::automatic;
+  EXPECT_EQ(why(true, 10.0), "faster, since it covers few pixels");
+  EXPECT_EQ(why(true, 1e6), "");
+  settings.reflection.method = ReflectionMethod::rays;
+  EXPECT_EQ(why(true, 1e6), "reflection.method");
+  EXPECT_EQ(why(false, 1e6), "") << "it shows the background";
+  mirror.roughness = 0.3;
+  EXPECT_EQ(why(true, 1e6), "rough");
+  mirror.ripple.emplace();
+  EXPECT_EQ(why(false, 1e6), "ripples");
+}
 
 void expectSkipped(const FramePlan& plan, int mirror, SkipReason reason) {
   const SkippedMirror* skip = skipOf(plan, {mirror});

@@ -169,6 +169,10 @@ TEST_F(Editing, EscapeCancelsTheDragThenDeselects) {
   EXPECT_TRUE(host_.inspector);
   send(Escape{});
   EXPECT_FALSE(host_.inspector);
+  send(SelectNode{ball});
+  EXPECT_TRUE(host_.inspector) << "a row of another panel leads to what it stands for";
+  send(Escape{});
+  send(Escape{});
   send(Escape{});
   EXPECT_FALSE(host_.closed);
   send(Quit{});

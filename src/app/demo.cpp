@@ -179,7 +179,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const double cpuMs = milliseconds(end - start);
   const bool newPipelines = std::exchange(pipelines_, sceneRenderer_->pipelineCount()) != pipelines_;
   pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
-              !timed && !newPipelines && !plan.mainReused && !plan.tiles);
+              !timed && !timesTiles && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
   if (std::exchange(compiled_, newPipelines) && !newPipelines) {

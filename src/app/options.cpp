@@ -292,8 +292,8 @@ std::optional<Options> parseOptions(int givenCount, const char* const* givenArgu
   addBench(*command("bench", "measure frames"), options, raw);
   command("info", "GPUs, drivers, features");
   command("scenes", "scenes that come with the program");
-  app.footer(settingsText() + "\n" + examplesText("demo") +
-             examplesText("render").substr(std::string("Examples:\n").size()));
+  app.footer("`speculum FILE` opens a scene or model in the window.\n\n" + settingsText() + "\n" +
+             examplesText("demo") + examplesText("render").substr(std::string("Examples:\n").size()));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -87,6 +87,9 @@ void Pace::planStill(const Request& request, const Planner& plan) {
   Settings settings = request.chosen;
   settings.view.accumulate = 1;
   const bool single = pictures_ == 1;
+  if (moving()) {
+    shown_.reset();  // the mean begins anew when nothing moves, even if nothing else has changed
+  }
   if (moving() || (single && !divides)) {
     picture_ = pictures_;
     fitted_ = plan(settings, 0);
@@ -94,12 +97,12 @@ void Pace::planStill(const Request& request, const Planner& plan) {
   }
   if (picture_ < 0) {
     fitted_ = plan(settings, 0);
-    // Draws this frame in full quality if it is fast; a slow one would only delay the mean, whose pictures have one
-    // sample.
-    picture_ = 0;
-    if (request.budgetMs <= 0.0 ||
-        controller_.predict(work_) <= (single ? longestWait * request.budgetMs : request.budgetMs)) {
-      picture_ = single ? 1 : 0;
+    // Draws this frame in full quality if it is fast. A slow one would delay the mean, whose pictures have one sample;
+    // a single picture is drawn in tiles only if it would hold up input for long.
+    const double most = (single ? longestWait : 1.0) * request.budgetMs;
+    const bool whole = request.budgetMs <= 0.0 || controller_.predict(work_) <= most;
+    picture_ = whole && single ? 1 : 0;
+    if (whole) {
       return;
     }
     Settings mean = settings;
@@ -112,7 +115,7 @@ void Pace::planStill(const Request& request, const Planner& plan) {
     }
   }
   settings.view.accumulate = pictures_;
-  if (!slow_ && picture_ > 0 && request.budgetMs > 0.0) {
+  if (!slow_ && picture_ > 0 && divides) {
     slow_.emplace();
   }
   if (!slow_ || slow_->finished()) {

@@ -53,7 +53,7 @@ class Pace {
   // from its time, and no second frame delays them.
   bool drawsTiles() const { return drawsTiles_; }
   // Says whether the next frames are likely to draw tiles.
-  bool drawsSlowly() const { return !moving() && slow_.has_value(); }
+  bool drawsSlowly() const { return !moving() && slow_ && (slow_->begun() || !draft_.empty()); }
 
   // Identifies what a still picture shows, besides the chosen settings.
   struct Shown {
@@ -117,11 +117,11 @@ class Pace {
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
   int picture_ = -1;  // next picture of the mean; -1: a picture in full quality, or a draft, comes first
-  int pictures_ = 0;  // in the mean
+  int pictures_ = 0;  // in the mean; 1: a single picture instead
   bool drawsTiles_ = false;
-  std::optional<SlowPicture> slow_;  // of the mean; nothing until another picture stands for the first one
+  std::optional<SlowPicture> slow_;  // nothing until a picture or draft is shown, which stays while tiles are drawn
   FrameWork slowWork_;
-  std::string draft_;       // what the picture gives up that stands for the first one of the mean
+  std::string draft_;       // what the draft gives up that is shown until the first picture is complete
   double cpuMs_ = 0.0;      // of the last frame
   double besidesMs_ = 0.0;  // expected of a frame, besides its tiles: the program's work and the display pass
 };

@@ -18,6 +18,7 @@ class SlowPicture {
   // Call with the time that they took.
   void took(double ms);
 
+  bool begun() const { return !tileMs_.empty(); }                 // at least one picture was
   bool finished() const { return tiles_.end == tileMs_.size(); }  // all tiles are planned
   double share() const { return static_cast<double>(tiles_.end) / static_cast<double>(tileMs_.size()); }
   double totalMs() const { return totalMs_; }

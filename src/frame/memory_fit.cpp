@@ -171,7 +171,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   }
   // The picture that stays shown was drawn with the samples that were asked for, or as many as fitted.
   uint64_t kept = 0;
-  if (limits.keepsPicture && settings.view.accumulate > 1) {
+  if (limits.keepsPicture && (settings.view.accumulate > 1 || settings.quality.stillPictures == 1)) {
     Settings before = settings;
     while (before.view.samples > 1 && mainBytes(fitted.plan, before) > limits.budgetBytes) {
       before.view.samples /= 2;

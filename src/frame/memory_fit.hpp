@@ -15,7 +15,7 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 struct TargetLimits {
   uint64_t budgetBytes = 0;   // for all render targets together
   int largestSide = 0;        // pixels of a picture, at any resolution
-  bool keepsPicture = false;  // the last one stays in memory while the first of a mean is drawn, as in the window
+  bool keepsPicture = false;  // the last one stays in memory while a still one is drawn, as in the window
   bool tracesRays = true;     // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
   bool cpu = false;           // the device is a CPU
 };

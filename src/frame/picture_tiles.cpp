@@ -68,11 +68,12 @@ std::vector<std::optional<TileRange>> partsOf(const FramePlan& plan, const Setti
   if (!plan.effects.traces() || settings.debug.checkFinite) {
     return {std::nullopt};
   }
-  const int samples = std::max(settings.view.samples, settings.reflection.samples);
+  // Rays of ripples and of smooth mirrors go through each sample.
+  const bool perSample = settings.effects.perSample || plan.effects.rippleRays || plan.effects.mirrorRays;
+  const int samples = perSample ? std::max(settings.view.samples, settings.reflection.samples) : 1;
   // Only a part of the picture is rough, and its rays end sooner than those that surfaces send to each light.
   const int roughRays = plan.effects.roughRays ? std::max(settings.effects.roughSamples / 4, 1) : 1;
-  const int paths = roughRays * (settings.effects.perSample ? samples : 1);  // a texel
-  const size_t step = std::max(1, mostPaths / (tileSide * tileSide * paths));
+  const size_t step = std::max(1, mostPaths / (tileSide * tileSide * samples * roughRays));
   const size_t count = tileCount(plan);
   if (count <= step) {
     return {std::nullopt};

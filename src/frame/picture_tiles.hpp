@@ -20,8 +20,8 @@ std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
 // rectangle and to the column left of it, which in this order are drawn later.
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
 // Returns the tiles of the frames that should draw the picture, without a window: all in one, or if it traces rays in
-// so many that each traces about two million paths at most and no system takes the GPU for hung. debug.check_finite
-// looks at whole pictures, which are not divided.
+// so many that no system takes the GPU for hung. Estimates that each traces about two million paths; environment maps
+// are drawn with the first. debug.check_finite looks at whole pictures, which are not divided.
 std::vector<std::optional<TileRange>> partsOf(const FramePlan& plan, const Settings& settings);
 // Say whether this frame draws the first tile of its picture, and the last one.
 bool beginsPicture(const FramePlan& plan);

@@ -89,6 +89,7 @@ class SceneRenderer {
   void drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass);
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
   void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
+  void add(RecordedPass pass);  // to those of the picture and of the frame
   // Keep the depth of the pass that the debug view shows. Call watchDepth() before the pass, finishDepth() after it.
   void watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc);
   void finishDepth(const FrameInfo& info, size_t pass);
@@ -123,8 +124,6 @@ class SceneRenderer {
   MainImage mainImage_;         // content is empty if the main view must not be reused
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
-  void add(RecordedPass pass);
-
   std::vector<RecordedPass> recorded_;    // of the picture
   std::vector<RecordedPass> frameParts_;  // passes, or parts of them, of the frame; draws count in a pass's first part
   std::array<std::pair<uint64_t, std::vector<RecordedPass>>, framesInFlight + 1> recordedFrames_;  // by frame number

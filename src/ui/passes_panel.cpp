@@ -115,8 +115,7 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   if (pass.reused) {
     tip("The image of an earlier frame is reused. The time is that of rendering it.");
   } else if (!pass.timed) {
-    tip(std::isnan(pass.gpuMs) ? "Not timed. Pictures that several frames draw are timed as a whole."
-                               : "Time of an earlier frame.");
+    tip(std::isnan(pass.gpuMs) ? "Not timed yet." : "Time of an earlier frame.");
   }
   figure(std::to_string(pass.draws));
   figure(pass.areaPx > 0.0 ? fmt::format("{:.0f}", pass.areaPx) : "");

@@ -65,7 +65,7 @@ struct FrameView {
   bool still = false;    // later frames drew the panels only
   double cpuMs = 0.0;
   double gpuMs = 0.0;
-  double timedGpuMs = 0.0;  // of the last frame whose passes were timed; only some frames are; 0: none was
+  double timedGpuMs = 0.0;  // of the last frame whose passes were timed; only some frames are; 0: not of this picture
   FrameHistory history;
   uint64_t deviceBytes = 0;
   uint64_t budgetBytes = 0;
