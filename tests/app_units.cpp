@@ -187,6 +187,16 @@ TEST(FrameReport, MirrorThatFillsThePictureIsOutlined) {
   EXPECT_NEAR(length, 2.0 * (64 + 32), 1e-3);
 }
 
+// Times of a frame's passes.
+FrameTimings timings(uint64_t frame, const std::vector<double>& ms) {
+  FrameTimings all{.frame = frame};
+  for (const double pass : ms) {
+    all.gpuMs += pass;
+    all.passes.push_back({.gpuMs = pass});
+  }
+  return all;
+}
+
 TEST(FrameReport, EarlierTimesAreMarked) {
   const Scene scene;
   const SceneState state;
@@ -200,14 +210,6 @@ TEST(FrameReport, EarlierTimesAreMarked) {
     const RecordedFrame recorded{scene, state, settings, plan, number, 1.0, 1.0};
     report.updateTimes(recorded, timings);
     report.updatePasses(recorded, timings, passes, timed);
-  };
-  const auto timings = [](uint64_t frame, const std::vector<double>& ms) {
-    FrameTimings all{.frame = frame};
-    for (const double pass : ms) {
-      all.gpuMs += pass;
-      all.passes.push_back({.gpuMs = pass});
-    }
-    return all;
   };
   const std::vector<PassView>& rows = report.view().passes;
   frame(1, {mirror, main}, {}, {});
@@ -231,16 +233,6 @@ TEST(FrameReport, EarlierTimesAreMarked) {
   EXPECT_FALSE(rows[1].reused);
 }
 
-TEST(Options, FileAloneIsTheScene) {
-  const auto scene = [](std::vector<const char*> arguments) {
-    return std::string(parseOptions(static_cast<int>(arguments.size()), arguments.data()).value().scene);
-  };
-  EXPECT_EQ(scene({"speculum", "rooms/hall.toml", "--frames", "3"}), "rooms/hall.toml");
-  EXPECT_EQ(scene({"speculum", "demo", "thing.obj"}), "thing.obj");
-  EXPECT_EQ(scene({"speculum", "--scene", "pool"}), "pool");
-  EXPECT_THROW(scene({"speculum", "rnder"}), UsageError);
-}
-
 TEST(FrameReport, TimesOfTilesAddUp) {
   const Scene scene;
   const SceneState state;
@@ -256,14 +248,6 @@ TEST(FrameReport, TimesOfTilesAddUp) {
     if (endsPicture(plan)) {
       report.updatePasses(recorded, timings, passes, timed);
     }
-  };
-  const auto timings = [](uint64_t number, const std::vector<double>& ms) {
-    FrameTimings all{.frame = number};
-    for (const double pass : ms) {
-      all.gpuMs += pass;
-      all.passes.push_back({.gpuMs = pass});
-    }
-    return all;
   };
   const std::vector<PassView>& rows = report.view().passes;
   frame(1, {}, {});
@@ -285,6 +269,16 @@ TEST(FrameReport, TimesOfTilesAddUp) {
   plan.tiles = {1, 2};
   frame(6, timings(5, {40.0}), {passes[0]});
   EXPECT_EQ(rows[1].gpuMs, 300.0) << "until the next picture is timed";
+}
+
+TEST(Options, FileAloneIsTheScene) {
+  const auto scene = [](std::vector<const char*> arguments) {
+    return std::string(parseOptions(static_cast<int>(arguments.size()), arguments.data()).value().scene);
+  };
+  EXPECT_EQ(scene({"speculum", "rooms/hall.toml", "--frames", "3"}), "rooms/hall.toml");
+  EXPECT_EQ(scene({"speculum", "demo", "thing.obj"}), "thing.obj");
+  EXPECT_EQ(scene({"speculum", "--scene", "pool"}), "pool");
+  EXPECT_THROW(scene({"speculum", "rnder"}), UsageError);
 }
 
 TEST(CameraControl, FramesSpheresInAnyPictureShape) {

@@ -104,6 +104,22 @@ double meanError(const Options& options, const std::vector<Shown>& shown) {
   return sum / static_cast<double>(shown.size());
 }
 
+// Frame times in ms.
+struct Summary {
+  explicit Summary(std::vector<double> ms)
+      : mean(std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size())) {
+    std::sort(ms.begin(), ms.end());
+    median = ms[ms.size() / 2];
+    p95 = ms[ms.size() * 95 / 100];
+    longest = ms.back();
+  }
+
+  double mean = 0.0;
+  double median = 0.0;
+  double p95 = 0.0;
+  double longest = 0.0;
+};
+
 // Settings that do not follow the movement, best first; each at the scales below, of which the largest that keeps the
 // budget is taken.
 const std::vector<std::vector<std::pair<std::string, std::string>>> fixedSettings = {
@@ -130,10 +146,8 @@ void measureFixed(const Options& options, const char* name, Path path) {
       fixed.settings.emplace_back("view.scale", scale);
       fixed.settings.insert(fixed.settings.end(), settings.begin(), settings.end());
       Measured measured = follow(fixed, path);
-      std::vector<double>& ms = measured.frameMs;
-      std::sort(ms.begin(), ms.end());
-      const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
-      if (mean > 50.0 || ms[ms.size() * 95 / 100] > 70.0) {
+      const Summary ms(measured.frameMs);
+      if (ms.mean > 50.0 || ms.p95 > 70.0) {
         break;
       }
       kept = std::move(measured);
@@ -156,10 +170,9 @@ void measureFixed(const Options& options, const char* name, Path path) {
 
 // The frames of a still picture, which must let the panels answer.
 void measureStill(const Options& options) {
-  std::vector<double> ms = follow(options, nullptr).frameMs;
-  std::sort(ms.begin(), ms.end());
-  std::printf("| %s | still | | %.0f | %.0f, longest %.0f | | |\n", options.scene.c_str(), ms[ms.size() / 2],
-              ms[ms.size() * 95 / 100], ms.back());
+  const Summary ms(follow(options, nullptr).frameMs);
+  std::printf("| %s | still | | %.0f | %.0f, longest %.0f | | |\n", options.scene.c_str(), ms.median, ms.p95,
+              ms.longest);
   std::fflush(stdout);
 }
 
@@ -171,16 +184,14 @@ void measure(const std::string& scene) {
     if (std::getenv("PACE_STILL")) {
       continue;
     }
-    Measured measured = follow(options, path);
-    std::vector<double>& ms = measured.frameMs;
-    std::sort(ms.begin(), ms.end());
-    const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
+    const Measured measured = follow(options, path);
+    const Summary ms(measured.frameMs);
     double scale = 0.0;
     for (const Shown& at : measured.shown) {
       scale += at.settings.view.scale / static_cast<double>(measured.shown.size());
     }
-    std::printf("| %s | %s | %.1f | %.0f | %.0f | %.2f | %.3f |\n", scene.c_str(), name, 1000.0 / mean,
-                ms[ms.size() / 2], ms[ms.size() * 95 / 100], scale, meanError(options, measured.shown));
+    std::printf("| %s | %s | %.1f | %.0f | %.0f | %.2f | %.3f |\n", scene.c_str(), name, 1000.0 / ms.mean, ms.median,
+                ms.p95, scale, meanError(options, measured.shown));
     std::fflush(stdout);
     if (std::getenv("PACE_FIXED")) {
       measureFixed(options, name, path);

@@ -142,9 +142,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const bool movedBefore = pace_.moving();
   pace_.begin(state.camera, workspace_.animates() || workspace_.dragging(), seconds);
   const bool timed = timesPasses(movedBefore && !pace_.moving());
-  // Tiles are timed in each frame, since their sum is the time of a pass; they are waited for anyway.
-  const bool timesTiles = ui_->windows().visible() && pace_.drawsSlowly();
-  renderer_.setTimerDetail(timed || timesTiles ? TimerDetail::passes : TimerDetail::frame);
+  renderer_.setTimerDetail(timed ? TimerDetail::passes : TimerDetail::frame);
   const Clock::time_point waits = Clock::now();
   std::optional<Frame> frame = renderer_.beginFrame();
   if (!frame) {
@@ -179,7 +177,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const double cpuMs = milliseconds(end - start);
   const bool newPipelines = std::exchange(pipelines_, sceneRenderer_->pipelineCount()) != pipelines_;
   pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
-              !timed && !timesTiles && !newPipelines && !plan.mainReused && !plan.tiles);
+              !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   renderer_.endFrame(*frame);
   if (std::exchange(compiled_, newPipelines) && !newPipelines) {
@@ -229,8 +227,10 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
 }
 
 // Times passes one by one only at the start and the end of a change and every few frames, because that slows a frame.
+// Tiles are timed in each frame: their sum is the time of a pass, and they are waited for anyway.
 bool Demo::timesPasses(bool movementEnded) {
-  const bool times = ui_->windows().visible() && (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval);
+  const bool times = ui_->windows().visible() &&
+                     (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval || pace_.drawsSlowly());
   untimedFrames_ = times ? 0 : std::min(untimedFrames_ + 1, timedInterval);
   return times;
 }
