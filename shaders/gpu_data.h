@@ -55,6 +55,10 @@ struct LightData {
   uint shadowMap;  // index into shadowMaps; noShadowMap: none
 };
 
+// Metres. The alpha of color targets is disparityLength / w with w of clip space, 0 at infinity: a half float then holds
+// it from 1 um on, and what is farther than 1 km has fewer digits than a reprojection needs.
+const float disparityLength = 0.0625;
+
 const uint noShadowMap = 0xffffffffu;
 const uint mostShadowMaps = 16;
 

@@ -12,5 +12,5 @@ struct PlaneHit {
 PlaneHit planeHit() {
   vec3 ray = rayThrough(gl_FragCoord.xy);
   float inward = min(dot(mirror.normal, ray), -1e-7 * length(ray));
-  return PlaneHit(ray, inward, ray * (-mirror.eyeDistance / inward), inward / min(-mirror.eyeDistance, -1e-30));
+  return PlaneHit(ray, inward, ray * (-mirror.eyeDistance / inward), disparityLength * inward / min(-mirror.eyeDistance, -1e-30));
 }

@@ -197,7 +197,7 @@ vec3 imageAlong(vec3 direction, Origin origin) {
     }
     vec4 value = texelMean(reflection, ivec2(texel));
     found = value.rgb;
-    far = clamp(dot(rayThrough(pixel) / max(value.a, 1e-30) - origin.position, behind), 0.0, origin.limit);
+    far = clamp(dot(rayThrough(pixel) * (disparityLength / max(value.a, 1e-30)) - origin.position, behind), 0.0, origin.limit);
   }
   return found;
 }
@@ -222,7 +222,7 @@ vec3 marchImage(vec3 direction, vec3 position) {
     vec2 texel = pixelOf(position + t * behind) * mirror.lookupScale + mirror.lookupOffset;
     vec4 value = texelMean(reflection, ivec2(clamp(floor(texel), vec2(0.0), vec2(mirror.imageSize - 1))));
     float depth = start + t * slope;
-    if (value.a * depth >= 1.0 && value.a * before <= 1.0) {
+    if (value.a * depth >= disparityLength && value.a * before <= disparityLength) {
       return value.rgb;
     }
     before = depth;
@@ -240,7 +240,7 @@ vec4 scatteredReflection(vec3 ray, vec3 position, vec3 normal) {
     return vec4(marchImage(mirrored(incoming, normal, mirror.normal), position), sharp.a);
   }
   float limit = 1e4 * (length(position) + 1.0);
-  Origin origin = Origin(position, clamp(length(ray) / max(sharp.a, 1e-30) - length(position), 0.0, limit), limit);
+  Origin origin = Origin(position, clamp(length(ray) * disparityLength / max(sharp.a, 1e-30) - length(position), 0.0, limit), limit);
   uint seed = pixelSeed();
   vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));
   vec3 sum = vec3(0.0);

@@ -141,5 +141,5 @@ void main() {
 #endif
   // gl_FragCoord.w would be that of the pixel's centre, which on a steep triangle may lie far from the shaded point.
   float w = (view.clipFromRelative * vec4(relativePosition, 1.0)).w;
-  color = storable(radiance, 1.0 / max(w, 1e-30));
+  color = storable(radiance, disparityLength / max(w, 1e-30));
 }

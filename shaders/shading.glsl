@@ -5,6 +5,7 @@ layout(constant_id = 5) const uint lightCount = manyLights;  // view.lightCount,
 
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
+const float halfLeast = 6e-8;  // the least half float above 0
 const float radianceMax = 1e30;  // sums stay finite, and unlike infinity it gives 0 times 0
 const float shareMax = 65472.0;  // largest value of a layer: the sum of two rounds to halfMax at most
 
@@ -23,7 +24,7 @@ struct Surface {
 // it depends on gl_HelperInvocation. Helper invocations need no light.
 uint countHere(uint count) { return gl_HelperInvocation ? 0 : count; }
 
-vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
+vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
 
 // Products of a matrix that is given by its rows with a point and with a direction.
 vec3 timesPoint(vec4 rows[3], vec3 p) {
@@ -52,7 +53,7 @@ BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
 // Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light.
 // lavapipe runs both sides of every branch, so there is none for surfaces that face away.
 vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface, vec3 toViewer) {
-  float distance2 = max(dot(toLight, toLight), 1e-30);
+  float distance2 = max(dot(toLight, toLight), 1e-37);
   float inverse = inversesqrt(distance2);
   float cosine = clamp(dot(surface.normal, toLight) * inverse, 0.0, 1.0);
   vec3 brdf = surface.diffuse / pi;
@@ -145,11 +146,11 @@ vec3 backgroundRadiance(vec3 direction) {
 }
 
 // Returns the value as a half-float target can store it: beyond its range some drivers store infinity, and one such
-// sample spoils a resolve. `disparity` is 1 / w of clip space in 1/m, 0 at infinity: a cached image is reprojected by
-// it.
+// sample spoils a resolve. `disparity` is disparityLength / w, by which cached images are reprojected; only the
+// background's is 0.
 vec4 storable(vec3 radiance, float disparity) {
   vec4 value = vec4(radiance, disparity);
-  vec4 stored = clamp(value, 0.0, halfMax);
+  vec4 stored = clamp(value, vec4(0.0, 0.0, 0.0, disparity > 0.0 ? halfLeast : 0.0), vec4(halfMax));
   // debug.check_finite puts back the NaN that clamp() hides. It is found by its bits, because compilers may take isnan()
   // for false.
   uint largest = view.checksFinite != 0 ? 0x7f800000u : 0x7fffffffu;

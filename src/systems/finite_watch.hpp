@@ -19,7 +19,7 @@ struct NonFinite {
   int x = 0;             // pixel of the pass's target, from its top left; the first one row by row
   int y = 0;
   int sample = 0;
-  glm::vec4 value{0.0f};  // radiance, and disparity in 1/m
+  glm::vec4 value{0.0f};  // radiance, and disparity as stored: gpu::disparityLength / w
   uint64_t count = 0;     // number of such samples in the target
 };
 std::string describe(const NonFinite& found);  // one line

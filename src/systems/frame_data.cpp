@@ -114,7 +114,8 @@ gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const S
   }
   if (draw.cached && draw.cached->moved) {
     for (int r = 0; r < 3; ++r) {
-      data.texelFromPixel[r] = row(draw.cached->texelFromPixel, r, draw.cached->texelFromDisparity[r]);
+      data.texelFromPixel[r] =
+          row(draw.cached->texelFromPixel, r, draw.cached->texelFromDisparity[r] / gpu::disparityLength);
     }
   }
   if (draw.blurs) {

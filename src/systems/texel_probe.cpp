@@ -76,6 +76,7 @@ void TexelProbe::collect() {
     std::memcpy(&probed, slot.result.mapped(), sizeof probed);
     valueFrame_ = frame;
     value_ = slot.pending;
+    probed.mean.a /= gpu::disparityLength;
     value_->value = value_->depth ? glm::vec4(0.0f) : probed.mean;
     value_->storedDepth = value_->depth ? probed.first.r : 0.0f;
   }

@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "image/color.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
 namespace {
@@ -37,13 +38,17 @@ TEST(HalfFloatTargets, RadianceCostsHalfAStepAtMost) {
 TEST(HalfFloatTargets, DisparityMovesPixelsByATenthAtMost) {
   constexpr double focal = 1000.0;  // pixels
   constexpr double farthest = 200.0;
-  double worst = 0.0;
-  for (double w = 1.6e-5; w <= 1e7; w *= 1.003) {
-    const double moved = std::min(farthest * w / focal, 100.0);
-    worst = std::max(worst, focal * moved * std::abs(stored(1.0 / w) - 1.0 / w));
-  }
-  EXPECT_LE(worst, 0.1);
-  EXPECT_GT(focal * 1e-6 * std::abs(stored(1e6) - 1e6), 0.1) << "nearer, disparities are cut";
+  // Returns the largest error in pixels if targets store `length` / w.
+  const auto worst = [&](double length) {
+    double error = 0.0;
+    for (double w = 1e-6; w <= 1e7; w *= 1.003) {
+      const double moved = std::min(farthest * w / focal, 100.0);
+      error = std::max(error, focal * moved * std::abs(stored(length / w) / length - 1.0 / w));
+    }
+    return error;
+  };
+  EXPECT_LE(worst(gpu::disparityLength), 0.1);
+  EXPECT_GT(worst(1.0), 1.0) << "nearer than 15 um, disparities are cut";
 }
 
 }  // namespace
