@@ -167,6 +167,28 @@ TEST_F(NumberRanges, NumbersAreRefusedByKeyOrDrawn) {
   EXPECT_GE(drawn, 70);
 }
 
+// One scene in units of other lengths. Of a small unit, squares and products of lengths leave the range of floats,
+// which devices flush to zero.
+TEST(ScenesOfAnySize, ShowOnePicture) {
+  const auto sceneIn = [](double metres) {
+    const auto at = [&](double x, double y, double z) { return text(metres * glm::dvec3(x, y, z)); };
+    return writeScene(
+        "any_size",
+        "[environment]\nambient = [0.1, 0.1, 0.1]\n[camera]\nposition = " + at(0.4, 1.2, 4) + "\ntarget = " +
+            at(0.2, 0.8, 0.1) + "\n[[object]]\nmodel = 'MODELS/sphere.obj'\nposition = " + at(-0.5, 0.9, 0.2) +
+            "\nscale = " + at(0.5, 0.6, 0.7) + "\nspecular = [0.3, 0.3, 0.3]\n[[light]]\nposition = " + at(1, 3, 2) +
+            "\ncasts_shadow = true\nradius = " + text(0.2 * metres) + "\nintensity = " + text(12.0 * metres * metres) +
+            "\n[[mirror]]\nposition = " + at(0, 0, -0.2) +
+            "\nrotation = [-90, 2, 3]\nbase_color = [0.1, 0.2, 0.1]\nreflectance = [0.8, 0.7, 0.9]\nsize = [" +
+            text(4.0 * metres) + ", " + text(3.0 * metres) + "]\n");
+  };
+  const Image8 usual = draw(headless(sceneIn(1.0), size));
+  for (const double metres : {1e-18, 1e-16, 1e-14, 1e-10, 1e-5, 1e5, 1e10, 1e14}) {
+    const PictureAgreement agreement = difference(draw(headless(sceneIn(metres), size)), usual, 2);
+    EXPECT_GE(agreement.within(), 0.99) << metres << " m: " << agreement.over << " pixels";
+  }
+}
+
 TEST(LargeTextures, AreDrawnSmaller) {
   for (const bool wide : {true, false}) {
     Image8 image(wide ? 20'000 : 2, wide ? 2 : 20'000);
