@@ -117,7 +117,7 @@ void main() {
   geometric = dot(geometric, direction) > 0.0 ? -geometric : geometric;
   Bounce bounce = Bounce(surface, self, true, geometric, vec3(0.0), 0.0);
   applyCurvedMirror(traceInstance, direction, bounce);
-  vec3 radiance = tracedRadiance(bounce, direction);
+  vec3 radiance = tracedRadiance(bounce, direction, seedAt(gl_FragCoord.xy), view.picture, 1);
 #elif defined(ENVIRONMENT)
   EnvironmentData map = environments[instances[instanceIndex].environment];
   vec3 direction = safeNormalize(surface.position);

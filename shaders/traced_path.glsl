@@ -184,12 +184,9 @@ vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
 }
 
 // Returns the radiance of a reflecting surface, seen along `direction`: layer and reflection. A rough one takes the
-// mean over microfacets on the additive recurrence of the plastic number, shifted for each pixel; those that face away,
-// or that mirror the ray below the plane, are left out.
-vec3 tracedRadiance(Bounce bounce, vec3 direction) {
-  uint seed = pixelSeed();
-  int wanted = bounce.alpha > 0.0 ? int(traceCounts.roughSamples) : 1;
-  uint before = view.picture * uint(wanted);
+// mean over `wanted` microfacets on the additive recurrence of the plastic number, from number `before` on and shifted
+// by the seed; those that face away, or that mirror the ray below the plane, are left out.
+vec3 tracedRadiance(Bounce bounce, vec3 direction, uint seed, uint before, int wanted) {
   vec2 shift = pixelShift(seed, before);
   int most = 4 * wanted + 16;
   int taken = 0;

@@ -202,6 +202,22 @@ TEST(RoughFloor, ShowsNoBackAtTheHorizon) {
   EXPECT_EQ(black.rgba, white.rgba);
 }
 
+// The floor goes on behind the wall, so that pixels of their seam have centres there and samples in front. From there a
+// ray would meet the wall once more.
+TEST(RoughFloor, MeetsAWallWithoutDarkPixels) {
+  QuietSession session(
+      headless(writeScene("floor_and_wall",
+                          "[environment]\nbackground = [0.5, 0.5, 0.5]\n[camera]\nposition = [2.5, 1.8, 5]\n"
+                          "target = [0, 0.8, 0]\n[[mirror]]\nsize = [8, 8]\nrotation = [-90, 0, 0]\nroughness = 0.15\n"
+                          "reflectance = [0.8, 0.8, 0.8]\n[[mirror]]\nposition = [0, 1.5, -3]\nsize = [6, 3]\n"
+                          "reflectance = [0.9, 0.9, 0.9]\n"),
+               size));
+  runFrames(session);
+  const LinearImage picture = session.radiance();
+  const auto darkest = std::ranges::min_element(picture.pixels, {}, [](const auto& pixel) { return pixel[0]; });
+  EXPECT_NEAR((*darkest)[0], 0.5 * 0.8 * 0.9, 0.001);
+}
+
 // A green mirror lets no red light through.
 TEST(ExactEffects, ThroughputIsPerChannel) {
   const std::filesystem::path file =

@@ -63,8 +63,8 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
       const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
                                      pass.view.pictureSize.y);
       const bool rippled = settings.ripple && scene.mirrors[static_cast<size_t>(draw.mirror)].ripple;
-      // Rays follow rough mirrors once a pixel and others at every sample, whatever effects.per_sample is.
-      const double rays = area * (1.0 + toLights) * (rough && !rippled ? 1.0 : samples);
+      // Rays go through every sample, whatever effects.per_sample is; those of a rough mirror are shared out.
+      const double rays = area * (1.0 + toLights) * (rough ? 1.0 : samples);
       (rough     ? work.roughRays
        : rippled ? work.rippleRays
                  : work.smoothRays) += rays * (rough ? settings.roughSamples : 1);

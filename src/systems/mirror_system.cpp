@@ -26,7 +26,6 @@ MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& 
 bool MirrorSystem::tracesRays(Shading shading, const TraceVariant& trace) {
   switch (shading) {
     case Shading::byRays:
-    case Shading::byRaysAtSamples:
       return true;
     case Shading::ownSample:
     case Shading::ownSampleAdded:
@@ -60,13 +59,15 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.adds = true;
   }
   if (tracesRays(shading, variant.trace)) {
-    const bool byRays = shading == Shading::byRays || shading == Shading::byRaysAtSamples;
+    const bool byRays = shading == Shading::byRays;
     desc.frag = tracingShader(byRays                        ? "mirror_rays"
                               : shading == Shading::average ? "mirror_average_traced"
                                                             : "mirror_traced",
                               variant.trace);
-    desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT &&
-                         (shading == Shading::byRaysAtSamples || (variant.trace.perSample && !byRays));
+    desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT && (byRays || variant.trace.perSample);
+    if (byRays) {
+      desc.fragConstants[1] = desc.sampleShading && device_.caps().sampleRateShading ? variant.samples : 1;
+    }
     desc.setLayouts.push_back(info.trace.layout());
     addConstants(variant.trace, desc.fragConstants);
   }
@@ -101,8 +102,7 @@ void MirrorSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool ima
 std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const MirrorImage* image,
                                                           const PassFormat& format) const {
   if (mirror.byRays) {
-    // Many rays a pixel smooth edges in a rough mirror.
-    return {mirror.rough && !mirror.rippled ? Shading::byRays : Shading::byRaysAtSamples};
+    return {Shading::byRays};
   }
   if (!image || image->samples == VK_SAMPLE_COUNT_1_BIT) {
     return {Shading::single};
@@ -140,7 +140,6 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
       variant.reprojected = mirror.reprojected;
       break;
     case Shading::byRays:
-    case Shading::byRaysAtSamples:
       variant.blurs = mirror.rough;
       variant.ripples = mirror.rippled;
       break;

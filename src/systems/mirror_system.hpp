@@ -22,7 +22,7 @@ class MirrorSystem {
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  enum class Shading { single, average, base, ownSample, ownSampleAdded, byRays, byRaysAtSamples };
+  enum class Shading { single, average, base, ownSample, ownSampleAdded, byRays };
   struct Variant {
     Shading shading = Shading::single;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
