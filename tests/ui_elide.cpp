@@ -1,4 +1,4 @@
-// Shortened names.
+// Shortened names and broken lines.
 #include <gtest/gtest.h>
 
 #include "ui/elide.hpp"
@@ -26,6 +26,14 @@ TEST(Elide, TheStartStays) {
 TEST(Elide, CharactersAreNotCut) {
   EXPECT_EQ(startThatFits("\u00e4\u00e4 > left", 60.0f, widthOf), "\u00e4...");
   EXPECT_EQ(startThatFits("\u00e4\u00e4 > left", 40.0f, widthOf), "...");
+}
+
+TEST(Elide, LinesBreakAtSpacesOnly) {
+  EXPECT_EQ(brokenAtSpaces("about 0.2. Space pauses", 100.0f, widthOf), "about 0.2.\nSpace\npauses");
+  EXPECT_EQ(brokenAtSpaces("about 0.2. Space pauses", 90.0f, widthOf), "about\n0.2.\nSpace\npauses");
+  EXPECT_EQ(brokenAtSpaces("about 0.2", 90.0f, widthOf), "about 0.2");
+  EXPECT_EQ(brokenAtSpaces("a word\nof 3", 60.0f, widthOf), "a word\nof 3") << "lines are counted anew";
+  EXPECT_EQ(brokenAtSpaces("reflections of", 50.0f, widthOf), "reflections\nof");
 }
 
 }  // namespace

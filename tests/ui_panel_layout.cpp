@@ -1,6 +1,8 @@
 // Positions of the panel's windows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "ui/panel_layout.hpp"
 
 namespace speculum {
@@ -12,12 +14,23 @@ bool overlap(const WindowRect& a, const WindowRect& b) {
   return low.x < high.x && low.y < high.y;
 }
 
-const std::vector<WindowWish> threeWindows{{{375, 690}, 180}, {{405, 330}, 180}, {{405, 330}, 180}};
+constexpr float title = 20.0f;
+
+WindowWish wish(float width, float height, int rank = 0) {
+  return {width, {180, 180, height}, rank};
+}
+
+int countFolded(const std::vector<WindowPlace>& places) {
+  return static_cast<int>(std::ranges::count(places, true, &WindowPlace::folded));
+}
+
+const std::vector<WindowWish> threeWindows{wish(375, 690), wish(405, 330), wish(405, 330)};
 
 TEST(PanelLayout, WindowsShareTheirEdgeWithoutOverlap) {
-  const WindowRoom room{.display = {1280, 720}, .margin = 12, .taken = 432, .right = true};
+  const WindowRoom room{.display = {1280, 720}, .margin = 12, .title = title, .taken = 432, .right = true};
   for (size_t count = 1; count <= threeWindows.size(); ++count) {
-    const std::vector<WindowRect> places = arrangeWindows(std::span(threeWindows).first(count), room);
+    const std::vector<WindowPlace> places = arrangeWindows(std::span(threeWindows).first(count), room);
+    EXPECT_EQ(countFolded(places), 0);
     for (size_t i = 0; i < count; ++i) {
       EXPECT_GE(places[i].size.y, 180.0f);
       EXPECT_GE(places[i].corner.x, 432.0f);
@@ -31,26 +44,50 @@ TEST(PanelLayout, WindowsShareTheirEdgeWithoutOverlap) {
   EXPECT_EQ(arrangeWindows(std::span(threeWindows).first(1), room)[0].size, glm::vec2(375, 690)) << "as wished";
 }
 
-TEST(PanelLayout, ManyWindowsGoBesideThenGetLower) {
-  const std::vector<WindowWish> wishes(6, {{405, 330}, 180});
+TEST(PanelLayout, ManyWindowsGoBesideThenFold) {
+  std::vector<WindowWish> wishes;
+  for (const int rank : {3, 1, 6, 2, 5, 4}) {
+    wishes.push_back(wish(405, 330, rank));
+  }
   for (const float width : {1280.0f, 900.0f, 2560.0f}) {
-    const WindowRoom room{.display = {width, 720}, .margin = 12, .taken = 432, .right = true};
-    const std::vector<WindowRect> places = arrangeWindows(wishes, room);
-    float lowest = 1e9f;
+    const WindowRoom room{.display = {width, 720}, .margin = 12, .title = title, .taken = 432, .right = true};
+    const std::vector<WindowPlace> places = arrangeWindows(wishes, room);
     for (size_t i = 0; i < places.size(); ++i) {
-      lowest = std::min(lowest, places[i].size.y);
-      EXPECT_LE(places[i].corner.y + places[i].size.y, 720.0f);
+      EXPECT_EQ(places[i].folded, width < 1000.0f && wishes[i].rank <= 3) << width << ": " << i;
+      EXPECT_EQ(places[i].size.y < 180.0f, places[i].folded) << width << ": " << i;
+      EXPECT_EQ(places[i].size.y == title, places[i].folded) << width << ": " << i;
+      EXPECT_LE(places[i].corner.y + places[i].size.y, 708.0f);
       for (size_t j = 0; j < i; ++j) {
         EXPECT_FALSE(overlap(places[i], places[j])) << width << ": " << i << " " << j;
       }
     }
-    EXPECT_EQ(lowest < 180.0f, width < 1000.0f) << width;
   }
+}
+
+TEST(PanelLayout, LastOpenedWindowTakesWhatIsLeft) {
+  const WindowRoom room{.display = {400, 200}, .margin = 10, .title = title};
+  const WindowWish collapsed{300, {title, title, title}, 4};
+  const std::vector<WindowPlace> places =
+      arrangeWindows(std::vector<WindowWish>{wish(300, 330, 3), wish(300, 330, 2), collapsed}, room);
+  EXPECT_FALSE(places[0].folded);
+  EXPECT_EQ(places[0].size.y, 200 - 2 * 10 - 2 * (title + 10));
+  EXPECT_TRUE(places[1].folded);
+  EXPECT_FALSE(places[2].folded) << "it is a title already";
+}
+
+TEST(PanelLayout, RoomIsSharedBetweenLeastAndWished) {
+  using Shares = std::vector<float>;
+  const std::vector<Length> lengths{{180, 180, 280}, {180, 240, 240}};  // the user sized the second
+  EXPECT_EQ(shareRoom(lengths, 900), Shares({280, 240}));
+  EXPECT_EQ(shareRoom(lengths, 470), Shares({230, 240})) << "what the user gave is kept";
+  EXPECT_EQ(shareRoom(lengths, 390), Shares({180, 210}));
+  EXPECT_EQ(shareRoom(lengths, 100), Shares({180, 180}));
+  EXPECT_EQ(shareRoom(std::vector<Length>{{180, 180, 280}, {180, 180, 230}}, 435), Shares({230, 205}));
 }
 
 TEST(PanelLayout, RoomBelowIsKeptFree) {
   const WindowRoom room{.display = {900, 700}, .margin = 12, .bottom = 40};
-  const WindowRect place = arrangeWindows(std::vector<WindowWish>{{{420, 900}, 180}}, room)[0];
+  const WindowPlace place = arrangeWindows(std::vector<WindowWish>{wish(420, 900)}, room)[0];
   EXPECT_EQ(place.corner, glm::vec2(12, 12));
   EXPECT_EQ(place.size, glm::vec2(420, 636));
 }

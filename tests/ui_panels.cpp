@@ -41,6 +41,71 @@ TEST_F(PanelTest, ResetArrowIsReachedByKeyboard) {
   EXPECT_EQ(settings_.current.view.exposure, 1.0);
 }
 
+TEST_F(PanelTest, ResetArrowOfACutRowIsReached) {
+  const PixelRect row = widget("view.exposure");
+  const float margin = std::floor(0.8f * ImGui::GetFontSize());
+  ImGui::GetIO().DisplaySize.y = row.y + 3 + margin + panels::statusHeight();  // 3 pixels of it are in sight
+  run(3);
+  hover("view.exposure", 0.2);
+  moveTo(ImGui::GetIO().MousePos.x, row.y + 1);
+  hold(true);
+  moveTo(ImGui::GetIO().MousePos.x + 60, row.y + 1);
+  hold(false);
+  ASSERT_NE(settings_.current.view.exposure, 1.0);
+  tap(ImGuiKey_RightArrow);
+  tap(ImGuiKey_RightArrow);
+  tap(ImGuiKey_Space);
+  EXPECT_EQ(settings_.current.view.exposure, 1.0);
+}
+
+// Says whether a widget's rectangle lies between two columns of the display.
+bool within(const PixelRect& rect, int left, int right) {
+  return rect.x >= left && rect.x + rect.width <= right;
+}
+
+TEST_F(PanelTest, PanelsOfBothEdgesLieSideBySide) {
+  edit_.selected = {Selection::Kind::mirror, 0};
+  windows_->toggleInspector();
+  for (const float width : {900.0f, 560.0f, 500.0f}) {
+    ImGui::GetIO().DisplaySize.x = width;
+    run(4);
+    const float middle = windows_->freeRect().corner.x;
+    EXPECT_GE(windows_->freeRect().size.x, 9.0f) << width;
+    for (const char* name : {"screenshot", "bookmark.add", "view.clear_color", "panel.Accuracy", "settings.reset"}) {
+      EXPECT_TRUE(within(widget(name), 10, static_cast<int>(middle))) << name << " at " << width;
+    }
+    for (const char* name : {"edit.redo", "edit.save_as", "edit.look_behind", "edit.position", "edit.reflectance"}) {
+      EXPECT_TRUE(within(widget(name), static_cast<int>(middle) + 10, static_cast<int>(width) - 10))
+          << name << " at " << width;
+    }
+    EXPECT_GE(widget("edit.position").width, 150) << "numbers are not cut";
+  }
+}
+
+TEST_F(PanelTest, OlderWindowsFoldAndAClickUnfolds) {
+  ImGui::GetIO().DisplaySize.y = 400.0f;
+  click("panel.Performance", 0.1);
+  click("panel.Log", 0.1);
+  run(3);
+  ASSERT_TRUE(has("log.copy") && has("performance.copy"));
+  click("panel.Accuracy", 0.1);
+  run(3);
+  EXPECT_TRUE(has("accuracy.measure") && has("log.copy"));
+  EXPECT_FALSE(has("performance.copy"));
+  const WindowRect free = windows_->freeRect();
+  moveTo(free.corner.x + free.size.x + 12, free.corner.y + 18);  // the arrow of its title
+  hold(true);
+  hold(false);
+  run(3);
+  EXPECT_TRUE(has("performance.copy") && has("accuracy.measure"));
+  EXPECT_FALSE(has("log.copy")) << "it was opened before the others";
+  stop();
+  start();
+  ImGui::GetIO().DisplaySize.y = 700.0f;
+  run(3);
+  EXPECT_TRUE(has("performance.copy") && has("accuracy.measure") && has("log.copy")) << "folding is not remembered";
+}
+
 TEST_F(PanelTest, TimeRowScrubsAndSteps) {
   drag("time", 0.05, 150);
   ASSERT_TRUE(sent<Seek>());

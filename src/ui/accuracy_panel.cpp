@@ -160,11 +160,9 @@ void plot(PanelContext& ui) {
       ui.send(ApplyPoint{hovered});
     }
   }
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped(
+  dimmedText(
       "Error (mean FLIP) over GPU ms. A click applies a point; none is both faster and more accurate than an orange "
       "one.");
-  ImGui::PopStyleColor();
   tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.");
 }
 
@@ -177,7 +175,7 @@ void frontSlider(PanelContext& ui) {
   const std::string text = accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "other settings";
   ImGui::TextUnformatted("Fast");
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(-8.0f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-5.5f * ImGui::GetFontSize());
   // Escapes '%', because ImGui takes the text as a format.
   if (ImGui::SliderInt("Accurate", &index, 0, std::max(last, 0),
                        text.find('%') == std::string::npos ? text.c_str() : "") &&
@@ -208,8 +206,9 @@ void budget(PanelContext& ui) {
     }
     recordWidget(ui, key, settingHelp(key));
     if (active) {
-      ImGui::SameLine();
-      ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
+      const float width = 8.0f * ImGui::GetFontSize();
+      continueRow("", width);
+      ImGui::SetNextItemWidth(width);
       double edited = value;
       if (ImGui::InputDouble((std::string("##") + key).c_str(), &edited, 0.0, 0.0, format,
                              ImGuiInputTextFlags_EnterReturnsTrue) &&
@@ -222,7 +221,7 @@ void budget(PanelContext& ui) {
   bound(quality.budgetMs, firstBound(accuracy, &PointView::ms, 16.0), "%.2f", "quality.budget_ms");
   bound(quality.maxError, firstBound(accuracy, &PointView::error, 0.05), "%.4f", "quality.max_error");
   if (!accuracy.choice.empty()) {
-    ImGui::TextWrapped("%s", accuracy.choice.c_str());
+    wrappedText(accuracy.choice);
   }
 }
 
@@ -233,7 +232,7 @@ void differenceView(PanelContext& ui) {
   if (!ui.state.showDifference) {
     return;
   }
-  ImGui::TextWrapped("%s", accuracy.difference.c_str());
+  wrappedText(accuracy.difference);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float height = 0.6f * ImGui::GetFontSize();
   const float step =
@@ -263,12 +262,12 @@ void accuracy(PanelContext& ui) {
   if (accuracy.measuring && accuracy.secondsLeft > 0.0) {
     ImGui::TextDisabled("About %.0f s left of this step", accuracy.secondsLeft);
   } else if (accuracy.points.empty() && accuracy.about.empty()) {
-    ImGui::TextWrapped(
+    wrappedText(
         "Finds the settings that are the most accurate within a time: 1. traces how this view should look, 2. draws it "
         "with each configuration and compares, 3. takes the times.");
   }
   if (!accuracy.about.empty()) {
-    ImGui::TextWrapped("%s", accuracy.about.c_str());
+    wrappedText(accuracy.about);
   }
   if (accuracy.otherView) {
     coloredText(warningColor, "The view has changed since. Measure again for figures of this one.");

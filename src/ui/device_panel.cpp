@@ -11,17 +11,17 @@ namespace {
 void fact(const char* name, const std::string& value) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", name);
+  dimmedText(name);
   ImGui::TableNextColumn();
-  ImGui::TextWrapped("%s", value.c_str());
+  wrappedText(value);
 }
 
 bool beginFacts(const char* id) {
-  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) {
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) {
     return false;
   }
-  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 11.0f * ImGui::GetFontSize());
-  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 11.0f);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 13.0f);
   return true;
 }
 

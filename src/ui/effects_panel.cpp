@@ -15,16 +15,19 @@ void effects(PanelContext& ui) {
   }
   settingRows(ui, "effects.");
   if (!ui.view.frame.rays.empty()) {
-    ImGui::TextWrapped("%s", ui.view.frame.rays.c_str());
+    wrappedText(ui.view.frame.rays);
   }
+  const float em = ImGui::GetFontSize();
+  const bool narrow = ImGui::GetContentRegionAvail().x < 22.0f * em;  // then figures would leave no room for words
+  const ImGuiTableColumnFlags figures =
+      ImGuiTableColumnFlags_WidthFixed | (narrow ? ImGuiTableColumnFlags_Disabled : ImGuiTableColumnFlags_None);
   if (!ImGui::BeginTable("effects", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
     return;
   }
-  const float em = ImGui::GetFontSize();
   ImGui::TableSetupColumn("Effect", ImGuiTableColumnFlags_WidthFixed, 7.0f * em);
   ImGui::TableSetupColumn("Needed by", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 3.4f * em);
-  ImGui::TableSetupColumn("MiB", ImGuiTableColumnFlags_WidthFixed, 3.4f * em);
+  ImGui::TableSetupColumn("Draws", figures, 3.4f * em);
+  ImGui::TableSetupColumn("MiB", figures, 3.4f * em);
   ImGui::TableHeadersRow();
   for (const EffectView& effect : ui.view.frame.effects) {
     const bool on = effect.calledFor;
@@ -33,7 +36,7 @@ void effects(PanelContext& ui) {
                                     on ? mebibytes(effect.bytes) : std::string()}) {
       ImGui::TableNextColumn();
       ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(on ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-      ImGui::TextWrapped("%s", text.c_str());
+      wrappedText(text);
       ImGui::PopStyleColor();
       if (on) {
         tip(std::to_string(effect.pipelines) + " pipelines");

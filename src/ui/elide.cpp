@@ -24,4 +24,24 @@ std::string startThatFits(const std::string& text, float room, const std::functi
   return "...";
 }
 
+std::string brokenAtSpaces(std::string text, float room, const std::function<float(std::string_view)>& widthOf) {
+  size_t line = 0;                   // its first character
+  size_t space = std::string::npos;  // its last space
+  for (size_t end = 0; end <= text.size(); ++end) {
+    if (end < text.size() && text[end] != ' ' && text[end] != '\n') {
+      continue;
+    }
+    if (space != std::string::npos && widthOf(std::string_view(text).substr(line, end - line)) > room) {
+      text[space] = '\n';
+      line = space + 1;
+    }
+    space = end;
+    if (end < text.size() && text[end] == '\n') {
+      line = end + 1;
+      space = std::string::npos;
+    }
+  }
+  return text;
+}
+
 }  // namespace speculum

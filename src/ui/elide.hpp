@@ -10,4 +10,7 @@ namespace speculum {
 // `room`. UTF-8.
 std::string startThatFits(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf);
 
+// `text` with line breaks in place of spaces, so that no line is wider than `room` unless one word is.
+std::string brokenAtSpaces(std::string text, float room, const std::function<float(std::string_view)>& widthOf);
+
 }  // namespace speculum

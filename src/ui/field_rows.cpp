@@ -32,8 +32,10 @@ template <typename Field>
 bool dragNumbers(const Field& field, const char* label, double* values, int count) {
   const double low = std::max({field.range.low, field.floor, -farthest}) + (field.range.aboveLow ? field.step / 10 : 0);
   const double high = std::min({field.range.high, field.ceiling, farthest});
-  return ImGui::DragScalarN(label, ImGuiDataType_Double, values, count, static_cast<float>(field.step), &low, &high,
-                            formatOf(field.step), ImGuiSliderFlags_AlwaysClamp);
+  const std::string shown =
+      labelFor(label, (count > 1 ? 4.3f * static_cast<float>(count) : 5.0f) * ImGui::GetFontSize());
+  return ImGui::DragScalarN(shown.c_str(), ImGuiDataType_Double, values, count, static_cast<float>(field.step), &low,
+                            &high, formatOf(field.step), ImGuiSliderFlags_AlwaysClamp);
 }
 
 // Edits a scale but never sets it to zero, which the loader refuses.
@@ -61,10 +63,11 @@ bool valueWidget(const Field& field, const char* label, Value& value) {
   if constexpr (std::is_same_v<Value, bool>) {
     return ImGui::Checkbox(label, &value);
   } else if constexpr (std::is_same_v<Value, std::string>) {
-    return ImGui::InputText(label, &value);
+    return ImGui::InputText(labelFor(label, 5.0f * ImGui::GetFontSize()).c_str(), &value);
   } else if constexpr (std::is_same_v<Value, int>) {
-    return ImGui::DragInt(label, &value, static_cast<float>(field.step), static_cast<int>(field.range.low),
-                          static_cast<int>(std::min(field.range.high, 1e4)), "%d", ImGuiSliderFlags_AlwaysClamp);
+    return ImGui::DragInt(labelFor(label, 5.0f * ImGui::GetFontSize()).c_str(), &value, static_cast<float>(field.step),
+                          static_cast<int>(field.range.low), static_cast<int>(std::min(field.range.high, 1e4)), "%d",
+                          ImGuiSliderFlags_AlwaysClamp);
   } else if constexpr (std::is_same_v<Value, double>) {
     return dragNumbers(field, label, &value, 1);
   } else if constexpr (std::is_same_v<Value, glm::dvec2>) {
@@ -98,6 +101,7 @@ bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i
   ImGui::PushID(static_cast<int>(i));
   const double low = -farthest;
   const double high = farthest;
+  ImGui::SetNextItemWidth(-2.0f * (ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x));
   bool changed = ImGui::DragScalarN("##vertex", ImGuiDataType_Double, &vertices[i].x, 3, 0.01f, &low, &high, "%.6g",
                                     ImGuiSliderFlags_AlwaysClamp);
   recordWidget(ui, "edit." + key, "Metres. The polygon must stay planar and convex.");
@@ -121,7 +125,7 @@ bool polygonRows(PanelContext& ui, std::vector<glm::dvec3>& vertices) {
   if (polygon.mirror != selected || polygon.taken != vertices) {
     polygon = {.vertices = vertices, .taken = vertices, .mirror = selected};
   }
-  ImGui::TextDisabled("Vertices (m), counter-clockwise from the front");
+  dimmedText("Vertices (m), counter-clockwise from the front");
   bool changed = false;
   for (size_t i = 0; i < polygon.vertices.size(); ++i) {
     changed = polygonVertex(ui, polygon.vertices, i) || changed;

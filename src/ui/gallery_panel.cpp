@@ -1,23 +1,24 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "ui/elide.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
 
 namespace {
 
-constexpr float tileEms = 10.5f;  // width of a tile, in sizes of the font
+constexpr float tileEms = 8.0f;  // least width of a tile, in sizes of the font
 constexpr float tileAspect = 192.0f / 108.0f;
 
-// Draws text that is clipped at the tile's border.
-void textWithin(const std::string& text, const ImVec2& low, const ImVec2& high, float align) {
+// Draws as much of the text as fits into the tile.
+void textWithin(const std::string& whole, const ImVec2& low, const ImVec2& high, float align) {
+  const std::string text = startThatFits(whole, high.x - low.x, textWidth);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(low.x + std::max(0.0f, align * (high.x - low.x - size.x)), low.y + 0.5f * (high.y - low.y - size.y));
-  ImGui::PushClipRect(low, high, true);
   ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-  ImGui::PopClipRect();
 }
 
 // Returns the title, or the file's name where there is none or another scene has the same.
@@ -58,9 +59,10 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
 }  // namespace
 
 void gallery(PanelContext& ui, const Thumbnails& thumbnails) {
-  const float width = tileEms * ImGui::GetFontSize();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const int columns = std::max(1, static_cast<int>((ImGui::GetContentRegionAvail().x + gap) / (width + gap)));
+  const float room = ImGui::GetContentRegionAvail().x + gap;
+  const int columns = std::max(1, static_cast<int>(room / (tileEms * ImGui::GetFontSize() + gap)));
+  const float width = std::floor(room / static_cast<float>(columns) - gap);
   for (size_t i = 0; i < ui.view.browser.scenes.size(); ++i) {
     if (i % static_cast<size_t>(columns) > 0) {
       ImGui::SameLine();

@@ -78,7 +78,7 @@ void modelChoice(PanelContext& ui) {
 void addButtons(PanelContext& ui) {
   commandButton(ui, "Add mirror", "edit.add_mirror", "Adds a mirror in the middle of the view, facing it.",
                 AddMirror{});
-  ImGui::SameLine();
+  continueRow("Add light");
   commandButton(ui, "Add light", "edit.add_light", "Adds a light in the middle of the view.", AddLight{});
   const bool named = ui.state.model || !ui.state.modelFile.empty();
   commandButton(ui, "Add object", "edit.add_object", "Adds an object with the chosen model in the middle of the view.",
@@ -91,19 +91,20 @@ void historyButtons(PanelContext& ui) {
   const EditView& edit = ui.view.edit;
   const bool any = static_cast<bool>(edit.selected);
   commandButton(ui, "Duplicate", "edit.duplicate", "Ctrl+D", DuplicateSelected{}, any);
-  ImGui::SameLine();
+  continueRow("Delete");
   commandButton(ui, "Delete", "edit.delete", "Del", RemoveSelected{}, any);
-  ImGui::SameLine();
+  continueRow("Undo");
   commandButton(ui, "Undo", "edit.undo", "Ctrl+Z   " + edit.undo, Undo{}, !edit.undo.empty());
-  ImGui::SameLine();
+  continueRow("Redo");
   commandButton(ui, "Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, Redo{}, !edit.redo.empty());
   commandButton(ui, "Save", "edit.save", "Ctrl+S   " + (edit.saveFile ? edit.saveFile->string() : "Asks for a file"),
                 Save{}, edit.unsaved || edit.isModel);
-  ImGui::SameLine();
+  continueRow("Save as...");
   commandButton(ui, "Save as...", "edit.save_as", "Ctrl+Shift+S", AskWhereToSave{});
-  ImGui::SameLine();
+  const char* state = edit.unsaved ? "unsaved changes" : edit.isModel ? "a model, no scene yet" : "saved";
+  continueRow(state);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", edit.unsaved ? "unsaved changes" : edit.isModel ? "a model, no scene yet" : "saved");
+  ImGui::TextDisabled("%s", state);
 }
 
 // Draws a button for each mirror that the node was picked through; a click selects it.
@@ -112,9 +113,10 @@ void throughButtons(PanelContext& ui) {
   ImGui::TextUnformatted("Seen in:");
   for (size_t i = 0; i < ui.view.edit.through.size(); ++i) {
     const Selection mirror{Selection::Kind::mirror, ui.view.edit.through[i]};
-    ImGui::SameLine();
+    const std::string name = speculum::describe(*ui.view.edit.scene, mirror);
+    continueRow(name.c_str());
     ImGui::PushID(static_cast<int>(i));  // a mirror may come twice
-    if (ImGui::SmallButton(speculum::describe(*ui.view.edit.scene, mirror).c_str())) {
+    if (ImGui::SmallButton(name.c_str())) {
       ui.send(SelectNode{mirror});
     }
     recordWidget(ui, "edit.through." + std::to_string(i));
@@ -151,10 +153,10 @@ void selectedNode(PanelContext& ui) {
   if (edit.selected.kind == Selection::Kind::mirror) {
     commandButton(ui, "Look out of mirror", "edit.look_out", "Looks out of the mirror (Shift+B).",
                   LookFromMirror{MirrorSide::front});
-    ImGui::SameLine();
+    continueRow("Look from behind");
     commandButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
                   LookFromMirror{MirrorSide::back});
-    ImGui::TextDisabled("%s", mirrorCost(ui.view.frame, edit.selected.index).c_str());
+    dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
     recordWidget(ui, "edit.mirror_cost", "Cost of its images in the last frame, also of those seen in other mirrors.");
   }
   gizmoMode(ui);

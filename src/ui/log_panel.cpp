@@ -9,24 +9,25 @@ void log(PanelContext& ui) {
   ImGui::SetNextItemWidth(11.0f * ImGui::GetFontSize());
   ImGui::InputTextWithHint("##filter", "Filter", state.logFilter.data(), state.logFilter.size());
   recordWidget(ui, "log.filter", "Shows only lines that contain this.");
-  ImGui::SameLine();
+  const float levels = 7.0f * ImGui::GetFontSize();
+  continueRow("", levels);
   int least = static_cast<int>(state.logLevel);
-  ImGui::SetNextItemWidth(7.0f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(levels);
   ImGui::Combo("##least", &least, "info\0warning\0error\0");
   tip("Shows only lines of this level and above.");
   state.logLevel = static_cast<LogLevel>(least);
   const std::vector<LogLine> lines = ui.view.log.lines(state.logLevel, state.logFilter.data());
-  ImGui::SameLine();
+  continueRow("Copy");
   if (button(ui, "Copy", "log.copy", "Copies the lines below.")) {
     ui.send(CopyText{logText(lines)});
   }
-  ImGui::SameLine();
+  continueRow("Clear");
   commandButton(ui, "Clear", "log.clear", "", ClearLog{});
   ImGui::Separator();
   ImGui::BeginChild("lines");
   for (const LogLine& line : lines) {
     if (line.level == LogLevel::info) {
-      ImGui::TextWrapped("%s", line.text.c_str());
+      wrappedText(line.text);
     } else {
       coloredText(line.level == LogLevel::error ? errorColor : warningColor, line.text);
     }

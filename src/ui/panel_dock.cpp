@@ -12,7 +12,9 @@ namespace speculum {
 
 namespace {
 
-constexpr float lowest = 12.0f;  // least height of a window in sizes of the font, if the display has room
+// Least sizes of a window in sizes of the font, if the display has room.
+constexpr float narrowest = 18.0f;
+constexpr float lowest = 12.0f;
 
 float margin() {
   return std::floor(0.8f * ImGui::GetFontSize());
@@ -94,14 +96,17 @@ std::string PanelDock::saved() const {
 }
 
 bool PanelDock::wouldCover(const char* name, Edge edge, const glm::vec2& ems, const glm::vec2& place) const {
-  const auto panel = panels_.find(name);
-  const WindowRect wish = panel != panels_.end() ? panel->second.wish : WindowRect();
-  const glm::vec2 size = wish.size.x > 0.0f ? wish.size : ems * ImGui::GetFontSize();
-  if (panel != panels_.end() && !panel->second.docked) {
-    return glm::all(glm::greaterThanEqual(place, wish.corner)) && glm::all(glm::lessThan(place, wish.corner + size));
+  const auto known = panels_.find(name);
+  Panel panel = known != panels_.end() ? known->second : Panel();
+  panel.edge = edge;
+  panel.ems = ems;
+  if (!panel.docked) {
+    const WindowRect& wish = panel.wish;
+    return glm::all(glm::greaterThanEqual(place, wish.corner)) &&
+           glm::all(glm::lessThan(place, wish.corner + wish.size));
   }
   const float inward = edge == Edge::left ? place.x : displaySize().x - place.x;
-  return inward < size.x + margin();
+  return inward < std::min(widthOf(panel).wished, widths(&panel)[static_cast<size_t>(edge)]) + margin();
 }
 
 WindowRect PanelDock::freeRect() const {
@@ -121,7 +126,7 @@ WindowRect PanelDock::freeRect() const {
 void PanelDock::reset() {
   for (auto& [name, panel] : panels_) {
     panel.docked = true;
-    panel.collapsed = panel.begun = false;
+    panel.collapsed = false;
     panel.wish = {};
   }
   ImGui::MarkIniSettingsDirty();
@@ -134,34 +139,67 @@ void PanelDock::beginFrame(float top, float bottom, bool hidden) {
     return;
   }
   std::erase_if(order_, [](const Panel* panel) { return !panel->shown; });
-  arrange(Edge::left);
-  arrange(Edge::right);
+  arrange();
   for (auto& [name, panel] : panels_) {
     panel.shown = false;
   }
 }
 
-void PanelDock::arrange(Edge edge) {
+Length PanelDock::widthOf(const Panel& panel) {
   const float em = ImGui::GetFontSize();
-  WindowRoom room{.display = displaySize(), .margin = margin(), .right = edge == Edge::right};
-  room.top = top_;
-  room.bottom = edge == Edge::left ? bottom_ : 0.0f;
-  std::vector<const Panel*> panels;
-  std::vector<WindowWish> wishes;
+  const float kept = panel.wish.size.x;
+  const float wished = kept > 0.0f ? kept : panel.ems.x * em;
+  const float least = std::min(narrowest * em, wished);
+  return {least, std::max(kept, least), wished};
+}
+
+float PanelDock::heightOf(const Panel& panel) {
+  return panel.wish.size.y > 0.0f ? panel.wish.size.y
+         : panel.ems.y > 0.0f     ? panel.ems.y * ImGui::GetFontSize()
+                                  : displaySize().y;
+}
+
+std::array<float, 2> PanelDock::widths(const Panel* further) const {
+  std::array<Length, 2> widest;
+  const auto add = [&](const Panel& panel) {
+    Length& length = widest[static_cast<size_t>(panel.edge)];
+    const Length width = widthOf(panel);
+    length = {std::max(length.least, width.least), std::max(length.kept, width.kept),
+              std::max(length.wished, width.wished)};
+  };
   for (const Panel* panel : order_) {
-    if (panel->docked && panel->edge != edge) {
-      room.taken = std::max(room.taken, room.margin + panel->given.size.x);
-    } else if (panel->docked) {
-      const float height = panel->ems.y > 0.0f ? panel->ems.y * em : room.display.y;
-      const bool sized = panel->wish.size.x > 0.0f;
-      WindowWish wish{sized ? panel->wish.size : glm::vec2(panel->ems.x * em, height), lowest * em};
-      wish.least = sized ? wish.size.y : wish.least;
-      wish.size.y = panel->collapsed ? ImGui::GetFrameHeight() : wish.size.y;
+    panel->docked ? add(*panel) : void();
+  }
+  further ? add(*further) : void();
+  const std::vector<float> shares = shareRoom(widest, displaySize().x - 3.0f * margin());
+  return {shares[0], shares[1]};
+}
+
+void PanelDock::arrange() {
+  const std::array<float, 2> most = widths();
+  arrange(Edge::left, most[0], most[1]);
+  arrange(Edge::right, most[1], most[0]);
+}
+
+void PanelDock::arrange(Edge edge, float width, float taken) {
+  const float em = ImGui::GetFontSize();
+  WindowRoom room{.display = displaySize(), .margin = margin(), .title = ImGui::GetFrameHeight(), .top = top_};
+  room.bottom = edge == Edge::left ? bottom_ : 0.0f;
+  room.taken = taken > 0.0f ? room.margin + taken : 0.0f;
+  room.right = edge == Edge::right;
+  std::vector<Panel*> panels;
+  std::vector<WindowWish> wishes;
+  for (Panel* panel : order_) {
+    if (panel->docked && panel->edge == edge) {
+      const float kept = panel->wish.size.y;
+      const float wished = panel->collapsed ? room.title : heightOf(*panel);
+      const float least = std::min(lowest * em, wished);
+      const Length height{least, std::clamp(kept, least, wished), wished};
       panels.push_back(panel);
-      wishes.push_back(wish);
+      wishes.push_back({std::min(widthOf(*panel).wished, width), height, panel->rank});
     }
   }
-  const std::vector<WindowRect> places = arrangeWindows(wishes, room);
+  const std::vector<WindowPlace> places = arrangeWindows(wishes, room);
   for (size_t i = 0; i < panels.size(); ++i) {
     docked_[panels[i]] = places[i];
   }
@@ -182,8 +220,9 @@ void PanelDock::follow(Panel& panel) {
     panel.display = displaySize();
     ImGui::MarkIniSettingsDirty();
   }
-  if (panel.collapsed != window->Collapsed) {
+  if ((panel.collapsed || panel.folded) != window->Collapsed) {
     panel.collapsed = window->Collapsed;
+    panel.rank = window->Collapsed ? panel.rank : ++lastRank_;
     ImGui::MarkIniSettingsDirty();
   }
 }
@@ -195,25 +234,24 @@ bool PanelDock::begin(const char* name, bool* open, Edge edge, const glm::vec2& 
   panel.shown = true;
   if (std::ranges::find(order_, &panel) == order_.end()) {
     order_.push_back(&panel);
-    arrange(edge);
+    panel.rank = ++lastRank_;
+    arrange();
     panel.given = {};
   }
   const glm::vec2 size = panel.wish.size.x > 0.0f ? panel.wish.size : ems * ImGui::GetFontSize();
   const WindowRect wish{panel.wish.corner, size};
   const bool room = glm::all(glm::greaterThanEqual(displaySize(), panel.display));
-  const WindowRect place = panel.docked ? docked_[&panel] : room ? wish : fitWindow(wish, displaySize());
+  const WindowPlace docked = docked_[&panel];
+  const WindowRect place = panel.docked ? docked : room ? wish : fitWindow(wish, displaySize());
+  panel.folded = panel.docked && docked.folded;
+  const bool collapsed = panel.collapsed || panel.folded;
   const bool held = ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsMouseDown(ImGuiMouseButton_Left);
   if (place != panel.given && !(held && !panel.docked)) {
     ImGui::SetNextWindowPos({place.corner.x, place.corner.y});
-    if (!panel.collapsed) {
-      ImGui::SetNextWindowSize({place.size.x, place.size.y});
-    }
+    ImGui::SetNextWindowSize({place.size.x, collapsed ? heightOf(panel) : place.size.y});
     panel.given = place;
   }
-  if (!panel.begun) {
-    ImGui::SetNextWindowCollapsed(panel.collapsed);
-    panel.begun = true;
-  }
+  ImGui::SetNextWindowCollapsed(collapsed);
   const bool visible = ImGui::Begin(name, open, windowFlags | ImGuiWindowFlags_NoSavedSettings);
   follow(panel);
   return visible;

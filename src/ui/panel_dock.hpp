@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,7 +11,8 @@ namespace speculum {
 
 // Places windows along the left and right edge of the display, those of an edge below each other, until the user moves
 // them. Moved windows stay where the user put them, as far as the display shows them; the others follow the display's
-// size and each other. The layout file lists the windows that the user moved, sized or collapsed.
+// size and each other: they get narrower where both edges have windows, and those opened first are folded to their
+// titles where a column is full. The layout file lists the windows that the user moved, sized or collapsed.
 class PanelDock {
  public:
   enum class Edge { left, right };
@@ -40,17 +42,24 @@ class PanelDock {
     WindowRect given;         // last rectangle of the window
     Edge edge = Edge::left;
     glm::vec2 ems{0.0f};
-    bool shown = false;  // in this frame or the last
-    bool begun = false;
+    bool shown = false;   // in this frame or the last
+    bool folded = false;  // like collapsed, but for want of room
+    int rank = 0;         // grows when the user opens it
   };
-  void arrange(Edge edge);
+  static Length widthOf(const Panel& panel);
+  static float heightOf(const Panel& panel);
+  // Widths of the windows of both edges at most, `further` included.
+  std::array<float, 2> widths(const Panel* further = nullptr) const;
+  void arrange();
+  void arrange(Edge edge, float width, float taken);
   void follow(Panel& panel);
   std::string saved() const;
   void read(Panel& panel, const char* line);
 
   std::map<std::string, Panel> panels_;
   std::vector<Panel*> order_;  // shown windows in the order of opening
-  std::map<const Panel*, WindowRect> docked_;
+  std::map<const Panel*, WindowPlace> docked_;
+  int lastRank_ = 0;
   float top_ = 0.0f;
   float bottom_ = 0.0f;
 };

@@ -14,23 +14,42 @@ struct WindowRect {
   bool operator==(const WindowRect&) const = default;
 };
 
+// A length in three sizes, each at least as large as the one before.
+struct Length {
+  float least = 0.0f;   // smallest usable
+  float kept = 0.0f;    // to keep if possible: what the user gave it
+  float wished = 0.0f;  // if there is room
+};
+
 struct WindowWish {
-  glm::vec2 size{0.0f};
-  float least = 0.0f;  // smallest usable height
+  float width = 0.0f;
+  Length height;
+  int rank = 0;  // where only some can be open, those of the highest ranks are
+};
+
+struct WindowPlace : WindowRect {
+  bool folded = false;  // only its title has room
+
+  bool operator==(const WindowPlace&) const = default;
 };
 
 struct WindowRoom {
   glm::vec2 display{0.0f};
   float margin = 0.0f;
+  float title = 0.0f;   // height of a folded window
   float top = 0.0f;     // kept free above
   float bottom = 0.0f;  // and below
   float taken = 0.0f;   // width at the opposite edge
   bool right = false;   // right edge, else the left one
 };
 
-// Arranges windows along an edge: below each other at the height they have in `wishes` if there is room, else all
-// lower, else in a further column beside; without room for one, lower than `least`. Windows of a column never overlap.
-std::vector<WindowRect> arrangeWindows(std::span<const WindowWish> wishes, const WindowRoom& room);
+// Shares `room`: all have a wished, kept or least length, or lie at the same part of the way between two of these.
+std::vector<float> shareRoom(std::span<const Length> lengths, float room);
+
+// Arranges windows along an edge: below each other as high as wished if there is room, else all lower, else in a
+// further column beside. Without room for one, windows of the last column are folded until the others have their least
+// height. Windows of a column never overlap.
+std::vector<WindowPlace> arrangeWindows(std::span<const WindowWish> wishes, const WindowRoom& room);
 
 // Returns the nearest rectangle that shows the whole window, no larger than the display.
 WindowRect fitWindow(const WindowRect& wish, const glm::vec2& display);

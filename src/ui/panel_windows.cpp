@@ -26,7 +26,8 @@ UiOutput PanelWindows::build(const UiView& view) {
     state_.openedAt.reset();
   }
   panels::loading(ui);
-  dock_.beginFrame(visible_ ? ImGui::GetFrameHeight() : 0.0f, panels::statusHeight(), !visible_);
+  dock_.beginFrame(visible_ ? ImGui::GetFrameHeight() : 0.0f, std::max(panels::statusHeight(), statusHeight_),
+                   !visible_);
   if (visible_) {
     menuBar(ui);
     mainPanel(ui);
@@ -46,8 +47,9 @@ UiOutput PanelWindows::build(const UiView& view) {
   }
   if (visible_ || !view.status.withPanelOnly) {
     const WindowRect free = freeRect();
-    panels::statusLine(view.status, visible_ ? std::max(statusWidth_, 20.0f * ImGui::GetFontSize()) : 0.0f,
-                       free.corner.x + free.size.x);
+    statusHeight_ =
+        panels::statusLine(view.status, visible_ ? std::max(statusWidth_, 18.0f * ImGui::GetFontSize()) : 0.0f,
+                           free.corner.x + free.size.x);
   }
   const bool difference = state_.choices.accuracy && state_.showDifference;
   if (difference != view.accuracy.showsDifference) {
@@ -129,7 +131,8 @@ void PanelWindows::windowMenu(PanelContext& ui) {
 }
 
 void PanelWindows::windowChoices(PanelContext& ui) {
-  if (ImGui::BeginTable("panels", 3, ImGuiTableFlags_SizingStretchSame)) {
+  const int columns = static_cast<int>(ImGui::GetContentRegionAvail().x / (7.7f * ImGui::GetFontSize()));
+  if (ImGui::BeginTable("panels", std::clamp(columns, 1, 3), ImGuiTableFlags_SizingStretchSame)) {
     for (const PanelName& panel : panelNames) {
       ImGui::TableNextColumn();
       ImGui::Checkbox(panel.name.data(), &(state_.choices.*panel.open));

@@ -45,6 +45,7 @@ class PanelWindows {
   int pendingPercent_;  // while its slider is held
   Thumbnails thumbnails_;
   float statusWidth_ = 0.0f;  // pixels
+  float statusHeight_ = 0.0f;
   bool visible_ = true;
 };
 

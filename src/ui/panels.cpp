@@ -31,11 +31,11 @@ void bookmarks(PanelContext& ui) {
     ImGui::EndCombo();
   }
   tip("Views that are saved with the scene. Shift+M goes to the next one.");
-  ImGui::SameLine();
+  continueRow("Bookmark view");
   commandButton(ui, "Bookmark view", "bookmark.add", "Saves the camera's position and direction with the scene (M).",
                 AddBookmark{});
   if (shown >= 0) {
-    ImGui::SameLine();
+    continueRow("Remove");
     commandButton(ui, "Remove", "bookmark.remove", "Removes the bookmark from the scene.",
                   RemoveBookmark{static_cast<size_t>(shown)});
   }
@@ -44,7 +44,9 @@ void bookmarks(PanelContext& ui) {
 void sceneChoice(PanelContext& ui) {
   const BrowserView& browser = ui.view.browser;
   const SceneEntry& shown = browser.scenes[browser.shown];
-  const bool open = ImGui::BeginCombo("Scene", shown.name.c_str(), ImGuiComboFlags_HeightLargest);
+  const std::string label =
+      labelFor("Scene", ImGui::CalcTextSize(shown.name.c_str()).x + 2.0f * ImGui::GetFrameHeight());
+  const bool open = ImGui::BeginCombo(label.c_str(), shown.name.c_str(), ImGuiComboFlags_HeightLargest);
   recordWidget(ui, "scene");
   if (!open) {
     return tip(shown.file.string() + "\nWindow > Scenes shows pictures of all scenes.");
@@ -67,7 +69,7 @@ void cameraMode(PanelContext& ui) {
       ui.send(SetCameraMode{mode});
     }
     tip(about);
-    ImGui::SameLine();
+    continueRow("Reset camera");
   }
   commandButton(ui, "Reset camera", "camera.reset", "Returns to the scene's camera.", ResetCamera{});
 }
@@ -101,6 +103,10 @@ void describe(PanelContext& ui, std::string_view key) {
   const SettingField& field = *findSettingField(key);
   if (sameSetting(field, ui.settings, ofScene)) {
     return;
+  }
+  // The keyboard does not move along a line that the window's edge cuts.
+  if (ImGui::IsItemDeactivated()) {
+    ImGui::ScrollToBringRectIntoView(ImGui::GetCurrentWindow(), ImGui::GetCurrentContext()->LastItemData.Rect);
   }
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::GetFrameHeight());
   ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
@@ -154,10 +160,42 @@ void commandButton(PanelContext& ui, const char* label, std::string_view key, co
   }
 }
 
+float textWidth(std::string_view text) {
+  return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
+}
+
+void continueRow(const char* label, float further) {
+  ImGui::SameLine();
+  const float width = ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x + further;
+  if (ImGui::GetContentRegionAvail().x < width) {
+    ImGui::NewLine();
+  }
+}
+
+std::string labelFor(const std::string& label, float width) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float item = ImGui::CalcItemWidth();
+  const float room = ImGui::GetContentRegionAvail().x - item - style.ItemInnerSpacing.x;
+  if (item >= width && room >= ImGui::CalcTextSize(label.c_str()).x) {
+    return label;
+  }
+  ImGui::TextUnformatted(label.c_str());
+  ImGui::SetNextItemWidth(-(ImGui::GetFrameHeight() + style.ItemSpacing.x));  // the rest is for the reset button
+  return "##value of " + label;
+}
+
 std::string thatFits(const std::string& text) {
-  return startThatFits(text, ImGui::GetContentRegionAvail().x, [](std::string_view start) {
-    return ImGui::CalcTextSize(start.data(), start.data() + start.size()).x;
-  });
+  return startThatFits(text, ImGui::GetContentRegionAvail().x, textWidth);
+}
+
+void wrappedText(const std::string& text) {
+  ImGui::TextWrapped("%s", brokenAtSpaces(text, ImGui::GetContentRegionAvail().x, textWidth).c_str());
+}
+
+void dimmedText(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  wrappedText(text);
+  ImGui::PopStyleColor();
 }
 
 std::string mebibytes(uint64_t bytes) {
@@ -168,7 +206,7 @@ void coloredText(const glm::vec3& color, const std::string& text) {
   const bool light = ImGui::GetStyleColorVec4(ImGuiCol_Text).x < 0.5f;
   const glm::vec3 shown = color * (light ? 0.7f : 1.0f);
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(shown.r, shown.g, shown.b, 1.0f));
-  ImGui::TextWrapped("%s", text.c_str());
+  wrappedText(text);
   ImGui::PopStyleColor();
 }
 
@@ -213,11 +251,11 @@ void scene(PanelContext& ui) {
   commandButton(ui, "Copy command line", "copy",
                 "Copies a speculum render call that draws this view. Unsaved changes go into a copy of the scene.",
                 CopyCommandLine{});
-  ImGui::SameLine();
+  continueRow("Inspector");
   if (button(ui, "Inspector", "edit.open", "Selects, moves, adds and deletes objects, lights and mirrors (F2).")) {
     ui.state.inspector = !ui.state.inspector;
   }
-  ImGui::SameLine();
+  continueRow("Screenshot");
   commandButton(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.",
                 TakeScreenshot{true});
 }

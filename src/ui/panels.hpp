@@ -115,8 +115,9 @@ void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
 // Draws the status line at the lower left edge of the display, which PanelDock keeps free, up to `right`, where windows
 // of the right edge begin. `width` is the panel's, in pixels; 0 while the panel is hidden, and the line is then as wide
 // as its text.
-float statusHeight();  // pixels
-void statusLine(const StatusView& status, float width, float right);
+// Returns its height, in pixels.
+float statusHeight();  // least, in pixels
+float statusLine(const StatusView& status, float width, float right);
 
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
 // it to the scene's value if it differs. The button is recorded as "reset." and the key.
@@ -134,11 +135,20 @@ bool choice(const char* label, int& index, std::span<const std::string> names);
 // Linear numbers, as files have them, up to `most`, and a swatch that opens a picker.
 bool colorEdit(const char* label, glm::dvec3& linear, double most);
 
+// Call between the widgets of a row: the next one goes to the next line if it does not fit into this one. It is as wide
+// as a button with this label and `further` pixels.
+void continueRow(const char* label, float further = 0.0f);
+// Returns the label for a widget that needs so many pixels; if the line has no room for both, draws the label above.
+std::string labelFor(const std::string& label, float width);
+
+float textWidth(std::string_view text);         // pixels
 std::string thatFits(const std::string& text);  // its start, if the rest of the line or cell is too short for it
 std::string mebibytes(uint64_t bytes);          // without the unit
 std::string milliseconds(double ms);            // the same without the unit; "-" for NaN
 std::string duration(double ms);                // "3.21 ms", "757 ms", "14.20 s"
-// Text in a color, wrapped at the window's edge.
+// Text that is wrapped at the window's edge, but not within numbers; dimmed; in a color.
+void wrappedText(const std::string& text);
+void dimmedText(const std::string& text);
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);

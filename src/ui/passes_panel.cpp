@@ -177,11 +177,13 @@ void passes(PanelContext& ui) {
   if (!ImGui::CollapsingHeader("Passes", ImGuiTreeNodeFlags_DefaultOpen)) {
     return;
   }
-  ImGui::TextWrapped("GPU %s   Memory %s MiB",
-                     duration(frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs).c_str(),
-                     mebibytes(frame.deviceBytes).c_str());
+  wrappedText("GPU " + duration(frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs) + "   Memory " +
+              mebibytes(frame.deviceBytes) + " MiB");
   tip("GPU time of the last frame whose passes were timed, or of the last frame if none was. Timing slows a frame.");
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+  const bool narrow = ImGui::GetContentRegionAvail().x < 22.0f * ImGui::GetFontSize();  // too narrow for all figures
+  const ImGuiTableColumnFlags further =
+      ImGuiTableColumnFlags_WidthFixed | (narrow ? ImGuiTableColumnFlags_Disabled : ImGuiTableColumnFlags_None);
   if (!ImGui::BeginTable("passes", 5, flags)) {
     return;
   }
@@ -189,8 +191,8 @@ void passes(PanelContext& ui) {
   ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, width);
   ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * width);
-  ImGui::TableSetupColumn("Pixels", ImGuiTableColumnFlags_WidthFixed, width);
-  ImGui::TableSetupColumn("Depth (m)", ImGuiTableColumnFlags_WidthFixed, 1.1f * width);
+  ImGui::TableSetupColumn("Pixels", further, width);
+  ImGui::TableSetupColumn("Depth (m)", further, 1.1f * width);
   header();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
   for (const PassBranch& node : passTree(frame.passes, frame.skipped)) {

@@ -60,7 +60,7 @@ bool beginRows(const char* id) {
     return false;
   }
   const float em = ImGui::GetFontSize();
-  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 8.0f * em);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("Median", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
   ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
   ImGui::TableSetupColumn("Newest right", ImGuiTableColumnFlags_WidthStretch);
@@ -79,13 +79,14 @@ void performance(PanelContext& ui) {
   recordWidget(ui, "performance.pause");
   ImGui::SameLine();
   commandButton(ui, "Clear", "performance.clear", "", ClearHistory{});
-  ImGui::SameLine();
+  continueRow("Copy as CSV");
   if (button(ui, "Copy as CSV", "performance.copy", "Copies all figures of the frames below.")) {
     ui.send(CopyText{history.csv()});
   }
-  ImGui::SameLine();
+  const std::string frames = std::to_string(history.frames()) + " frames";
+  continueRow(frames.c_str());
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%zu frames", history.frames());
+  ImGui::TextDisabled("%s", frames.c_str());
   const float em = ImGui::GetFontSize();
   if (!beginRows("times")) {
     return;

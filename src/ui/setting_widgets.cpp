@@ -25,14 +25,16 @@ struct Widget {
     return ImGuiSliderFlags_AlwaysClamp | (field.slider->logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
   }
 
+  std::string label() const { return labelFor(field.label, 5.0f * ImGui::GetFontSize()); }
+
   void operator()(const NumberSetting& number) const {
     double& value = number.value.of(settings);
     if (!field.slider) {
-      ImGui::InputDouble(field.label, &value, 0.0, 0.0, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
+      ImGui::InputDouble(label().c_str(), &value, 0.0, 0.0, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
       return;
     }
     float edited = static_cast<float>(value);
-    if (ImGui::SliderFloat(field.label, &edited, static_cast<float>(field.slider->low),
+    if (ImGui::SliderFloat(label().c_str(), &edited, static_cast<float>(field.slider->low),
                            static_cast<float>(field.slider->high), field.slider->format, flags())) {
       value = edited;
     }
@@ -51,8 +53,8 @@ struct Widget {
     int& value = integer.value.of(settings);
     if (!integer.powersOfTwo) {
       const SettingSlider slider = *field.slider;
-      ImGui::SliderInt(field.label, &value, static_cast<int>(slider.low), static_cast<int>(slider.high), slider.format,
-                       flags());
+      ImGui::SliderInt(label().c_str(), &value, static_cast<int>(slider.low), static_cast<int>(slider.high),
+                       slider.format, flags());
       return;
     }
     const bool ofDevice = field.key.ends_with(".samples");
@@ -97,7 +99,12 @@ struct Widget {
 
 bool choice(const char* label, int& index, std::span<const std::string> names) {
   const int before = index;
-  if (ImGui::BeginCombo(label, names[index].c_str())) {
+  float widest = 0.0f;
+  for (const std::string& name : names) {
+    widest = std::max(widest, textWidth(name));
+  }
+  const float width = widest + ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().FramePadding.x;
+  if (ImGui::BeginCombo(labelFor(label, width).c_str(), names[index].c_str())) {
     for (int i = 0; i < static_cast<int>(names.size()); ++i) {
       if (ImGui::Selectable(names[i].c_str(), i == index)) {
         index = i;
@@ -115,9 +122,11 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
   for (int i = 0; i < 3; ++i) {
     picked[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
   }
+  const float swatch = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x;
+  const std::string shown = labelFor(label, swatch + 9.5f * ImGui::GetFontSize());
   ImGui::BeginGroup();
   ImGui::PushID(label);
-  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - style.ItemInnerSpacing.x);
+  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - swatch);
   bool changed = ImGui::DragScalarN("##numbers", ImGuiDataType_Double, &linear.x, 3, 0.002f, &least, &most, "%.3f",
                                     ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
@@ -135,7 +144,7 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
     ImGui::EndPopup();
   }
   ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
-  ImGui::TextUnformatted(label, ImGui::FindRenderedTextEnd(label));
+  ImGui::TextUnformatted(shown.c_str(), ImGui::FindRenderedTextEnd(shown.c_str()));
   ImGui::PopID();
   ImGui::EndGroup();
   return changed;
@@ -151,7 +160,7 @@ void settingRows(PanelContext& ui, std::string_view prefix) {
       ImGui::PopID();
       describe(ui, field.key);
       if (field.key == "view.clear_color" && ui.view.settings.sky && !ui.settings.view.clearColor) {
-        ImGui::TextDisabled("The scene's sky is shown in its place.");
+        dimmedText("The scene's sky is shown in its place.");
       }
     }
   }

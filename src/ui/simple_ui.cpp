@@ -74,6 +74,7 @@ void applyTheme(Theme theme, float scale) {
   style.FrameBorderSize = theme == Theme::light ? 1.0f : 0.0f;  // light frames are white on white
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
   style.Colors[ImGuiCol_PopupBg].w = 1.0f;
+  style.Colors[ImGuiCol_TitleBgCollapsed].w = 0.94f;  // else only the picture is seen
   style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
   style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_SliderGrab];  // progress bars have text over them
   const float disabled = theme == Theme::light ? 0.33f : 0.68f;

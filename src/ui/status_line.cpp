@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/elide.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {
@@ -20,13 +21,13 @@ float statusHeight() {
   return std::floor(lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().FramePadding.y);
 }
 
-void statusLine(const StatusView& status, float width, float right) {
+float statusLine(const StatusView& status, float width, float right) {
   const std::string picture = width > 0.0f ? status.picture : "";
   const float alpha = picture.empty() ? statusAlpha(status.age) : 1.0f;
   if ((status.text.empty() && picture.empty()) || alpha <= 0.0f) {
-    return;
+    return 0.0f;
   }
-  const std::string shown = status.text + (status.text.empty() || picture.empty() ? "" : "\n") + picture;
+  std::string shown = status.text + (status.text.empty() || picture.empty() ? "" : "\n") + picture;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
   // Paths cannot wrap, so the line may be wider than the panel.
@@ -35,6 +36,7 @@ void statusLine(const StatusView& status, float width, float right) {
   const bool oneLine = width == 0.0f && text <= most;
   const float across = std::clamp(text, width, most);
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  shown = brokenAtSpaces(shown, across - 2.0f * padding.x, textWidth);
   const float needed =
       ImGui::CalcTextSize(shown.c_str(), nullptr, false, across - 2.0f * padding.x).y + 3.0f * padding.y;
   const float height =
@@ -51,6 +53,7 @@ void statusLine(const StatusView& status, float width, float right) {
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
+  return height;
 }
 
 }  // namespace panels

@@ -75,23 +75,25 @@ void controls(PanelContext& ui, const PassView* shown) {
   Targets& targets = ui.state.targets;
   passChoice(ui, shown);
   for (const Choice& choice : choices) {
-    ImGui::SameLine();
+    continueRow(choice.label, ImGui::GetFrameHeight());
     if (ImGui::RadioButton(choice.label, targets.kind == choice.kind)) {
       targets.kind = choice.kind;
     }
     recordWidget(ui, std::string("targets.") + choice.name, choice.about);
   }
+  continueRow("Fit");
   if (button(ui, "Fit", "targets.fit", "Shows the whole image.")) {
     targets.zoom = 0.0;
   }
-  ImGui::SameLine();
+  continueRow("1:1");
   if (button(ui, "1:1", "targets.one", "Shows a texel on each pixel.")) {
     targets.zoom = 1.0;
   }
   if (targets.kind == Targets::Kind::depth) {
-    ImGui::SameLine();
+    const float width = 8.0f * ImGui::GetFontSize();
+    continueRow("", width);
     float half = static_cast<float>(targets.halfDistance);
-    ImGui::SetNextItemWidth(8.0f * ImGui::GetFontSize());
+    ImGui::SetNextItemWidth(width);
     ImGui::SliderFloat("##half", &half, 0.1f, 1000.0f, "grey %.3g m", ImGuiSliderFlags_Logarithmic);
     targets.halfDistance = half;
     recordWidget(ui, "targets.half", "Distance that is shown half bright.");
@@ -217,15 +219,21 @@ bool hasTarget(const PassView& pass) {
 void targets(PanelContext& ui) {
   const TargetView& target = ui.view.frame.target;
   Targets& targets = ui.state.targets;
+  const PassView* shown = shownPass(ui);
+  // The controls take as many lines as they need, but lie over the background of what they leave.
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.ChannelsSplit(2);
+  list.ChannelsSetCurrent(1);
+  controls(ui, shown);
   const ImVec2 start = ImGui::GetCursorScreenPos();
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const float top = start.y + 3.0f * ImGui::GetFrameHeightWithSpacing();
+  const float top = start.y + ImGui::GetFrameHeightWithSpacing();
   const Rect canvas{{start.x, top}, {start.x + std::max(room.x, 1.0f), std::max(start.y + room.y, top + 1.0f)}};
+  list.ChannelsSetCurrent(0);
   background(canvas);
+  list.ChannelsMerge();
   targets.canvas =
       WindowRect{{canvas.low.x, canvas.low.y}, {canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y}};
-  const PassView* shown = shownPass(ui);
-  controls(ui, shown);
   const glm::dvec2 size(canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y);
   const glm::dvec2 image = glm::max(glm::dvec2(target.size), glm::dvec2(1.0));
   if (targets.zoom == 0.0) {

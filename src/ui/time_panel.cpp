@@ -27,9 +27,10 @@ void time(PanelContext& ui) {
     ui.send(SetPaused{paused});
   }
   recordWidget(ui, "pause", "Pauses the animation (Space). The picture then becomes exact.");
-  ImGui::SameLine();
+  const float width = 6.0f * ImGui::GetFontSize();
+  continueRow("Speed", width);
   float speed = static_cast<float>(playback.speed);
-  ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(width);
   if (ImGui::SliderFloat("Speed", &speed, static_cast<float>(slowestTime), static_cast<float>(fastestTime), "%.3g x",
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(SetTimeSpeed{speed});
