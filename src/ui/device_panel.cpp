@@ -2,6 +2,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 
+#include <algorithm>
+
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -17,11 +19,12 @@ void fact(const char* name, const std::string& value) {
 }
 
 bool beginFacts(const char* id) {
-  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) {
+  const float names = std::min(11.0f * ImGui::GetFontSize(), 0.55f * ImGui::GetContentRegionAvail().x);
+  if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) {
     return false;
   }
-  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 11.0f);
-  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 13.0f);
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, names);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
   return true;
 }
 

@@ -10,7 +10,7 @@ namespace speculum::panels {
 
 namespace {
 
-constexpr float tileEms = 8.0f;  // least width of a tile, in sizes of the font
+constexpr float tileEms = 8.2f;  // least width of a tile, in sizes of the font
 constexpr float tileAspect = 192.0f / 108.0f;
 
 // Draws as much of the text as fits into the tile.

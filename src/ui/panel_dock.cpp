@@ -106,7 +106,7 @@ bool PanelDock::wouldCover(const char* name, Edge edge, const glm::vec2& ems, co
            glm::all(glm::lessThan(place, wish.corner + wish.size));
   }
   const float inward = edge == Edge::left ? place.x : displaySize().x - place.x;
-  return inward < std::min(widthOf(panel).wished, widths(&panel)[static_cast<size_t>(edge)]) + margin();
+  return inward < widthIn(panel, widths(&panel)[static_cast<size_t>(edge)]) + margin();
 }
 
 WindowRect PanelDock::freeRect() const {
@@ -153,6 +153,10 @@ Length PanelDock::widthOf(const Panel& panel) {
   return {least, std::max(kept, least), wished};
 }
 
+float PanelDock::widthIn(const Panel& panel, float most) {
+  return panel.wish.size.x > 0.0f ? std::min(panel.wish.size.x, most) : most;
+}
+
 float PanelDock::heightOf(const Panel& panel) {
   return panel.wish.size.y > 0.0f ? panel.wish.size.y
          : panel.ems.y > 0.0f     ? panel.ems.y * ImGui::GetFontSize()
@@ -196,7 +200,7 @@ void PanelDock::arrange(Edge edge, float width, float taken) {
       const float least = std::min(lowest * em, wished);
       const Length height{least, std::clamp(kept, least, wished), wished};
       panels.push_back(panel);
-      wishes.push_back({std::min(widthOf(*panel).wished, width), height, panel->rank});
+      wishes.push_back({widthIn(*panel, width), height, panel->rank});
     }
   }
   const std::vector<WindowPlace> places = arrangeWindows(wishes, room);

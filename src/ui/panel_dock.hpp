@@ -47,6 +47,7 @@ class PanelDock {
     int rank = 0;         // grows when the user opens it
   };
   static Length widthOf(const Panel& panel);
+  static float widthIn(const Panel& panel, float most);
   static float heightOf(const Panel& panel);
   // Widths of the windows of both edges at most, `further` included.
   std::array<float, 2> widths(const Panel* further = nullptr) const;

@@ -164,6 +164,12 @@ float textWidth(std::string_view text) {
   return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
 }
 
+void figure(const std::string& text, bool dimmed) {
+  const float space = ImGui::GetContentRegionAvail().x - textWidth(text);
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(space, 0.0f));
+  dimmed ? ImGui::TextDisabled("%s", text.c_str()) : ImGui::TextUnformatted(text.c_str());
+}
+
 void continueRow(const char* label, float further) {
   ImGui::SameLine();
   const float width = ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x + further;

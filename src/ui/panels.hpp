@@ -141,7 +141,8 @@ void continueRow(const char* label, float further = 0.0f);
 // Returns the label for a widget that needs so many pixels; if the line has no room for both, draws the label above.
 std::string labelFor(const std::string& label, float width);
 
-float textWidth(std::string_view text);         // pixels
+float textWidth(std::string_view text);                     // pixels
+void figure(const std::string& text, bool dimmed = false);  // at the right edge of its line or cell
 std::string thatFits(const std::string& text);  // its start, if the rest of the line or cell is too short for it
 std::string mebibytes(uint64_t bytes);          // without the unit
 std::string milliseconds(double ms);            // the same without the unit; "-" for NaN

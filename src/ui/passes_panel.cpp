@@ -16,15 +16,8 @@ std::string metres(const std::optional<double>& value) {
   return value ? fmt::format("{:.2g}", *value) : "never";
 }
 
-// Draws a figure at the right edge of its column.
-void figure(const std::string& text, bool dimmed = false) {
-  ImGui::TableNextColumn();
-  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(space, 0.0f));
-  dimmed ? ImGui::TextDisabled("%s", text.c_str()) : ImGui::TextUnformatted(text.c_str());
-}
-
 void depthResolution(const PassView& pass, ClipMethod inUse) {
+  ImGui::TableNextColumn();
   figure(pass.resolution ? metres(gapWith(*pass.resolution, inUse)) : "");
   if (!pass.resolution) {
     return;
@@ -111,13 +104,16 @@ void passRow(PanelContext& ui, const PassBranch& node) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
   }
+  ImGui::TableNextColumn();
   figure(milliseconds(pass.gpuMs), pass.reused || !pass.timed);
   if (pass.reused) {
     tip("The image of an earlier frame is reused. The time is that of rendering it.");
   } else if (!pass.timed) {
     tip(std::isnan(pass.gpuMs) ? "Not timed yet." : "Time of an earlier frame.");
   }
+  ImGui::TableNextColumn();
   figure(std::to_string(pass.draws));
+  ImGui::TableNextColumn();
   figure(pass.areaPx > 0.0 ? fmt::format("{:.0f}", pass.areaPx) : "");
   depthResolution(pass, ui.settings.reflection.clip);
   if (!open) {
@@ -138,7 +134,8 @@ void header() {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < static_cast<int>(about.size()); ++column) {
     ImGui::TableSetColumnIndex(column);
-    ImGui::TableHeader(ImGui::TableGetColumnName(column));
+    const char* name = ImGui::TableGetColumnName(column);
+    column > 0 ? figure(name) : ImGui::TextUnformatted(name);
     tip(about[static_cast<size_t>(column)]);
   }
 }

@@ -46,9 +46,7 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
   }
   for (const double share : {0.5, 0.95}) {
     ImGui::TableNextColumn();
-    const std::string text = milliseconds(percentile(values, share));
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetColumnWidth() - ImGui::CalcTextSize(text.c_str()).x);
-    ImGui::TextUnformatted(text.c_str());
+    figure(milliseconds(percentile(values, share)));
   }
   ImGui::TableNextColumn();
   graph(name.c_str(), values, height);
@@ -64,7 +62,12 @@ bool beginRows(const char* id) {
   ImGui::TableSetupColumn("Median", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
   ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
   ImGui::TableSetupColumn("Newest right", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableHeadersRow();
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (int column = 0; column < 4; ++column) {
+    ImGui::TableNextColumn();
+    const char* name = ImGui::TableGetColumnName(column);
+    column == 0 ? ImGui::TextUnformatted(name) : figure(name);
+  }
   return true;
 }
 

@@ -81,11 +81,11 @@ void controls(PanelContext& ui, const PassView* shown) {
     }
     recordWidget(ui, std::string("targets.") + choice.name, choice.about);
   }
-  continueRow("Fit");
+  continueRow("Fit 1:1", 2.0f * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x);
   if (button(ui, "Fit", "targets.fit", "Shows the whole image.")) {
     targets.zoom = 0.0;
   }
-  continueRow("1:1");
+  ImGui::SameLine();
   if (button(ui, "1:1", "targets.one", "Shows a texel on each pixel.")) {
     targets.zoom = 1.0;
   }
