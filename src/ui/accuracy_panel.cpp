@@ -256,7 +256,7 @@ void accuracy(PanelContext& ui) {
                   MeasureAccuracy{});
   } else {
     commandButton(ui, "Cancel", "accuracy.cancel", "", CancelMeasurement{});
-    ImGui::SameLine();
+    continueRow(accuracy.stage.c_str());
     ImGui::ProgressBar(static_cast<float>(accuracy.progress), ImVec2(-1.0f, 0.0f), accuracy.stage.c_str());
   }
   if (accuracy.measuring && accuracy.secondsLeft > 0.0) {

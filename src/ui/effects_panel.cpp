@@ -39,7 +39,7 @@ void effects(PanelContext& ui) {
       wrappedText(text);
       ImGui::PopStyleColor();
       if (on) {
-        tip(std::to_string(effect.pipelines) + " pipelines");
+        tip(std::to_string(effect.pipelines) + (effect.pipelines == 1 ? " pipeline" : " pipelines"));
       }
     }
   }

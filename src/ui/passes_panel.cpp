@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "ui/elide.hpp"
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
 
@@ -90,7 +91,8 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   flags |= shown ? ImGuiTreeNodeFlags_Selected : 0;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string name = pathEnd(pass.name);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::GetTreeNodeToLabelSpacing();
+  const std::string name = startThatFits(pathEnd(pass.name), room, textWidth);
   const std::string id = pass.name + "/" + std::to_string(node.pass);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
@@ -188,7 +190,7 @@ void passes(PanelContext& ui) {
   ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, width);
   ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * width);
-  ImGui::TableSetupColumn("Pixels", further, width);
+  ImGui::TableSetupColumn("Pixels", further, 1.13f * width);
   ImGui::TableSetupColumn("Depth (m)", further, 1.1f * width);
   header();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
