@@ -64,6 +64,7 @@ bool within(const PixelRect& rect, int left, int right) {
 }
 
 TEST_F(PanelTest, PanelsOfBothEdgesLieSideBySide) {
+  scene_.mirrors[0].ripple = Ripple{.amplitude = 0.1};
   edit_.selected = {Selection::Kind::mirror, 0};
   windows_->toggleInspector();
   for (const float width : {900.0f, 560.0f, 500.0f}) {
@@ -74,11 +75,15 @@ TEST_F(PanelTest, PanelsOfBothEdgesLieSideBySide) {
     for (const char* name : {"screenshot", "bookmark.add", "view.clear_color", "panel.Accuracy", "settings.reset"}) {
       EXPECT_TRUE(within(widget(name), 10, static_cast<int>(middle))) << name << " at " << width;
     }
-    for (const char* name : {"edit.redo", "edit.save_as", "edit.look_behind", "edit.position", "edit.reflectance"}) {
+    for (const char* name :
+         {"edit.redo", "edit.save_as", "edit.look_behind", "edit.position", "edit.ripple.wavelength"}) {
       EXPECT_TRUE(within(widget(name), static_cast<int>(middle) + 10, static_cast<int>(width) - 10))
           << name << " at " << width;
     }
-    EXPECT_GE(widget("edit.position").width, 150) << "numbers are not cut";
+    const PixelRect name = widget("edit.name");
+    const int above = widget("edit.position").y - name.y - name.height;
+    EXPECT_EQ(static_cast<float>(above) > ImGui::GetTextLineHeight(), width < 900.0f)
+        << "beside three numbers there is no room for a label at " << width;
   }
 }
 
@@ -165,6 +170,18 @@ TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
   EXPECT_LT(right, 200.0f);
   EXPECT_GT(right, 100.0f);
   EXPECT_GT(top, 660.0f);
+}
+
+TEST_F(PanelTest, LongStatusLinesLieBelowThePanel) {
+  for (int words = 0; words < 60; ++words) {
+    status_.picture += "words ";
+  }
+  run(3);
+  const ImGuiWindow* line = ImGui::FindWindowByName("##status");
+  const ImGuiWindow* panel = ImGui::FindWindowByName("Speculum");
+  ASSERT_TRUE(line && panel);
+  EXPECT_GT(line->Size.y, 3.0f * ImGui::GetTextLineHeight());
+  EXPECT_LE(panel->Pos.y + panel->Size.y, line->Pos.y);
 }
 
 TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {

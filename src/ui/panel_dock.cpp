@@ -172,9 +172,13 @@ std::array<float, 2> PanelDock::widths(const Panel* further) const {
               std::max(length.wished, width.wished)};
   };
   for (const Panel* panel : order_) {
-    panel->docked ? add(*panel) : void();
+    if (panel->docked) {
+      add(*panel);
+    }
   }
-  further ? add(*further) : void();
+  if (further) {
+    add(*further);
+  }
   const std::vector<float> shares = shareRoom(widest, displaySize().x - 3.0f * margin());
   return {shares[0], shares[1]};
 }

@@ -47,6 +47,7 @@ class PanelDock {
     int rank = 0;         // grows when the user opens it
   };
   static Length widthOf(const Panel& panel);
+  // Width in a column of width `most`: the column's, unless the user made the window narrower.
   static float widthIn(const Panel& panel, float most);
   static float heightOf(const Panel& panel);
   // Widths of the windows of both edges at most, `further` included.
