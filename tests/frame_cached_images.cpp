@@ -32,8 +32,7 @@ PlanSequence withInterval(Scene scene, int interval) {
 }
 
 std::string firstUnchanged(const FramePlan& plan) {
-  const auto it = std::find_if(plan.skipped.begin(), plan.skipped.end(),
-                               [](const SkippedMirror& s) { return s.reason == SkipReason::unchanged; });
+  const auto it = std::ranges::find(plan.skipped, SkipReason::unchanged, &SkippedMirror::reason);
   return it == plan.skipped.end() ? "" : it->detail;
 }
 

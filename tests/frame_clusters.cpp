@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <random>
 
-#include "frame/frame_plan.hpp"
+#include "frame_support.hpp"
 #include "geometry/mesh_clusters.hpp"
+#include "random.hpp"
 
 namespace speculum {
 namespace {
+
+using testing_support::planOf;
 
 // A sheet of 32 x 32 squares of 1/16 m in the plane z = 0, row by row.
 Mesh sheet() {
@@ -32,21 +34,11 @@ Mesh sheet() {
 }
 
 Scene sceneOf(const Object& object, const std::vector<Mirror>& mirrors = {}) {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
+  Scene scene = testing_support::sceneWith(mirrors);
   scene.objects = {object};
   scene.objects[0].mesh = 0;
   scene.meshes = {sheet()};
-  scene.mirrors = mirrors;
   return scene;
-}
-
-uint32_t countOf(const std::vector<IndexRange>& ranges) {
-  uint32_t count = 0;
-  for (const IndexRange& range : ranges) {
-    count += range.count;
-  }
-  return count;
 }
 
 TEST(Clusters, CoverEveryPartInItsOrder) {
@@ -139,20 +131,16 @@ TEST(Clusters, SmallMeshesHaveNone) {
 }
 
 TEST(Clusters, ObjectsInsideThePictureAreDrawnWhole) {
-  Object object;
-  object.position = {0, 0, -5};
-  const Scene scene = sceneOf(object);
-  const FramePlan plan = planFrame(scene, evaluate(scene, 0.0), {}, 640, 360);
+  const FramePlan plan = planOf(sceneOf({.position = {0, 0, -5}}));
   EXPECT_EQ(plan.main.instances, std::vector<int>{0});
   EXPECT_TRUE(plan.main.partial.empty());
 }
 
 TEST(Clusters, ObjectsCutByThePictureArePartial) {
-  Object object;
-  object.position = {0, 1.2, -1.5};  // the picture ends 0.87 m above the middle there
-  const Scene scene = sceneOf(object);
+  // The picture ends 0.87 m above the middle there.
+  const Scene scene = sceneOf({.position = {0, 1.2, -1.5}});
   Settings settings;
-  const FramePlan plan = planFrame(scene, evaluate(scene, 0.0), settings, 640, 360);
+  const FramePlan plan = planOf(scene, settings);
   ASSERT_EQ(plan.main.partial.size(), 1u);
   const std::vector<IndexRange>& ranges = plan.main.partial[0].ranges;
   ASSERT_EQ(ranges.size(), 1u);
@@ -161,7 +149,7 @@ TEST(Clusters, ObjectsCutByThePictureArePartial) {
   EXPECT_GE(ranges[0].count, 6u * 32u * 10u);
   EXPECT_LE(ranges[0].count, 6u * 32u * 13u);
   settings.debug.cullClusters = false;
-  EXPECT_TRUE(planFrame(scene, evaluate(scene, 0.0), settings, 640, 360).main.partial.empty());
+  EXPECT_TRUE(planOf(scene, settings).main.partial.empty());
 }
 
 TEST(Clusters, ObjectsSeenByBoxOnlyAreDropped) {
@@ -169,32 +157,26 @@ TEST(Clusters, ObjectsSeenByBoxOnlyAreDropped) {
   Scene scene = sceneOf({});
   Mesh& mesh = scene.meshes[0];
   std::erase_if(mesh.clusters, [](const MeshCluster& c) { return c.center.y > -0.5; });
-  Object& object = scene.objects[0];
-  object.position = {0, -1.2, -1.5};
-  const FramePlan plan = planFrame(scene, evaluate(scene, 0.0), {}, 640, 360);
-  EXPECT_TRUE(plan.main.instances.empty());
+  scene.objects[0].position = {0, -1.2, -1.5};
+  EXPECT_TRUE(planOf(scene).main.instances.empty());
 }
 
 // Checks every triangle by itself, from random places, in mirrors too.
 TEST(Clusters, NeverLeaveOutVisibleTriangles) {
-  std::mt19937 engine(7);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  };
+  testing_support::Random random(7);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
   const Mesh mesh = sheet();
   uint64_t drawn = 0;
   uint64_t seen = 0;
   uint64_t whole = 0;
   int partial = 0;
   for (int round = 0; round < 400; ++round) {
-    Object object;
-    object.position = {uniform(-1.5, 1.5), uniform(-1.5, 1.5), uniform(-4, 1)};
-    object.rotation = {uniform(-180, 180), uniform(-180, 180), uniform(-180, 180)};
-    object.scale = {uniform(0.2, 3), uniform(0.2, 3), uniform(0.2, 3)};
-    Mirror mirror;
-    mirror.position = {uniform(-1, 1), uniform(-1, 1), -3};
-    mirror.rotation = {uniform(-30, 30), uniform(-30, 30), 0};
-    mirror.size = {uniform(0.1, 2), uniform(0.1, 2)};
+    const Object object{.position = {uniform(-1.5, 1.5), uniform(-1.5, 1.5), uniform(-4, 1)},
+                        .rotation = {uniform(-180, 180), uniform(-180, 180), uniform(-180, 180)},
+                        .scale = {uniform(0.2, 3), uniform(0.2, 3), uniform(0.2, 3)}};
+    const Mirror mirror{.position = {uniform(-1, 1), uniform(-1, 1), -3},
+                        .rotation = {uniform(-30, 30), uniform(-30, 30), 0},
+                        .size = {uniform(0.1, 2), uniform(0.1, 2)}};
     const Scene scene = sceneOf(object, {mirror});
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planFrame(scene, state, {}, 640, 360);
@@ -209,7 +191,7 @@ TEST(Clusters, NeverLeaveOutVisibleTriangles) {
         ranges = pass->partial[0].ranges;
         ++partial;
       }
-      drawn += countOf(ranges);
+      drawn += indexCount(ranges);
       whole += pass->instances.empty() ? 0 : mesh.indices.size();
       for (uint32_t i = 0; i < mesh.indices.size(); i += 3) {
         std::array<glm::dvec3, 3> triangle;
@@ -220,9 +202,8 @@ TEST(Clusters, NeverLeaveOutVisibleTriangles) {
           continue;
         }
         seen += 3;
-        EXPECT_TRUE(std::any_of(
-            ranges.begin(), ranges.end(),
-            [&](const IndexRange& range) { return i >= range.first && i + 3 <= range.first + range.count; }))
+        EXPECT_TRUE(std::ranges::any_of(
+            ranges, [&](const IndexRange& range) { return i >= range.first && i + 3 <= range.first + range.count; }))
             << "round " << round << ", triangle " << i / 3;
       }
     }

@@ -4,27 +4,21 @@
 #include <cmath>
 
 #include "frame/depth_readout.hpp"
+#include "frame_support.hpp"
 
 namespace speculum {
 namespace {
 
 // The camera looks along -z at a mirror 2 m away, which shows what is behind it.
 Scene mirrorScene() {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
-  Mirror mirror;
-  mirror.position = {0, 0, -2};
-  mirror.size = {2, 2};
-  scene.mirrors = {mirror};
-  return scene;
+  return testing_support::sceneWith({testing_support::wall({0, 0, -2}, 0)});
 }
 
 void addBody(Scene& scene, SceneState& state, const glm::dvec3& center, double radius) {
-  InstanceState instance;
-  instance.object = static_cast<int>(scene.objects.size());
-  instance.center = center;
-  instance.radius = radius;
-  instance.mesh = static_cast<int>(scene.meshes.size());
+  InstanceState instance{.object = static_cast<int>(scene.objects.size()),
+                         .mesh = static_cast<int>(scene.meshes.size()),
+                         .center = center,
+                         .radius = radius};
   instance.worldFromMesh.translation = center;
   scene.meshes.push_back({.halfExtent = glm::dvec3(radius), .radius = radius});
   scene.objects.emplace_back();
@@ -95,10 +89,7 @@ TEST(DepthReadout, MirrorsAndGlyphsCount) {
   EXPECT_LT(readout->distance, 9.3);
 
   Scene lit = mirrorScene();
-  PointLight light;
-  light.position = {0, 0, 6};
-  light.radius = 0.1;
-  lit.lights = {light};
+  lit.lights = {{.position = {0, 0, 6}, .radius = 0.1}};
   EXPECT_NEAR(readoutOf(lit, evaluate(lit, 0.0))->distance, 10.1, 1e-9);
 }
 

@@ -13,36 +13,22 @@
 namespace speculum {
 namespace {
 
+using testing_support::objectAt;
+
 constexpr int width = 320;
 constexpr int height = 180;
-
-Mesh cube() {
-  return {.halfExtent = glm::dvec3(0.5), .radius = 0.9, .vertices = {Vertex{}}, .indices = {0, 0, 0}, .parts = {{}}};
-}
-
-Object at(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1.0)) {
-  Object object;
-  object.mesh = 0;
-  object.position = position;
-  object.scale = scale;
-  return object;
-}
 
 enum { ball, wall, box };  // objects
 
 // A curved mirror before the camera, a wall 4 m to its right whose near face is at x = 3.5, and a box behind the
 // camera.
 Scene room() {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
-  scene.meshes = {cube()};
-  scene.objects = {at({0, 0, -4}), at({4, 0, -4}, {1, 8, 8}), at({0, 0, 6})};
+  Scene scene = testing_support::sceneWith({});
+  scene.meshes = {testing_support::cube(0.5, 0.9)};
+  scene.objects = {objectAt({0, 0, -4}), objectAt({4, 0, -4}, {1, 8, 8}), objectAt({0, 0, 6})};
   scene.objects[ball].mirror.emplace();
   scene.objects[ball].name = "ball";
-  PointLight light;
-  light.position = {0, 2, 0};
-  light.glow = 0.0;
-  scene.lights = {light};
+  scene.lights = {{.position = {0, 2, 0}, .glow = 0.0}};
   return scene;
 }
 
@@ -52,8 +38,7 @@ class Frames : public testing_support::PlanSequence {
   // Maps that the next frame renders.
   int rendered() {
     next();
-    return static_cast<int>(
-        std::count_if(plan.maps.begin(), plan.maps.end(), [](const EnvironmentMap& m) { return m.cacheIndex < 0; }));
+    return static_cast<int>(std::ranges::count_if(plan.maps, [](const auto& map) { return map.cacheIndex < 0; }));
   }
 };
 
@@ -122,7 +107,7 @@ TEST(EnvironmentMap, BoxReachesTheNearestFacesAround) {
   EXPECT_NEAR(map.high.z, 5.5, 1e-12) << "the box's";
   EXPECT_NEAR(map.low.x, -0.5, 1e-12) << "nothing there: the end of all there is";
   EXPECT_NEAR(map.low.z, -8.0, 1e-12) << "the wall's end";
-  frames.scene.objects.push_back(at({0, 0, 0}, {30, 20, 40}));
+  frames.scene.objects.push_back(objectAt({0, 0, 0}, {30, 20, 40}));
   EXPECT_EQ(frames.next().maps.at(0).low, glm::dvec3(-15, -10, -20)) << "a room around everything";
   EXPECT_EQ(frames.plan.maps.at(0).high, glm::dvec3(15, 10, 20));
 }

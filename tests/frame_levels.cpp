@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "frame/mesh_level.hpp"
 #include "frame_support.hpp"
+#include "random.hpp"
 
 namespace speculum {
 namespace {
@@ -47,16 +47,9 @@ Scene sceneOf(const std::vector<double>& distances, double scale = 0.5) {
   Scene scene = testing_support::sceneWith({wall({0, 0, -10}, 0, {8, 8})});
   scene.meshes = {ball()};
   for (const double distance : distances) {
-    Object object;
-    object.mesh = 0;
-    object.position = {0, 0, distance - 10.0};
-    object.scale = glm::dvec3(scale);
-    scene.objects.push_back(object);
+    scene.objects.push_back(testing_support::objectAt({0, 0, distance - 10.0}, glm::dvec3(scale)));
   }
-  PointLight light;
-  light.position = {0, 5, 0};
-  light.glow = 0.0;
-  scene.lights = {light};
+  scene.lights = {{.position = {0, 5, 0}, .glow = 0.0}};
   return scene;
 }
 
@@ -181,11 +174,9 @@ TEST(MeshError, PartlySeenBallsAreDrawnInPart) {
 // Two points of an instance, as far apart as the largest error allows, are seen no more than the set texels apart in
 // the mirror.
 TEST(MeshError, BoundHoldsForAnyTwoPoints) {
-  std::mt19937 engine(11);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  };
-  const auto inBox = [&] { return glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)); };
+  testing_support::Random random(11);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
+  const auto inBox = [&] { return random.inBox(1.0); };
   double tightest = 0.0;
   int compared = 0;
   for (int round = 0; round < 2000; ++round) {

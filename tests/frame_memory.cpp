@@ -1,19 +1,14 @@
 #include <gtest/gtest.h>
 
 #include "frame/memory_fit.hpp"
+#include "frame_support.hpp"
 
 namespace speculum {
 namespace {
 
 // The camera looks straight at a mirror that fills the view.
 Scene wallScene() {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
-  Mirror mirror;
-  mirror.position = {0, 0, -1};
-  mirror.size = {20, 20};
-  scene.mirrors = {mirror};
-  return scene;
+  return testing_support::sceneWith({testing_support::wall({0, 0, -1}, 0, {20, 20})});
 }
 
 FittedPlan fit(uint64_t budget) {

@@ -60,12 +60,10 @@ class Occluders : public ::testing::Test {
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
 
   Object place(int mesh) {
-    Object object;
-    object.mesh = mesh;
-    object.position = {uniform(-1, 1), uniform(-1, 1), uniform(-5, -1)};
-    object.rotation = {uniform(-180, 180), uniform(-180, 180), uniform(-180, 180)};
-    object.scale = {uniform(0.5, 2), uniform(0.5, 2), uniform(0.5, 2)};
-    return object;
+    return {.mesh = mesh,
+            .position = {uniform(-1, 1), uniform(-1, 1), uniform(-5, -1)},
+            .rotation = {uniform(-180, 180), uniform(-180, 180), uniform(-180, 180)},
+            .scale = {uniform(0.5, 2), uniform(0.5, 2), uniform(0.5, 2)}};
   }
 
   // Returns a mirror somewhere beyond an occluder, in the direction of a point of its surface or beside it.

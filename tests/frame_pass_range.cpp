@@ -10,12 +10,9 @@ namespace {
 using testing_support::wall;
 
 FramePlan planOf(std::vector<Mirror> mirrors, int maxDepth) {
-  Scene scene;
-  scene.camera.target = {0, 0, -1};
-  scene.mirrors = std::move(mirrors);
   Settings settings;
   settings.reflection.maxDepth = maxDepth;
-  return planFrame(scene, evaluate(scene, 0.0), settings, 640, 360);
+  return testing_support::planOf(testing_support::sceneWith(std::move(mirrors)), settings);
 }
 
 void expectWhole(const FramePlan& plan, const std::vector<PassRange>& ranges) {

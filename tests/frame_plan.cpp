@@ -135,8 +135,7 @@ TEST(FramePlan, FacingMirrorsRecurseDeepestFirst) {
       EXPECT_LT(p.passes[i - 1].areaPx, p.passes[i].areaPx);
     }
   }
-  const auto cut = std::find_if(p.skipped.begin(), p.skipped.end(),
-                                [](const SkippedMirror& s) { return s.reason == SkipReason::maxDepth; });
+  const auto cut = std::ranges::find(p.skipped, SkipReason::maxDepth, &SkippedMirror::reason);
   ASSERT_NE(cut, p.skipped.end());
   EXPECT_EQ(cut->path.size(), 7u);
 }
@@ -146,7 +145,7 @@ TEST(FramePlan, ThroughputIsTheProductOfReflectances) {
   scene.mirrors[0].reflectance = {0.5, 0.1, 0.1};
   scene.mirrors[1].reflectance = {0.1, 0.4, 0.1};
   const FramePlan p = planOf(scene);
-  const auto second = std::find_if(p.passes.begin(), p.passes.end(), [](const auto& pass) { return pass.depth == 1; });
+  const auto second = std::ranges::find(p.passes, 1, &PlannedPass::depth);
   ASSERT_NE(second, p.passes.end());
   EXPECT_NEAR(second->throughput, 0.05, 1e-15);
 }

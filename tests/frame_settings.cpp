@@ -31,10 +31,7 @@ TEST(Settings, EveryKeyHasItsDefault) {
 TEST(Settings, EveryDescriptionIsWhole) {
   for (const SettingField& field : settingFields()) {
     EXPECT_FALSE(field.text.empty() || field.cost.empty() || std::string(field.label).empty()) << field.key;
-    EXPECT_EQ(std::count_if(settingFields().begin(), settingFields().end(),
-                            [&](const SettingField& other) { return other.key == field.key; }),
-              1)
-        << field.key;
+    EXPECT_EQ(std::ranges::count(settingFields(), field.key, &SettingField::key), 1) << field.key;
     const auto* integer = std::get_if<IntegerSetting>(&field.kind);
     EXPECT_TRUE(!integer || integer->powersOfTwo || field.slider) << field.key << ": the panel has no widget for it";
     EXPECT_TRUE(!field.needs || !settingValue(Settings(), field.needs->key).empty()) << field.key;

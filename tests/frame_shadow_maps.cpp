@@ -13,28 +13,17 @@
 namespace speculum {
 namespace {
 
-Object boxAt(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1.0)) {
-  Object object;
-  object.mesh = 0;
-  object.position = position;
-  object.scale = scale;
-  return object;
-}
+using testing_support::objectAt;
 
 PointLight lightAt(const glm::dvec3& position) {
-  PointLight light;
-  light.position = position;
-  light.castsShadow = true;
-  light.glow = 0.0;
-  return light;
+  return {.position = position, .glow = 0.0, .castsShadow = true};
 }
 
 // A floor before the camera with a box on it, and a lamp above.
 Scene room() {
   Scene scene = testing_support::sceneWith({});
-  scene.meshes = {
-      {.halfExtent = glm::dvec3(0.5), .radius = 0.9, .vertices = {Vertex{}}, .indices = {0, 0, 0}, .parts = {{}}}};
-  scene.objects = {boxAt({0, -1, -5}, {8, 0.1, 8}), boxAt({0, -0.5, -5})};
+  scene.meshes = {testing_support::cube(0.5, 0.9)};
+  scene.objects = {objectAt({0, -1, -5}, {8, 0.1, 8}), objectAt({0, -0.5, -5})};
   scene.lights = {lightAt({1, 2, -5})};
   return scene;
 }
@@ -127,7 +116,7 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
     Scene scene = room();
     scene.objects.clear();
     for (int i = 0; i < 8; ++i) {
-      scene.objects.push_back(boxAt(point(6), {uniform(0.1, 3), uniform(0.1, 3), uniform(0.1, 3)}));
+      scene.objects.push_back(objectAt(point(6), {uniform(0.1, 3), uniform(0.1, 3), uniform(0.1, 3)}));
       scene.objects.back().rotation = 60.0 * point(1);
     }
     scene.lights = {lightAt(point(4)), lightAt(point(40))};
@@ -143,8 +132,7 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
       passes.push_back(&pass);
     }
     for (const ShadowMap& map : frames.plan.shadowMaps) {
-      unread += static_cast<int>(
-          std::count_if(map.faces.begin(), map.faces.end(), [](const ShadowFace& face) { return !face.read; }));
+      unread += static_cast<int>(std::ranges::count(map.faces, false, &ShadowFace::read));
     }
     for (int sample = 0; sample < 400; ++sample) {
       const PlannedPass& pass = *passes[random() % passes.size()];

@@ -8,6 +8,7 @@
 #include "frame/pass_mask.hpp"
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
+#include "random.hpp"
 
 namespace speculum {
 namespace {
@@ -23,12 +24,7 @@ Scene sceneWith(std::vector<Mirror> mirrors, const std::vector<Object>& objects)
 }
 
 Object square(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1.0)) {
-  Object object;
-  object.name = "door";
-  object.mesh = 0;
-  object.position = position;
-  object.scale = scale;
-  return object;
+  return {.name = "door", .mesh = 0, .position = position, .scale = scale};
 }
 
 bool isHidden(const FramePlan& plan, const std::vector<int>& path) {
@@ -100,11 +96,7 @@ TEST(Hidden, MirrorsHideOnlyWithWhatTheyReflect) {
   const FramePlan beyond = planOf(sceneWith(facing, {square({0, 0, -6}, {3, 3, 1})}));
   EXPECT_FALSE(isHidden(beyond, {0, 1}));
   EXPECT_EQ(beyond.passes.back().view.path, std::vector<int>{0});
-  ASSERT_NE(std::find_if(beyond.passes.begin(), beyond.passes.end(),
-                         [](const PlannedPass& pass) {
-                           return pass.view.path == std::vector<int>{0, 1};
-                         }),
-            beyond.passes.end());
+  ASSERT_TRUE(std::ranges::any_of(beyond.passes, [](const auto& pass) { return pass.view.path == std::vector{0, 1}; }));
   // A door stands across the plane. Only its part before the plane is reflected, so only that part hides.
   Object across = square({0, 0, -4}, {3, 3, 1});
   across.rotation = {0, 90, 0};
@@ -172,14 +164,13 @@ TEST(Hidden, BodiesHideMoreThanTheirFaces) {
 
 // With the eye in an occluder's plane, rounding decides on which side of its edges the eye lies.
 TEST(Hidden, EdgeOnSheetsHideNothing) {
-  std::mt19937 engine(5);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Random random(5);
   for (int round = 0; round < 2000; ++round) {
-    const double yaw = 90.0 * uniform(engine);
+    const double yaw = 90.0 * random.uniform(-1, 1);
     Object sheet = square({0, 0, 0}, {1.0, 1.0, round % 2 == 0 ? 1e-17 : 1e-9});
     sheet.rotation = {0, yaw, 0};
     const glm::dvec3 along(std::cos(glm::radians(yaw)), 0, -std::sin(glm::radians(yaw)));
-    const double distance = 2.0 + uniform(engine);
+    const double distance = random.uniform(1, 3);
     sheet.position = (along.z < 0.0 ? distance : -distance) * along;
     const glm::dvec3 aside(-along.z, 0, along.x);
     for (const double side : {-1.5, 1.5}) {
@@ -365,10 +356,8 @@ TEST(PassMask, FollowsTheMarginOfACachedImage) {
 TEST(BoxVisible, IsTightAndNeverTooTight) {
   const Scene scene = sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {});
   const FramePlan p = planOf(scene);
-  std::mt19937 engine(5);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  };
+  Random random(5);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
   int culled = 0;
   for (int round = 0; round < 20000; ++round) {
     const View& view = round % 2 == 0 ? p.main.view : p.passes[0].view;

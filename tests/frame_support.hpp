@@ -14,11 +14,21 @@ constexpr int height = 360;
 
 // A mirror that faces +z, turned by `yaw` degrees.
 inline Mirror wall(const glm::dvec3& position, double yaw, const glm::dvec2& size = {2, 2}) {
-  Mirror mirror;
-  mirror.position = position;
-  mirror.rotation = {0, yaw, 0};
-  mirror.size = size;
-  return mirror;
+  return {.position = position, .rotation = {0, yaw, 0}, .size = size};
+}
+
+// An object of the scene's first mesh.
+inline Object objectAt(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1.0)) {
+  return {.mesh = 0, .position = position, .scale = scale};
+}
+
+// A mesh of which only the extent counts.
+inline Mesh cube(double halfSide, double radius) {
+  return {.halfExtent = glm::dvec3(halfSide),
+          .radius = radius,
+          .vertices = {Vertex{}},
+          .indices = {0, 0, 0},
+          .parts = {{}}};
 }
 
 // The camera stands at the origin and looks along -z.
@@ -55,14 +65,12 @@ inline FramePlan planOf(const Scene& scene, const Settings& settings = {}) {
 }
 
 inline const SkippedMirror* skipOf(const FramePlan& plan, const std::vector<int>& path) {
-  const auto it = std::find_if(plan.skipped.begin(), plan.skipped.end(),
-                               [&](const SkippedMirror& skip) { return skip.path == path; });
+  const auto it = std::ranges::find(plan.skipped, path, &SkippedMirror::path);
   return it == plan.skipped.end() ? nullptr : &*it;
 }
 
 inline int count(const FramePlan& plan, SkipReason reason) {
-  return static_cast<int>(
-      std::count_if(plan.skipped.begin(), plan.skipped.end(), [&](const auto& s) { return s.reason == reason; }));
+  return static_cast<int>(std::ranges::count(plan.skipped, reason, &SkippedMirror::reason));
 }
 
 // Plans frame after frame, each with the cache that the one before left.

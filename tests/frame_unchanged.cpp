@@ -16,17 +16,6 @@ namespace {
 
 using namespace testing_support;
 
-Mesh ball() {
-  return {.halfExtent = glm::dvec3(0.2), .radius = 0.2, .vertices = {Vertex{}}, .indices = {0, 0, 0}, .parts = {{}}};
-}
-
-Object at(const glm::dvec3& position) {
-  Object object;
-  object.mesh = 0;
-  object.position = position;
-  return object;
-}
-
 enum { left, right, behind };                     // mirrors
 enum { seenLeft, seenRight, unseen, seenTwice };  // objects
 
@@ -35,12 +24,9 @@ enum { seenLeft, seenRight, unseen, seenTwice };  // objects
 Scene room() {
   Scene scene =
       sceneWith({wall({-1.5, 0, -3}, -30, {1, 1}), wall({1.5, 0, -3}, 0, {1, 1}), wall({4.5, 0, 3}, 180, {3, 3})});
-  scene.meshes = {ball()};
-  scene.objects = {at({-2.5, 0, -2.9}), at({1.6, 0.3, -2}), at({0, 30, 0}), at({3.2, 0, 1})};
-  PointLight light;
-  light.position = {0, 2, 0};
-  light.glow = 0.0;
-  scene.lights = {light};
+  scene.meshes = {cube(0.2, 0.2)};
+  scene.objects = {objectAt({-2.5, 0, -2.9}), objectAt({1.6, 0.3, -2}), objectAt({0, 30, 0}), objectAt({3.2, 0, 1})};
+  scene.lights = {{.position = {0, 2, 0}, .glow = 0.0}};
   return scene;
 }
 
@@ -117,7 +103,10 @@ TEST(Unchanged, EditsRenderTheMirrorsThatShowThem) {
   EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects[seenRight].shininess = 3.0; }), Mirrors{right});
   EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects[seenRight].specular = glm::dvec3(0.1); }),
             Mirrors{right});
-  EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects.push_back(at({-2.5, 0.1, -2.9})); }), Mirrors{left});
+  EXPECT_EQ(renderedAfter([](PlanSequence& f) {
+              f.scene.objects.push_back(objectAt({-2.5, 0.1, -2.9}));
+            }),
+            Mirrors{left});
   EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.objects.erase(f.scene.objects.begin()); }), both)
       << "others have another index then";
   EXPECT_EQ(renderedAfter([](PlanSequence& f) { f.scene.mirrors[behind].reflectance *= 0.5; }), Mirrors{right});
@@ -283,7 +272,7 @@ bool drawnAfter(const std::function<void(PlanSequence&)>& change, Scene scene = 
 
 TEST(MainView, VisibleChangesDrawIt) {
   Scene scene = room();
-  scene.objects.push_back(at({0, 0, -4}));  // before the camera, in no mirror
+  scene.objects.push_back(objectAt({0, 0, -4}));  // before the camera, in no mirror
   const auto after = [&](auto change) { return drawnAfter(change, scene); };
   EXPECT_TRUE(after([](PlanSequence& f) { f.scene.objects.back().position.y += 1e-9; }));
   EXPECT_TRUE(after([](PlanSequence& f) { f.scene.objects.back().color = glm::dvec3(0.1); }));

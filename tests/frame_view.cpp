@@ -24,12 +24,10 @@ Scene randomScene() {
   scene.camera.position = inBox(3.0);
   scene.camera.target = scene.camera.position + inBox(1.0) + glm::dvec3(0.01, 0.02, 1.5);
   for (int i = 0; i < 2; ++i) {
-    Mirror mirror;
-    mirror.position = inBox(4.0);
-    mirror.rotation = {uniform(-180, 180), uniform(-180, 180), 0};
-    mirror.size = {uniform(0.1, 8), uniform(0.1, 8)};
-    mirror.twoSided = true;
-    scene.mirrors.push_back(mirror);
+    scene.mirrors.push_back({.position = inBox(4.0),
+                             .rotation = {uniform(-180, 180), uniform(-180, 180), 0},
+                             .size = {uniform(0.1, 8), uniform(0.1, 8)},
+                             .twoSided = true});
   }
   return scene;
 }
