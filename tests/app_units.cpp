@@ -102,16 +102,27 @@ TEST(FramePacer, IdleTimeIsNoFrameTime) {
   EXPECT_TRUE(std::isnan(pacer.beginFrame(0.5)));
 }
 
-TEST(FrameReport, PanelOnlyFramesChangeNoFigure) {
-  const Scene scene;
-  const SceneState state;
-  const Settings settings;
+class Report : public testing::Test {
+ protected:
+  RecordedFrame frameOf(uint64_t number, double cpuMs, double sinceMs) const {
+    return {scene_, state_, settings_, plan, number, cpuMs, sinceMs};
+  }
+
   FramePlan plan;
   FrameReport report;
+  const std::vector<PassView>& rows = report.view().passes;
+
+ private:
+  const Scene scene_;
+  const SceneState state_;
+  const Settings settings_;
+};
+
+TEST_F(Report, PanelOnlyFramesChangeNoFigure) {
   uint64_t number = 0;
   const auto frame = [&](bool panelOnly, double sinceMs, double cpuMs, const FrameTimings& timings) {
     plan.mainReused = panelOnly;
-    report.updateTimes({scene, state, settings, plan, ++number, cpuMs, sinceMs}, timings);
+    report.updateTimes(frameOf(++number, cpuMs, sinceMs), timings);
   };
   const auto timed = [](uint64_t frame, double ms) {
     return FrameTimings{.frame = frame, .gpuMs = ms, .passes = {{.name = "main view", .gpuMs = ms}}};
@@ -137,32 +148,27 @@ TEST(FrameReport, PanelOnlyFramesChangeNoFigure) {
   EXPECT_NEAR(report.view().frameMs, 10.0, 1.0) << "not held up by the slow frame before";
 }
 
-TEST(FrameReport, TilesOfAPictureAreOneFrame) {
-  const Scene scene;
-  const SceneState state;
-  const Settings settings;
-  FramePlan plan;
+TEST_F(Report, TilesOfAPictureAreOneFrame) {
   plan.main.view.rect = {0, 0, 2 * tileSide, 2 * tileSide};
-  FrameReport report;
-  report.updateTimes({scene, state, settings, plan, 1, 1.0, NAN}, {});
+  report.updateTimes(frameOf(1, 1.0, NAN), {});
   uint64_t number = 1;
   for (int picture = 0; picture < 2; ++picture) {
     for (size_t tile = 0; tile < 4; ++tile) {
       plan.tiles = {tile, tile + 1};
-      report.updateTimes({scene, state, settings, plan, number + 1, 2.0, 30.0}, {.frame = number, .gpuMs = 25.0});
+      report.updateTimes(frameOf(number + 1, 2.0, 30.0), {.frame = number, .gpuMs = 25.0});
       ++number;
     }
     if (picture == 0) {
       plan.tiles = {0, 1};
       FrameReport next = report;
-      next.updateTimes({scene, state, settings, plan, number + 1, 2.0, 30.0}, {.frame = number, .gpuMs = 25.0});
+      next.updateTimes(frameOf(number + 1, 2.0, 30.0), {.frame = number, .gpuMs = 25.0});
       EXPECT_EQ(next.view().gpuMs, 4 * 25.0) << "known while the next picture is drawn";
     }
   }
   EXPECT_EQ(report.view().history.frames(), 3u);
   plan.tiles.reset();
   plan.mainReused = true;
-  report.updateTimes({scene, state, settings, plan, number + 1, 1.0, 10.0}, {.frame = number, .gpuMs = 25.0});
+  report.updateTimes(frameOf(number + 1, 1.0, 10.0), {.frame = number, .gpuMs = 25.0});
   EXPECT_EQ(report.view().gpuMs, 4 * 25.0);
   EXPECT_EQ(report.view().cpuMs, 4 * 2.0);
 }
@@ -197,21 +203,14 @@ FrameTimings timings(uint64_t frame, const std::vector<double>& ms) {
   return all;
 }
 
-TEST(FrameReport, EarlierTimesAreMarked) {
-  const Scene scene;
-  const SceneState state;
-  const Settings settings;
+TEST_F(Report, EarlierTimesAreMarked) {
   const RecordedPass mirror{{.path = {0}}, "mirror a"};
   const RecordedPass main{{.kind = PassKind::main}, "main view"};
-  FrameReport report;
-  FramePlan plan;
   const auto frame = [&](uint64_t number, const std::vector<RecordedPass>& passes, const FrameTimings& timings,
                          const std::vector<RecordedPass>& timed) {
-    const RecordedFrame recorded{scene, state, settings, plan, number, 1.0, 1.0};
-    report.updateTimes(recorded, timings);
-    report.updatePasses(recorded, timings, passes, timed);
+    report.updateTimes(frameOf(number, 1.0, 1.0), timings);
+    report.updatePasses(frameOf(number, 1.0, 1.0), timings, passes, timed);
   };
-  const std::vector<PassView>& rows = report.view().passes;
   frame(1, {mirror, main}, {}, {});
   frame(2, {mirror, main}, timings(1, {530.0, 100.0}), {mirror, main});
   EXPECT_TRUE(rows[0].timed && rows[1].timed);
@@ -233,23 +232,16 @@ TEST(FrameReport, EarlierTimesAreMarked) {
   EXPECT_FALSE(rows[1].reused);
 }
 
-TEST(FrameReport, TimesOfTilesAddUp) {
-  const Scene scene;
-  const SceneState state;
-  const Settings settings;
+TEST_F(Report, TimesOfTilesAddUp) {
   const std::vector<RecordedPass> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
-  FrameReport report;
-  FramePlan plan;
   plan.passes.resize(1);
   plan.passes[0].view.rect = plan.main.view.rect = {0, 0, tileSide, tileSide};
   const auto frame = [&](uint64_t number, const FrameTimings& timings, const std::vector<RecordedPass>& timed) {
-    const RecordedFrame recorded{scene, state, settings, plan, number, 1.0, 1.0};
-    report.updateTimes(recorded, timings, timed);
+    report.updateTimes(frameOf(number, 1.0, 1.0), timings, timed);
     if (endsPicture(plan)) {
-      report.updatePasses(recorded, timings, passes, timed);
+      report.updatePasses(frameOf(number, 1.0, 1.0), timings, passes, timed);
     }
   };
-  const std::vector<PassView>& rows = report.view().passes;
   frame(1, {}, {});
   frame(2, timings(1, {1.0, 5.0}), passes);
   EXPECT_EQ(rows[1].gpuMs, 5.0);
@@ -281,18 +273,24 @@ TEST(Options, FileAloneIsTheScene) {
   EXPECT_THROW(scene({"speculum", "rnder"}), UsageError);
 }
 
+// The camera of a scene that stands still, with that position and target.
+struct StillCamera : CameraController {
+  StillCamera(const glm::dvec3& position, const glm::dvec3& target) {
+    reset({.position = position, .target = target});
+    start = lookAt(position, target, {0, 1, 0}, 60.0, 0.001);
+    now();
+  }
+  CameraPose now() { return pose(start); }
+
+  CameraPose start;
+};
+
 TEST(CameraControl, FramesSpheresInAnyPictureShape) {
-  CameraSpec spec;
-  spec.position = {1.0, 2.0, 3.0};
-  spec.target = {0.0, 0.5, 0.0};
-  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
   const Sphere sphere{{5.0, -2.0, 1.0}, 3.0};
   for (const double aspect : {0.25, 1.0, 4.0}) {
-    CameraController camera;
-    camera.reset(spec);
-    camera.pose(start);
+    StillCamera camera({1.0, 2.0, 3.0}, {0.0, 0.5, 0.0});
     camera.frame(sphere, aspect, {});
-    const CameraPose pose = camera.pose(start);
+    const CameraPose pose = camera.now();
     const glm::dvec3 seen = pose.worldToView * (sphere.center - pose.eye);
     EXPECT_NEAR(seen.x, 0.0, 1e-9);
     EXPECT_NEAR(seen.y, 0.0, 1e-9);
@@ -300,22 +298,16 @@ TEST(CameraControl, FramesSpheresInAnyPictureShape) {
     const double half = 0.5 * pose.verticalFov;
     const double narrower = std::min(half, std::atan(std::tan(half) * aspect));
     EXPECT_NEAR(-seen.z * std::sin(narrower), sphere.radius, 1e-9);
-    EXPECT_NEAR(glm::distance(pose.worldToView[0], start.worldToView[0]), 0.0, 1e-9) << "the direction stays";
+    EXPECT_NEAR(glm::distance(pose.worldToView[0], camera.start.worldToView[0]), 0.0, 1e-9) << "the direction stays";
   }
 }
 
 TEST(CameraControl, FramesBetweenPanelsAndOrbitsThere) {
-  CameraSpec spec;
-  spec.position = {1.0, 2.0, 3.0};
-  spec.target = {0.0, 0.5, 0.0};
-  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
-  CameraController camera;
-  camera.reset(spec);
-  camera.pose(start);
+  StillCamera camera({1.0, 2.0, 3.0}, {0.0, 0.5, 0.0});
   const glm::dvec3 center(5.0, -2.0, 1.0);
   camera.frame({center, 3.0}, 2.0, {.center = {0.4, -0.1}, .half = {0.6, 0.9}});
   for (int turn = 0; turn < 3; ++turn) {
-    const CameraPose pose = camera.pose(start);
+    const CameraPose pose = camera.now();
     const glm::dvec3 seen = pose.worldToView * (center - pose.eye);
     const double slope = std::tan(0.5 * pose.verticalFov);
     EXPECT_NEAR(seen.x / -seen.z / (2.0 * slope), 0.4, 1e-9) << "it stays while the camera orbits";
@@ -325,32 +317,21 @@ TEST(CameraControl, FramesBetweenPanelsAndOrbitsThere) {
 }
 
 TEST(CameraControl, OrbitStaysAboveTheFloor) {
-  CameraSpec spec;
-  spec.position = {0.0, 2.0, 4.0};
-  spec.target = {0.0, 1.0, 0.0};
-  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
-  CameraController camera;
+  StillCamera camera({0.0, 2.0, 4.0}, {0.0, 1.0, 0.0});
   camera.setMode(CameraMode::orbit);
-  camera.reset(spec);
-  camera.pose(start);
   camera.setFloor(0.0);
   for (int i = 0; i < 50; ++i) {
     camera.drag(0.0, -20.0);
-    EXPECT_GT(camera.pose(start).eye.y, 0.0);
+    EXPECT_GT(camera.now().eye.y, 0.0);
   }
-  EXPECT_LT(camera.pose(start).eye.y, 0.5);
+  EXPECT_LT(camera.now().eye.y, 0.5);
 }
 
 TEST(CameraControl, DragsTurnAndStopAtThePole) {
-  CameraSpec spec;
-  spec.position = {0.0, 2.0, 4.0};
-  spec.target = {0.0, 1.0, 0.0};
-  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
   for (const CameraMode mode : {CameraMode::orbit, CameraMode::fly}) {
-    CameraController camera;
+    StillCamera camera({0.0, 2.0, 4.0}, {0.0, 1.0, 0.0});
     camera.setMode(mode);
-    camera.reset(spec);
-    const auto forward = [&] { return -glm::dvec3(glm::transpose(camera.pose(start).worldToView)[2]); };
+    const auto forward = [&] { return -glm::dvec3(glm::transpose(camera.now().worldToView)[2]); };
     const glm::dvec3 before = forward();
     camera.drag(0.0, 90.0);
     const double turned = glm::degrees(std::acos(glm::dot(before, forward())));
@@ -367,18 +348,13 @@ TEST(CameraControl, DragsTurnAndStopAtThePole) {
 }
 
 TEST(CameraControl, FloorMirrorLeansWhereTheCameraLooks) {
-  CameraSpec spec;
-  spec.position = {0.0, 2.0, 5.0};
-  const CameraPose start = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
   MirrorState floor;
   floor.polygon = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
   floor.normal = {0, 1, 0};
   for (const auto side : {MirrorSide::back, MirrorSide::front}) {
-    CameraController camera;
-    camera.reset(spec);
-    camera.pose(start);
+    StillCamera camera({0.0, 2.0, 5.0}, {0.0, 0.0, 0.0});
     camera.lookFrom(floor, side, 1.5);
-    const CameraPose pose = camera.pose(start);
+    const CameraPose pose = camera.now();
     EXPECT_EQ(pose.eye.y > 0.0, side == MirrorSide::front);
     EXPECT_GT(pose.worldToView[1][2], -1.0);
     const glm::dvec3 forward = -glm::dvec3(glm::transpose(pose.worldToView)[2]);
@@ -397,9 +373,7 @@ TEST(Gamepad, StickBeginsWithoutAJump) {
 }
 
 TEST(CameraController, MovesFromTheSceneCameraAtOnce) {
-  CameraSpec spec;
-  spec.position = {0, 1.9, 8.4};
-  spec.target = {0, 0.85, 0};  // above the origin
+  const CameraSpec spec{.position = {0, 1.9, 8.4}, .target = {0, 0.85, 0}};  // above the origin
   CameraController camera;
   camera.reset(spec);
   camera.drag(1.0, 0.0);

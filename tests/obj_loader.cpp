@@ -233,22 +233,11 @@ TEST_F(ObjLoader, MissingFilesAndFoldersAreRefused) {
   }
 }
 
-struct ObjFault {
-  const char* name;
-  std::string text;
-  const char* line;     // and key
-  const char* message;  // part of it
-};
-
-void PrintTo(const ObjFault& fault, std::ostream* stream) {
-  *stream << fault.name;
-}
-
-class ObjFaults : public ObjTest, public testing::WithParamInterface<ObjFault> {};
+class ObjFaults : public ObjTest, public testing::WithParamInterface<Fault> {};
 
 TEST_P(ObjFaults, NameTheirLine) {
   const std::string fault = faultOf(GetParam().text);
-  EXPECT_TRUE(fault.starts_with("m.obj:" + std::string(GetParam().line) + " ")) << fault;
+  EXPECT_TRUE(fault.starts_with("m.obj:" + std::string(GetParam().place) + " ")) << fault;
   EXPECT_NE(fault.find(GetParam().message), std::string::npos) << fault;
   EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
 }
@@ -258,34 +247,32 @@ const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 INSTANTIATE_TEST_SUITE_P(
     Tokens, ObjFaults,
     testing::Values(
-        ObjFault{"WordInPosition", "# a comment\nv 1 abc 2\n", "2: v:", "'abc' is not a number"},
-        ObjFault{"TrailingLetters", "v 1 2 3x\n", "1: v:", "'3x' is not a number"},
-        ObjFault{"TwoSigns", "v 1 2 +-3\n", "1: v:", "'+-3' is not a number"},
-        ObjFault{"TwoCoordinates", "v 1 2\n", "1: v:", "has 2 numbers (3 .. 8 are needed)"},
-        ObjFault{"NormalOfFour", "vn 1 2 3 4\n", "1: vn:", "has 4 numbers (3 are needed)"},
-        ObjFault{"EmptyTexcoord", "vt\n", "1: vt:", "has 0 numbers (1 .. 3 are needed)"},
-        ObjFault{"IndexTooLarge", kVertices + "f 1 2 4\n", "4: f:", "v index 4 is out of range (1 .. 3, or -3 .. -1)"},
-        ObjFault{"IndexZero", kVertices + "f 0 1 2\n", "4: f:", "v index 0 is out of range"},
-        ObjFault{"RelativeIndexTooFar", kVertices + "f -4 1 2\n", "4: f:", "v index -4 is out of range"},
-        ObjFault{"IndexOfLaterVertex", kVertices + "f 1 2 4\nv 1 1 1\n", "4: f:", "v index 4 is out of range"},
-        ObjFault{"IndexBeyondIntegers", kVertices + "f 1 2 99999999999999999999\n", "4: f:", "is out of range"},
-        ObjFault{"TexcoordTooLarge", kVertices + "vt 0 0\nf 1/1 2/2 3/1\n",
-                 "5: f:", "vt index 2 is out of range (1 .. 1"},
-        ObjFault{"NoTexcoords", kVertices + "f 1/1 2/1 3/1\n", "4: f:", "(there is no vt line above)"},
-        ObjFault{"NormalTooLarge", kVertices + "vn 0 0 1\nf 1//1 2//1 3//2\n", "5: f:", "vn index 2 is out of range"},
-        ObjFault{"NormalOfTriple", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/-2 3/1/1\n", "6: f:", "vn index -2"},
-        ObjFault{"IndexIsWord", kVertices + "f 1 2 x\n", "4: f:", "'x' is not an index"},
-        ObjFault{"IndexIsEmpty", kVertices + "f 1 2 /3\n", "4: f:", "'' is not an index"},
-        ObjFault{"IndexOfFour", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1/1 2 3\n", "6: f:", "'1/1' is not an index"},
-        ObjFault{"FaceOfTwo", kVertices + "f 1 2\n", "4: f:", "has 2 vertices (a face needs 3 or more)"},
-        ObjFault{"FaceOfNone", kVertices + "\nf\n", "5: f:", "has 0 vertices"},
-        ObjFault{"LinesOfOldMacs", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 9\r", "4: f:", "v index 9"},
-        ObjFault{"LinesOfWindows", "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 9\r\n", "4: f:", "v index 9"},
-        ObjFault{"Empty", "", "1: f:", "has no triangle"},
-        ObjFault{"OnlyVertices", kVertices, "1: f:", "has no triangle"},
-        ObjFault{"OnlyDegenerateFaces", kVertices + "f 1 1 2\n", "1: f:", "has no triangle"},
-        ObjFault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
-        ObjFault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no triangle"}),
+        Fault{"WordInPosition", "# a comment\nv 1 abc 2\n", "2: v:", "'abc' is not a number"},
+        Fault{"TrailingLetters", "v 1 2 3x\n", "1: v:", "'3x' is not a number"},
+        Fault{"TwoSigns", "v 1 2 +-3\n", "1: v:", "'+-3' is not a number"},
+        Fault{"TwoCoordinates", "v 1 2\n", "1: v:", "has 2 numbers (3 .. 8 are needed)"},
+        Fault{"NormalOfFour", "vn 1 2 3 4\n", "1: vn:", "has 4 numbers (3 are needed)"},
+        Fault{"EmptyTexcoord", "vt\n", "1: vt:", "has 0 numbers (1 .. 3 are needed)"},
+        Fault{"IndexTooLarge", kVertices + "f 1 2 4\n", "4: f:", "v index 4 is out of range (1 .. 3, or -3 .. -1)"},
+        Fault{"IndexZero", kVertices + "f 0 1 2\n", "4: f:", "v index 0 is out of range"},
+        Fault{"RelativeIndexTooFar", kVertices + "f -4 1 2\n", "4: f:", "v index -4 is out of range"},
+        Fault{"IndexOfLaterVertex", kVertices + "f 1 2 4\nv 1 1 1\n", "4: f:", "v index 4 is out of range"},
+        Fault{"IndexBeyondIntegers", kVertices + "f 1 2 99999999999999999999\n", "4: f:", "is out of range"},
+        Fault{"TexcoordTooLarge", kVertices + "vt 0 0\nf 1/1 2/2 3/1\n", "5: f:", "vt index 2 is out of range (1 .. 1"},
+        Fault{"NoTexcoords", kVertices + "f 1/1 2/1 3/1\n", "4: f:", "(there is no vt line above)"},
+        Fault{"NormalTooLarge", kVertices + "vn 0 0 1\nf 1//1 2//1 3//2\n", "5: f:", "vn index 2 is out of range"},
+        Fault{"NormalOfTriple", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/-2 3/1/1\n", "6: f:", "vn index -2"},
+        Fault{"IndexIsWord", kVertices + "f 1 2 x\n", "4: f:", "'x' is not an index"},
+        Fault{"IndexIsEmpty", kVertices + "f 1 2 /3\n", "4: f:", "'' is not an index"},
+        Fault{"IndexOfFour", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1/1 2 3\n", "6: f:", "'1/1' is not an index"},
+        Fault{"FaceOfTwo", kVertices + "f 1 2\n", "4: f:", "has 2 vertices (a face needs 3 or more)"},
+        Fault{"FaceOfNone", kVertices + "\nf\n", "5: f:", "has 0 vertices"},
+        Fault{"LinesOfOldMacs", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 9\r", "4: f:", "v index 9"},
+        Fault{"LinesOfWindows", "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 9\r\n", "4: f:", "v index 9"},
+        Fault{"Empty", "", "1: f:", "has no triangle"}, Fault{"OnlyVertices", kVertices, "1: f:", "has no triangle"},
+        Fault{"OnlyDegenerateFaces", kVertices + "f 1 1 2\n", "1: f:", "has no triangle"},
+        Fault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
+        Fault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no triangle"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 // Corners of the triangles by their positions, whatever corner each begins with.

@@ -7,20 +7,6 @@
 namespace speculum {
 namespace {
 
-// Three lines in front of the text of every case.
-constexpr const char* kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
-
-struct Fault {
-  const char* name;
-  std::string text;     // from line 4 on
-  const char* place;    // LINE: key:
-  const char* message;  // what is wrong or what would be right
-};
-
-void PrintTo(const Fault& fault, std::ostream* stream) {
-  *stream << fault.name;
-}
-
 void expectFault(const std::string& text, const std::string& place, const std::string& part) {
   const TemporaryFolder folder;
   folder.write("triangle.obj", kTriangleObj);
@@ -34,6 +20,7 @@ void expectFault(const std::string& text, const std::string& place, const std::s
 
 class SceneFault : public testing::TestWithParam<Fault> {};
 
+// The text of a case begins at line 4.
 TEST_P(SceneFault, NamesLineAndKey) {
   expectFault(kCamera + GetParam().text, GetParam().place, GetParam().message);
 }
@@ -235,7 +222,7 @@ TEST(SceneFaults, GarbageIsAnError) {
 TEST(SceneFaults, ModelErrorsNameTheModelFile) {
   const TemporaryFolder folder;
   folder.write("models/bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
-  const auto scene = folder.write("scenes/a.toml", std::string(kCamera) + "[[object]]\nmodel = '../models/bad.obj'\n");
+  const auto scene = folder.write("scenes/a.toml", kCamera + "[[object]]\nmodel = '../models/bad.obj'\n");
   const std::string message = inputErrorOf([&] { loadScene(scene); });
   EXPECT_EQ(message.rfind((folder / "models/bad.obj").string() + ":4: f: ", 0), 0u) << message;
 }

@@ -44,6 +44,18 @@ std::string inputErrorOf(Action action) {
   return "no InputError was thrown";
 }
 
+// A broken input and what its error says.
+struct Fault {
+  const char* name;
+  std::string text;
+  const char* place;    // LINE: key:
+  const char* message;  // what is wrong or what would be right
+};
+
+inline void PrintTo(const Fault& fault, std::ostream* stream) {
+  *stream << fault.name;
+}
+
 // The least that a scene file may hold.
 inline const std::string kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
 

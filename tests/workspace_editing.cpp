@@ -289,9 +289,7 @@ TEST_F(Editing, ReusedImagesAreDroppedAfterEdits) {
   clickBall();
   drag(ballAt_ + glm::dvec2(60.0, 0.0), {33.0, 0.0});
   EXPECT_EQ(host_.drops, drops) << "images are compared with what they show";
-  Settings settings = workspace_->settings();
-  settings.reflection.updateInterval = 8;
-  send(SetSettings{settings});
+  changeSettings([](Settings& settings) { settings.reflection.updateInterval = 8; });
   drag(ballAt_ + glm::dvec2(93.0, 0.0), {-33.0, 0.0});
   EXPECT_GT(host_.drops, drops);
 }

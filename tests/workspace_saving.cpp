@@ -18,6 +18,14 @@ class Saving : public WorkspaceTest {
     send(RemoveSelected{});
     ASSERT_TRUE(edit().unsaved);
   }
+  // Acts as before a failure, and returns the copy that the log names.
+  std::string keptCopy() {
+    workspace_->keepUnsavedWork();
+    const std::string line = view().log.lines(LogLevel::error).back().text;
+    const std::string start = "unsaved changes are kept in ";
+    EXPECT_EQ(line.find(start), 0u) << line;
+    return line.substr(start.size());
+  }
 };
 
 TEST_F(Saving, SavedSceneLoadsAsEdited) {
@@ -31,7 +39,7 @@ TEST_F(Saving, SavedSceneLoadsAsEdited) {
   const Scene saved = onDisk();
   ASSERT_EQ(saved.objects.size(), 2u);
   EXPECT_NEAR(saved.objects[0].position.x, 0.3 + 33.0 / focalPixels, 2e-4);
-  EXPECT_NE(contents(options_.scene).find("# In front of the eye."), std::string::npos) << "comments stay";
+  EXPECT_NE(readText(options_.scene).find("# In front of the eye."), std::string::npos) << "comments stay";
 }
 
 TEST_F(Saving, QuitAsksAboutUnsavedChanges) {
@@ -111,7 +119,7 @@ TEST_F(Saving, OverwriteIsRefusedAgainAfterCancel) {
     EXPECT_NE(edit().note.find("Save once more to overwrite it."), std::string::npos) << edit().note;
     send(CancelPrompt{});
   }
-  EXPECT_EQ(contents(other), "somebody's");
+  EXPECT_EQ(readText(other), "somebody's");
 }
 
 TEST_F(Saving, MissingFoldersAreNamed) {
@@ -188,10 +196,7 @@ TEST_F(Saving, NewSceneAsksFirstAndSavesElsewhere) {
 TEST_F(Saving, NewScenesAreListedWhileShown) {
   send(NewScene{});
   waitFor([&] { return shownScene() == "untitled"; });
-  const std::string path = environment("PATH");
-  setEnvironment("PATH", "");
-  send(AskWhatToOpen{});
-  setEnvironment("PATH", path);
+  askWhatToOpen("");
   EXPECT_EQ(edit().proposedFile, dataDirectory("scenes") / "") << "not where the new scene comes from";
   send(OpenScene{sourceFile("scenes/no_mirror.toml")});
   waitFor([&] { return shownScene() == "no_mirror"; });
@@ -219,7 +224,7 @@ class ShippedScene : public Saving {
     waitFor([&] { return shownScene() == "no_mirror"; });
   }
   ~ShippedScene() override {
-    if (contents(shipped_) != text_) {
+    if (readText(shipped_) != text_) {
       std::ofstream(shipped_) << text_;  // a failure must not last
     }
   }
@@ -229,7 +234,7 @@ class ShippedScene : public Saving {
   }
 
   const fs::path shipped_ = dataDirectory("scenes") / "no_mirror.toml";
-  const std::string text_ = contents(shipped_);
+  const std::string text_ = readText(shipped_);
 };
 
 TEST_F(ShippedScene, IsSavedToTheUsersFolder) {
@@ -249,7 +254,7 @@ TEST_F(ShippedScene, IsSavedToTheUsersFolder) {
   send(Save{});
   EXPECT_EQ(edit().prompt, Prompt::none) << "the second time unasked";
   EXPECT_EQ(allNodes(loadScene(own)).size(), nodes - 1);
-  EXPECT_EQ(contents(shipped_), text_);
+  EXPECT_EQ(readText(shipped_), text_);
 }
 
 TEST_F(ShippedScene, BareNameMeansTheUsersFolder) {
@@ -270,7 +275,7 @@ TEST_F(ShippedScene, OwnFileIsRefusedAtFirst) {
   EXPECT_NE(edit().note.find("it comes with the program\nSave once more to overwrite it."), std::string::npos)
       << edit().note;
   EXPECT_TRUE(edit().unsaved);
-  EXPECT_EQ(contents(shipped_), text_);
+  EXPECT_EQ(readText(shipped_), text_);
 }
 
 class CopiedCommand : public Saving {
@@ -298,9 +303,7 @@ TEST_F(CopiedCommand, SaysTimeSizeCameraAndSettings) {
   for (const char* part : {"speculum render", "--size 777x555", "--time 0.5", "--camera ", "view.exposure=0.5"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
   }
-  Settings settings = workspace_->settings();
-  settings.view.continuous = true;
-  send(SetSettings{settings});
+  changeSettings([](Settings& settings) { settings.view.continuous = true; });
   EXPECT_EQ(command(), text) << "that is the window's own";
 }
 
@@ -326,11 +329,7 @@ TEST_F(Saving, FailuresKeepUnsavedWorkInACopy) {
   workspace_->keepUnsavedWork();
   EXPECT_TRUE(view().log.lines(LogLevel::error).empty()) << "there is none";
   removeBall();
-  workspace_->keepUnsavedWork();
-  const std::string line = view().log.lines(LogLevel::error).back().text;
-  const std::string start = "unsaved changes are kept in ";
-  ASSERT_EQ(line.find(start), 0u) << line;
-  EXPECT_TRUE(loadScene(line.substr(start.size())).objects.empty());
+  EXPECT_TRUE(loadScene(keptCopy()).objects.empty());
 }
 
 TEST_F(Saving, NextStartOffersTheKeptChanges) {
@@ -355,13 +354,9 @@ TEST_F(Saving, NextStartOffersTheKeptChanges) {
 
 TEST_F(Saving, OtherWindowsKeepTheirRecords) {
   removeBall();
-  const auto kept = [&] {
-    workspace_->keepUnsavedWork();
-    return view().log.lines(LogLevel::error).back().text.substr(std::string("unsaved changes are kept in ").size());
-  };
-  const std::string first = kept();
+  const std::string first = keptCopy();
   setExposure(0.5);
-  const std::string second = kept();
+  const std::string second = keptCopy();
   ASSERT_NE(first, second);
   start();
   EXPECT_EQ(edit().proposedFile, second);
@@ -399,11 +394,7 @@ TEST_F(Saving, UndrawableStepIsTakenBack) {
 
 TEST_F(Saving, FailuresKeepUnsavedSettings) {
   setExposure(0.5);
-  workspace_->keepUnsavedWork();
-  const std::string line = view().log.lines(LogLevel::error).back().text;
-  const std::string start = "unsaved changes are kept in ";
-  ASSERT_EQ(line.find(start), 0u) << line;
-  EXPECT_EQ(settingsOf(loadScene(line.substr(start.size()))).view.exposure, 0.5);
+  EXPECT_EQ(settingsOf(loadScene(keptCopy())).view.exposure, 0.5);
 }
 
 }  // namespace

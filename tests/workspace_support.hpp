@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "app/workspace.hpp"
@@ -160,10 +159,21 @@ class WorkspaceTest : public testing::Test {
   CameraPose camera() { return workspace_->state(workspace_->time()).camera; }
   glm::dvec3 eye() { return camera().eye; }
   glm::dvec3 forward() { return -glm::dvec3(glm::transpose(camera().worldToView)[2]); }
-  void setExposure(double exposure) {
+  template <typename Change>
+  void changeSettings(const Change& change, bool continued = false) {
     Settings settings = workspace_->settings();
-    settings.view.exposure = exposure;
-    send(SetSettings{settings});
+    change(settings);
+    send(SetSettings{settings, continued});
+  }
+  void setExposure(double exposure, bool continued = false) {
+    changeSettings([&](Settings& settings) { settings.view.exposure = exposure; }, continued);
+  }
+  // Asks while programs are sought in these folders.
+  void askWhatToOpen(const std::string& folders) {
+    const std::string path = environment("PATH");
+    setEnvironment("PATH", folders);
+    send(AskWhatToOpen{});
+    setEnvironment("PATH", path);
   }
   std::vector<std::filesystem::path> pictures() const {
     std::error_code none;
@@ -180,11 +190,6 @@ class WorkspaceTest : public testing::Test {
         {scene(), state, workspace_->settings(), width, height}, [&] { return picture; },
         workspace_->capture().wanted() ? &picture : nullptr);
     frame();
-  }
-  static std::string contents(const std::filesystem::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
   }
 
   TemporaryDirectory home_;

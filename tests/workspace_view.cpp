@@ -198,9 +198,7 @@ TEST_F(WindowView, UndoCoversSettingsInOrder) {
   setExposure(2.0);
   send(AddLight{});
   setExposure(4.0);
-  Settings held = workspace_->settings();
-  held.view.exposure = 5.0;
-  send(SetSettings{held, true});
+  setExposure(5.0, true);
   EXPECT_EQ(edit().undo, "change Exposure");
   send(Undo{});
   EXPECT_EQ(workspace_->settings().view.exposure, 2.0) << "a widget that is held makes one step";
@@ -240,9 +238,7 @@ class BudgetView : public WorkspaceTest {
     return file;
   }
   void setBudget(double ms) {
-    Settings settings = workspace_->settings();
-    settings.quality.budgetMs = ms;
-    send(SetSettings{settings});
+    changeSettings([&](Settings& settings) { settings.quality.budgetMs = ms; });
   }
   std::string choice() { return view().accuracy.choice; }
 };
@@ -356,10 +352,7 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
 }
 
 TEST_F(Opening, WithoutADialogTheWindowAsks) {
-  const std::string path = environment("PATH");
-  setEnvironment("PATH", "");
-  send(AskWhatToOpen{});
-  setEnvironment("PATH", path);
+  askWhatToOpen("");
   EXPECT_EQ(edit().prompt, Prompt::open);
   EXPECT_TRUE(fs::equivalent(edit().proposedFile, fs::path(options_.scene).parent_path()));
   send(OpenScene{sourceFile("models/sphere.obj")});
@@ -374,10 +367,7 @@ TEST_F(Opening, DesktopsDialogNamesTheFile) {
   const fs::path dialog = home_.path() / "zenity";
   std::ofstream(dialog) << "#!/bin/sh\necho a warning >&2\necho " << sourceFile("models/sphere.obj").string() << "\n";
   fs::permissions(dialog, fs::perms::owner_all);
-  const std::string path = environment("PATH");
-  setEnvironment("PATH", home_.path().string() + ":" + path);
-  send(AskWhatToOpen{});
-  setEnvironment("PATH", path);
+  askWhatToOpen(home_.path().string() + ":" + environment("PATH"));
   EXPECT_EQ(edit().prompt, Prompt::none);
   waitFor([&] { return shownScene() == "sphere.obj"; });
 }
