@@ -7,17 +7,13 @@
 #include "accuracy/sweep_json.hpp"
 #include "command_support.hpp"
 #include "picture_support.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 namespace {
 
 using namespace testing_support;
 namespace fs = std::filesystem;
-
-std::string readText(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 const std::string facing = R"([environment]
 background = [0.2, 0.3, 0.4]
@@ -143,34 +139,28 @@ TEST_F(AccuracyCommand, StoredSweepMeetsABudget) {
 }
 
 TEST_F(AccuracyCommand, MistakesAreOneLineAndExitTwo) {
-  const auto says = [](const ProcessResult& result) {
-    EXPECT_EQ(result.exitCode, 2) << result.output;
-    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
-    return result.output;
-  };
-  EXPECT_NE(says(speculum({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("absent.toml")}))
+  EXPECT_NE(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("absent.toml")})
                 .find("absent.toml:1: file:"),
             std::string::npos);
   std::ofstream(out("bad.toml")) << "[[configuration]]\nsettings = { \"reflection.scle\" = 1 }\n";
-  EXPECT_NE(says(speculum({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("bad.toml")}))
+  EXPECT_NE(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("bad.toml")})
                 .find("did you mean 'reflection.scale'?"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(out("r"))) << "bad input leaves nothing behind";
   std::ofstream(out("file")) << "x";
-  says(speculum({"accuracy", "--scene", scene_, "--out", out("file"), "--sweep", out("sweep.toml")}));
-  EXPECT_NE(says(speculum({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3"}))
+  mistake({"accuracy", "--scene", scene_, "--out", out("file"), "--sweep", out("sweep.toml")});
+  EXPECT_NE(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3"})
                 .find("--sweep-results"),
             std::string::npos);
-  EXPECT_NE(says(speculum({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3",
-                           "--sweep-results", out("bad.toml")}))
+  EXPECT_NE(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3",
+                     "--sweep-results", out("bad.toml")})
                 .find("not JSON"),
             std::string::npos);
 }
 
 TEST_F(AccuracyCommand, BenchesTheReference) {
-  const ProcessResult result = speculum({"bench", "--reference", "--json", out("b.json")});
-  ASSERT_EQ(result.exitCode, 0) << result.output;
-  EXPECT_NE(result.output.find("million rays per second"), std::string::npos) << result.output;
+  const std::string output = succeed({"bench", "--reference", "--json", out("b.json")});
+  EXPECT_NE(output.find("million rays per second"), std::string::npos) << output;
   const nlohmann::json json = readJson(out("b.json"));
   EXPECT_GT(json["triangles"], 90000);
   EXPECT_GT(json["rays_per_second"], 0.0);

@@ -129,10 +129,7 @@ TEST(QualityBudget, FrameTimeReplacesMissingTimestamps) {
 }
 
 SweepContext contextOf(bool mirrors, bool animated) {
-  SweepContext context;
-  context.mirrors = mirrors;
-  context.animated = animated;
-  return context;
+  return {.mirrors = mirrors, .animated = animated};
 }
 
 class SweepFiles : public testing::Test {

@@ -215,7 +215,7 @@ TEST(RandomEdits, ReadBackAndUndoToTheBytes) {
       step(document);
     }
     document.save(other, {}, true);
-    expectSameContent(loadScene(other), scene, "after " + std::to_string(steps) + " steps:\n" + contentOfFile(other));
+    expectSameContent(loadScene(other), scene, "after " + std::to_string(steps) + " steps:\n" + readText(other));
     RC_ASSERT(!testing::Test::HasFailure());
     while (document.canUndo()) {
       document.undo();

@@ -2,18 +2,10 @@
 #include "test_paths.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 namespace speculum {
 
 namespace fs = std::filesystem;
-
-std::string contentOfFile(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  content << stream.rdbuf();
-  return content.str();
-}
 
 std::vector<fs::path> shippedScenes() {
   std::vector<fs::path> files;

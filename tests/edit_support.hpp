@@ -13,8 +13,6 @@ namespace speculum {
 
 inline constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
-std::string contentOfFile(const std::filesystem::path& file);
-
 std::vector<std::filesystem::path> shippedScenes();
 
 // Expects every field that can be edited to be equal, except the names of models.

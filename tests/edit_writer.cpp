@@ -60,7 +60,7 @@ class ShippedScene : public testing::TestWithParam<fs::path> {};
 TEST_P(ShippedScene, UnchangedTextIsTheSameBytes) {
   Scene scene = loadScene(GetParam());
   const SceneDocument document(scene);
-  EXPECT_EQ(document.text(GetParam(), {}), contentOfFile(GetParam()));
+  EXPECT_EQ(document.text(GetParam(), {}), readText(GetParam()));
 }
 
 void changeEverything(Scene& scene) {
@@ -174,10 +174,10 @@ TEST(SaveScene, ModelsAreFoundFromAnotherFolder) {
   const Scene read = loadScene(text.folder / "a b/c/moved.toml");
   EXPECT_EQ(read.objects[0].model, "../../triangle.obj");
   expectSameContent(read, text.scene, "moved");
-  EXPECT_EQ(contentOfFile(text.file), kText) << "the first file is left alone";
+  EXPECT_EQ(readText(text.file), kText) << "the first file is left alone";
   moveObject(text.document, 0);
   text.document.save(text.file, {}, true);
-  EXPECT_EQ(contentOfFile(text.file), kText) << "back home all is as it was";
+  EXPECT_EQ(readText(text.file), kText) << "back home all is as it was";
 }
 
 TEST(SaveScene, AbsolutePathsStay) {
@@ -190,7 +190,7 @@ TEST(SaveScene, AbsolutePathsStay) {
   Scene scene = loadScene(file);
   SceneDocument document(scene);
   document.save(folder / "models/scene.toml", {});
-  EXPECT_EQ(contentOfFile(folder / "models/scene.toml"), contentOfFile(file));
+  EXPECT_EQ(readText(folder / "models/scene.toml"), readText(file));
 }
 
 TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
@@ -201,7 +201,7 @@ TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
   const std::string message = saveErrorOf([&] { text.document.save(text.file, {}); });
   EXPECT_NE(message.find("another program has changed the file"), std::string::npos) << message;
   EXPECT_NE(message.find("save under another name, or overwrite"), std::string::npos) << message;
-  EXPECT_EQ(contentOfFile(text.file), theirs);
+  EXPECT_EQ(readText(text.file), theirs);
   EXPECT_TRUE(text.document.modified());
   text.document.save(text.file, {}, true);
   EXPECT_FALSE(text.document.modified());
@@ -215,17 +215,17 @@ TEST(SaveScene, AnotherFileIsNotOverwritten) {
   const fs::path other = text.folder.write("other.toml", "important");
   const std::string message = saveErrorOf([&] { text.document.save(other, {}); });
   EXPECT_NE(message.find("there is such a file already"), std::string::npos) << message;
-  EXPECT_EQ(contentOfFile(other), "important");
+  EXPECT_EQ(readText(other), "important");
   const std::string model = saveErrorOf([&] { text.document.save(text.model, {}, true); });
   EXPECT_NE(model.find("name of a model"), std::string::npos) << model;
-  EXPECT_EQ(contentOfFile(text.model), kTriangle);
+  EXPECT_EQ(readText(text.model), kTriangle);
 }
 
 TEST(SaveScene, DeletedFileIsWrittenAgain) {
   TextScene text(kText);
   fs::remove(text.file);
   text.document.save(text.file, {});
-  EXPECT_EQ(contentOfFile(text.file), kText);
+  EXPECT_EQ(readText(text.file), kText);
 }
 
 TEST(SaveScene, UnreadableSceneIsNotWritten) {
@@ -238,7 +238,7 @@ TEST(SaveScene, UnreadableSceneIsNotWritten) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   text.document.change("break", {}, [&](Scene& scene) { scene.objects[0].scale = glm::dvec3(nan); });
   EXPECT_NE(saveErrorOf([&] { text.document.save(text.file, {}); }).find("not saved"), std::string::npos);
-  EXPECT_EQ(contentOfFile(text.file), kText);
+  EXPECT_EQ(readText(text.file), kText);
   text.document.undo();
   const std::string setting = saveErrorOf([&] { text.document.save(text.file, {{{"view.exposure", "bright"}}}); });
   EXPECT_NE(setting.find("view.exposure"), std::string::npos) << setting;
@@ -263,7 +263,7 @@ TEST(SaveScene, SettingsAreSavedToo) {
   EXPECT_EQ(changes.size(), 4u);
   text.document.save(text.file, changes);
   EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(after));
-  EXPECT_NE(contentOfFile(text.file).find("\"view.exposure\" = 0.5 # bright\n"), std::string::npos);
+  EXPECT_NE(readText(text.file).find("\"view.exposure\" = 0.5 # bright\n"), std::string::npos);
 }
 
 TEST(SaveScene, EverySettingReadsBack) {
@@ -284,7 +284,7 @@ TEST(SaveScene, EverySettingReadsBack) {
   text.document.save(text.file, changes);
   EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(other));
   text.document.save(text.file, {});
-  EXPECT_EQ(contentOfFile(text.file), kText);
+  EXPECT_EQ(readText(text.file), kText);
 }
 
 }  // namespace

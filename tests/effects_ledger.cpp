@@ -302,61 +302,52 @@ TEST(Ledger, RoughnessWithoutReflectionCostsNothing) {
              "roughness");
 }
 
-// Targets, draws and a pipeline exist while a curved mirror is drawn, but nothing to trace rays with.
-TEST(Ledger, EnvironmentMapsAreListedAndReleased) {
+// Draws a scene before, while and after the effect looks up a map of 6 faces of 256 x 256 texels. Returns what its
+// first frame cost. Afterwards a pipeline may stay if `keepsPipeline`.
+EffectCost expectMapReleased(const Options& options, EffectKind kind, const std::string& effect, int buffers,
+                             uint64_t texelBytes, bool keepsPipeline) {
   counts = {};
-  QuietSession session(
-      without(optionsFor(sceneWith("environment",
-                                   "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\n"
-                                   "mirror = {}\n"),
-                         {{"effects.curved_lookup", "environment"}}),
-              "curved"));
-  const Drawn before = drawWith(session, "curved", false, 3);
-  const Drawn during = drawWith(session, "curved", true, 1);
-  const EffectCost cost = session.sceneRenderer().ledger()[EffectKind::curved];
-  EXPECT_EQ(during.alive.at("Image"), before.alive.at("Image") + 2) << "the faces side by side, and their depth";
-  EXPECT_EQ(during.alive.at("Buffer"), before.alive.at("Buffer")) << "nothing to trace";
-  EXPECT_EQ(cost.pipelines, 1u);
-  EXPECT_GE(cost.bytes, 6ull * 256 * 256 * (8 + 4));
-  EXPECT_GT(static_cast<int>(cost.draws), 1) << "the faces' draws as well";
+  QuietSession session(without(options, effect));
+  const Drawn before = drawWith(session, effect, false, 3);
+  const Drawn during = drawWith(session, effect, true, 1);
+  const EffectCost cost = session.sceneRenderer().ledger()[kind];
+  EXPECT_EQ(during.alive.at("Image"), before.alive.at("Image") + 2) << "all faces side by side, and their depth";
+  EXPECT_EQ(during.alive.at("Buffer"), before.alive.at("Buffer") + buffers) << "nothing to trace";
+  EXPECT_GE(cost.bytes, 6 * 256 * 256 * texelBytes);
   EXPECT_GT(during.draws, before.draws);
   EXPECT_NE(during.picture, before.picture);
-  const Drawn still = drawWith(session, "curved", true, 2);
+  const Drawn still = drawWith(session, effect, true, 2);
   EXPECT_EQ(still.picture, during.picture);
   EXPECT_EQ(still.draws, before.draws) << "an unchanged map is not drawn again";
-  const Drawn after = drawWith(session, "curved", false, untilIdle);
-  std::map<std::string, int> kept = after.released(before);
-  // A pipeline of one sample that drew the faces stays.
-  EXPECT_LE(kept.at("Pipeline"), before.alive.at("Pipeline") + 1);
-  kept["Pipeline"] = before.alive.at("Pipeline");
-  EXPECT_EQ(kept, before.alive);
+  const Drawn after = drawWith(session, effect, false, untilIdle);
+  std::map<std::string, int> alive = after.released(before);
+  if (keepsPipeline) {
+    EXPECT_LE(alive.at("Pipeline"), before.alive.at("Pipeline") + 1);
+    alive["Pipeline"] = before.alive.at("Pipeline");
+  }
+  EXPECT_EQ(alive, before.alive);
   EXPECT_EQ(after.picture, before.picture);
-  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].bytes, 0u);
+  EXPECT_EQ(session.sceneRenderer().ledger()[kind].bytes, 0u);
+  return cost;
 }
 
-// Targets, draws and pipelines exist while shadows are looked up, but nothing to trace rays with.
+TEST(Ledger, EnvironmentMapsAreListedAndReleased) {
+  const Options options = optionsFor(
+      sceneWith("environment", "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\nmirror = {}\n"),
+      {{"effects.curved_lookup", "environment"}});
+  // A pipeline of one sample that drew the faces stays.
+  const EffectCost cost = expectMapReleased(options, EffectKind::curved, "curved", 0, 8 + 4, true);
+  EXPECT_EQ(cost.pipelines, 1u);
+  EXPECT_GT(static_cast<int>(cost.draws), 1) << "the faces' draws as well";
+}
+
 TEST(Ledger, ShadowMapsAreListedAndReleased) {
-  counts = {};
-  QuietSession session(without(
+  const Options options =
       optionsFor(sceneWith("shadow_maps", "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n"),
-                 {{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", "256"}}),
-      "shadows"));
-  const Drawn before = drawWith(session, "shadows", false, 3);
-  const Drawn during = drawWith(session, "shadows", true, 1);
-  const EffectCost cost = session.sceneRenderer().ledger()[EffectKind::shadows];
-  EXPECT_EQ(during.alive.at("Image"), before.alive.at("Image") + 2) << "all faces side by side, and their depth";
-  EXPECT_EQ(during.alive.at("Buffer"), before.alive.at("Buffer") + 1) << "the faces' windows";
+                 {{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", "256"}});
+  // The buffer holds the faces' windows.
+  const EffectCost cost = expectMapReleased(options, EffectKind::shadows, "shadows", 1, 4 + 4, false);
   EXPECT_GE(cost.pipelines, 2u) << "of the faces and of the teapot";
-  EXPECT_GE(cost.bytes, 6ull * 256 * 256 * (4 + 4));
-  EXPECT_GT(during.draws, before.draws);
-  EXPECT_NE(during.picture, before.picture);
-  const Drawn still = drawWith(session, "shadows", true, 2);
-  EXPECT_EQ(still.picture, during.picture);
-  EXPECT_EQ(still.draws, before.draws) << "an unchanged map is not drawn again";
-  const Drawn after = drawWith(session, "shadows", false, untilIdle);
-  EXPECT_EQ(after.released(before), before.alive);
-  EXPECT_EQ(after.picture, before.picture);
-  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::shadows].bytes, 0u);
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ TEST(EnvironmentMaps, AreNoParentsOfMirrorPasses) {
   for (const auto& pass : passes) {
     EXPECT_GT(pass["draws"], 0) << pass["name"];
   }
-  const auto mirror = std::find_if(passes.begin(), passes.end(), [](const auto& p) { return p.at("depth") == 0; });
+  const auto mirror = std::ranges::find_if(passes, [](const auto& p) { return p.at("depth") == 0; });
   ASSERT_NE(mirror, passes.end());
   EXPECT_EQ(passes.at(mirror->at("parent").get<size_t>()).at("name"), "main view");
 }

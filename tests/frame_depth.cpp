@@ -81,8 +81,7 @@ TEST(DepthReadout, MirrorsAndGlyphsCount) {
   scene.mirrors[1].rotation = {0, 180, 0};
   const SceneState state = evaluate(scene, 0.0);
   const FramePlan plan = planOf(scene, state);
-  const auto direct = std::find_if(plan.passes.begin(), plan.passes.end(),
-                                   [](const PlannedPass& pass) { return pass.view.path.size() == 1; });
+  const auto direct = std::ranges::find(plan.passes, 0, &PlannedPass::depth);
   const auto readout = depthReadout(*direct, plan.projection, scene, state);
   ASSERT_TRUE(readout);
   EXPECT_GE(readout->distance, 9.0);

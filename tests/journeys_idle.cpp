@@ -55,7 +55,7 @@ class IdleWindow : public Journey {
   }
   PassView mainView() {
     const std::vector<PassView>& passes = view().frame.passes;
-    return *std::find_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.kind == PassKind::main; });
+    return *std::ranges::find(passes, PassKind::main, &PassView::kind);
   }
   // Returns the picture without the panel, whose figures differ from frame to frame.
   std::vector<uint8_t> rightOfThePanel() {

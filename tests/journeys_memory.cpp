@@ -61,8 +61,8 @@ TEST_F(ScarceMemory, TexturesBeyondMemoryAreLeftOut) {
   EXPECT_EQ(without.rgba, expected(file, "false").rgba);
   const auto told = [&] {
     const std::vector<LogLine>& lines = view().log.lines();
-    return std::count_if(lines.begin(), lines.end(),
-                         [&](const LogLine& line) { return line.text.find(message) != std::string::npos; });
+    return std::ranges::count_if(lines,
+                                 [&](const LogLine& line) { return line.text.find(message) != std::string::npos; });
   };
   EXPECT_EQ(told(), 1);
   const PixelRect slider = widget("view.exposure");

@@ -187,8 +187,7 @@ class PanelTest : public testing::Test {
   }
   template <typename Kind>
   bool sent() const {
-    return std::any_of(commands_.begin(), commands_.end(),
-                       [](const Command& command) { return std::holds_alternative<Kind>(command); });
+    return std::ranges::any_of(commands_, [](const Command& command) { return std::holds_alternative<Kind>(command); });
   }
 
   TemporaryDirectory config_;

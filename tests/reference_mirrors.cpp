@@ -136,9 +136,7 @@ TEST(ReferenceMirrors, SchlickAtNormalAndGrazing) {
 TEST(ReferenceMirrors, HideObjectsBehindThem) {
   Scene scene = emptyScene({0, 0, 0});
   scene.mirrors = {mirrorOf(wallFacingZ)};
-  Material red;
-  red.diffuse = glm::dvec3(0.0);
-  red.emission = {1, 0, 0};
+  const Material red{.diffuse = glm::dvec3(0.0), .emission = {1, 0, 0}};
   testing::addObject(scene, testing::sphereMesh(16, red), {0, 0, -2});
   expectNear(look(scene, {0, 0, 1}, {0, 0, -1}), glm::dvec3(0.0), 1e-15);
   scene.objects[0].position = {0, 0, 4};

@@ -76,18 +76,12 @@ Mesh bumpyMesh(int rings, unsigned seed) {
 
 int addObject(Scene& scene, Mesh mesh, const glm::dvec3& position) {
   scene.meshes.push_back(std::move(mesh));
-  Object object;
-  object.mesh = static_cast<int>(scene.meshes.size()) - 1;
-  object.position = position;
-  scene.objects.push_back(object);
+  scene.objects.push_back({.mesh = static_cast<int>(scene.meshes.size()) - 1, .position = position});
   return static_cast<int>(scene.objects.size()) - 1;
 }
 
 Mirror mirrorOf(const std::vector<glm::dvec3>& polygon, double reflectance) {
-  Mirror mirror;
-  mirror.polygon = polygon;
-  mirror.reflectance = glm::dvec3(reflectance);
-  return mirror;
+  return {.polygon = polygon, .reflectance = glm::dvec3(reflectance)};
 }
 
 CameraSpec cameraAt(const glm::dvec3& eye, const glm::dvec3& target, double fov) {

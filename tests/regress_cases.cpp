@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <fstream>
 
 #include "image/picture_files.hpp"
 #include "platform/process.hpp"

@@ -52,9 +52,7 @@ inline Image8 picture(Session& session, double time) {
 }
 
 inline int mirrorPasses(const SceneRenderer& renderer) {
-  const std::vector<RecordedPass>& passes = renderer.passes();
-  return static_cast<int>(
-      std::count_if(passes.begin(), passes.end(), [](const auto& pass) { return pass.depth >= 0; }));
+  return static_cast<int>(std::ranges::count_if(renderer.passes(), [](const auto& pass) { return pass.depth >= 0; }));
 }
 
 // Draws a frame and returns the names of its passes with that beginning. Expects that they belong to no mirror.
@@ -74,8 +72,8 @@ inline std::vector<std::string> drawnMaps(const std::string& beginning, Session&
 }
 
 inline int unchangedMirrors(const nlohmann::ordered_json& stats) {
-  return static_cast<int>(std::count_if(stats["skipped"].begin(), stats["skipped"].end(),
-                                        [](const auto& skip) { return skip["reason"] == "unchanged"; }));
+  return static_cast<int>(
+      std::ranges::count_if(stats["skipped"], [](const auto& skip) { return skip["reason"] == "unchanged"; }));
 }
 
 // Draws the same frames on both render paths and expects the same bytes.

@@ -9,6 +9,7 @@
 #include "app/stats.hpp"
 #include "occluder_shapes.hpp"
 #include "picture_support.hpp"
+#include "random.hpp"
 #include "sampling.hpp"
 
 namespace speculum {
@@ -39,10 +40,8 @@ position = [4.5, -0.02, 4.5]
 scale = [9, 1, 9]
 color = [0.3, 0.25, 0.2]
 )";
-  std::mt19937 engine(3);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  };
+  Random random(3);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
   for (int line = 0; line <= cells; ++line) {
     for (int cell = 0; cell < cells; ++cell) {
       for (const bool alongX : {true, false}) {
@@ -92,8 +91,7 @@ nlohmann::ordered_json statsWith(Session& session, const Settings& settings) {
 }
 
 int hiddenIn(const FramePlan& plan) {
-  return static_cast<int>(std::count_if(plan.skipped.begin(), plan.skipped.end(),
-                                        [](const SkippedMirror& s) { return s.reason == SkipReason::hidden; }));
+  return static_cast<int>(std::ranges::count(plan.skipped, SkipReason::hidden, &SkippedMirror::reason));
 }
 
 // Counts pixels in which pictures differ.
@@ -114,10 +112,8 @@ struct Differences {
 
 TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
   QuietSession session(headless(roomsScene(), size));
-  std::mt19937 engine(11);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  };
+  Random random(11);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
   const int cuts = fullTests() ? 1000 : 12;
   int hidden = 0;
   size_t passes = 0;

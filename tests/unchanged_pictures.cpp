@@ -93,8 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Sequence, testing::ValuesIn(sequences()), [](co
 });
 
 bool drawsMain(const Studio& studio) {
-  const std::vector<RecordedPass>& passes = studio.sceneRenderer.passes();
-  return std::any_of(passes.begin(), passes.end(), [](const auto& pass) { return pass.kind == PassKind::main; });
+  return std::ranges::count(studio.sceneRenderer.passes(), PassKind::main, &RecordedPass::kind) > 0;
 }
 
 TEST(UnchangedPictures, EditsShowInTheFrameAfterThem) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -27,6 +28,14 @@ inline ProcessResult speculum(std::vector<std::string> arguments) {
 inline std::string succeed(std::vector<std::string> arguments) {
   const ProcessResult result = speculum(std::move(arguments));
   EXPECT_EQ(result.exitCode, 0) << result.output;
+  return result.output;
+}
+
+// Runs the program, expects exit code 2 and one line, and returns that.
+inline std::string mistake(std::vector<std::string> arguments) {
+  const ProcessResult result = speculum(std::move(arguments));
+  EXPECT_EQ(result.exitCode, 2) << result.output;
+  EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
   return result.output;
 }
 
