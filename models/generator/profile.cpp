@@ -1,6 +1,5 @@
 #include "profile.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -106,8 +106,7 @@ void AccuracyController::setResults(SweepResults results) {
 }
 
 void AccuracyController::measure(SweepRequest request) {
-  requested_ = request.camera;
-  requestedTime_ = request.time;
+  requested_ = {request.camera, request.time};
   view_.choice = results_.points.empty() ? "" : view_.choice;
   sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
     std::shared_ptr<const SweepResults> rough;
@@ -135,13 +134,11 @@ void AccuracyController::takeResults() {
     setResults(*rough_);
     isRough_ = true;
     measured_ = requested_;
-    measuredTime_ = requestedTime_;
     view_.about = roughText(results_) + " Better ones follow.";
   }
   if (std::optional<SweepResults> results = sweep_.takeResult()) {
     setResults(std::move(*results));
     measured_ = requested_;
-    measuredTime_ = requestedTime_;
     view_.about = aboutText(results_);
   }
 }
@@ -200,9 +197,10 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
   const double elapsed = std::chrono::duration<double>(Clock::now() - stageBegan_).count();
   const bool estimable = status && status->fraction > 0.03 && elapsed > 2.0;
   view_.secondsLeft = estimable ? elapsed * (1.0 / status->fraction - 1.0) : 0.0;
-  view_.otherView = !view_.points.empty() && measured_ &&
-                    (measured_->eye != shown.state.camera.eye ||
-                     measured_->worldToView != shown.state.camera.worldToView || measuredTime_ != shown.state.time);
+  view_.otherView =
+      !view_.points.empty() && measured_ &&
+      (measured_->camera.eye != shown.state.camera.eye ||
+       measured_->camera.worldToView != shown.state.camera.worldToView || measured_->time != shown.state.time);
   view_.stage = status ? (status->rough ? "" : "Rough: ") + stepText(status->stage) : "";
   view_.progress = status ? status->fraction : 0.0;
   view_.about = sweep_.takeError().value_or(view_.about);

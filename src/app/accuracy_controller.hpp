@@ -57,10 +57,12 @@ class AccuracyController {
   DifferenceView difference_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point stageBegan_;
-  CameraPose requested_;  // of the measurement that runs
-  double requestedTime_ = 0.0;
-  std::optional<CameraPose> measured_;  // of the points; none if they were read from a file
-  double measuredTime_ = 0.0;
+  struct MeasuredView {
+    CameraPose camera;
+    double time = 0.0;  // seconds of animation
+  };
+  MeasuredView requested_;                // of the measurement that runs
+  std::optional<MeasuredView> measured_;  // of the points; none if they were read from a file
   bool coverChanged_ = false;
   SweepResults results_;
   bool isRough_ = false;                                   // results_ are of few pixels and samples

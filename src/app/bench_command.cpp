@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 
 #include "accuracy/statistics.hpp"
 #include "accuracy/sweep_planner.hpp"
@@ -14,6 +15,7 @@
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "app/stats.hpp"
+#include "app/view_command.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
@@ -75,9 +77,7 @@ int benchAgainst(const Options& options) {
   const std::vector<std::string> own = command(executablePath());
   std::vector<std::string> other =
       command(options.againstBinary.empty() ? executablePath() : wholePath(options.againstBinary));
-  for (const auto& [key, value] : options.againstSettings) {
-    other.insert(other.end(), {"--set", key + "=" + value});
-  }
+  addSettings(options.againstSettings, other);
   const int rounds = options.benchRounds;
   installInterruptHandler();
   std::map<std::string, std::vector<double>> ratios;
@@ -139,10 +139,6 @@ int benchReference(const Options& options) {
                              {"rays_per_second", result.raysPerSecond()}});
   }
   return 0;
-}
-
-bool isSet(const Options& options, std::string_view key) {
-  return std::any_of(options.settings.begin(), options.settings.end(), [&](const auto& s) { return s.first == key; });
 }
 
 double gpuMs(Session& session, const Settings& settings, double time) {
@@ -262,7 +258,7 @@ int runBench(const Options& options) {
   }
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
-  if (!isSet(options, "reflection.skip_unchanged")) {
+  if (std::ranges::count(std::views::keys(options.settings), "reflection.skip_unchanged") == 0) {
     // All frames have the same time, so with reuse only the first would render mirror images.
     Settings settings = session.settings();
     settings.reflection.skipUnchanged = false;

@@ -153,12 +153,6 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
   target_ += step;
 }
 
-// Returns half the picture's angle, in radians, along its narrower side.
-double CameraController::narrowerHalfAngle(double aspect) const {
-  const double vertical = 0.5 * glm::radians(spec_.verticalFov);
-  return std::min(vertical, std::atan(std::tan(vertical) * aspect));
-}
-
 void CameraController::frame(const Sphere& sphere, double aspect, const Part& part) {
   startFrom(last_);
   const glm::dvec2 slope = std::tan(0.5 * glm::radians(spec_.verticalFov)) * glm::dvec2(aspect, 1.0);
@@ -187,7 +181,9 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
     const glm::dvec3 level = -back + glm::dot(back, up) * up;
     forward = glm::normalize(forward + lean * (glm::length(level) > 1e-6 ? glm::normalize(level) : mirror.axisX));
   }
-  const double distance = side == MirrorSide::back ? radius / std::sin(narrowerHalfAngle(aspect)) : 0.0;
+  const double vertical = 0.5 * glm::radians(spec_.verticalFov);
+  const double narrower = std::min(vertical, std::atan(std::tan(vertical) * aspect));  // half the picture's angle
+  const double distance = side == MirrorSide::back ? radius / std::sin(narrower) : 0.0;
   // On the plane itself, rounding would decide whether the mirror shows its front.
   eye_ = side == MirrorSide::back ? middle - forward * distance
                                   : middle + mirror.normal * (10.0 * std::min(spec_.near, 1.0));

@@ -59,7 +59,6 @@ class CameraController {
 
  private:
   void startFrom(const CameraPose& pose);
-  double narrowerHalfAngle(double aspect) const;
 
   CameraSpec spec_;
   CameraMode mode_ = CameraMode::orbit;

@@ -1,5 +1,7 @@
 #include "app/device_view.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "app/session_subject.hpp"
@@ -30,20 +32,19 @@ FeatureView feature(const char* name, bool present, const char* without) {
 }  // namespace
 
 std::string vulkanVersion(uint32_t version) {
-  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-         std::to_string(VK_API_VERSION_PATCH(version));
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                     VK_API_VERSION_PATCH(version));
 }
 
 DeviceView deviceView(const Renderer& renderer, const Device& device) {
   const DeviceInfo& info = device.info();
   const DeviceCaps& caps = device.caps();
-  DeviceView view;
-  view.name = info.name;
-  view.kind = kindName(info.type);
-  view.driver = info.driver;
-  view.vulkan = vulkanVersion(info.apiVersion);
-  view.renderPath = renderPathName(device.renderPath());
-  view.samples = sampleCountsOf(device);
+  DeviceView view{.name = info.name,
+                  .kind = kindName(info.type),
+                  .driver = info.driver,
+                  .vulkan = vulkanVersion(info.apiVersion),
+                  .renderPath = std::string(renderPathName(device.renderPath())),
+                  .samples = sampleCountsOf(device)};
   view.features = {feature("dynamic rendering", caps.dynamicRendering, "render passes are used"),
                    feature("timestamps", caps.timestampValidBits > 0, "no times of passes"),
                    feature("pipeline statistics", caps.pipelineStatistics, "no triangles and fragments"),
@@ -58,7 +59,7 @@ DeviceView deviceView(const Renderer& renderer, const Device& device) {
   for (const PresentMode mode : modes) {
     view.presentModes.emplace_back(presentModeName(mode));
   }
-  const auto mode = std::find(modes.begin(), modes.end(), renderer.presentMode());
+  const auto mode = std::ranges::find(modes, renderer.presentMode());
   view.presentMode = static_cast<size_t>(mode - modes.begin());
   return view;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include "accuracy/fingerprint.hpp"
 #include "app/recovery.hpp"

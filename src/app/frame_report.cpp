@@ -59,6 +59,19 @@ std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const 
                    .value = probed->value};
 }
 
+// Returns the place of a pass in a list of rows or recorded passes.
+template <typename Passes>
+auto placeOf(Passes& passes, const PassId& wanted) {
+  return std::ranges::find_if(passes, [&](const PassId& pass) { return pass == wanted; });
+}
+
+void setTime(std::vector<PassView>& rows, const PassId& pass, double ms) {
+  if (const auto row = placeOf(rows, pass); row != rows.end()) {
+    row->gpuMs = ms;
+    row->timed = true;
+  }
+}
+
 std::string_view reasonText(SkipReason reason) {
   static constexpr std::array<std::string_view, 10> texts = {
       "behind the eye",        "seen from behind", "outside the view",  "hidden",    "below Min. pixels",
@@ -100,13 +113,9 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
 void FrameReport::addPasses(const FrameTimings& timings, std::span<const RecordedPass> timed, Tiles& tiles) {
   tiles.timed = tiles.timed && !timings.passes.empty();
   for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
-    const auto known = std::ranges::find_if(
-        tiles.passes, [&](const auto& pass) { return static_cast<const PassId&>(pass.first) == timed[i]; });
-    if (known == tiles.passes.end()) {
-      tiles.passes.emplace_back(timed[i], timings.passes[i].gpuMs);
-    } else {
-      known->second += timings.passes[i].gpuMs;
-    }
+    const auto known = placeOf(tiles.passes, timed[i]);
+    TimedPass& pass = known == tiles.passes.end() ? tiles.passes.emplace_back(TimedPass{timed[i]}) : *known;
+    pass.gpuMs += timings.passes[i].gpuMs;
   }
 }
 
@@ -162,14 +171,9 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
   } else {
     Tiles tiles = drawn->tiles;
     addPasses(timings, timed, tiles);
-    for (const auto& [pass, ms] : tiles.timed ? tiles.passes : PassTimes()) {
-      passes.emplace_back(pass.name, ms);
-      const auto row =
-          std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == static_cast<const PassId&>(pass); });
-      if (row != view_.passes.end()) {
-        row->gpuMs = ms;
-        row->timed = true;
-      }
+    for (const TimedPass& pass : tiles.timed ? tiles.passes : std::vector<TimedPass>()) {
+      passes.emplace_back(pass.name, pass.gpuMs);
+      setTime(view_.passes, pass, pass.gpuMs);
     }
     tilesTimed_ = tiles.timed;
     view_.timedGpuMs = tiles.timed ? view_.gpuMs : 0.0;
@@ -201,10 +205,10 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
   }
   std::ptrdiff_t index = 0;
   for (const RecordedPass& pass : passes) {
-    auto row = std::ranges::find_if(rows, [&](const PassView& r) { return r == pass; });
+    auto row = placeOf(rows, pass);
     if (row == rows.end()) {
       PassView fresh{pass, pass.name};
-      const auto before = std::ranges::find_if(view_.passes, [&](const PassView& r) { return r == pass; });
+      const auto before = placeOf(view_.passes, pass);
       fresh.gpuMs = before == view_.passes.end() ? std::nan("") : before->gpuMs;  // only some frames time passes
       fresh.timed = before != view_.passes.end() && before->timed;
       row = rows.insert(rows.begin() + index, std::move(fresh));
@@ -225,11 +229,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     std::ranges::for_each(rows, [](PassView& row) { row.timed = false; });
   }
   for (size_t i = 0; i < times; ++i) {
-    const auto row = std::ranges::find_if(rows, [&](const PassView& r) { return r == timed[i]; });
-    if (row != rows.end()) {
-      row->gpuMs = timings.passes[i].gpuMs;
-      row->timed = true;
-    }
+    setTime(rows, timed[i], timings.passes[i].gpuMs);
   }
   if (plan.tiles && !tilesTimed_) {
     view_.timedGpuMs = 0.0;

@@ -47,15 +47,17 @@ class FrameReport {
   void updateSkipped(const RecordedFrame& frame);
   void addTiles(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed);
 
-  using PassTimes = std::vector<std::pair<RecordedPass, double>>;  // ms
+  struct TimedPass : RecordedPass {
+    double gpuMs = 0.0;
+  };
   // Frames so far that drew a picture: one, or several that drew tiles of it.
   struct Tiles {
     uint64_t number = 0;  // of the last one
     double sinceLastMs = 0.0;
     double cpuMs = 0.0;
-    double gpuMs = 0.0;  // without the last one
-    PassTimes passes;    // likewise
-    bool timed = true;   // those are complete
+    double gpuMs = 0.0;             // without the last one
+    std::vector<TimedPass> passes;  // likewise
+    bool timed = true;              // those are complete
   };
   struct DrawnFrame {
     Tiles tiles;

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
-#include <iostream>
 #include <map>
 
 #include "app/usage.hpp"
@@ -222,9 +221,7 @@ void applyRaw(const Raw& raw, Options& options) {
 std::string settingsText() {
   std::string text = "Settings (--set key=value):\n";
   for (const SettingField& field : settingFields()) {
-    const std::string key(field.key);
-    text += "  " + key + std::string(30 - std::min<size_t>(29, key.size()), ' ') + std::string(field.text) + " (" +
-            settingRangeWithUnit(field) + ")\n";
+    text += fmt::format("  {:<29} {} ({})\n", field.key, field.text, settingRangeWithUnit(field));
   }
   return text;
 }

@@ -1,5 +1,7 @@
 #include "app/progress.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cstdio>
 #include <regex>
 
@@ -89,14 +91,7 @@ PictureFiles::PictureFiles(const std::filesystem::path& pattern, int count) {
 }
 
 std::filesystem::path PictureFiles::at(int index) const {
-  if (!numbered_) {
-    return before_;
-  }
-  std::string number = std::to_string(index);
-  if (static_cast<int>(number.size()) < digits_) {
-    number.insert(0, digits_ - number.size(), '0');
-  }
-  return before_ + number + after_;
+  return numbered_ ? fmt::format("{}{:0{}}{}", before_, index, digits_, after_) : before_;
 }
 
 }  // namespace speculum

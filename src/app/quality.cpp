@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <ranges>
 
 #include "accuracy/sweep_json.hpp"
 #include "frame/setting_fields.hpp"
@@ -14,16 +15,8 @@ namespace speculum {
 
 namespace {
 
-std::vector<std::string> keysOf(const Options& options) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : options.settings) {
-    keys.push_back(key);
-  }
-  return keys;
-}
-
 bool contains(const std::vector<std::string>& keys, const std::string& key) {
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
+  return std::ranges::find(keys, key) != keys.end();
 }
 
 // Says whether a sweep measures the setting. The others choose what is shown, or change no radiance.
@@ -65,8 +58,8 @@ std::vector<SettingChange> settingsOfPoint(const SweepResults& results, int poin
 }
 
 bool isAtPoint(const Settings& settings, const std::vector<SettingChange>& point) {
-  return std::all_of(point.begin(), point.end(),
-                     [&](const SettingChange& change) { return settingValue(settings, change.key) == change.value; });
+  return std::ranges::all_of(
+      point, [&](const SettingChange& change) { return settingValue(settings, change.key) == change.value; });
 }
 
 void applyPoint(const SweepResults& results, int point, const std::vector<std::string>& kept, Settings& settings) {
@@ -86,7 +79,8 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
   if (!bounded(settings)) {
     return std::nullopt;
   }
-  const std::vector<std::string> kept = keysOf(options);
+  const auto keys = std::views::keys(options.settings);
+  const std::vector<std::string> kept(keys.begin(), keys.end());
   if (options.sweepResults.empty()) {
     const bool byHand = contains(kept, "quality.budget_ms") || contains(kept, "quality.max_error");
     if (byHand && options.command != "demo") {

@@ -1,7 +1,5 @@
 #include "app/recovery.hpp"
 
-#include <string>
-
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 

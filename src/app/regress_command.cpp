@@ -33,7 +33,7 @@ bool matches(const std::string& glob, const std::string& name) {
 
 std::vector<RegressCase> selectedCases(std::vector<RegressCase> cases, const Options& options) {
   const auto requireMatch = [&](const std::string& option, const std::string& glob) {
-    if (std::none_of(cases.begin(), cases.end(), [&](const RegressCase& one) { return matches(glob, one.name); })) {
+    if (std::ranges::none_of(cases, [&](const RegressCase& one) { return matches(glob, one.name); })) {
       throw UsageError(fmt::format("{}: no case of {} has a name like '{}' (* stands for any text)", option,
                                    options.cases.string(), glob));
     }
@@ -65,12 +65,8 @@ using Words = std::vector<std::string>;
 // Returns the options of this run that change pictures.
 Words drawOptions(const Options& options) {
   Words words;
-  for (const auto& [key, value] : options.settings) {
-    words.insert(words.end(), {"--set", key + "=" + value});
-  }
-  for (std::string& argument : deviceArguments(options)) {
-    words.push_back(std::move(argument));
-  }
+  addSettings(options.settings, words);
+  addDevice(options, words);
   if (options.validation) {
     words.push_back("--validation");
   }
@@ -88,9 +84,7 @@ void addCommands(const RegressCase& subject, const Options& options, Outcome& ou
   if (subject.camera) {
     draw.insert(draw.end(), {"--camera", *subject.camera});
   }
-  for (const auto& [key, value] : subject.settings) {
-    draw.insert(draw.end(), {"--set", key + "=" + value});
-  }
+  addSettings(subject.settings, draw);
   const Words given = drawOptions(options);
   draw.insert(draw.end(), given.begin(), given.end());
   draw.insert(draw.end(), {"--out", subject.name + ".png"});

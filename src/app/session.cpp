@@ -236,8 +236,8 @@ void Session::collectFinished() {
     frame_.timings.frame = timings->frame;
     frame_.timings.gpuMs += timings->gpuMs;
     for (size_t i = 0; i < passes.size(); ++i) {
-      const auto known = std::ranges::find_if(
-          frame_.passes, [&](const RecordedPass& pass) { return static_cast<const PassId&>(pass) == passes[i]; });
+      const PassId& id = passes[i];
+      const auto known = std::ranges::find_if(frame_.passes, [&](const PassId& pass) { return pass == id; });
       if (known == frame_.passes.end()) {
         place_ = std::min(place_, frame_.passes.size());
         frame_.passes.insert(frame_.passes.begin() + static_cast<std::ptrdiff_t>(place_), passes[i]);

@@ -49,20 +49,15 @@ std::string sceneText(const std::filesystem::path& file) {
   return name.empty() || *name.begin() == ".." ? path.string() : (name.parent_path() / name.stem()).string();
 }
 
-std::vector<std::string> settingArguments(const Scene& scene, const Settings& settings) {
-  std::vector<std::string> arguments;
-  for (const SettingChange& change : settingChanges(settingsOf(scene), settings)) {
-    if (change.key != "view.continuous" && !change.key.starts_with("quality.")) {
-      arguments.insert(arguments.end(), {"--set", change.key + "=" + change.value});
-    }
-  }
-  return arguments;
-}
-
 }  // namespace
 
-std::vector<std::string> deviceArguments(const Options& options) {
-  std::vector<std::string> arguments;
+void addSettings(std::span<const std::pair<std::string, std::string>> settings, std::vector<std::string>& arguments) {
+  for (const auto& [key, value] : settings) {
+    arguments.insert(arguments.end(), {"--set", key + "=" + value});
+  }
+}
+
+void addDevice(const Options& options, std::vector<std::string>& arguments) {
   if (!options.gpu.empty()) {
     arguments.insert(arguments.end(), {"--gpu", options.gpu});
   }
@@ -72,7 +67,6 @@ std::vector<std::string> deviceArguments(const Options& options) {
   if (!options.shaderDir.empty()) {
     arguments.insert(arguments.end(), {"--shader-dir", wholePath(options.shaderDir).string()});
   }
-  return arguments;
 }
 
 std::string viewCommand(const Options& options, const std::filesystem::path& file, const Scene& scene,
@@ -85,12 +79,12 @@ std::string viewCommand(const Options& options, const std::filesystem::path& fil
   if (options.camera) {
     arguments.insert(arguments.end(), {"--camera", cameraText(*options.camera, scene.camera)});
   }
-  for (std::string& argument : settingArguments(scene, settings)) {
-    arguments.push_back(std::move(argument));
+  for (const SettingChange& change : settingChanges(settingsOf(scene), settings)) {
+    if (change.key != "view.continuous" && !change.key.starts_with("quality.")) {
+      arguments.insert(arguments.end(), {"--set", change.key + "=" + change.value});
+    }
   }
-  for (std::string& argument : deviceArguments(options)) {
-    arguments.push_back(std::move(argument));
-  }
+  addDevice(options, arguments);
   arguments.insert(arguments.end(), {"--out", scene.file.stem().string() + ".png"});
   std::string text;
   for (const std::string& argument : arguments) {

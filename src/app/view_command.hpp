@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/options.hpp"
@@ -9,8 +11,11 @@
 
 namespace speculum {
 
-// Returns the options that were given about the device and its shaders.
-std::vector<std::string> deviceArguments(const Options& options);
+// Adds --set for each of the settings.
+void addSettings(std::span<const std::pair<std::string, std::string>> settings, std::vector<std::string>& arguments);
+
+// Adds the options that were given about the device and its shaders.
+void addDevice(const Options& options, std::vector<std::string>& arguments);
 
 // Returns a shell command of `speculum render` that draws the view of `options` with `settings` to the same bytes. It
 // has scene, size, time, camera, device, and every setting that is not the scene's own, but neither quality.*, whose

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <utility>
 
 #include "accuracy/fingerprint.hpp"
 #include "app/background_job.hpp"

@@ -1,7 +1,5 @@
 #include "core/descriptors.hpp"
 
-#include <array>
-
 namespace speculum {
 
 DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,

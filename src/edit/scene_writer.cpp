@@ -1,8 +1,6 @@
 #include "edit/scene_writer.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "edit/scene_keys.hpp"

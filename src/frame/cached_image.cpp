@@ -1,7 +1,6 @@
 #include "frame/cached_image.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace speculum {

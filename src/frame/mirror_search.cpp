@@ -1,7 +1,6 @@
 #include "frame/mirror_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <queue>
 #include <sstream>

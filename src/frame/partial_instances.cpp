@@ -1,7 +1,6 @@
 #include "frame/partial_instances.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace speculum {
 

@@ -1,7 +1,6 @@
 #include "frame/picture_tiles.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace speculum {
 

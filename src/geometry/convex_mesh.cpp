@@ -1,7 +1,6 @@
 #include "geometry/convex_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 

@@ -1,7 +1,5 @@
 #include "geometry/triangle_mesh.hpp"
 
-#include <cmath>
-
 namespace speculum {
 
 namespace {

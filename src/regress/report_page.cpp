@@ -1,8 +1,9 @@
 #include "regress/report_page.hpp"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 
 #include "accuracy/html_page.hpp"
@@ -60,23 +61,11 @@ std::string escapedXml(const std::string& text) {
           .get<std::string>();
   std::string escaped;
   for (const char c : valid) {
-    switch (c) {
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        // XML 1.0 has no other control characters.
-        escaped += static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t' ? c : '?';
-    }
+    static const std::map<char, std::string> entities{{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}};
+    // XML 1.0 has no other control characters.
+    const char shown = static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t' ? c : '?';
+    const auto entity = entities.find(c);
+    escaped += entity == entities.end() ? std::string(1, shown) : entity->second;
   }
   return escaped;
 }
@@ -107,10 +96,8 @@ std::string escapedCell(const std::string& text) {
 // Errors and failures first, in the order of the file.
 std::vector<size_t> reportOrder(const RegressRun& run) {
   std::vector<size_t> order(run.outcomes.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  std::stable_partition(order.begin(), order.end(), [&](size_t i) { return needsAttention(run.outcomes[i]); });
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_partition(order, [&](size_t i) { return needsAttention(run.outcomes[i]); });
   return order;
 }
 
@@ -121,8 +108,7 @@ std::string verdictName(Verdict verdict) {
 }
 
 int RegressRun::count(Verdict verdict) const {
-  return static_cast<int>(std::count_if(outcomes.begin(), outcomes.end(),
-                                        [&](const Outcome& outcome) { return outcome.verdict == verdict; }));
+  return static_cast<int>(std::ranges::count(outcomes, verdict, &Outcome::verdict));
 }
 
 std::string summary(const RegressRun& run) {
@@ -140,7 +126,7 @@ std::string summary(const RegressRun& run) {
 std::string regressHtml(const RegressRun& run, const std::filesystem::path& folder, double budget) {
   ordered_json cases = ordered_json::array();
   double left = budget;
-  int waiting = static_cast<int>(std::count_if(run.outcomes.begin(), run.outcomes.end(), needsAttention));
+  int waiting = static_cast<int>(std::ranges::count_if(run.outcomes, needsAttention));
   for (const size_t i : reportOrder(run)) {
     const Outcome& outcome = run.outcomes[i];
     const RegressCase& subject = run.cases[i];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <string>
 
 #include "frame/draw_order.hpp"
 #include "frame/mesh_level.hpp"

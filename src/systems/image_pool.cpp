@@ -53,8 +53,7 @@ OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
 }
 
 void ImagePool::release(const OffScreen& target) {
-  const auto entry =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.target.get() == &target; });
+  const auto entry = std::ranges::find_if(entries_, [&](const Entry& e) { return e.target.get() == &target; });
   if (entry != entries_.end()) {
     entry->taken = false;
   }

@@ -90,8 +90,7 @@ std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const Pas
 
 // Says whether a pass's image outlives its use in this frame: for the debug view, or for the next frames.
 bool MirrorTargets::isNeededLater(const FramePlan& plan, int pass) const {
-  return pass == watched_ || std::any_of(plan.cached.begin(), plan.cached.end(),
-                                         [&](const CachedImage& image) { return image.pass == pass; });
+  return pass == watched_ || std::ranges::find(plan.cached, pass, &CachedImage::pass) != plan.cached.end();
 }
 
 void MirrorTargets::releaseShown(const FramePlan& plan, const PlannedPass& pass) {

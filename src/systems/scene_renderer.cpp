@@ -240,11 +240,8 @@ void SceneRenderer::recordMap(const FrameInfo& info, size_t map, size_t firstFac
     const PassDesc desc = scenePass("environment of " + planned.name + " " + faceAxes()[face].name, target.targets(),
                                     {{corner.x, corner.y}, size}, viewport, planned.faces[face].view, info.environment);
     const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
-    RecordedPass pass;
-    pass.kind = PassKind::environment;
-    pass.instance = planned.instance;
-    pass.face = static_cast<int>(face);
-    pass.name = desc.name;
+    const PassId id{.kind = PassKind::environment, .instance = planned.instance, .face = static_cast<int>(face)};
+    RecordedPass pass{id, desc.name};
     pass.areaPx = planned.faces[face].areaPx;
     drawScene(info, firstFace + face, desc, std::move(pass));
     // Counts each draw once: drawScene() has entered the curved mirrors seen in the face.
@@ -267,11 +264,8 @@ void SceneRenderer::recordShadows(const FrameInfo& info) {
       }
       const glm::ivec2 corner = shadowCorner(maps, map, i);
       const VkRect2D area{{corner.x, corner.y}, extentOf(maps[map].size, maps[map].size)};
-      RecordedPass pass;
-      pass.kind = PassKind::shadow;
-      pass.light = maps[map].light;
-      pass.face = static_cast<int>(i);
-      pass.name = shadowFaceName(maps[map], i);
+      const PassId id{.kind = PassKind::shadow, .light = maps[map].light, .face = static_cast<int>(i)};
+      RecordedPass pass{id, shadowFaceName(maps[map], i)};
       pass.areaPx = face.pass.areaPx;
       const PassDesc desc{.name = pass.name,
                           .targets = shadowSystem_.target().targets(),
@@ -410,9 +404,8 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const bool shadowMaps = !plan.shadowMaps.empty();
   renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured);
   mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.traces());
-  pointLightSystem_.endFrame(
-      (plan.mainReused && !plan.main.lights.empty()) ||
-      std::any_of(plan.reused.begin(), plan.reused.end(), [](const auto& p) { return !p.lights.empty(); }));
+  pointLightSystem_.endFrame((plan.mainReused && !plan.main.lights.empty()) ||
+                             std::ranges::any_of(plan.reused, [](const auto& p) { return !p.lights.empty(); }));
   if (!plan.mainReused) {
     finishLedger(info);
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "frame/shadow_map.hpp"
 #include "systems/image_pool.hpp"

@@ -1,6 +1,5 @@
 #include "systems/watched_depth.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "shaders/gpu_data.h"
