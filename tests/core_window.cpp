@@ -40,44 +40,43 @@ bool waitUntil(Window& window, const std::function<bool()>& done) {
 
 class WindowTest : public testing::TestWithParam<RenderPath> {
  protected:
+  void TearDown() override { EXPECT_EQ(device_.validationMessages(), 0) << messagesOf(device_); }
+
   VirtualDisplay display_;
   Window window_{WindowOptions{.title = "core test", .width = 320, .height = 200}};
+  Device device_{deviceFor(window_, GetParam())};
+  Renderer renderer_{device_, inWindow(window_)};
 };
 
 TEST_P(WindowTest, DrawnFramesAreReadBack) {
-  Device device(deviceFor(window_, GetParam()));
-  Renderer renderer(device, inWindow(window_));
-  SmallScene scene(renderer, renderer.displayExtent(), 4);
+  SmallScene scene(renderer_, renderer_.displayExtent(), 4);
   for (int i = 0; i < 50; ++i) {
     window_.pollEvents();
     ASSERT_TRUE(scene.frame(i == 49));
   }
-  const Pixels pixels = renderer.readback();
-  EXPECT_EQ(pixels.extent.width, renderer.displayExtent().width);
+  const Pixels pixels = renderer_.readback();
+  EXPECT_EQ(pixels.extent.width, renderer_.displayExtent().width);
   const uint8_t* corner = &pixels.rgba[4 * (pixels.extent.width - 1)];
   EXPECT_EQ(corner[0], 64);
   EXPECT_EQ(corner[1], 32);
   EXPECT_EQ(corner[2], 191);
-  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
 }
 
 TEST_P(WindowTest, ResizesDownToOnePixelLeakNothing) {
-  Device device(deviceFor(window_, GetParam()));
-  Renderer renderer(device, inWindow(window_));
-  SmallScene scene(renderer, renderer.displayExtent(), 4);
+  SmallScene scene(renderer_, renderer_.displayExtent(), 4);
   const auto settle = [&](int width, int height) {
     window_.resize(width, height);
     return waitUntil(window_, [&] {
       scene.frame();
-      const VkExtent2D extent = renderer.displayExtent();
+      const VkExtent2D extent = renderer_.displayExtent();
       return extent.width == uint32_t(width) && extent.height == uint32_t(height);
     });
   };
   ASSERT_TRUE(settle(320, 200));
   ASSERT_TRUE(scene.frame() && scene.frame());
-  renderer.waitIdle();
+  renderer_.waitIdle();
   const auto objects = liveObjects();
-  const uint64_t bytes = device.allocatedBytes();
+  const uint64_t bytes = device_.allocatedBytes();
   uint32_t random = 7;
   for (int i = 0; i < manyResizes(); ++i) {
     random = random * 1664525 + 1013904223;
@@ -89,30 +88,26 @@ TEST_P(WindowTest, ResizesDownToOnePixelLeakNothing) {
   EXPECT_TRUE(settle(320, 200));
   scene.frame();
   scene.frame();
-  renderer.waitIdle();
+  renderer_.waitIdle();
   EXPECT_EQ(liveObjects(), objects);
-  EXPECT_EQ(device.allocatedBytes(), bytes);
-  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+  EXPECT_EQ(device_.allocatedBytes(), bytes);
 }
 
 TEST_P(WindowTest, IconifiedDrawsNothingAndComesBack) {
-  Device device(deviceFor(window_, GetParam()));
-  Renderer renderer(device, inWindow(window_));
-  SmallScene scene(renderer, renderer.displayExtent(), 1);
+  SmallScene scene(renderer_, renderer_.displayExtent(), 1);
   ASSERT_TRUE(scene.frame());
   window_.iconify();
   ASSERT_TRUE(waitUntil(window_, [&] { return window_.iconified(); }));
-  const uint64_t before = renderer.frameNumber();
+  const uint64_t before = renderer_.frameNumber();
   for (int i = 0; i < 10; ++i) {
     window_.pollEvents();
     EXPECT_FALSE(scene.frame());
   }
-  EXPECT_EQ(renderer.frameNumber(), before);
+  EXPECT_EQ(renderer_.frameNumber(), before);
   window_.restore();
   ASSERT_TRUE(waitUntil(window_, [&] { return !window_.iconified(); }));
   EXPECT_TRUE(scene.frame());
   EXPECT_TRUE(scene.frame());
-  EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, WindowTest, testing::Values(RenderPath::dynamic, RenderPath::renderPass),

@@ -184,16 +184,22 @@ TEST(GizmoDragging, LastChangeStaysBeyondTheHorizon) {
   EXPECT_EQ(drag.to({450.0, 350.0}, false).translation, low);
 }
 
+// Three copies of a turning object of that mesh, a turning mirror, and one of the same shape given by its corners.
+Scene turningScene(const Mesh& mesh) {
+  Scene scene = emptyScene();
+  scene.meshes.push_back(mesh);
+  scene.objects.push_back({.mesh = 0, .position = inBox(3), .rotation = inBox(180), .spin = inBox(60)});
+  scene.objects[0].copies = {.count = 3, .step = inBox(1)};
+  scene.mirrors.push_back({.position = inBox(3), .rotation = inBox(180), .spin = inBox(60), .size = {2, 1}});
+  Mirror polygon;
+  polygon.polygon = evaluate(scene, 0.0).mirrors[0].polygon;
+  scene.mirrors.push_back(polygon);
+  return scene;
+}
+
 TEST(Transforming, NodesStandWhereTheyWereMoved) {
   rc::check([] {
-    Scene scene = emptyScene();
-    scene.meshes.push_back({.halfExtent = glm::dvec3(0.5), .radius = 0.9});
-    scene.objects.push_back({.mesh = 0, .position = inBox(3), .rotation = inBox(180), .spin = inBox(60)});
-    scene.objects[0].copies = {.count = 3, .step = inBox(1)};
-    scene.mirrors.push_back({.position = inBox(3), .rotation = inBox(180), .spin = inBox(60), .size = {2, 1}});
-    Mirror polygon;
-    polygon.polygon = evaluate(scene, 0.0).mirrors[0].polygon;
-    scene.mirrors.push_back(polygon);
+    Scene scene = turningScene({.halfExtent = glm::dvec3(0.5), .radius = 0.9});
     scene.lights.push_back({.position = inBox(3), .orbit = Orbit{inBox(1), {0.2, 1.0, 0.1}, 30.0}});
     const double time = uniform(0, 20);
     const SceneState before = evaluate(scene, time);
@@ -225,14 +231,7 @@ TEST(Transforming, NodesStandWhereTheyWereMoved) {
 
 TEST(Transforming, NodesGrowAlongTheirAxesAboutTheirPivots) {
   rc::check([] {
-    Scene scene = emptyScene();
-    scene.meshes.push_back({.center = {0.2, 0.9, 0.0}, .halfExtent = glm::dvec3(0.5), .radius = 0.4});
-    scene.objects.push_back({.mesh = 0, .position = inBox(3), .rotation = inBox(180), .spin = inBox(60)});
-    scene.objects[0].copies = {.count = 3, .step = inBox(1)};
-    scene.mirrors.push_back({.position = inBox(3), .rotation = inBox(180), .spin = inBox(60), .size = {2, 1}});
-    Mirror polygon;
-    polygon.polygon = evaluate(scene, 0.0).mirrors[0].polygon;
-    scene.mirrors.push_back(polygon);
+    Scene scene = turningScene({.center = {0.2, 0.9, 0.0}, .halfExtent = glm::dvec3(0.5), .radius = 0.4});
     const double time = uniform(0, 20);
     const SceneState before = evaluate(scene, time);
     const glm::dvec3 factors = glm::dvec3(1.5) + inBox(1.0);
@@ -266,6 +265,19 @@ TEST(Transforming, NodesGrowAlongTheirAxesAboutTheirPivots) {
   });
 }
 
+// Expects that the outline in the image of mirror 0, 1 m wide at z = -3, ends at the mirror's sides. The eye stands at
+// `distance` on the Z axis and looks at the origin.
+void expectCutByMirror(const Scene& scene, const Selection& selection, const MeshOutline& shape, double distance) {
+  const SceneState state = evaluate(scene, 0.0);
+  const PictureView eye = lookingAt({0, 0, distance}, {0, 0, 0});
+  const auto image = outlineOf(scene, state, selection, eye.through(scene, state, std::vector<int>{0}).value(), shape);
+  ASSERT_FALSE(image.empty());
+  const double halfWidth = 350.0 / std::tan(glm::radians(30.0)) * 0.5 / (distance + 3.0);
+  for (const PixelLine& line : image) {
+    EXPECT_LE(std::abs(line.a.x - 450.0), halfWidth + 1e-6);
+  }
+}
+
 TEST(Outline, SurroundsAnObjectClosely) {
   Scene scene = emptyScene();
   Mesh mesh{.halfExtent = glm::dvec3(1.0), .radius = 1.0};
@@ -292,13 +304,7 @@ TEST(Outline, SurroundsAnObjectClosely) {
     EXPECT_NEAR(glm::distance(line.a, glm::dvec2(450.0, 350.0)), radius, 3.0);
   }
   // The image is wider than the mirror, so the mirror cuts it.
-  const auto image =
-      outlineOf(scene, state, sphere, picture.through(scene, state, std::vector<int>{0}).value(), points);
-  ASSERT_FALSE(image.empty());
-  const double halfWidth = 350.0 / std::tan(glm::radians(30.0)) * 0.5 / 8.0;
-  for (const PixelLine& line : image) {
-    EXPECT_LE(std::abs(line.a.x - 450.0), halfWidth + 1e-6);
-  }
+  expectCutByMirror(scene, sphere, points, 5.0);
   const auto inside = outlineOf(scene, state, sphere, lookingAt({0, 0, 0.5}, {0, 0, 0}), points);
   EXPECT_LE(inside.size(), 12u) << "the edges of its box";
 }
@@ -343,13 +349,7 @@ TEST(Outline, FollowsTheSilhouetteAlsoInside) {
   EXPECT_EQ(static_cast<size_t>(inner + outer), lines.size());
   EXPECT_GE(inner, 64);
   EXPECT_GE(outer, 64);
-  const PictureView eye = lookingAt({0, 0, 50}, {0, 0, 0});
-  const auto image = outlineOf(scene, state, object, eye.through(scene, state, std::vector<int>{0}).value(), shape);
-  ASSERT_FALSE(image.empty());
-  const double halfWidth = 350.0 / std::tan(glm::radians(30.0)) * 0.5 / 53.0;
-  for (const PixelLine& line : image) {
-    EXPECT_LE(std::abs(line.a.x - 450.0), halfWidth + 1e-6);
-  }
+  expectCutByMirror(scene, object, shape, 50.0);
   EXPECT_TRUE(meshOutline(ring(200)).edges.empty()) << "80000 triangles";
 }
 

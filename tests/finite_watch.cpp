@@ -168,6 +168,11 @@ const FiniteWatch& drawWatched(Session& session, double time = 0.0) {
   return session.sceneRenderer().finiteWatch();
 }
 
+std::string broken(const std::tuple<RenderPath, int, bool>& pass) {
+  const auto& [path, samples, negative] = pass;
+  return std::string(renderPathName(path)) + std::to_string(samples) + (negative ? "negative" : "nan");
+}
+
 class BrokenPass : public Watch, public testing::WithParamInterface<std::tuple<RenderPath, int, bool>> {
  protected:
   RenderPath path() const { return std::get<0>(GetParam()); }
@@ -178,9 +183,7 @@ class BrokenPass : public Watch, public testing::WithParamInterface<std::tuple<R
   std::string value() const {
     return negative() ? "-0.25" : "storable(vec3(uintBitsToFloat(0x7fc00000u | view.firstLight)), 0.0).g";
   }
-  std::string name() const {
-    return std::string(renderPathName(path())) + std::to_string(samples()) + (negative() ? "negative" : "nan");
-  }
+  std::string name() const { return broken(GetParam()); }
   void expectFinding(const NonFinite& found, int x, int y) const {
     EXPECT_EQ(std::tuple(found.x, found.y, found.sample, found.count), std::tuple(x, y, sample(), uint64_t{1}));
     EXPECT_TRUE(negative() ? found.value.g == -0.25f : std::isnan(found.value.g)) << found.value.g;
@@ -234,10 +237,8 @@ std::vector<std::tuple<RenderPath, int, bool>> brokenPasses() {
   return passes;
 }
 
-INSTANTIATE_TEST_SUITE_P(Values, BrokenPass, testing::ValuesIn(brokenPasses()), [](const auto& info) {
-  return std::string(renderPathName(std::get<0>(info.param))) + std::to_string(std::get<1>(info.param)) +
-         (std::get<2>(info.param) ? "negative" : "nan");
-});
+INSTANTIATE_TEST_SUITE_P(Values, BrokenPass, testing::ValuesIn(brokenPasses()),
+                         [](const auto& info) { return broken(info.param); });
 
 using WatchedFrames = Watch;
 
