@@ -85,6 +85,9 @@ TEST_F(PanelTest, PanelsOfBothEdgesLieSideBySide) {
     EXPECT_EQ(static_cast<float>(above) > ImGui::GetTextLineHeight(), width < 900.0f)
         << "beside three numbers there is no room for a label at " << width;
   }
+  ImGui::GetIO().DisplaySize.x = 360.0f;
+  run(4);
+  EXPECT_GT(ImGui::FindWindowByName(panels::inspectorTitle)->Size.x, 320.0f) << "no narrower where they overlap anyway";
 }
 
 TEST_F(PanelTest, OlderWindowsFoldAndAClickUnfolds) {

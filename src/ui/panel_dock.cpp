@@ -179,7 +179,11 @@ std::array<float, 2> PanelDock::widths(const Panel* further) const {
   if (further) {
     add(*further);
   }
-  const std::vector<float> shares = shareRoom(widest, displaySize().x - 3.0f * margin());
+  const float room = displaySize().x - 3.0f * margin();
+  if (widest[0].least + widest[1].least > room) {
+    return {widest[0].wished, widest[1].wished};  // they overlap, however narrow they are
+  }
+  const std::vector<float> shares = shareRoom(widest, room);
   return {shares[0], shares[1]};
 }
 
