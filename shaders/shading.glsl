@@ -140,8 +140,9 @@ Surface objectSurface(vec3 position, vec3 normal, MaterialData material, Materia
 
 vec3 backgroundRadiance(vec3 direction) {
   float y = safeNormalize(direction).y;
-  vec3 sky = y >= 0.0 ? mix(view.horizon.rgb, view.zenith.rgb, sqrt(y))
-                      : mix(view.horizon.rgb, view.ground.rgb, min(1.0, -8.0 * y));
+  float away = y >= 0.0 ? sqrt(y) : min(1.0, -8.0 * y);
+  // Some devices compute mix(a, b, x) as a + x (b - a), which loses b beside a very bright horizon.
+  vec3 sky = (1.0 - away) * view.horizon.rgb + away * (y >= 0.0 ? view.zenith.rgb : view.ground.rgb);
   return bounded(mix(view.background, sky, bvec3(view.hasSky != 0)));
 }
 
