@@ -121,6 +121,8 @@ struct MirrorData {
   float rippleSlope;  // steepest; below 0 if waves rise against `normal`
   vec3 rippleOrigin;  // relative
   float ripplePhase;  // radians
+  uint index;         // of this, in the frame's mirrors
+  uint padding[3];
 };
 
 // A curved mirror in one view, with the environment map that it looks up.
@@ -182,9 +184,15 @@ struct TraceTriangle {
   vec3 a;         // mesh space
   uint triangle;  // its number in the mesh
   vec3 b;
-  uint material;
-  vec3 c;
   uint padding;
+  vec3 c;
+  uint padding2;
+};
+
+// A triangle of a mesh, by its number.
+struct TraceFace {
+  uint vertices[3];  // of its mesh
+  uint material;
 };
 
 struct TraceVertex {
@@ -212,7 +220,7 @@ struct TraceInstance {
   uint curved;       // one of the curved* constants
   vec3 baseColor;    // of a curved mirror
   float shininess;   // 0: the material's
-  uint firstTriangle;  // of its mesh, in traceIndices / 3
+  uint firstTriangle;  // of its mesh, in traceFaces
   uint firstVertex;    // of its mesh
   uint padding[2];
 };
@@ -265,6 +273,12 @@ struct TraceCounts {
 
 const uint traceLeaf = 0x80000000u;   // bits of a link
 const uint itemMirror = 0x40000000u;
+
+// Push constants of deferred shading: pixels of the target that a pass drew.
+struct ShadeConstants {
+  ivec2 corner;
+  uvec2 size;
+};
 
 // Push constants of the display pass. Texel of the picture = pixel * lookup.xy + lookup.zw.
 struct DisplayConstants {
@@ -320,10 +334,10 @@ static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(Instance
               sizeof(InstanceData) == 192);
 static_assert(offsetof(DrawConstants, handedness) == 28 && sizeof(DrawConstants) == 48);
 static_assert(offsetof(MirrorData, lookupScale) == 48 && offsetof(MirrorData, texelFromPixel) == 80 &&
-              offsetof(MirrorData, rippleOrigin) == 160 && sizeof(MirrorData) == 176);
+              offsetof(MirrorData, rippleOrigin) == 160 && sizeof(MirrorData) == 192);
 static_assert(offsetof(EnvironmentData, high) == 32 && sizeof(EnvironmentData) == 80);
 static_assert(offsetof(TraceTopNode, far) == 16 && sizeof(TraceTopNode) == 32 && sizeof(TraceNode) == 16);
-static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48);
+static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48 && sizeof(TraceFace) == 16);
 static_assert(offsetof(TraceVertex, normal) == 16 && sizeof(TraceVertex) == 32);
 static_assert(offsetof(TraceInstance, gridScale) == 64 && offsetof(TraceInstance, change) == 128 &&
               offsetof(TraceInstance, firstTriangle) == 208 && sizeof(TraceInstance) == 224);

@@ -1,5 +1,5 @@
-// The buffers that FrameData (src/systems/frame_data.hpp) fills every frame, and the constants of a draw. Values that
-// are the same for all pixels of a draw are in uniform buffers, at the dynamic offset of the pass or of the mirror,
+// The buffers that FrameData (src/systems/frame_data.hpp) fills every frame. Values that are the
+// same for all pixels of a draw are in uniform buffers, at the dynamic offset of the pass or of the mirror,
 // because lavapipe reads a storage buffer anew for each pixel.
 #include "gpu_data.h"
 
@@ -13,7 +13,5 @@ layout(set = 0, binding = 3, std430) readonly buffer Instances { InstanceData in
 layout(set = 0, binding = 4, std430) readonly buffer Environments { EnvironmentData environments[]; };
 layout(set = 0, binding = 5, std430) readonly buffer MirrorVertices { vec4 mirrorVertices[]; };  // clip space
 layout(set = 0, binding = 6, std430) readonly buffer Materials { MaterialData materials[]; };
-
-layout(push_constant) uniform Draw { DrawConstants draw; };
 
 vec3 rayThrough(vec2 pixel) { return view.rayX * pixel.x + view.rayY.xyz * pixel.y + view.rayOrigin.xyz; }

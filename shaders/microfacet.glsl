@@ -13,9 +13,6 @@ float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
 // Returns a seed for a position in pixels, in steps of 1/16.
 uint seedAt(vec2 position) { return mixedBits(uint(position.x * 16.0) + mixedBits(uint(position.y * 16.0))); }
 
-// The same for all samples of the pixel.
-uint pixelSeed() { return seedAt(floor(gl_FragCoord.xy) + 0.5); }
-
 // Returns the lattice's shift in a pixel, from point number `first` on. Whole numbers keep it exact.
 vec2 pixelShift(uint seed, uint first) {
   uvec2 step = first * uvec2(3242174889u, 2447445414u);  // of latticePoint, times 2^32

@@ -9,8 +9,8 @@ struct PlaneHit {
   float disparity;  // of the plane
 };
 
-PlaneHit planeHit() {
-  vec3 ray = rayThrough(gl_FragCoord.xy);
-  float inward = min(dot(mirror.normal, ray), -1e-7 * length(ray));
-  return PlaneHit(ray, inward, ray * (-mirror.eyeDistance / inward), disparityLength * inward / min(-mirror.eyeDistance, -1e-30));
+PlaneHit planeHit(vec3 normal, float eyeDistance, vec2 pixel) {
+  vec3 ray = rayThrough(pixel);
+  float inward = min(dot(normal, ray), -1e-7 * length(ray));
+  return PlaneHit(ray, inward, ray * (-eyeDistance / inward), disparityLength * inward / min(-eyeDistance, -1e-30));
 }

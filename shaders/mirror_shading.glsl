@@ -1,15 +1,10 @@
 // The fragment shader of mirrors. MIRROR_IMAGE is the type of the image. With MIRROR_OWN_SAMPLE each invocation draws one
-// sample, reads the same sample of the image and gives the reflection's share only. With TRACED, light that needs rays
-// falls on the layer under the reflection.
+// sample, reads the same sample of the image and gives the reflection's share only.
 #include "interface.glsl"
 #include "shading.glsl"
 #include "texels.glsl"
 #include "microfacet.glsl"
 #include "mirror_plane.glsl"
-#ifdef TRACED
-#include "trace.glsl"
-#include "traced_light.glsl"
-#endif
 
 layout(constant_id = 0) const bool baseOnly = false;   // draws the diffuse layer under the reflection only
 layout(constant_id = 1) const bool reprojects = false; // the image is cached, and eye or mirror moved since
@@ -241,7 +236,7 @@ vec4 scatteredReflection(vec3 ray, vec3 position, vec3 normal) {
   }
   float limit = 1e4 * (length(position) + 1.0);
   Origin origin = Origin(position, clamp(length(ray) * disparityLength / max(sharp.a, 1e-30) - length(position), 0.0, limit), limit);
-  uint seed = pixelSeed();
+  uint seed = seedAt(gl_FragCoord.xy);
   vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));
   vec3 sum = vec3(0.0);
   int taken = 0;
@@ -270,21 +265,17 @@ vec3 baseRadiance(vec3 position, vec3 normal) {
     return vec3(0.0);
   }
   Surface base = mirrorLayer(position, normal, mirror.baseColor);
-#ifdef TRACED
-  return tracedSurfaceRadiance(base, safeNormalize(-position), Skip(none, none, planeOf(mirror.traceMirror), none, 0.0));
-#else
 #ifdef SHADOW_MAPS
   receiver = position;
   receiverNormal = mirror.normal;
 #endif
   return surfaceRadiance(base);
-#endif
 }
 
 // Stores the disparity of the reflected surface, so that the parent's image can be reprojected too. It is the same in
 // the mirror's image and in its parent's, because views share one projection and reflection keeps lengths.
 void main() {
-  PlaneHit hit = planeHit();
+  PlaneHit hit = planeHit(mirror.normal, mirror.eyeDistance, gl_FragCoord.xy);
 #ifdef MIRROR_OWN_SAMPLE
   float cosine = -hit.inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));
   vec3 f = reflectanceAt(mirror.reflectance, mirror.schlick, cosine);

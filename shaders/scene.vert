@@ -24,6 +24,9 @@ out gl_PerVertex {
   float gl_ClipDistance[1];
 };
 
+// Reflections that are added to a layer pass the test for equal depth only if their positions are the same.
+invariant gl_Position;
+
 void main() {
   vec4 p = vec4(position, 1.0);
   instanceIndex = gl_InstanceIndex;

@@ -19,10 +19,17 @@ struct Surface {
   bool glossy;  // the specular color is not black
 };
 
+#ifdef COMPUTE
+// Compute shaders have no helper invocations, but compilers cannot know the result.
+bool isHelper() { return gl_LocalInvocationIndex > 0xffff; }
+#else
+bool isHelper() { return gl_HelperInvocation; }
+#endif
+
 // A branch or a loop that depends on uniform values alone makes lavapipe of Mesa 22.3 compile a large shader again for
 // each draw and keep it. Values are chosen with mix() instead, and loops end at this count, which is not uniform because
-// it depends on gl_HelperInvocation. Helper invocations need no light.
-uint countHere(uint count) { return gl_HelperInvocation ? 0 : count; }
+// it depends on the invocation. Helper invocations need no light.
+uint countHere(uint count) { return isHelper() ? 0 : count; }
 
 vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
 

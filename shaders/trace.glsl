@@ -8,7 +8,7 @@
 
 layout(set = 2, binding = 0) uniform usamplerBuffer traceNodes;      // TraceNode
 layout(set = 2, binding = 1) uniform usamplerBuffer traceTriangles;  // TraceTriangle
-layout(set = 2, binding = 2, std430) readonly buffer TraceIndices { uint traceIndices[]; };
+layout(set = 2, binding = 2, std430) readonly buffer TraceFaces { TraceFace traceFaces[]; };
 layout(set = 2, binding = 3, std430) readonly buffer TraceVertices { TraceVertex traceVertices[]; };
 layout(set = 2, binding = 4, std430) readonly buffer TraceTextures { TraceTexture traceTextures[]; };
 layout(set = 2, binding = 5, std430) readonly buffer TraceTexels { uvec2 traceTexels[]; };      // rgba, half floats
@@ -24,8 +24,8 @@ layout(set = 2, binding = 11) uniform usamplerBuffer traceInstanceTexels;
 layout(set = 2, binding = 12) uniform usamplerBuffer traceMirrorTexels;
 
 TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
-  uint index = 3 * (traceInstances[instance].firstTriangle + triangle) + corner;
-  return traceVertices[traceInstances[instance].firstVertex + traceIndices[index]];
+  uint vertex = traceFaces[traceInstances[instance].firstTriangle + triangle].vertices[corner];
+  return traceVertices[traceInstances[instance].firstVertex + vertex];
 }
 
 const uint none = 0xffffffffu;
@@ -232,7 +232,7 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
 // Finds the first surface that a ray in trace space meets before tMax; with `any`, one of them.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
-  if (traceCounts.topNodes == 0 || gl_HelperInvocation) {
+  if (traceCounts.topNodes == 0) {
     return hit;
   }
   float near = skip.near / max(length(direction), 1e-30);

@@ -79,25 +79,24 @@ vec3 facetNormal(uint instance, uint triangle) {
   return safeNormalize(normalFromMesh(instance, cross(b - a, c - a)));
 }
 
-Bounce objectBounce(Hit hit, vec3 traceOrigin, vec3 direction) {
-  uint triangle = triangleTexel(hit.slot, 0).w;
-  TraceVertex a = vertexOf(hit.instance, triangle, 0);
-  TraceVertex b = vertexOf(hit.instance, triangle, 1);
-  TraceVertex c = vertexOf(hit.instance, triangle, 2);
-  vec3 w = hit.weights;
-  vec3 geometric = facetNormal(hit.instance, triangle);
-  vec3 normal = safeNormalize(normalFromMesh(hit.instance, w.x * a.normal + w.y * b.normal + w.z * c.normal));
+// A triangle seen along `direction`, at the relative position to which the corners' weights `w` belong.
+Bounce objectBounce(uint instance, uint triangle, vec3 w, vec3 position, vec3 direction) {
+  TraceVertex a = vertexOf(instance, triangle, 0);
+  TraceVertex b = vertexOf(instance, triangle, 1);
+  TraceVertex c = vertexOf(instance, triangle, 2);
+  vec3 geometric = facetNormal(instance, triangle);
+  vec3 normal = safeNormalize(normalFromMesh(instance, w.x * a.normal + w.y * b.normal + w.z * c.normal));
   bool away = dot(geometric, direction) > 0.0;
-  MaterialData material = materials[triangleTexel(hit.slot, 1).w];
-  Surface surface = objectSurface(traceOrigin + hit.t * direction - view.traceOffset.xyz, away ? -normal : normal,
-                                  material, traceInstances[hit.instance].change, traceInstances[hit.instance].shininess);
+  MaterialData material = materials[traceFaces[traceInstances[instance].firstTriangle + triangle].material];
+  Surface surface = objectSurface(position, away ? -normal : normal, material, traceInstances[instance].change,
+                                  traceInstances[instance].shininess);
   if (material.hasTexture != 0) {
     vec2 uv = w.x * vec2(a.u, a.v) + w.y * vec2(b.u, b.v) + w.z * vec2(c.u, c.v);
     surface.diffuse *= textureColor(material.textureIndex, uv);
   }
-  Skip self = Skip(hit.instance, triangle, none, none, nearOf(surface.position));
+  Skip self = Skip(instance, triangle, none, none, nearOf(position));
   Bounce bounce = Bounce(surface, self, false, away ? -geometric : geometric, vec3(0.0), 0.0);
-  applyCurvedMirror(hit.instance, direction, bounce);
+  applyCurvedMirror(instance, direction, bounce);
   return bounce;
 }
 
@@ -171,7 +170,8 @@ vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
       bool front = dot(traceMirrors[hit.mirror].normal, path.direction) < 0.0;
       path.bounce = mirrorBounce(hit.mirror, origin + hit.t * path.direction, path.direction, front);
     } else {
-      path.bounce = objectBounce(hit, origin, path.direction);
+      path.bounce = objectBounce(hit.instance, triangleTexel(hit.slot, 0).w, hit.weights,
+                                 surface.position + hit.t * path.direction, path.direction);
     }
     path.m = path.bounce.surface.normal;
     if (path.bounce.alpha > 0.0 && path.bounce.reflects) {

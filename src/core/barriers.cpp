@@ -71,6 +71,8 @@ constexpr std::array<Rule, barrierKindCount> rules = {{
     {"targetToCheck", colorWritesAndSamplings, computeReads, sampled},
     {"checkToLookUp", computeWrites, computeReads, unsaid},
     {"checkToWrite", {computeStage, 0}, {colorStage | sampleStage, 0}, unsaid},
+    {"surfacesToShade", colorWritesAndSamplings, computeReads, sampled},
+    {"shadedToDraw", computeWrites, {sampleStage | colorStage, VK_ACCESS_SHADER_READ_BIT}, unsaid},
     {"swapchainBeforeWrite", colorWrites, colorUses, attachment},
     {"swapchainBeforeOverlay", colorWrites, colorUses, overlayLayout},
     {"swapchainToPresent", colorWrites, {VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0}, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR},

@@ -24,6 +24,8 @@ enum class BarrierKind {
   targetToCheck,           // attachment -> compute shader, also where fragment shaders sample it
   checkToLookUp,           // results of a check -> the dispatch that looks up what was found
   checkToWrite,            // compute shader -> next write as attachment
+  surfacesToShade,         // attachment -> compute shader, also where fragment shaders read what it wrote before
+  shadedToDraw,            // radiance that compute shaders wrote -> fragment shader, and attachment that they read
   swapchainBeforeWrite,    // acquired image (or the last read back) -> attachment
   swapchainBeforeOverlay,  // attachment of the pass before -> attachment that loads it
   swapchainToPresent,

@@ -1,6 +1,7 @@
 #include "core/gpu_timer.hpp"
 
 #include <array>
+#include <utility>
 
 namespace speculum {
 
@@ -85,30 +86,33 @@ int GpuTimer::begin(VkCommandBuffer commands, const std::string& pass, bool stat
   stamp(commands, 2 * slot);
   if (passes_.back().hasStatistics) {
     vkCmdBeginQuery(commands, statistics_.get(), slot, 0);
+    countsStatistics_ = true;
   }
   return static_cast<int>(slot);
 }
 
+void GpuTimer::endStatistics(VkCommandBuffer commands, int slot) {
+  if (std::exchange(countsStatistics_, false)) {
+    vkCmdEndQuery(commands, statistics_.get(), static_cast<uint32_t>(slot));
+  }
+}
+
 void GpuTimer::end(VkCommandBuffer commands, int slot) {
-  if (slot < 0) {
-    return;
+  if (slot >= 0) {
+    stamp(commands, 2 * static_cast<uint32_t>(slot) + 1);
   }
-  const auto query = static_cast<uint32_t>(slot);
-  if (passes_[query].hasStatistics) {
-    vkCmdEndQuery(commands, statistics_.get(), query);
-  }
-  stamp(commands, 2 * query + 1);
 }
 
 void GpuTimer::beginSamples(VkCommandBuffer commands, int slot) {
   if (samples_ && slot >= 0) {
     passes_[static_cast<size_t>(slot)].hasSamples = true;
+    countsSamples_ = true;
     vkCmdBeginQuery(commands, samples_.get(), static_cast<uint32_t>(slot), VK_QUERY_CONTROL_PRECISE_BIT);
   }
 }
 
 void GpuTimer::endSamples(VkCommandBuffer commands, int slot) {
-  if (slot >= 0 && passes_[static_cast<size_t>(slot)].hasSamples) {
+  if (std::exchange(countsSamples_, false)) {
     vkCmdEndQuery(commands, samples_.get(), static_cast<uint32_t>(slot));
   }
 }

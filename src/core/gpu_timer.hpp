@@ -37,8 +37,10 @@ class GpuTimer {
   void reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail);  // at the start of the frame's commands
   void finish(VkCommandBuffer commands);                                     // after its last pass
   int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
+  // Ends the statistics, if they have not ended yet, outside rendering.
+  void endStatistics(VkCommandBuffer commands, int slot);
   void end(VkCommandBuffer commands, int slot);
-  // Count the samples that pass the depth test; begin and end within one render pass.
+  // Count the samples that pass the depth test; begin and end within one render pass. To end them again does nothing.
   void beginSamples(VkCommandBuffer commands, int slot);
   void endSamples(VkCommandBuffer commands, int slot);
   FrameTimings read() const;  // after the frame's fence
@@ -56,6 +58,8 @@ class GpuTimer {
   TimerDetail detail_ = TimerDetail::passes;
   uint32_t stamped_ = 0;  // stamps of this frame
   std::vector<PassTiming> passes_;
+  bool countsStatistics_ = false;  // of the last pass, begun and not ended
+  bool countsSamples_ = false;
 };
 
 }  // namespace speculum

@@ -86,7 +86,9 @@ PassGroup::PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::sp
   if (!any.loadColor && !any.keepsSamples) {
     discard(samples);
   }
-  discard(depths);
+  if (!any.loadDepth) {
+    discard(depths);
+  }
   if (any.targets.role == TargetRole::swapchain && !any.loadColor) {
     discard(outputs);
   }
@@ -101,12 +103,14 @@ PassGroup::~PassGroup() {
   if (role == TargetRole::swapchain) {
     return;
   }
+  const BarrierKind kind = passes_.front().pauses     ? BarrierKind::surfacesToShade
+                           : role == TargetRole::main ? BarrierKind::mainToSample
+                                                      : BarrierKind::offscreenToSample;
   std::vector<Image*> outputs;
   for (const PassDesc& pass : passes_) {
     outputs.push_back(&pass.targets.output());
   }
-  barriers_.record(commands_, role == TargetRole::main ? BarrierKind::mainToSample : BarrierKind::offscreenToSample,
-                   outputs);
+  barriers_.record(commands_, kind, outputs);
 }
 
 PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands,
@@ -119,6 +123,10 @@ PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& ti
       dynamic_(!desc_.overlay && device.renderPath() == RenderPath::dynamic) {
   device_.beginLabel(commands_, desc_.name);
   timerSlot_ = timer_.begin(commands_, desc_.name, desc_.collectStatistics);
+  begin();
+}
+
+void PassScope::begin() {
   if (desc_.overlay) {
     device_.barriers().record(commands_, BarrierKind::swapchainBeforeOverlay, *desc_.targets.color);
   } else if (!desc_.grouped) {
@@ -142,14 +150,30 @@ void PassScope::countSamples() {
   }
 }
 
-PassScope::~PassScope() {
-  timer_.endSamples(commands_, timerSlot_);
+void PassScope::end() {
   if (dynamic_) {
     device_.functions().endRendering(commands_);
   } else {
     vkCmdEndRenderPass(commands_);
   }
   group_.reset();
+}
+
+void PassScope::pause() {
+  timer_.endSamples(commands_, timerSlot_);
+  end();
+  timer_.endStatistics(commands_, timerSlot_);
+}
+
+void PassScope::resume(PassDesc desc) {
+  desc_ = std::move(desc);
+  begin();
+}
+
+PassScope::~PassScope() {
+  timer_.endSamples(commands_, timerSlot_);
+  end();
+  timer_.endStatistics(commands_, timerSlot_);
   timer_.end(commands_, timerSlot_);
   device_.endLabel(commands_);
 }
@@ -171,7 +195,7 @@ void PassScope::beginDynamic() {
   if (targets.depth) {
     depth.imageView = targets.depth->view();
     depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-    depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    depth.loadOp = desc_.loadDepth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
     depth.storeOp = storeOp(desc_.storeDepth);
     depth.clearValue = depthClear(desc_);
   }
@@ -193,6 +217,7 @@ void PassScope::beginRenderPass() {
                                 .resolve = targets.resolve != nullptr,
                                 .loadColor = desc_.loadColor,
                                 .storeColor = storesColor(desc_),
+                                .loadDepth = targets.depth && desc_.loadDepth,
                                 .storeDepth = targets.depth && desc_.storeDepth,
                                 .colorLayout = targets.color->layout()});
   std::vector<Image*> images = {targets.color};

@@ -50,11 +50,13 @@ struct PassDesc {
   std::array<float, 4> clearColor{0.0f, 0.0f, 0.0f, 1.0f};
   float clearDepth = 0.0f;  // reversed Z: infinitely far
   bool loadColor = false;   // else cleared
+  bool loadDepth = false;
   bool storeDepth = false;
   bool storeSamples = false;       // keeps multisampled color for passes that load or read it
   bool keepsSamples = false;       // outside the render area too
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
   bool grouped = false;            // its barriers are those of its PassGroup
+  bool pauses = false;             // compute shaders read `color`, with all its samples, in PassScope::pause
   bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path
 };
 
@@ -79,6 +81,7 @@ class PassGroup {
 
 // A pass that is being recorded, from construction to end: debug label, timestamps, statistics, barriers, rendering on
 // the device's render path. Viewport, scissor and front face are set. Made by Renderer::beginPass.
+// A pass that pauses renders twice: between pause() and resume() commands outside rendering may be recorded.
 class PassScope {
  public:
   PassScope(const PassScope&) = delete;
@@ -90,12 +93,19 @@ class PassScope {
   // A label within the pass's own; ended by endLabel.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }
-  // Counts the samples that pass the depth test from here to the pass's end. Once a pass, with collectStatistics.
+  // Ends the first rendering of a pass that pauses.
+  void pause();
+  // Begins the second one, which loads what the first one has stored. `desc` has the same render area.
+  void resume(PassDesc desc);
+  // Counts the samples that pass the depth test from here to the pass's end or pause. Once a pass, with
+  // collectStatistics.
   void countSamples();
 
  private:
   friend class Renderer;
   PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc);
+  void begin();
+  void end();
   void beginDynamic();
   void beginRenderPass();
 

@@ -33,7 +33,7 @@ RenderPassHandle create(Device& device, const RenderPassKey& key) {
     attachments.back().loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   }
   if (key.depth != VK_FORMAT_UNDEFINED) {
-    attachments.push_back(attachment(key.depth, key.samples, false, key.storeDepth, depthLayout));
+    attachments.push_back(attachment(key.depth, key.samples, key.loadDepth, key.storeDepth, depthLayout));
   }
   const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                      .colorAttachmentCount = 1,

@@ -15,6 +15,7 @@ struct RenderPassKey {
   bool resolve = false;
   bool loadColor = false;
   bool storeColor = true;
+  bool loadDepth = false;
   bool storeDepth = false;
   VkImageLayout colorLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
 

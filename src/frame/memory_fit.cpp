@@ -52,6 +52,15 @@ uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
   return peak;
 }
 
+// Returns the bytes of the samples of the largest pass, whose radiance deferred shading keeps.
+uint64_t shadedBytes(const FramePlan& plan, const Settings& settings) {
+  uint64_t samples = pixels(plan.main.view.rect) * static_cast<uint64_t>(settings.view.samples);
+  for (const PlannedPass& pass : plan.passes) {
+    samples = std::max(samples, pixels(pass.view.rect) * static_cast<uint64_t>(settings.reflection.samples));
+  }
+  return plan.effects.any() ? samples * colorBytes : 0;
+}
+
 uint64_t mainBytes(const FramePlan& plan, const Settings& settings) {
   const auto samples = static_cast<uint64_t>(settings.view.samples);
   const uint64_t multisampled = samples > 1 ? samples * colorBytes : 0;
@@ -122,7 +131,7 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
   const uint64_t sums = settings.view.accumulate > 1 ? sumBytes : 0;
   return mainBytes(plan, settings) + pixels(plan.main.view.rect) * sums +
          peakPixels(plan, ranges) * imageSamples * colorBytes + depthPixels(plan, ranges) * imageSamples * depthBytes +
-         environmentBytes(plan) + shadowBytes(plan);
+         environmentBytes(plan) + shadowBytes(plan) + shadedBytes(plan, settings);
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,

@@ -36,8 +36,8 @@ struct TracedEffects {
 
   // Says whether any ray is traced through the scene's triangles.
   bool traces() const { return shadowRays || reflects(); }
-  // Says whether rays start on drawn objects, rather than on mirrors alone.
-  bool tracesFromObjects() const { return shadowRays || curvedRays; }
+  // Says whether triangles of drawn objects are shaded with the scene for rays, rather than mirrors alone.
+  bool tracesFromObjects() const { return shadowRays || curvedRays || castsLight; }
   // Says whether rays follow reflections. They may meet anything in the scene.
   bool reflects() const { return roughRays || curvedRays || rippleRays || mirrorRays; }
   bool any() const { return traces() || castsLight; }

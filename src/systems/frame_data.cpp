@@ -174,11 +174,24 @@ VkDescriptorType FrameData::typeOf(uint32_t kind) {
                                                : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-// Gives no stage more than the four storage buffers that every device supports.
+// Gives no stage more than the four storage buffers that every device supports. Deferred shading computes.
 VkShaderStageFlags FrameData::stagesOf(uint32_t kind) {
   constexpr VkShaderStageFlags vertex = VK_SHADER_STAGE_VERTEX_BIT;
   constexpr VkShaderStageFlags fragment = VK_SHADER_STAGE_FRAGMENT_BIT;
-  return kind <= lights ? vertex | fragment : kind == mirrorVertices ? vertex : fragment;
+  constexpr VkShaderStageFlags compute = VK_SHADER_STAGE_COMPUTE_BIT;
+  switch (kind) {
+    case passBlocks:
+    case lights:
+      return vertex | fragment | compute;
+    case mirrors:
+      return vertex | fragment;
+    case mirrorVertices:
+      return vertex;
+    case environments:
+      return fragment;
+    default:
+      return fragment | compute;
+  }
 }
 
 FrameData::FrameData(Device& device)
@@ -383,6 +396,7 @@ void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, in
     data.faceSize = map->size;
   }
   batch.environment = true;
+  batch.painted = mirror.baseColor != glm::dvec3(0.0);
   batch.map = exists ? static_cast<int>(map - maps.begin()) : -1;
   instances_.back().environment = static_cast<uint32_t>(environments_.size());
   environments_.push_back(data);
@@ -418,6 +432,7 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
     mirrors_.push_back({mirrorData(draw, mirror, state, effects, pass.view, image)});
+    mirrors_.back().mirror.index = range.mirror;
     for (const ClipPolygon& part : parts) {
       addFan(mirrorVertices_, part);
     }

@@ -33,6 +33,7 @@ struct Batch {
   uint32_t count = 0;
   bool curved = false;             // the object is a curved mirror
   bool environment = false;        // it looks up an environment map; the batch then has one instance
+  bool painted = false;            // and the layer under its reflection is not black
   int map = -1;                    // index into FramePlan::maps; -1: it shows the background
   int level = -1;                  // index into MeshLevels::levels; -1: the mesh itself
   std::vector<IndexRange> ranges;  // indices that are drawn; empty: all. Only a batch of one instance has ranges
@@ -84,6 +85,8 @@ class FrameData {
   const std::vector<PassData>& passes() const { return passes_; }
   // Binds set 0 for draws of `pass`, or of `mirror` in it.
   void bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror = 0) const;
+  // MirrorData by MirrorData::index, each at a multiple of 256 bytes.
+  VkDescriptorBufferInfo mirrorBuffer(const Frame& frame) const { return buffers_.buffer(frame, mirrors).descriptor(); }
   // InstanceData by instance, as vertex attributes: the same buffer that the set has.
   VkBuffer instanceBuffer() const { return instanceBuffer_; }
 
@@ -96,9 +99,10 @@ class FrameData {
     gpu::ViewData view;
     gpu::LightData lights[gpu::fixedLights];  // all, if there are no more
   };
-  struct alignas(256) MirrorBlock {
+  struct alignas(256) MirrorBlock {  // as in shade.glsl
     gpu::MirrorData mirror;
   };
+  static_assert(sizeof(MirrorBlock) == 256);
 
   static VkDescriptorType typeOf(uint32_t kind);
   static VkShaderStageFlags stagesOf(uint32_t kind);

@@ -1,5 +1,7 @@
 #include "systems/mirror_system.hpp"
 
+#include <algorithm>
+
 #include "systems/shadow_system.hpp"
 
 namespace speculum {
@@ -23,19 +25,13 @@ MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& 
   noImage_ = uploader.image(std::as_bytes(std::span(&black, 1)), {1, 1}, colorFormat, false, "no mirror image");
 }
 
-bool MirrorSystem::tracesRays(Shading shading, const TraceVariant& trace) {
-  switch (shading) {
-    case Shading::byRays:
-      return true;
-    case Shading::ownSample:
-    case Shading::ownSampleAdded:
-      return false;
-    case Shading::single:
-    case Shading::average:
-    case Shading::base:
-      break;
-  }
-  return trace.traced;
+bool MirrorSystem::defers(const FrameInfo& info, const MirrorRange& mirror) {
+  return mirror.byRays || (mirror.painted && info.trace.variant().traced);
+}
+
+bool MirrorSystem::defers(const FrameInfo& info, size_t pass) {
+  return std::ranges::any_of(info.data.passes()[pass].mirrors,
+                             [&](const MirrorRange& mirror) { return defers(info, mirror); });
 }
 
 GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameInfo& info) const {
@@ -49,27 +45,17 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
                             .depthClamp = variant.clampDepth};
   if (shading == Shading::average) {
     desc.frag = "mirror_average.frag";
-  } else if (shading == Shading::ownSample || shading == Shading::ownSampleAdded) {
+  } else if (shading == Shading::ownSample) {
     desc.frag = "mirror_sample.frag";
     desc.sampleShading = true;
+  } else if (shading == Shading::identifier) {
+    desc.frag = "mirror_identifier.frag";
+    desc.fragConstants = {!variant.byRays};
   }
-  if (shading == Shading::ownSampleAdded) {
+  if (variant.added) {
     desc.depthCompare = VK_COMPARE_OP_EQUAL;
     desc.depthWrite = false;
     desc.adds = true;
-  }
-  if (tracesRays(shading, variant.trace)) {
-    const bool byRays = shading == Shading::byRays;
-    desc.frag = tracingShader(byRays                        ? "mirror_rays"
-                              : shading == Shading::average ? "mirror_average_traced"
-                                                            : "mirror_traced",
-                              variant.trace);
-    desc.sampleShading = variant.samples != VK_SAMPLE_COUNT_1_BIT && (byRays || variant.trace.perSample);
-    if (byRays) {
-      desc.fragConstants[1] = desc.sampleShading && device_.caps().sampleRateShading ? variant.samples : 1;
-    }
-    desc.setLayouts.push_back(info.trace.layout());
-    addConstants(variant.trace, desc.fragConstants);
   }
   if (variant.shadowed) {
     desc.frag = shading == Shading::average ? "mirror_average_shadowed.frag" : "mirror_shadowed.frag";
@@ -95,36 +81,28 @@ void MirrorSystem::countPipelines(EffectLedger& ledger) const {
 void MirrorSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown) {
   pipelines_.endFrame([&](const Variant& variant) {
     const bool stays = imagesShown && variant.trace == trace;
-    return (!stays && tracesRays(variant.shading, variant.trace)) || (!shadowMaps && variant.shadowed);
+    return (!stays && variant.shading == Shading::identifier) || (!shadowMaps && variant.shadowed);
   });
 }
 
-std::vector<MirrorSystem::Shading> MirrorSystem::shadings(const MirrorRange& mirror, const MirrorImage* image,
-                                                          const PassFormat& format) const {
-  if (mirror.byRays) {
-    return {Shading::byRays};
-  }
+MirrorSystem::Shading MirrorSystem::shadingOf(const MirrorRange& mirror, const MirrorImage* image,
+                                              const PassFormat& format) const {
   if (!image || image->samples == VK_SAMPLE_COUNT_1_BIT) {
-    return {Shading::single};
+    return Shading::single;
   }
-  if (mirror.blurs || mirror.ripples || image->samples != format.samples || mirror.lookup != Lookup::fetch ||
-      !device_.caps().sampleRateShading) {
-    return {Shading::average};
-  }
-  if (mirror.base) {
-    return {Shading::base, Shading::ownSampleAdded};
-  }
-  return {Shading::ownSample};
+  const bool averages = mirror.blurs || mirror.ripples || image->samples != format.samples ||
+                        mirror.lookup != Lookup::fetch || !device_.caps().sampleRateShading;
+  return averages ? Shading::average : Shading::ownSample;
 }
 
 // Sets only what this shading's shader reads, so that mirrors that differ in other ways share a pipeline.
-MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading) {
-  Variant variant{.shading = shading};
+MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading, bool added) {
+  Variant variant{.shading = shading, .added = added};
   switch (shading) {
     case Shading::single:
     case Shading::average:
       variant.shows = mirror.shows;
-      variant.painted = mirror.painted;
+      variant.painted = mirror.painted && !added;
       if (mirror.shows == MirrorShows::image) {
         variant.blurs = mirror.blurs;
         variant.ripples = mirror.ripples;
@@ -136,57 +114,77 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
       variant.painted = true;
       break;
     case Shading::ownSample:
-    case Shading::ownSampleAdded:
       variant.reprojected = mirror.reprojected;
       break;
-    case Shading::byRays:
-      variant.blurs = mirror.rough;
-      variant.ripples = mirror.rippled;
+    case Shading::identifier:
+      variant.byRays = mirror.byRays;
+      variant.blurs = mirror.byRays && mirror.rough;
+      variant.ripples = mirror.byRays && mirror.rippled;
       break;
   }
   return variant;
 }
 
 uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
-  const PassData& data = info.data.passes()[pass];
-  const bool oblique = format.mirrorView && info.settings.reflection.clip == ClipMethod::oblique;
-  const VkDescriptorImageInfo noImage = noImage_.descriptor(sampler_.get());
   uint32_t draws = 0;
-  for (const MirrorRange& mirror : data.mirrors) {
-    const MirrorImage* image = imageOf(mirror, info);
-    for (const Shading shading : shadings(mirror, image, format)) {
-      Variant variant = variantOf(mirror, shading);
-      variant.samples = format.samples;
-      variant.clampDepth = !oblique;
-      const bool traces = tracesRays(shading, info.trace.variant());
-      variant.trace = traces ? info.trace.variant() : TraceVariant{};
-      variant.shadowed = variant.painted && !traces && info.shadows.set() != VK_NULL_HANDLE;
-      variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
-      variant.lightCount = variant.painted && !traces ? fixedLightCount(info.scene) : gpu::manyLights;
-      const Pipeline& drawn = pipelines_.get(variant, [&] { return describe(variant, info); });
-      const bool reads = image && shading != Shading::base;
-      const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
-      DescriptorWriter().image(0, reads ? image->descriptor : noImage).update(device_, set);
-      drawn.bind(scope.commands());
-      info.data.bind(drawn, scope.commands(), data, mirror.mirror);
-      drawn.bindSet(scope.commands(), 1, set);
-      if (traces) {
-        drawn.bindSet(scope.commands(), 2, info.trace.set());
-      } else if (variant.shadowed) {
-        drawn.bindSet(scope.commands(), 2, info.shadows.set());
-      }
-      scope.beginLabel(mirror.byRays ? "traced mirror" : "mirror");
-      vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
-      scope.endLabel();
+  for (const MirrorRange& mirror : info.data.passes()[pass].mirrors) {
+    const Shading shading = shadingOf(mirror, imageOf(mirror, info), format);
+    if (defers(info, mirror)) {
+      draw(scope, info, pass, format, mirror, variantOf(mirror, Shading::identifier, false));
+    } else if (shading == Shading::ownSample && mirror.base) {
+      draw(scope, info, pass, format, mirror, variantOf(mirror, Shading::base, false));
+      draw(scope, info, pass, format, mirror, variantOf(mirror, shading, true));
       ++draws;
-      info.ledger.draw(EffectKind::ripple, mirror.rippled);
-      info.ledger.draw(EffectKind::roughness, mirror.rough);
-      info.ledger.draw(EffectKind::fresnel, mirror.fresnel);
-      info.ledger.draw(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
-      info.ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
+    } else {
+      draw(scope, info, pass, format, mirror, variantOf(mirror, shading, false));
+    }
+    ++draws;
+  }
+  return draws;
+}
+
+uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass,
+                                         const PassFormat& format) {
+  uint32_t draws = 0;
+  for (const MirrorRange& mirror : info.data.passes()[pass].mirrors) {
+    if (defers(info, mirror) && !mirror.byRays && mirror.shows != MirrorShows::back) {
+      const Shading shading = shadingOf(mirror, imageOf(mirror, info), format);
+      draw(scope, info, pass, format, mirror, variantOf(mirror, shading, true));
+      ++draws;
     }
   }
   return draws;
+}
+
+void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format,
+                        const MirrorRange& mirror, Variant variant) {
+  const PassData& data = info.data.passes()[pass];
+  const bool identifies = variant.shading == Shading::identifier;
+  variant.samples = format.samples;
+  variant.clampDepth = !(format.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
+  variant.trace = identifies ? info.trace.variant() : TraceVariant{};
+  variant.shadowed = variant.painted && info.shadows.set() != VK_NULL_HANDLE;
+  variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
+  variant.lightCount = variant.painted ? fixedLightCount(info.scene) : gpu::manyLights;
+  const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });
+  const MirrorImage* image = imageOf(mirror, info);
+  const bool reads = image && !identifies && variant.shading != Shading::base;
+  const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
+  DescriptorWriter().image(0, reads ? image->descriptor : noImage_.descriptor(sampler_.get())).update(device_, set);
+  pipeline.bind(scope.commands());
+  info.data.bind(pipeline, scope.commands(), data, mirror.mirror);
+  pipeline.bindSet(scope.commands(), 1, set);
+  if (variant.shadowed) {
+    pipeline.bindSet(scope.commands(), 2, info.shadows.set());
+  }
+  scope.beginLabel(variant.byRays ? "traced mirror" : "mirror");
+  vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
+  scope.endLabel();
+  info.ledger.draw(EffectKind::ripple, mirror.rippled);
+  info.ledger.draw(EffectKind::roughness, mirror.rough);
+  info.ledger.draw(EffectKind::fresnel, mirror.fresnel);
+  info.ledger.draw(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
+  info.ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
 }
 
 }  // namespace speculum

@@ -8,23 +8,30 @@ namespace speculum {
 // Draws the mirrors of a pass: fronts look up the images that other passes rendered for them, fronts without an image
 // show the background, backs show their color. An image with the pass's samples and pixels is read sample by sample;
 // the diffuse layer under the reflection, whose loop over the lights costs much more, is then a draw of its own with
-// one invocation per pixel. Rippled and rough mirrors trace what they reflect, rippled ones at each sample, because
-// their reflections have edges; or they look up their image beside their own pixels. A cached image is read like a new
-// one as long as nothing moved, otherwise it is reprojected.
+// one invocation per pixel. Rippled and rough mirrors look up their image beside their own pixels, or are shown by
+// rays. A mirror that rays show, or whose layer is lit by rays, is drawn as an identifier; the image is added to the
+// layer after deferred shading. A cached image is read like a new one as long as nothing moved, otherwise it is
+// reprojected.
 class MirrorSystem {
  public:
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  // Says whether record() draws identifiers in a pass.
+  static bool defers(const FrameInfo& info, size_t pass);
+  // After deferred shading: adds reflections to the layers under them.
+  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines as RenderSystem::endFrame does.
   void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown);
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  enum class Shading { single, average, base, ownSample, ownSampleAdded, byRays };
+  enum class Shading { single, average, base, ownSample, identifier };
   struct Variant {
     Shading shading = Shading::single;
+    bool added = false;   // only the reflection, added to a layer that is there
+    bool byRays = false;  // the identifier stands for layer and reflection, else for the layer
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool clampDepth = true;
     bool reprojected = false;
@@ -39,11 +46,13 @@ class MirrorSystem {
     uint32_t shadowedLights = 0;  // constant of shadow_map.glsl
     auto operator<=>(const Variant&) const = default;
   };
-  static Variant variantOf(const MirrorRange& mirror, Shading shading);
-  static bool tracesRays(Shading shading, const TraceVariant& trace);
+  static bool defers(const FrameInfo& info, const MirrorRange& mirror);
+  static Variant variantOf(const MirrorRange& mirror, Shading shading, bool added);
   GraphicsPipelineDesc describe(const Variant& variant, const FrameInfo& info) const;
-  // The draws of a mirror, in order.
-  std::vector<Shading> shadings(const MirrorRange& mirror, const MirrorImage* image, const PassFormat& format) const;
+  // How a mirror without identifier is drawn.
+  Shading shadingOf(const MirrorRange& mirror, const MirrorImage* image, const PassFormat& format) const;
+  void draw(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format,
+            const MirrorRange& mirror, Variant variant);
 
   Device& device_;
   VkDescriptorSetLayout frameLayout_;

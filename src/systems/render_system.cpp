@@ -14,8 +14,17 @@ RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frame
                            VkDescriptorSetLayout textureLayout)
     : frameLayout_(frameLayout), textureLayout_(textureLayout), objects_(factory), skies_(factory) {}
 
-bool RenderSystem::tracesRays(const Variant& variant) {
-  return variant.trace.traced || (variant.curved && !variant.environment);
+// A curved mirror that looks up a map has rays only where light falls on the layer under its reflection.
+bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
+  if (batch.environment) {
+    return info.trace.variant().traced && batch.painted;
+  }
+  return info.trace.variant().traced || batch.curved;
+}
+
+bool RenderSystem::defers(const FrameInfo& info, size_t pass) {
+  return std::ranges::any_of(info.data.passes()[pass].batches,
+                             [&](const Batch& batch) { return defers(info, batch); });
 }
 
 void addVertexInput(GraphicsPipelineDesc& desc) {
@@ -47,26 +56,26 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                             .vert = "scene.vert",
                             .frag = "scene.frag",
                             .vertConstants = {variant.clipDistance},
-                            .fragConstants = {variant.diffuseLookup, variant.glossy},
+                            .fragConstants = {variant.diffuseLookup, variant.glossy, variant.added},
                             .setLayouts = {frameLayout_, textureLayout_},
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
                             .samples = variant.samples,
                             .depthClamp = variant.clampDepth,
                             .lines = variant.wireframe};
-  if (variant.environment) {
-    desc.frag =
-        variant.trace.traced ? tracingShader("scene_environment_traced", variant.trace) : "scene_environment.frag";
-  } else if (tracesRays(variant)) {
-    desc.frag = tracingShader(variant.curved ? "scene_curved" : "scene_traced", variant.trace);
+  if (variant.deferred) {
+    desc.frag = "scene_identifier.frag";
+    desc.fragConstants = {variant.environment};
+  } else if (variant.environment) {
+    desc.frag = "scene_environment.frag";
+  }
+  if (variant.added) {
+    desc.depthCompare = VK_COMPARE_OP_EQUAL;
+    desc.depthWrite = false;
+    desc.adds = true;
   }
   if (variant.shadowed) {
     desc.frag = variant.environment ? "scene_environment_shadowed.frag" : "scene_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
-  }
-  if (tracesRays(variant)) {
-    desc.setLayouts.push_back(info.trace.layout());
-    addConstants(variant.trace, desc.fragConstants);
-    desc.sampleShading = variant.trace.perSample && variant.samples != VK_SAMPLE_COUNT_1_BIT;
   }
   desc.fragConstants.resize(5, 0);
   desc.fragConstants.push_back(variant.lightCount);
@@ -115,51 +124,47 @@ void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
   ledger.draw(EffectKind::wireframe, variant.wireframe);
 }
 
-uint32_t RenderSystem::recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data,
-                                     Variant variant) {
+uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& data,
+                                   const Batch& batch, Variant variant) {
   const VkCommandBuffer commands = scope.commands();
+  variant.curved = batch.curved;
+  variant.environment = batch.environment;
+  variant.trace = variant.deferred ? info.trace.variant() : TraceVariant{};
+  variant.shadowed = !variant.deferred && !variant.added && info.shadows.set() != VK_NULL_HANDLE;
+  variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
+  variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
+  const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
+  const bool whole = batch.level < 0;
+  bindBuffers(commands, whole ? mesh.vertices : mesh.levelVertices, whole ? mesh.indices : mesh.levelIndices,
+              info.data);
   uint32_t draws = 0;
-  for (const Batch& batch : data.batches) {
-    variant.curved = batch.curved;
-    variant.environment = batch.environment;
-    variant.trace = info.trace.variant();
-    const bool traces = tracesRays(variant);
-    variant.trace = traces ? variant.trace : TraceVariant{};
-    variant.shadowed = !traces && info.shadows.set() != VK_NULL_HANDLE;
-    variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
-    variant.lightCount = traces ? gpu::manyLights : fixedLightCount(info.scene);
-    const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
-    const bool whole = batch.level < 0;
-    bindBuffers(commands, whole ? mesh.vertices : mesh.levelVertices, whole ? mesh.indices : mesh.levelIndices,
-                info.data);
-    scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
-    for (size_t p = 0; p < mesh.parts.size(); ++p) {
-      const SceneResources::Part& part = mesh.parts[p];
-      const bool textured = part.texture >= 0 && info.settings.effects.textures;
-      gpu::DrawConstants constants = drawConstants(info.scene.meshes[batch.mesh].parts[p].material,
-                                                   info.scene.objects[batch.object], batch.handedness);
+  scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
+  for (size_t p = 0; p < mesh.parts.size(); ++p) {
+    const SceneResources::Part& part = mesh.parts[p];
+    const bool textured = part.texture >= 0 && info.settings.effects.textures;
+    gpu::DrawConstants constants = drawConstants(info.scene.meshes[batch.mesh].parts[p].material,
+                                                 info.scene.objects[batch.object], batch.handedness);
+    if (!variant.deferred) {
       variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
       variant.glossy = constants.specular != glm::vec3(0.0f);
-      const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info); });
-      pipeline.bind(commands);
-      info.data.bind(pipeline, commands, data);
-      pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
-      if (traces) {
-        pipeline.bindSet(commands, 2, info.trace.set());
-      } else if (variant.shadowed) {
-        pipeline.bindSet(commands, 2, info.shadows.set());
-      }
-      for (const IndexRange& range : drawnRanges(partRange(info.scene, mesh, p, batch), batch)) {
-        constants.firstTriangle = range.first / 3;
-        pipeline.push(commands, constants);
-        vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
-        ++draws;
-        countDraw(info.ledger, variant);
-        info.ledger.draw(EffectKind::textures, textured);
-      }
     }
-    scope.endLabel();
+    const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info); });
+    pipeline.bind(commands);
+    info.data.bind(pipeline, commands, data);
+    pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
+    if (variant.shadowed) {
+      pipeline.bindSet(commands, 2, info.shadows.set());
+    }
+    for (const IndexRange& range : drawnRanges(partRange(info.scene, mesh, p, batch), batch)) {
+      constants.firstTriangle = range.first / 3;
+      pipeline.push(commands, constants);
+      vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
+      ++draws;
+      countDraw(info.ledger, variant);
+      info.ledger.draw(EffectKind::textures, textured);
+    }
   }
+  scope.endLabel();
   return draws;
 }
 
@@ -198,15 +203,37 @@ uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, 
   return 1;
 }
 
+RenderSystem::Variant RenderSystem::variantOf(const FrameInfo& info, const PassFormat& format) {
+  const ClipMethod clip = info.settings.reflection.clip;
+  return {.samples = format.samples,
+          .clipDistance = format.mirrorView && clip == ClipMethod::clipDistance,
+          .clampDepth = !(format.mirrorView && clip == ClipMethod::oblique),
+          .wireframe = info.settings.view.wireframe};
+}
+
 uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
   const PassData& data = info.data.passes()[pass];
-  const ClipMethod clip = info.settings.reflection.clip;
-  const uint32_t draws = recordObjects(scope, info, data,
-                                       {.samples = format.samples,
-                                        .clipDistance = format.mirrorView && clip == ClipMethod::clipDistance,
-                                        .clampDepth = !(format.mirrorView && clip == ClipMethod::oblique),
-                                        .wireframe = info.settings.view.wireframe});
+  Variant variant = variantOf(info, format);
+  uint32_t draws = 0;
+  for (const Batch& batch : data.batches) {
+    variant.deferred = defers(info, batch);
+    draws += recordBatch(scope, info, data, batch, variant);
+  }
   return draws + (info.environment.sky ? recordSky(scope, info, data) : 0);
+}
+
+uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass,
+                                         const PassFormat& format) {
+  const PassData& data = info.data.passes()[pass];
+  Variant variant = variantOf(info, format);
+  variant.added = true;
+  uint32_t draws = 0;
+  for (const Batch& batch : data.batches) {
+    if (batch.environment && defers(info, batch)) {
+      draws += recordBatch(scope, info, data, batch, variant);
+    }
+  }
+  return draws;
 }
 
 }  // namespace speculum

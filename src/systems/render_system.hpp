@@ -16,9 +16,14 @@ class RenderSystem {
   RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout);
 
   // Records pass `pass` of info.data; returns the number of draws.
+  // Objects whose light takes rays are drawn as identifiers.
   uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  // Says whether record() draws identifiers in a pass.
+  static bool defers(const FrameInfo& info, size_t pass);
+  // After deferred shading: adds what curved mirrors look up in environment maps to the layers under it.
+  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops pipelines that trace rays or look up textures and have not been used for some frames. While cached images are
+  // Drops pipelines of traced surfaces, or that look up textures and have not been used for some frames. While cached images are
   // shown, the pipelines that rendered them stay. `textured` is drawsTextures().
   void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured);
   size_t pipelineCount() const { return objects_.size() + skies_.size(); }
@@ -34,15 +39,19 @@ class RenderSystem {
     uint32_t diffuseLookup;  // constants of scene_shading.glsl and shading.glsl
     bool glossy;
     uint32_t lightCount;
-    TraceVariant trace;
+    TraceVariant trace;           // of deferred surfaces
+    bool deferred = false;        // draws identifiers
+    bool added = false;           // only the reflection, added to a layer that is there
     bool shadowed = false;        // looks shadows up in maps
     uint32_t shadowedLights = 0;  // constant of shadow_map.glsl
     auto operator<=>(const Variant&) const = default;
   };
-  static bool tracesRays(const Variant& variant);
   GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info) const;
+  static bool defers(const FrameInfo& info, const Batch& batch);
   static void countDraw(EffectLedger& ledger, const Variant& variant);
-  uint32_t recordObjects(const PassScope& scope, const FrameInfo& info, const PassData& data, Variant variant);
+  static Variant variantOf(const FrameInfo& info, const PassFormat& format);
+  uint32_t recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& data, const Batch& batch,
+                       Variant variant);
   uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const PassData& data);
 
   VkDescriptorSetLayout frameLayout_;

@@ -63,6 +63,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       pointLightSystem_(renderer.pipelines(), data_.layout()),
       mirrorSystem_(device_, renderer.uploader(), renderer.pipelines(), data_.layout()),
       shadowSystem_(device_, renderer.pipelines(), data_.layout()),
+      deferredShading_(device_, renderer.pipelines(), data_.layout()),
       watch_(renderer),
       display_(renderer),
       accumulation_(renderer),
@@ -76,7 +77,7 @@ SceneRenderer::~SceneRenderer() = default;
 
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
-         mirrorSystem_.pipelineCount() + shadowSystem_.pipelineCount() + display_.pipelineCount() +
+         mirrorSystem_.pipelineCount() + shadowSystem_.pipelineCount() + deferredShading_.pipelineCount() + display_.pipelineCount() +
          accumulation_.pipelineCount() + watch_.pipelineCount() + watchedDepth_->pipelineCount() +
          probe_.pipelineCount();
 }
@@ -197,7 +198,8 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
 void SceneRenderer::prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
   const VkExtent2D extent = extentOf(plan.main.view.rect.width, plan.main.view.rect.height);
   const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
-  const bool readSamples = settings.debug.checkFinite && mainSamples != VK_SAMPLE_COUNT_1_BIT;
+  const bool readSamples =
+      (settings.debug.checkFinite || plan.effects.any()) && mainSamples != VK_SAMPLE_COUNT_1_BIT;
   if (!main_ || main_->samples() != mainSamples || main_->desc().readSamples != readSamples) {
     if (main_) {
       main_->retire(retired);
@@ -284,7 +286,8 @@ void SceneRenderer::recordShadows(const FrameInfo& info) {
 }
 
 void SceneRenderer::recordMirrors(const FrameInfo& info) {
-  if (!info.plan.tiles) {
+  // Passes of a group render side by side, without the pause of deferred shading.
+  if (!info.plan.tiles && !info.trace.set()) {
     for (const PassRange& range : independentPasses(info.plan)) {
       recordMirrorRange(info, range);
     }
@@ -311,13 +314,13 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
         scenePass("mirror " + mirrorPathName(scene_, view.path), targets[i - range.first],
                   {{0, 0}, extentOf(view.rect.width, view.rect.height)}, viewportOf(view), view, info.environment));
     desc.clearDepth = MaskSystem::clearDepth(info.data.passes()[i]);
-    desc.grouped = !info.plan.tiles;
+    desc.grouped = range.end > range.first + 1;
     watchDepth(info, i, desc);
   }
   const size_t firstRecorded = recorded_.size();
   {
     std::optional<PassGroup> group;
-    if (!info.plan.tiles) {
+    if (descs.front().grouped) {
       group.emplace(device_.barriers(), info.frame.commands, descs);
     }
     for (size_t i = range.first; i < range.end; ++i) {
@@ -349,7 +352,7 @@ void SceneRenderer::recordMain(const FrameInfo& info) {
   if (!info.plan.mainReused && !tiles_[index].empty()) {
     const PassDesc whole = fullPass("main view", main_->targets());
     PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment);
-    desc.storeSamples = main_->desc().readSamples;
+    desc.storeSamples = info.settings.debug.checkFinite;
     watchDepth(info, index, desc);
     drawTiles(info, index, desc, {{.kind = PassKind::main}, desc.name, -1, 0, main.areaPx});
     finishDepth(info, index);
@@ -404,6 +407,7 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const bool shadowMaps = !plan.shadowMaps.empty();
   renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured);
   mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.traces());
+  deferredShading_.endFrame(trace_.variant(), imagesShown && plan.effects.any(), retired);
   pointLightSystem_.endFrame((plan.mainReused && !plan.main.lights.empty()) ||
                              std::ranges::any_of(plan.reused, [](const auto& p) { return !p.lights.empty(); }));
   if (!plan.mainReused) {
@@ -433,13 +437,22 @@ void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDes
 }
 
 void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass) {
-  PassScope scope = renderer_.beginPass(info.frame, desc);
+  const bool defers = MirrorSystem::defers(info, index) || RenderSystem::defers(info, index);
+  PassScope scope = renderer_.beginPass(info.frame, defers ? DeferredShading::identifying(desc) : desc);
   const PassFormat format{.samples = desc.targets.samples(), .mirrorView = pass.kind == PassKind::mirror};
   pass.draws = maskSystem_.record(scope, info, index, format);
   scope.countSamples();
   pass.draws += mirrorSystem_.record(scope, info, index, format);
   pass.draws += pointLightSystem_.record(scope, info, index, format);
   pass.draws += renderSystem_.record(scope, info, index, format);
+  if (defers) {
+    scope.pause();
+    deferredShading_.shade(scope, info, index);
+    scope.resume(DeferredShading::shaded(desc));
+    pass.draws += deferredShading_.record(scope);
+    pass.draws += mirrorSystem_.recordReflections(scope, info, index, format);
+    pass.draws += renderSystem_.recordReflections(scope, info, index, format);
+  }
   add(std::move(pass));
 }
 
@@ -491,7 +504,7 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
         std::pair(EffectKind::ripple, effects.rippleRays),
         std::pair(EffectKind::castsLight, effects.castsLight.has_value()),
         std::pair(EffectKind::curved, effects.curvedRays)}) {
-    ledger_[kind].bytes = traces ? trace_.bytes() : 0;
+    ledger_[kind].bytes = traces ? trace_.bytes() + deferredShading_.bytes() : 0;
   }
   ledger_[EffectKind::curved].bytes += environmentTargets_.bytes();
   ledger_[EffectKind::shadows].bytes += shadowSystem_.bytes();
@@ -500,6 +513,7 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
   display_.countPipelines(ledger_);
   renderSystem_.countPipelines(ledger_);
   mirrorSystem_.countPipelines(ledger_);
+  deferredShading_.countPipelines(ledger_);
   ledger_.rays = trace_.rays();
 }
 

@@ -7,6 +7,7 @@
 
 #include "image/image.hpp"
 #include "systems/accumulation.hpp"
+#include "systems/deferred_shading.hpp"
 #include "systems/display_system.hpp"
 #include "systems/environment_targets.hpp"
 #include "systems/finite_watch.hpp"
@@ -108,6 +109,7 @@ class SceneRenderer {
   PointLightSystem pointLightSystem_;
   MirrorSystem mirrorSystem_;
   ShadowSystem shadowSystem_;
+  DeferredShading deferredShading_;
   FiniteWatch watch_;
   DisplaySystem display_;
   Accumulation accumulation_;

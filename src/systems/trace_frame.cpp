@@ -84,15 +84,6 @@ void retireIfAny(std::optional<T>& object, RetireQueue& retired) {
 
 }  // namespace
 
-void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants) {
-  constants.resize(2, 0);
-  constants.insert(constants.end(), {variant.shadows, variant.castsLight, variant.perSample});
-}
-
-std::string tracingShader(const std::string& name, const TraceVariant& variant) {
-  return name + (variant.hardware ? "_ray_query.frag" : ".frag");
-}
-
 TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
     : device_(device),
       uploader_(uploader),
@@ -100,8 +91,9 @@ TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
       buffers_(device, bufferNames, "fewer copies of objects", true) {}
 
 void TraceFrame::create() {
-  emptyBuffer_ = Buffer(device_, 0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                        BufferMemory::host, "no trace scene");
+  // Waits for frames in flight before the upload, which waits only for its own fence.
+  check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
+  traceScene_.emplace(device_, uploader_, scene_);
   if (layout_) {
     return;
   }
@@ -110,12 +102,12 @@ void TraceFrame::create() {
     bindings.push_back(
         {.binding = i,
          .type = readsTexels[i] ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-         .stages = VK_SHADER_STAGE_FRAGMENT_BIT});
+         .stages = VK_SHADER_STAGE_COMPUTE_BIT});
   }
   if (device_.caps().rayQueries) {
     bindings.push_back({.binding = structureBinding,
                         .type = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
-                        .stages = VK_SHADER_STAGE_FRAGMENT_BIT});
+                        .stages = VK_SHADER_STAGE_COMPUTE_BIT});
   }
   layout_ = createDescriptorSetLayout(device_, bindings, "trace");
 }
@@ -123,7 +115,6 @@ void TraceFrame::create() {
 void TraceFrame::release(RetireQueue& retired) {
   retireIfAny(structures_, retired);
   retireIfAny(traceScene_, retired);
-  retired.retire(std::exchange(emptyBuffer_, {}));
   buffers_.retire(retired);
 }
 
@@ -132,16 +123,15 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   variant_ = {};
   rays_ = {};
   if (!effects.any()) {
-    if (emptyBuffer_ && ++idleFrames_ > idleFramesKept) {
+    if (traceScene_ && ++idleFrames_ > idleFramesKept) {
       release(*frame.retired);
     }
     return;
   }
   idleFrames_ = 0;
-  if (!emptyBuffer_) {
+  if (!traceScene_) {
     create();
   }
-  prepareScene(frame, effects.traces());
   variant_ = {.traced = (effects.shadowRays && !effects.shadowMaps) || effects.castsLight,
               .shadows = effects.shadowRays,
               .castsLight = effects.castsLight.has_value(),
@@ -151,9 +141,7 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   variant_.hardware = rays_.hardware;
   instances_.clear();
   topNodes_.clear();
-  if (effects.traces()) {
-    addInstances(state, settings);
-  }
+  addInstances(state, settings);
   if (effects.traces() && !rays_.hardware) {
     addHierarchy(state);
   }
@@ -163,19 +151,6 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   buffers_.write(frame, mirrorEdges, mirrorEdges_);
   buffers_.write(frame, lightPaths, lightPathBytes(state, settings, effects));
   allocateSet(frame);
-}
-
-void TraceFrame::prepareScene(Frame& frame, bool traces) {
-  if (traces) {
-    sceneIdleFrames_ = 0;
-    if (!traceScene_) {
-      // Waits for frames in flight before the upload, which waits only for its own fence.
-      check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
-      traceScene_.emplace(device_, uploader_, scene_);
-    }
-  } else if (traceScene_ && ++sceneIdleFrames_ > idleFramesKept) {
-    retireIfAny(traceScene_, *frame.retired);
-  }
 }
 
 RayUse TraceFrame::chooseRays(const SceneState& state, RayMethod method) {
@@ -203,7 +178,7 @@ RayUse TraceFrame::chooseRays(const SceneState& state, RayMethod method) {
 
 void TraceFrame::prepareStructures(Frame& frame, const SceneState& state, RayMethod method, bool traces) {
   rays_ = traces ? chooseRays(state, method) : RayUse{};
-  if (!traceScene_ || (traces && !rays_.hardware)) {
+  if (traces && !rays_.hardware) {
     retireIfAny(structures_, *frame.retired);
   }
   if (!rays_.hardware) {
@@ -227,7 +202,7 @@ void TraceFrame::allocateSet(Frame& frame) {
   DescriptorWriter writer;
   std::array<const Buffer*, structureBinding> bound{};
   for (uint32_t i = 0; i < sceneBindings; ++i) {
-    bound[i] = traceScene_ ? &traceScene_->buffer(static_cast<TraceScene::Kind>(i)) : &emptyBuffer_;
+    bound[i] = &traceScene_->buffer(static_cast<TraceScene::Kind>(i));
   }
   for (uint32_t i = 0; i < kindCount; ++i) {
     bound[sceneBindings + i] = &buffers_.buffer(frame, i);

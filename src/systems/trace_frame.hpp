@@ -23,19 +23,14 @@ struct TraceVariant {
   auto operator<=>(const TraceVariant&) const = default;
 };
 
-// Appends `variant` to a fragment shader's own constants. There may be at most two of these.
-void addConstants(const TraceVariant& variant, std::vector<uint32_t>& constants);
-// Returns the file of a fragment shader that traces rays: NAME.frag, or NAME_ray_query.frag.
-std::string tracingShader(const std::string& name, const TraceVariant& variant);
-
 // Buffers that rays are traced in, with the positions of the present frame. They are made when a frame first has a
 // traced effect, and released after some frames without one.
 class TraceFrame {
  public:
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
-  // Storage buffers that a fragment shader reads, with those of FrameData.
-  static constexpr uint32_t storageBuffers = 11;  // 4 + 4 of the scene + 3 of the frame
+  // Storage buffers of deferred shading, with those of FrameData.
+  static constexpr uint32_t storageBuffers = 12;  // 3 + 2 of its own + 4 of the scene + 3 of the frame
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if no effect is called for.
@@ -52,7 +47,6 @@ class TraceFrame {
 
   void create();
   void release(RetireQueue& retired);
-  void prepareScene(Frame& frame, bool traces);
   RayUse chooseRays(const SceneState& state, RayMethod method);
   void prepareStructures(Frame& frame, const SceneState& state, RayMethod method, bool traces);
   void allocateSet(Frame& frame);
@@ -69,7 +63,6 @@ class TraceFrame {
   std::optional<TraceScene> traceScene_;
   std::optional<RayStructures> structures_;
   RayUse rays_;
-  Buffer emptyBuffer_;  // bound instead of a scene whose triangles no ray meets
   FrameBuffers buffers_;
   std::vector<gpu::TraceTopNode> topNodes_;
   std::vector<gpu::TraceInstance> instances_;
@@ -77,10 +70,9 @@ class TraceFrame {
   std::vector<glm::vec4> mirrorEdges_;  // from x, y to x, y of the mirror
   TraceVariant variant_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
-  int idleFrames_ = 0;       // without any effect
-  int sceneIdleFrames_ = 0;  // without one that traces rays
-  bool refused_ = false;     // there was no memory for acceleration structures
-  bool warned_ = false;      // the log says that effects.rays = hardware is not followed
+  int idleFrames_ = 0;    // without any effect
+  bool refused_ = false;  // there was no memory for acceleration structures
+  bool warned_ = false;   // the log says that effects.rays = hardware is not followed
 };
 
 }  // namespace speculum

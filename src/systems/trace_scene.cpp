@@ -12,7 +12,7 @@ namespace speculum {
 struct TraceScene::Content {
   std::vector<gpu::TraceNode> nodes;
   std::vector<gpu::TraceTriangle> triangles;
-  std::vector<uint32_t> indices;
+  std::vector<gpu::TraceFace> faces;
   std::vector<gpu::TraceVertex> vertices;
   std::vector<gpu::TraceTexture> textures;
   std::vector<uint64_t> texels;
@@ -63,7 +63,7 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
                                     16 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceTopNode));
   return {
       .texels = std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle), ofFrame}),
-      .storage = std::max({vertices * sizeof(gpu::TraceVertex), texels * sizeof(uint64_t), ofFrame})};
+      .storage = std::max({vertices * sizeof(gpu::TraceVertex), triangles * sizeof(gpu::TraceFace), texels * sizeof(uint64_t), ofFrame})};
 }
 
 TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
@@ -95,7 +95,7 @@ TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
   };
   upload(nodes, content.nodes, "trace nodes");
   upload(triangles, content.triangles, "trace triangles");
-  upload(indices, content.indices, "trace indices");
+  upload(faces, content.faces, "trace faces");
   upload(vertices, content.vertices, "trace vertices");
   upload(textures, content.textures, "trace textures");
   upload(texels, content.texels, "trace texels");
@@ -119,13 +119,11 @@ void TraceScene::add(const Mesh& mesh, Content& content) {
                      .triangles = static_cast<uint32_t>(mesh.indices.size() / 3),
                      .firstVertex = static_cast<uint32_t>(content.vertices.size())});
   appendMeshNodes(hierarchy, meshes_.back().grid, firstSlot, content.nodes);
-  const std::vector<uint32_t> materials = materialsOf(mesh, content.materials);
   for (const uint32_t triangle : hierarchy.order()) {
     const uint32_t* index = &mesh.indices[size_t{triangle} * 3];
     content.triangles.push_back({.a = glm::vec3(mesh.vertices[index[0]].position),
                                  .triangle = triangle,
                                  .b = glm::vec3(mesh.vertices[index[1]].position),
-                                 .material = materials[triangle],
                                  .c = glm::vec3(mesh.vertices[index[2]].position)});
   }
   for (const Vertex& vertex : mesh.vertices) {
@@ -134,7 +132,11 @@ void TraceScene::add(const Mesh& mesh, Content& content) {
                                 .normal = glm::vec3(vertex.normal),
                                 .v = static_cast<float>(vertex.uv.y)});
   }
-  content.indices.insert(content.indices.end(), mesh.indices.begin(), mesh.indices.end());
+  const std::vector<uint32_t> materials = materialsOf(mesh, content.materials);
+  for (size_t i = 0; i < materials.size(); ++i) {
+    const uint32_t* index = &mesh.indices[3 * i];
+    content.faces.push_back({{index[0], index[1], index[2]}, materials[i]});
+  }
   content.materials += static_cast<uint32_t>(mesh.parts.size());
 }
 

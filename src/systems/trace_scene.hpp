@@ -24,11 +24,11 @@ class TraceScene {
     TraceGrid grid;
     uint32_t root = 0;           // node
     uint32_t nodes = 0;          // of an octant
-    uint32_t firstTriangle = 0;  // a third of its first index; also its first slot in `triangles`
+    uint32_t firstTriangle = 0;  // its first in `faces` and its first slot in `triangles`
     uint32_t triangles = 0;
     uint32_t firstVertex = 0;
   };
-  enum Kind { nodes, triangles, indices, vertices, textures, texels, kindCount };
+  enum Kind { nodes, triangles, faces, vertices, textures, texels, kindCount };
 
   // Throws std::runtime_error if the device's buffers cannot hold it.
   TraceScene(Device& device, Uploader& uploader, const Scene& scene);

@@ -1,5 +1,4 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define TRACED
-#define CURVED
-#include "scene_shading.glsl"
+#define SURFACES sampler2DMS
+#include "shade.glsl"

@@ -2,6 +2,5 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_query : require
 #define RAY_QUERY
-#define MIRROR_IMAGE sampler2DMS
-#define TRACED
-#include "mirror_shading.glsl"
+#define SURFACES sampler2DMS
+#include "shade.glsl"

@@ -1,4 +1,4 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define TRACED
-#include "scene_shading.glsl"
+#define SURFACES sampler2D
+#include "shade.glsl"

@@ -2,6 +2,5 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_query : require
 #define RAY_QUERY
-#define TRACED
-#define CURVED
-#include "scene_shading.glsl"
+#define SURFACES sampler2D
+#include "shade.glsl"

@@ -1,0 +1,35 @@
+// Identifiers of surfaces whose radiance takes rays. A pass draws them into its color target in the place of radiance,
+// from which the sign of red tells them apart; shade.glsl computes the radiance afterwards.
+
+struct Identifier {
+  bool mirror;     // a planar mirror, else a triangle of an object
+  bool layerOnly;  // only the layer under a reflection, which is added later
+  uint index;      // into instances, or MirrorData::index; less than 2^28
+  uint triangle;   // of the mesh; less than 2^28
+};
+
+// Half floats keep normal numbers bit by bit. From the least of them on, 2^14 patterns are finite.
+const uint leastNormal = 0x0400;
+const uint fieldBits = 14;
+const uint fieldMask = 0x3fff;
+
+vec2 encoded(uint number) {
+  return unpackHalf2x16((leastNormal + (number & fieldMask)) | (leastNormal + (number >> fieldBits)) << 16);
+}
+
+uint decoded(vec2 halfs) {
+  uint bits = packHalf2x16(abs(halfs));
+  return ((bits & 0xffff) - leastNormal) | ((bits >> 16) - leastNormal) << fieldBits;
+}
+
+vec4 encoded(Identifier id) {
+  vec2 index = encoded(id.index);
+  vec2 triangle = encoded(id.triangle);
+  return vec4(-index.x, id.mirror ? -index.y : index.y, id.layerOnly ? -triangle.x : triangle.x, triangle.y);
+}
+
+bool isIdentifier(vec4 color) { return color.r < 0.0; }
+
+Identifier decoded(vec4 color) {
+  return Identifier(color.g < 0.0, color.b < 0.0, decoded(color.rg), decoded(color.ba));
+}

@@ -1,0 +1,10 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "interface.glsl"
+#include "identifiers.glsl"
+
+layout(constant_id = 0) const bool layerOnly = false;
+
+layout(location = 0) out vec4 color;
+
+void main() { color = encoded(Identifier(true, layerOnly, mirror.index, 0)); }

@@ -1,0 +1,16 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "gpu_data.h"
+#include "identifiers.glsl"
+
+layout(constant_id = 0) const bool layerOnly = false;
+
+layout(push_constant) uniform Draw { DrawConstants draw; };
+
+layout(location = 3) flat in uint instanceIndex;
+
+layout(location = 0) out vec4 color;
+
+void main() {
+  color = encoded(Identifier(false, layerOnly, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID)));
+}

@@ -1,0 +1,210 @@
+// Deferred shading: computes the radiance of the surfaces that a pass identified, with rays. Each surface is shaded once
+// for all samples of a pixel that see it, or once for each of them. SURFACES is the type of the pass's color target.
+//
+// An invocation first looks for the surfaces of one pixel and then shades any of its workgroup's, so that pixels with
+// several surfaces do not keep others waiting.
+#define COMPUTE
+#include "interface.glsl"
+#include "shading.glsl"
+#include "identifiers.glsl"
+#include "shaded.glsl"
+#include "mirror_plane.glsl"
+#include "trace.glsl"
+#include "traced_light.glsl"
+#include "microfacet.glsl"
+#include "traced_path.glsl"
+
+const uint groupSide = 8;
+const uint groupSize = groupSide * groupSide;
+const uint mostSamples = 16;
+
+layout(local_size_x = groupSide, local_size_y = groupSide) in;
+
+layout(constant_id = 0) const uint samples = 1;
+
+struct MirrorBlock {
+  MirrorData mirror;
+  vec4 padding[4];
+};
+
+layout(set = 1, binding = 0) uniform SURFACES surfaces;
+layout(set = 1, binding = 1, std430) writeonly buffer Shaded { uvec2 shaded[]; };
+layout(set = 1, binding = 2, std430) readonly buffer Mirrors { MirrorBlock mirrorBlocks[]; };
+
+layout(push_constant) uniform Area { ShadeConstants area; };
+
+// A surface to shade: its pixel in the workgroup, and in the upper half a bit for each sample that sees it.
+shared uint requests[groupSize * mostSamples];
+shared uint requestCount;
+
+// Positions of samples in a pixel: Vulkan specification, "Standard sample locations". Those of n samples start at n - 1.
+const vec2 samplePositions[] = {
+  vec2(0.5, 0.5),
+  vec2(0.75, 0.75), vec2(0.25, 0.25),
+  vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875),
+  vec2(0.5625, 0.3125), vec2(0.4375, 0.6875), vec2(0.8125, 0.5625), vec2(0.3125, 0.1875),
+  vec2(0.1875, 0.8125), vec2(0.0625, 0.4375), vec2(0.6875, 0.9375), vec2(0.9375, 0.0625),
+  vec2(0.5625, 0.5625), vec2(0.4375, 0.3125), vec2(0.3125, 0.625), vec2(0.75, 0.4375),
+  vec2(0.1875, 0.375), vec2(0.625, 0.8125), vec2(0.8125, 0.6875), vec2(0.6875, 0.1875),
+  vec2(0.375, 0.875), vec2(0.5, 0.0625), vec2(0.25, 0.125), vec2(0.125, 0.75),
+  vec2(0.0, 0.5), vec2(0.9375, 0.25), vec2(0.875, 0.9375), vec2(0.0625, 0.0)
+};
+
+vec4 colorAt(uvec2 pixel, uint i) { return texelFetch(surfaces, area.corner + ivec2(pixel), int(i)); }
+
+// Reflections in planar mirrors have edges, which samples smooth.
+bool shadesEachSample(vec4 color) {
+  Identifier id = decoded(color);
+  return perSample || (id.mirror && !id.layerOnly);
+}
+
+void request(uvec2 pixel) {
+  for (uint i = 0; i < samples; ++i) {
+    vec4 color = colorAt(pixel, i);
+    if (isIdentifier(color)) {
+      bool alone = shadesEachSample(color);
+      uint seenBy = 0;
+      for (uint j = 0; j < samples; ++j) {
+        bool same = j == i || (!alone && colorAt(pixel, j) == color);
+        seenBy |= uint(same) << j;
+      }
+      if (findLSB(seenBy) == int(i)) {
+        requests[atomicAdd(requestCount, 1)] = gl_LocalInvocationIndex | seenBy << 16;
+      }
+    } else {
+      shaded[shadedIndex(pixel, area.size.x, samples, i)] = uvec2(notShaded);
+    }
+  }
+}
+
+// Mean position of samples, in pixels of the target.
+vec2 positionOf(uvec2 pixel, uint seenBy) {
+  vec2 sum = vec2(0.0);
+  for (uint i = 0; i < samples; ++i) {
+    sum += (seenBy & 1 << i) != 0 ? samplePositions[samples - 1 + i] : vec2(0.0);
+  }
+  return vec2(area.corner + ivec2(pixel)) + sum / float(bitCount(seenBy));
+}
+
+// A triangle's vertices, relative.
+struct Corners {
+  vec3 a;
+  vec3 b;
+  vec3 c;
+};
+
+vec3 relativeVertex(uint index, uint triangle, uint corner) {
+  return timesPoint(instances[index].relativeFromMesh,
+                    vertexOf(instances[index].traceInstance, triangle, corner).position);
+}
+
+// Returns a point on the line of sight that is near the triangle's plane, and not beyond the triangle.
+vec3 pointAhead(vec3 sight, Corners corners) {
+  vec3 normal = cross(corners.b - corners.a, corners.c - corners.a);
+  float farthest = sqrt(max(dot(corners.a, corners.a), max(dot(corners.b, corners.b), dot(corners.c, corners.c))));
+  float t = dot(normal, corners.a) / dot(normal, sight);
+  return sight * (t >= 0.0 && t <= farthest ? t : farthest);
+}
+
+// Returns the weights of the corners at the point of the triangle that is nearest to the line of sight through `point`.
+// A pixel that the triangle covers in part may look past it.
+vec3 weightsOnTriangle(vec3 point, Corners corners) {
+  LocalRay sight = localRay(point, point);
+  vec3 a = permuted(corners.a - point, sight.along);
+  vec3 b = permuted(corners.b - point, sight.along);
+  vec3 c = permuted(corners.c - point, sight.along);
+  a.xy -= sight.shear.xy * a.z;
+  b.xy -= sight.shear.xy * b.z;
+  c.xy -= sight.shear.xy * c.z;
+  vec3 weights = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+  float area = weights.x + weights.y + weights.z;
+  weights = abs(area) < 1e-30 ? vec3(1.0, 0.0, 0.0) : max(weights / area, vec3(0.0));
+  return weights / (weights.x + weights.y + weights.z);
+}
+
+// A surface as a pixel sees it.
+struct Seen {
+  Bounce bounce;
+  vec3 direction;  // unit, towards it
+  float disparity;
+  uint seed;
+  uint before;  // random points of a rough mirror that other samples and pictures take
+  int wanted;   // random points
+};
+
+Seen seenObject(Identifier id, vec2 position) {
+  Corners corners = Corners(relativeVertex(id.index, id.triangle, 0), relativeVertex(id.index, id.triangle, 1),
+                            relativeVertex(id.index, id.triangle, 2));
+  vec3 sight = safeNormalize(rayThrough(position));
+  vec3 point = pointAhead(sight, corners);
+  vec3 w = weightsOnTriangle(point, corners);
+  point += w.x * (corners.a - point) + w.y * (corners.b - point) + w.z * (corners.c - point);
+  vec3 direction = safeNormalize(point);
+  Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, w, point, direction);
+  float depth = (view.clipFromRelative * vec4(point, 1.0)).w;
+  return Seen(bounce, direction, disparityLength / max(depth, 1e-30), seedAt(position), view.picture, 1);
+}
+
+Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
+  MirrorData mirror = mirrorBlocks[id.index].mirror;
+  PlaneHit hit = planeHit(mirror.normal, mirror.eyeDistance, position);
+  // The CPU turned the normal to the eye in double; near the horizon the ray does not determine the side in float.
+  bool front = dot(traceMirrors[mirror.traceMirror].normal, mirror.normal) > 0.0;
+  vec3 direction = safeNormalize(hit.ray);
+  Seen seen;
+  seen.bounce = mirrorBounce(mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front);
+  seen.direction = direction;
+  seen.disparity = id.layerOnly && seen.bounce.reflects ? 0.0 : hit.disparity;
+  seen.seed = seedAt(position);
+  seen.before = view.picture;
+  seen.wanted = 1;
+  if (seen.bounce.alpha > 0.0 && seen.bounce.reflects && !id.layerOnly) {
+    // The samples share the pixel's points, so that many samples and few are equally smooth.
+    seen.seed = seedAt(floor(position) + 0.5);
+    uint wanted = (traceCounts.roughSamples + samples - 1) / samples;
+    seen.before = (view.picture * samples + firstSample) * wanted;
+    seen.wanted = int(wanted);
+  }
+  return seen;
+}
+
+void shade(uvec2 pixel, uint seenBy) {
+  uint first = uint(findLSB(seenBy));
+  Identifier id = decoded(colorAt(pixel, first));
+  vec2 position = positionOf(pixel, seenBy);
+  Seen seen;
+  if (id.mirror) {
+    seen = seenMirror(id, position, first);
+  } else {
+    seen = seenObject(id, position);
+  }
+  vec3 share = vec3(1.0);
+  if (id.layerOnly && seen.bounce.reflects) {
+    share -= seen.bounce.reflectance;
+    seen.bounce.reflects = false;
+  }
+  vec3 radiance = share * tracedRadiance(seen.bounce, seen.direction, seen.seed, seen.before, seen.wanted);
+  vec4 value = storable(radiance, seen.disparity);
+  uvec2 halfs = uvec2(packHalf2x16(value.rg), packHalf2x16(value.ba));
+  for (uint i = 0; i < samples; ++i) {
+    if ((seenBy & 1 << i) != 0) {
+      shaded[shadedIndex(pixel, area.size.x, samples, i)] = halfs;
+    }
+  }
+}
+
+void main() {
+  if (gl_LocalInvocationIndex == 0) {
+    requestCount = 0;
+  }
+  barrier();
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (all(lessThan(pixel, area.size))) {
+    request(pixel);
+  }
+  barrier();
+  for (uint i = gl_LocalInvocationIndex; i < requestCount; i += groupSize) {
+    uint local = requests[i] & 0xffff;
+    shade(groupSide * gl_WorkGroupID.xy + uvec2(local % groupSide, local / groupSide), requests[i] >> 16);
+  }
+}
