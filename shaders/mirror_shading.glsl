@@ -192,7 +192,8 @@ vec3 imageAlong(vec3 direction, Origin origin) {
     }
     vec4 value = texelMean(reflection, ivec2(texel));
     found = value.rgb;
-    far = clamp(dot(rayThrough(pixel) * (disparityLength / max(value.a, 1e-30)) - origin.position, behind), 0.0, origin.limit);
+    vec3 shown = rayThrough(pixel) * (disparityLength / max(disparityOf(value.a), 1e-30));
+    far = clamp(dot(shown - origin.position, behind), 0.0, origin.limit);
   }
   return found;
 }
@@ -235,7 +236,8 @@ vec4 scatteredReflection(vec3 ray, vec3 position, vec3 normal) {
     return vec4(marchImage(mirrored(incoming, normal, mirror.normal), position), sharp.a);
   }
   float limit = 1e4 * (length(position) + 1.0);
-  Origin origin = Origin(position, clamp(length(ray) * disparityLength / max(sharp.a, 1e-30) - length(position), 0.0, limit), limit);
+  float guess = length(ray) * disparityLength / max(disparityOf(sharp.a), 1e-30) - length(position);
+  Origin origin = Origin(position, clamp(guess, 0.0, limit), limit);
   uint seed = seedAt(gl_FragCoord.xy);
   vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));
   vec3 sum = vec3(0.0);

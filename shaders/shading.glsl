@@ -164,3 +164,7 @@ vec4 storable(vec3 radiance, float disparity) {
   uint largest = view.checksFinite != 0 ? 0x7f800000u : 0x7fffffffu;
   return mix(stored, value, greaterThan(floatBitsToUint(value) & 0x7fffffffu, uvec4(largest)));
 }
+
+// Returns the disparity that storable() stored. Of what has halfLeast only a least distance is known, beyond which a
+// mirror may lie: it counts as infinitely far.
+float disparityOf(float stored) { return stored > halfLeast ? stored : 0.0; }

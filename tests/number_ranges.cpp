@@ -189,6 +189,27 @@ TEST(ScenesOfAnySize, ShowOnePicture) {
   }
 }
 
+// In large units half floats cannot tell a mirror's distance from that of what it reflects, which is far beyond it.
+TEST(ScenesOfAnySize, BlurAlikeWhatIsFar) {
+  const auto sceneIn = [](double metres) {
+    const auto at = [&](double x, double y, double z) { return text(metres * glm::dvec3(x, y, z)); };
+    return writeScene("any_size_rough",
+                      "[environment]\nbackground = [0.1, 0.1, 0.1]\nambient = [1, 1, 1]\n[camera]\nposition = " +
+                          at(0, 1, 2) + "\ntarget = [0, 0, 0]\n[settings]\n\"effects.rough_lookup\" = \"image\"\n" +
+                          "[[object]]\nmodel = 'MODELS/sphere.obj'\nposition = " + at(-50, 180, -260) +
+                          "\nscale = " + text(80.0 * metres) + "\ncolor = [0.9, 0.2, 0.1]\n" +
+                          "[[object]]\nmodel = 'MODELS/sphere.obj'\nposition = " + at(60, 130, -280) +
+                          "\nscale = " + text(60.0 * metres) + "\ncolor = [0.1, 0.4, 0.9]\n" +
+                          "[[mirror]]\nrotation = [-90, 0, 0]\nroughness = 0.3\nsize = [" + text(8.0 * metres) + ", " +
+                          text(8.0 * metres) + "]\n");
+  };
+  const Image8 usual = draw(headless(sceneIn(1.0), size));
+  for (const double metres : {1e6, 1e7, 1e12}) {
+    const PictureAgreement agreement = difference(draw(headless(sceneIn(metres), size)), usual, 8);
+    EXPECT_GE(agreement.within(), 0.98) << metres << " m: " << agreement.over << " pixels, up to " << agreement.largest;
+  }
+}
+
 TEST(LargeTextures, AreDrawnSmaller) {
   for (const bool wide : {true, false}) {
     Image8 image(wide ? 20'000 : 2, wide ? 2 : 20'000);
