@@ -18,8 +18,8 @@ MapTexel mapTexel(vec3 d, int size) {
   return MapTexel(size * ivec2(index % 3, index / 3), environmentBorder + (0.5 * clamp(p, -1.0, 1.0) + 0.5) * within);
 }
 
-// Returns the map's radiance, interpolated bilinearly. The background is infinitely far, in direction d from
-// everywhere.
+// Returns the map's radiance, interpolated bilinearly. The background, which alone has disparity 0 in a map, is
+// infinitely far, in direction d from everywhere.
 vec3 mapRadiance(MapTexel at, int size, vec3 d) {
   vec2 low = clamp(floor(at.texel - 0.5), vec2(0.0), vec2(size - 2));
   vec2 weight = clamp(at.texel - 0.5 - low, 0.0, 1.0);

@@ -34,7 +34,8 @@ struct ViewData {
   uint hasSky;  // the background is a gradient of the next three colors
   vec4 zenith;
   vec4 horizon;
-  vec4 ground;
+  vec3 ground;
+  uint inMap;  // a face of an environment map
   vec4 traceOffset;     // added to a relative point gives one in trace space
   vec3 throughput;      // product of the reflectances of the mirrors up to this view
   float minThroughput;  // a bounce below it is dropped

@@ -296,7 +296,9 @@ void main() {
     color = storable((1.0 - f) * min(base, shareMax), 0.0);
     return;
   }
-  vec4 image = vec4(0.0);
+  // The background in a mirror is infinitely far too, but environment maps replace what has disparity 0 by that behind
+  // the mirror.
+  vec4 image = vec4(0.0, 0.0, 0.0, float(view.inMap) * halfLeast);
   if (shows == showsImage) {
     if (blurs || ripples) {
       image = scatteredReflection(hit.ray, hit.position, normal);

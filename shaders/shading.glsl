@@ -154,8 +154,8 @@ vec3 backgroundRadiance(vec3 direction) {
 }
 
 // Returns the value as a half-float target can store it: beyond its range some drivers store infinity, and one such
-// sample spoils a resolve. `disparity` is disparityLength / w, by which cached images are reprojected; only the
-// background's is 0.
+// sample spoils a resolve. `disparity` is disparityLength / w, by which cached images are reprojected. It is 0 where
+// the background is seen, in a mirror too, except that in environment maps a mirror's is halfLeast.
 vec4 storable(vec3 radiance, float disparity) {
   vec4 value = vec4(radiance, disparity);
   vec4 stored = clamp(value, vec4(0.0, 0.0, 0.0, disparity > 0.0 ? halfLeast : 0.0), vec4(halfMax));

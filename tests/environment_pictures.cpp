@@ -142,6 +142,35 @@ glow = 0
               "environment_sky");
 }
 
+// A planar mirror in a map reflects the background, whose color differs from that behind the mirror. The map sees all
+// of the floor along the same directions as the ball does, but for its horizon.
+TEST(EnvironmentMaps, ShowPlanarMirrorsBeforeTheSky) {
+  const std::filesystem::path file = writeScene("environment_mirror", R"(
+[environment]
+sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.6], ground = [0.2, 0.15, 0.1] }
+ambient = [1, 1, 1]
+[camera]
+position = [0, 1.6, 4]
+target = [0, 1, 0]
+[settings]
+"reflection.max_depth" = 1
+[[object]]
+model = "MODELS/sphere.obj"
+position = [0, 1, 0]
+scale = 1.6
+mirror = { reflectance = [0.9, 0.8, 0.7] }
+[[mirror]]
+position = [0, -2, 0]
+rotation = [-90, 0, 0]
+size = [4000, 4000]
+reflectance = [0.3, 0.9, 0.5]
+base_color = [0.5, 0.1, 0]
+)");
+  const Image8 picture = draw(mapped(file, {{"effects.environment_box", "false"}}));
+  const PictureAgreement agreement = difference(picture, trace(file, size, 1).picture, 3);
+  EXPECT_GE(agreement.within(), 0.98) << agreement.over << " pixels, up to " << agreement.largest;
+}
+
 TEST(EnvironmentMaps, ShowTheBackgroundAtADepthLimit) {
   const std::filesystem::path file = room("limit");
   Options environment = mapped(file, {{"reflection.max_depth", "0"}});

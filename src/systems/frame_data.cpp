@@ -50,7 +50,7 @@ void setBackground(gpu::ViewData& data, const Environment& environment) {
   const Sky sky = environment.sky.value_or(Sky{});
   data.zenith = glm::vec4(glm::vec3(sky.zenith), 0.0f);
   data.horizon = glm::vec4(glm::vec3(sky.horizon), 0.0f);
-  data.ground = glm::vec4(glm::vec3(sky.ground), 0.0f);
+  data.ground = glm::vec3(sky.ground);
 }
 
 }  // namespace
@@ -226,6 +226,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   for (const EnvironmentMap& map : plan.maps) {
     for (size_t face = 0; map.cacheIndex < 0 && face < map.faces.size(); ++face) {
       addPass(source, map.faces[face], map.projection, faceCorner(map, face));
+      passBlocks_.back().view.inMap = 1;
     }
   }
 
