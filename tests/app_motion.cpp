@@ -348,6 +348,10 @@ TEST(FrameWork, CountsTheRaysOfEffects) {
   to.view.scale = 0.5;
   to.effects.roughSamples = 4;
   EXPECT_NEAR(scaledWork(work, settings, to).roughRays, 2e4, 1e-3);
+  to.effects.roughSamples = 1;
+  EXPECT_NEAR(scaledWork(work, settings, to).roughRays, 2e4, 1e-3) << "one at each of 4 samples";
+  settings.effects.roughSamples = 5;
+  EXPECT_NEAR(workOf(plan, scene, state, settings).roughRays, 8 * 2 * 1e4, 1e-3) << "two at each";
   to.effects.roughLookup = ReflectionSource::image;
   EXPECT_EQ(scaledWork(work, settings, to).roughRays, 0.0);
   plan.effects.shadowMaps = true;
@@ -374,6 +378,9 @@ TEST(MotionLevels, WordsSayWhatIsGivenUp) {
   level.settings.reflection.samples = 2;
   level.settings.reflection.maxDepth = 1;
   EXPECT_EQ(motionText(Settings(), level), "0.5 scale, 1 sample, mirrors with 2 samples, depth 1, FLIP about 0.05");
+  level.settings = {};
+  level.settings.effects.roughSamples = 1;
+  EXPECT_EQ(motionText(Settings(), level), "4 rays a pixel of rough mirrors, FLIP about 0.05") << "one at each sample";
 }
 
 TEST(Movement, LastsAMomentAfterTheLastStep) {

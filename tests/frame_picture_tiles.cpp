@@ -59,6 +59,10 @@ TEST(PictureTiles, LongPicturesHaveSeveralParts) {
   expectParts(5);
   settings.effects.perSample = false;
   plan.effects.roughRays = true;
+  settings.effects.roughSamples = 1;
+  settings.view.samples = 16;
+  expectParts(5);  // a ray at each sample
+  settings.view.samples = 4;
   settings.effects.roughSamples = 1 << 20;
   expectParts(count);
   settings.debug.checkFinite = true;

@@ -89,7 +89,14 @@ void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool ful
 }
 
 void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
-  const Values rays = full ? Values{"1", "2", "4", "8", "16", "32", "64", "128", "256"} : Values{"1", "4", "16", "64"};
+  const Values lookups =
+      full ? Values{"1", "2", "4", "8", "16", "32", "64", "128", "256"} : Values{"1", "4", "16", "64"};
+  // Fewer rays than samples draw the same picture, because each sample sends one at least.
+  const int least = context.sampleCounts.back();
+  Values rays;
+  for (int count = least; count <= (full ? 256 : 128); count *= full ? 2 : 4) {
+    rays.push_back(std::to_string(count));
+  }
   planner.series({.series = {.key = "effects.rough_samples",
                              .name = "Rays a pixel of rough mirrors",
                              .note = "Random rays err by N^-0.5; a shifted lattice does better where what is seen is "
@@ -98,8 +105,8 @@ void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool ful
                   .theory = Theory::fixed},
                  rays, best(context));
   if (context.mirrors) {
-    for (const std::string& lookups : rays) {
-      planner.add({{"effects.rough_lookup", "image"}, {"effects.rough_samples", lookups}});
+    for (const std::string& count : lookups) {
+      planner.add({{"effects.rough_lookup", "image"}, {"effects.rough_samples", count}});
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "frame/mesh_level.hpp"
+#include "frame/mirror_sight.hpp"
 #include "frame/shadow_map.hpp"
 
 namespace speculum {
@@ -63,11 +64,9 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
       const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
                                      pass.view.pictureSize.y);
       const bool rippled = settings.ripple && scene.mirrors[static_cast<size_t>(draw.mirror)].ripple;
-      // Rays go through every sample, whatever effects.per_sample is; those of a rough mirror are shared out.
-      const double rays = area * (1.0 + toLights) * (rough ? 1.0 : samples);
-      (rough     ? work.roughRays
-       : rippled ? work.rippleRays
-                 : work.smoothRays) += rays * (rough ? settings.roughSamples : 1);
+      // Every sample sends rays, whatever effects.per_sample is.
+      const double rays = area * (1.0 + toLights) * (rough ? roughRays(settings, samples) : samples);
+      (rough ? work.roughRays : rippled ? work.rippleRays : work.smoothRays) += rays;
     }
   }
   for (const int i : pass.instances) {
@@ -140,9 +139,10 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   work.rippleRays *= effects.rippleLookup == ReflectionSource::image ? 0.0 : sampleRays;
   work.smoothRays *= to.reflection.method == ReflectionMethod::raster ? 0.0 : sampleRays;
   work.curvedRays *= effects.curvedLookup == CurvedLookup::environment ? 0.0 : rays;
-  work.roughRays *= effects.roughLookup == ReflectionSource::image
-                        ? 0.0
-                        : squared(view) * effects.roughSamples / from.effects.roughSamples;
+  work.roughRays *=
+      effects.roughLookup == ReflectionSource::image
+          ? 0.0
+          : squared(view) * roughRays(effects, to.view.samples) / roughRays(from.effects, from.view.samples);
   work.viewSamples = to.view.samples;
   work.mirrorSamples = to.reflection.samples;
   return work;

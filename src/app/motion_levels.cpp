@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "frame/mirror_sight.hpp"
 #include "frame/traced_effects.hpp"
 
 namespace speculum {
@@ -105,9 +106,11 @@ double mirrorMeshError(double texels) {
 double shadowError(const EffectSettings& effects) {
   return effects.shadowLookup == ShadowLookup::map ? 4.0 / effects.shadowMapSize : 0.0;
 }
-double roughError(const EffectSettings& effects) {
-  return std::hypot(effects.roughLookup == ReflectionSource::image ? 0.13 : 0.0,
-                    0.18 / std::sqrt(effects.roughSamples));
+double roughError(const Settings& settings) {
+  const EffectSettings& effects = settings.effects;
+  const bool image = effects.roughLookup == ReflectionSource::image;
+  return std::hypot(image ? 0.13 : 0.0,
+                    0.18 / std::sqrt(image ? effects.roughSamples : roughRays(effects, settings.view.samples)));
 }
 
 // Adds errors of different kinds as squares, like independent ones.
@@ -127,7 +130,7 @@ double addedError(const Settings& chosen, const Settings& lower) {
   const auto once = [](bool differs, double error) { return differs ? error * error : 0.0; };
   const double effects = once(c.perSample != d.perSample, 0.01) + added(shadowError(c), shadowError(d)) +
                          once(c.rippleLookup != d.rippleLookup, 0.03) + once(c.curvedLookup != d.curvedLookup, 0.045) +
-                         once(c.castsLight != d.castsLight, 0.08) + added(roughError(c), roughError(d));
+                         once(c.castsLight != d.castsLight, 0.08) + added(roughError(chosen), roughError(lower));
   return std::sqrt(sum + effects);
 }
 
@@ -239,7 +242,7 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   const bool images = effects.roughLookup != chosen.effects.roughLookup;
   add(images, "rough mirrors from images");
   add(!images && effects.roughSamples != chosen.effects.roughSamples,
-      fmt::format("{} rays a pixel of rough mirrors", effects.roughSamples));
+      fmt::format("{} rays a pixel of rough mirrors", roughRays(effects, settings.view.samples)));
   add(effects.perSample != chosen.effects.perSample && text.empty(), "rays once a pixel");
   const auto samples = [](int count) { return fmt::format("{} {}", count, count == 1 ? "sample" : "samples"); };
   add(settings.view.scale != chosen.view.scale, fmt::format("{:.2g} scale", settings.view.scale));

@@ -63,6 +63,10 @@ bool isRippled(const Mirror& mirror, const EffectSettings& effects) {
   return effects.ripple && mirror.ripple;
 }
 
+int roughRays(const EffectSettings& effects, int samples) {
+  return (effects.roughSamples + samples - 1) / samples * samples;
+}
+
 std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples) {
   const EffectSettings& effects = settings.effects;
   if (isRippled(mirror, effects) && effects.rippleLookup == ReflectionSource::traced) {

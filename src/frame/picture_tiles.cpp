@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frame/mirror_sight.hpp"
+
 namespace speculum {
 
 namespace {
@@ -69,10 +71,11 @@ std::vector<std::optional<TileRange>> partsOf(const FramePlan& plan, const Setti
   }
   // Rays of ripples and of smooth mirrors go through each sample.
   const bool perSample = settings.effects.perSample || plan.effects.rippleRays || plan.effects.mirrorRays;
-  const int samples = perSample ? std::max(settings.view.samples, settings.reflection.samples) : 1;
+  const int samples = std::max(settings.view.samples, settings.reflection.samples);
   // Only a part of the picture is rough, and its rays end sooner than those that surfaces send to each light.
-  const int roughRays = plan.effects.roughRays ? std::max(settings.effects.roughSamples / 4, 1) : 1;
-  const size_t step = std::max(1, mostPaths / (tileSide * tileSide * samples * roughRays));
+  const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) / 4 : 1;
+  const int paths = std::max({perSample ? samples : 1, rough, 1});  // of a pixel
+  const size_t step = std::max(1, mostPaths / (tileSide * tileSide * paths));
   const size_t count = tileCount(plan);
   if (count <= step) {
     return {std::nullopt};
