@@ -12,6 +12,7 @@ namespace speculum {
 namespace {
 
 constexpr double largest = 65504.0;
+constexpr double halfLeast = 6e-8;  // as in shaders/shading.glsl: a disparity is stored as no less
 
 double stored(double value) {
   return glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(std::min(value, largest))));
@@ -43,7 +44,7 @@ TEST(HalfFloatTargets, DisparityMovesPixelsByATenthAtMost) {
     double error = 0.0;
     for (double w = 1e-6; w <= 1e7; w *= 1.003) {
       const double moved = std::min(farthest * w / focal, 100.0);
-      error = std::max(error, focal * moved * std::abs(stored(length / w) / length - 1.0 / w));
+      error = std::max(error, focal * moved * std::abs(stored(std::max(length / w, halfLeast)) / length - 1.0 / w));
     }
     return error;
   };
