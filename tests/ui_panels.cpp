@@ -90,6 +90,21 @@ TEST_F(PanelTest, PanelsOfBothEdgesLieSideBySide) {
   EXPECT_GT(ImGui::FindWindowByName(panels::inspectorTitle)->Size.x, 320.0f) << "no narrower where they overlap anyway";
 }
 
+TEST_F(PanelTest, AWidgetInUseStaysSoWhenItsLabelMovesAbove) {
+  edit_.selected = {Selection::Kind::mirror, 0};
+  windows_->toggleInspector();
+  ImGui::GetIO().DisplaySize.x = 900.0f;
+  run(4);
+  hover("edit.position", 0.2);
+  hold(true);
+  const ImGuiID held = ImGui::GetCurrentContext()->ActiveId;
+  ASSERT_NE(held, 0u);
+  ImGui::GetIO().DisplaySize.x = 500.0f;
+  run(4);
+  EXPECT_EQ(ImGui::GetCurrentContext()->ActiveId, held);
+  hold(false);
+}
+
 TEST_F(PanelTest, OlderWindowsFoldAndAClickUnfolds) {
   ImGui::GetIO().DisplaySize.y = 400.0f;
   click("panel.Performance", 0.1);

@@ -179,15 +179,16 @@ void continueRow(const char* label, float further) {
 }
 
 std::string labelFor(const std::string& label, float width) {
+  const std::string id = "###" + label;  // the same for both, so that a widget in use keeps its focus
   const ImGuiStyle& style = ImGui::GetStyle();
   const float item = ImGui::CalcItemWidth();
   const float room = ImGui::GetContentRegionAvail().x - item - style.ItemInnerSpacing.x;
   if (item >= width && room >= ImGui::CalcTextSize(label.c_str()).x) {
-    return label;
+    return label + id;
   }
   ImGui::TextUnformatted(label.c_str());
   ImGui::SetNextItemWidth(-(ImGui::GetFrameHeight() + style.ItemSpacing.x));  // the rest is for the reset button
-  return "##value of " + label;
+  return id;
 }
 
 std::string thatFits(const std::string& text) {
