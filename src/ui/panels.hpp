@@ -112,11 +112,10 @@ void editOverlay(const OverlayView& overlay);
 // Draws behind all windows, but not over the target that the Targets window shows.
 void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
 
+float statusHeight();  // least height of the status line, in pixels
 // Draws the status line at the lower left edge of the display, which PanelDock keeps free, up to `right`, where windows
 // of the right edge begin. `width` is the panel's, in pixels; 0 while the panel is hidden, and the line is then as wide
-// as its text.
-// Returns its height, in pixels.
-float statusHeight();  // least, in pixels
+// as its text. Returns its height, in pixels.
 float statusLine(const StatusView& status, float width, float right);
 
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets

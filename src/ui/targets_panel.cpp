@@ -220,7 +220,8 @@ void targets(PanelContext& ui) {
   const TargetView& target = ui.view.frame.target;
   Targets& targets = ui.state.targets;
   const PassView* shown = shownPass(ui);
-  // The controls take as many lines as they need, but lie over the background of what they leave.
+  // The controls are drawn first, because the canvas begins below as many lines as they take. The background around the
+  // canvas is then put under them.
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.ChannelsSplit(2);
   list.ChannelsSetCurrent(1);
