@@ -361,6 +361,7 @@ TEST_F(CommandLine, ShippedScenesAreFoundFromAnyDirectory) {
 
 TEST_F(CommandLine, SmallestAndFlattestPicturesAreDrawn) {
   for (const char* size : {"1x1", "8192x1", "1x2000"}) {
+    SCOPED_TRACE(size);
     succeed({"render", "--scene", scene_, "--size", size, "--out", out("s.png"), "--validation", "--set",
              "reflection.scale=4"});
   }

@@ -312,7 +312,7 @@ EffectCost expectMapReleased(const Options& options, EffectKind kind, const std:
   const Drawn during = drawWith(session, effect, true, 1);
   const EffectCost cost = session.sceneRenderer().ledger()[kind];
   EXPECT_EQ(during.alive.at("Image"), before.alive.at("Image") + 2) << "all faces side by side, and their depth";
-  EXPECT_EQ(during.alive.at("Buffer"), before.alive.at("Buffer") + buffers) << "nothing to trace";
+  EXPECT_EQ(during.alive.at("Buffer"), before.alive.at("Buffer") + buffers) << "the map's own, but none to trace";
   EXPECT_GE(cost.bytes, 6 * 256 * 256 * texelBytes);
   EXPECT_GT(during.draws, before.draws);
   EXPECT_NE(during.picture, before.picture);
