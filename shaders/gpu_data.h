@@ -203,6 +203,7 @@ struct TraceVertex {
   float v;
 };
 
+// A level of a texture; the next one, half as wide and high, follows it.
 struct TraceTexture {
   uint firstTexel;
   uint width;

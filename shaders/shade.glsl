@@ -106,9 +106,8 @@ vec3 pointAhead(vec3 sight, Corners corners) {
   return sight * (t >= 0.0 && t <= farthest ? t : farthest);
 }
 
-// Returns the weights of the corners at the point of the triangle that is nearest to the line of sight through `point`.
-// A pixel that the triangle covers in part may look past it.
-vec3 weightsOnTriangle(vec3 point, Corners corners) {
+// Returns the weights of the corners where the line of sight through `point` meets the triangle's plane.
+vec3 weightsAt(vec3 point, Corners corners) {
   LocalRay sight = localRay(point, point);
   vec3 a = permuted(corners.a - point, sight.along);
   vec3 b = permuted(corners.b - point, sight.along);
@@ -118,7 +117,13 @@ vec3 weightsOnTriangle(vec3 point, Corners corners) {
   c.xy -= sight.shear.xy * c.z;
   vec3 weights = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
   float area = weights.x + weights.y + weights.z;
-  weights = abs(area) < 1e-30 ? vec3(1.0, 0.0, 0.0) : max(weights / area, vec3(0.0));
+  return abs(area) < 1e-30 ? vec3(1.0, 0.0, 0.0) : weights / area;
+}
+
+// Weights at the point of the triangle that is nearest to those on its plane: a pixel that the triangle covers in part
+// may look past it.
+vec3 onTriangle(vec3 weights) {
+  weights = max(weights, vec3(0.0));
   return weights / (weights.x + weights.y + weights.z);
 }
 
@@ -137,10 +142,17 @@ Seen seenObject(Identifier id, vec2 position) {
                             relativeVertex(id.index, id.triangle, 2));
   vec3 sight = safeNormalize(rayThrough(position));
   vec3 point = pointAhead(sight, corners);
-  vec3 w = weightsOnTriangle(point, corners);
+  vec3 onPlane = weightsAt(point, corners);
+  vec3 w = onTriangle(onPlane);
+  Weights weights = Weights(w, vec3(0.0), vec3(0.0));
+  if (trilinear) {
+    float ahead = length(point);
+    weights.across = weightsAt(ahead * safeNormalize(rayThrough(position + vec2(1.0, 0.0))), corners) - onPlane;
+    weights.down = weightsAt(ahead * safeNormalize(rayThrough(position + vec2(0.0, 1.0))), corners) - onPlane;
+  }
   point += w.x * (corners.a - point) + w.y * (corners.b - point) + w.z * (corners.c - point);
   vec3 direction = safeNormalize(point);
-  Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, w, point, direction);
+  Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, weights, point, direction);
   float depth = (view.clipFromRelative * vec4(point, 1.0)).w;
   return Seen(bounce, direction, disparityLength / max(depth, 1e-30), seedAt(position), view.picture, 1);
 }

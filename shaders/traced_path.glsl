@@ -1,6 +1,8 @@
 // Computes the radiance that a surface reflects by following rays from mirror to mirror, as docs/picture.md defines it:
 // for curved mirrors, and for planar ones that rays show. Needs trace.glsl, traced_light.glsl and microfacet.glsl.
 
+layout(constant_id = 1) const bool trilinear = false;  // between levels of textures
+
 struct Bounce {
   Surface surface;  // relative; of a mirror, the layer under the reflection
   Skip self;
@@ -51,9 +53,8 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   }
 }
 
-// Color of a texture, bilinear.
-vec3 textureColor(uint index, vec2 uv) {
-  TraceTexture source = traceTextures[index];
+// Color of one level of a texture, bilinear.
+vec3 textureColor(TraceTexture source, vec2 uv) {
   ivec2 size = ivec2(source.width, source.height);
   BilinearTexels at = bilinearTexels(uv, size);
   vec3 rows[2];
@@ -65,6 +66,22 @@ vec3 textureColor(uint index, vec2 uv) {
                   vec3(unpackHalf2x16(right.x), unpackHalf2x16(right.y).x), at.weight.x);
   }
   return mix(rows[0], rows[1], at.weight.y);
+}
+
+// Color of a texture between its levels; `across` and `down` are the steps of uv from pixel to pixel.
+vec3 trilinearColor(TraceTexture source, vec2 uv, vec2 across, vec2 down) {
+  vec2 size = vec2(source.width, source.height);
+  float texels = max(length(across * size), length(down * size));
+  float level = clamp(log2(max(texels, 1.0)), 0.0, log2(max(size.x, size.y)));
+  for (float i = 1.0; i <= level; i += 1.0) {
+    source.firstTexel += source.width * source.height;
+    source.width = max(source.width / 2, 1);
+    source.height = max(source.height / 2, 1);
+  }
+  vec3 fine = textureColor(source, uv);
+  TraceTexture next = TraceTexture(source.firstTexel + source.width * source.height, max(source.width / 2, 1),
+                                   max(source.height / 2, 1));
+  return source.width * source.height > 1 ? mix(fine, textureColor(next, uv), fract(level)) : fine;
 }
 
 vec3 normalFromMesh(uint instance, vec3 n) {
@@ -79,11 +96,20 @@ vec3 facetNormal(uint instance, uint triangle) {
   return safeNormalize(normalFromMesh(instance, cross(b - a, c - a)));
 }
 
-// A triangle seen along `direction`, at the relative position to which the corners' weights `w` belong.
-Bounce objectBounce(uint instance, uint triangle, vec3 w, vec3 position, vec3 direction) {
+// Weights of a triangle's corners at a point, and their steps to the next pixels across and down. Along rays, which
+// read the first level of textures, there are no steps.
+struct Weights {
+  vec3 here;
+  vec3 across;
+  vec3 down;
+};
+
+// A triangle seen along `direction`, at the relative position to which the weights belong.
+Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position, vec3 direction) {
   TraceVertex a = vertexOf(instance, triangle, 0);
   TraceVertex b = vertexOf(instance, triangle, 1);
   TraceVertex c = vertexOf(instance, triangle, 2);
+  vec3 w = weights.here;
   vec3 geometric = facetNormal(instance, triangle);
   vec3 normal = safeNormalize(normalFromMesh(instance, w.x * a.normal + w.y * b.normal + w.z * c.normal));
   bool away = dot(geometric, direction) > 0.0;
@@ -91,8 +117,10 @@ Bounce objectBounce(uint instance, uint triangle, vec3 w, vec3 position, vec3 di
   Surface surface = objectSurface(position, away ? -normal : normal, material, traceInstances[instance].change,
                                   traceInstances[instance].shininess);
   if (material.hasTexture != 0) {
-    vec2 uv = w.x * vec2(a.u, a.v) + w.y * vec2(b.u, b.v) + w.z * vec2(c.u, c.v);
-    surface.diffuse *= textureColor(material.textureIndex, uv);
+    mat3x2 corners = mat3x2(a.u, a.v, b.u, b.v, c.u, c.v);
+    TraceTexture source = traceTextures[material.textureIndex];
+    surface.diffuse *= trilinear ? trilinearColor(source, corners * w, corners * weights.across, corners * weights.down)
+                                 : textureColor(source, corners * w);
   }
   Skip self = Skip(instance, triangle, none, none, nearOf(position));
   Bounce bounce = Bounce(surface, self, false, away ? -geometric : geometric, vec3(0.0), 0.0);
@@ -170,7 +198,7 @@ vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
       bool front = dot(traceMirrors[hit.mirror].normal, path.direction) < 0.0;
       path.bounce = mirrorBounce(hit.mirror, origin + hit.t * path.direction, path.direction, front);
     } else {
-      path.bounce = objectBounce(hit.instance, triangleTexel(hit.slot, 0).w, hit.weights,
+      path.bounce = objectBounce(hit.instance, triangleTexel(hit.slot, 0).w, Weights(hit.weights, vec3(0.0), vec3(0.0)),
                                  surface.position + hit.t * path.direction, path.direction);
     }
     path.m = path.bounce.surface.normal;

@@ -220,7 +220,7 @@ void Barriers::buildToBuild(VkCommandBuffer commands) {
 }
 
 void Barriers::buildToTrace(VkCommandBuffer commands) {
-  recordMemory(commands, builds, {sampleStage, VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR});
+  recordMemory(commands, builds, {computeStage, VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR});
 }
 
 }  // namespace speculum

@@ -66,7 +66,7 @@ class Barriers {
   static void computeToHost(VkCommandBuffer commands);
   static void copyToHost(VkCommandBuffer commands);
   static void buildToBuild(VkCommandBuffer commands);  // also to copies and queries of sizes
-  static void buildToTrace(VkCommandBuffer commands);  // ray queries of fragment shaders
+  static void buildToTrace(VkCommandBuffer commands);  // ray queries of compute shaders
 
  private:
   std::optional<BarrierKind> omitted_;

@@ -23,7 +23,7 @@ VkSampleCountFlags sampleCounts(VkPhysicalDevice device, VkFormat format, VkImag
   return result == VK_SUCCESS ? properties.sampleCounts : 0;
 }
 
-// Reads whether fragment shaders can query acceleration structures. Needs Vulkan 1.2 for addresses of buffers.
+// Reads whether compute shaders can query acceleration structures. Needs Vulkan 1.2 for addresses of buffers.
 void readRayQueries(PhysicalDevice& device, uint32_t instanceVersion) {
   if (std::min(device.properties.apiVersion, instanceVersion) < VK_API_VERSION_1_2 ||
       !std::ranges::all_of(rayQueryExtensions, [&](const char* name) { return device.hasExtension(name); })) {

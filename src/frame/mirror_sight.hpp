@@ -38,7 +38,7 @@ glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects,
 bool isRough(const Mirror& mirror, const EffectSettings& effects);
 bool isRippled(const Mirror& mirror, const EffectSettings& effects);
 // Returns the rays that a pixel of a rough mirror sends: effects.rough_samples, rounded up to equally many at each of
-// its samples, as shaders/mirror_rays.glsl does.
+// its samples, as shaders/shade.glsl does.
 int roughRays(const EffectSettings& effects, int samples);
 
 // Returns why rays show what the mirror reflects, which is seen in `samples` samples: because reflection.method says

@@ -53,7 +53,8 @@ void DeferredShading::prepare(const FrameInfo& info, const PassDesc& pass) {
   }
   if (shaded_.bytes() < bytesOf(pass)) {
     info.frame.retired->retire(std::exchange(shaded_, {}));
-    shaded_ = Buffer(device_, bytesOf(pass), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::device, "shaded samples");
+    shaded_ =
+        Buffer(device_, bytesOf(pass), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::device, "shaded samples");
   }
   set_ = info.frame.descriptors->allocate(layout_.get());
   DescriptorWriter()
@@ -68,12 +69,13 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, size_
   prepare(info, scope.desc());
   const VkSampleCountFlagBits samples = scope.desc().targets.samples();
   const TraceVariant& trace = info.trace.variant();
-  const Pipeline& pipeline = shading_.get({samples, trace}, [&] {
+  const bool trilinear = info.settings.view.textureFilter == TextureFilter::trilinear;
+  const Pipeline& pipeline = shading_.get({samples, trilinear, trace}, [&] {
     std::string shader = samples == VK_SAMPLE_COUNT_1_BIT ? "shade" : "shade_samples";
     shader += trace.hardware ? "_ray_query.comp" : ".comp";
     return ComputePipelineDesc{.name = "deferred shading",
                                .comp = shader,
-                               .constants = {samples, 0, trace.shadows, trace.castsLight, trace.perSample},
+                               .constants = {samples, trilinear, trace.shadows, trace.castsLight, trace.perSample},
                                .setLayouts = {frameLayout_, layout_.get(), info.trace.layout()},
                                .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });

@@ -30,6 +30,7 @@ class DeferredShading {
  private:
   struct Variant {
     VkSampleCountFlagBits samples;
+    bool trilinear;
     TraceVariant trace;
     auto operator<=>(const Variant&) const = default;
   };
@@ -41,7 +42,7 @@ class DeferredShading {
   SamplerHandle sampler_;
   PipelineVariants<Variant> shading_;
   PipelineVariants<VkSampleCountFlagBits> drawing_;
-  Buffer shaded_;  // radiance and disparity of each sample of the largest pass
+  Buffer shaded_;                         // radiance and disparity of each sample of the largest pass
   VkDescriptorSet set_ = VK_NULL_HANDLE;  // of the paused pass
   int idleFrames_ = 0;
 };

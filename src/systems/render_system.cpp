@@ -23,8 +23,7 @@ bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
 }
 
 bool RenderSystem::defers(const FrameInfo& info, size_t pass) {
-  return std::ranges::any_of(info.data.passes()[pass].batches,
-                             [&](const Batch& batch) { return defers(info, batch); });
+  return std::ranges::any_of(info.data.passes()[pass].batches, [&](const Batch& batch) { return defers(info, batch); });
 }
 
 void addVertexInput(GraphicsPipelineDesc& desc) {

@@ -23,8 +23,8 @@ class RenderSystem {
   // After deferred shading: adds what curved mirrors look up in environment maps to the layers under it.
   uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops pipelines of traced surfaces, or that look up textures and have not been used for some frames. While cached images are
-  // shown, the pipelines that rendered them stay. `textured` is drawsTextures().
+  // Drops pipelines of traced surfaces, or that look up textures and have not been used for some frames. While cached
+  // images are shown, the pipelines that rendered them stay. `textured` is drawsTextures().
   void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured);
   size_t pipelineCount() const { return objects_.size() + skies_.size(); }
 

@@ -77,9 +77,9 @@ SceneRenderer::~SceneRenderer() = default;
 
 size_t SceneRenderer::pipelineCount() const {
   return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
-         mirrorSystem_.pipelineCount() + shadowSystem_.pipelineCount() + deferredShading_.pipelineCount() + display_.pipelineCount() +
-         accumulation_.pipelineCount() + watch_.pipelineCount() + watchedDepth_->pipelineCount() +
-         probe_.pipelineCount();
+         mirrorSystem_.pipelineCount() + shadowSystem_.pipelineCount() + deferredShading_.pipelineCount() +
+         display_.pipelineCount() + accumulation_.pipelineCount() + watch_.pipelineCount() +
+         watchedDepth_->pipelineCount() + probe_.pipelineCount();
 }
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
@@ -198,8 +198,7 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
 void SceneRenderer::prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
   const VkExtent2D extent = extentOf(plan.main.view.rect.width, plan.main.view.rect.height);
   const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
-  const bool readSamples =
-      (settings.debug.checkFinite || plan.effects.any()) && mainSamples != VK_SAMPLE_COUNT_1_BIT;
+  const bool readSamples = (settings.debug.checkFinite || plan.effects.any()) && mainSamples != VK_SAMPLE_COUNT_1_BIT;
   if (!main_ || main_->samples() != mainSamples || main_->desc().readSamples != readSamples) {
     if (main_) {
       main_->retire(retired);

@@ -32,6 +32,32 @@ std::vector<uint32_t> materialsOf(const Mesh& mesh, uint32_t first) {
   return materials;
 }
 
+// Appends the texture and its levels down to one texel. Of an odd size the last row or column goes.
+void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
+  std::vector<glm::vec3> level = texture.texels;
+  auto width = static_cast<size_t>(texture.width);
+  auto height = static_cast<size_t>(texture.height);
+  for (;;) {
+    for (const glm::vec3& texel : level) {
+      texels.push_back(glm::packHalf4x16(glm::vec4(texel, 1.0f)));
+    }
+    if (level.size() <= 1) {
+      return;
+    }
+    const size_t right = width > 1 ? 1 : 0;
+    const size_t below = height > 1 ? width : 0;
+    const size_t halfWidth = std::max<size_t>(width / 2, 1);
+    const size_t halfHeight = std::max<size_t>(height / 2, 1);
+    for (size_t i = 0; i < halfWidth * halfHeight; ++i) {
+      const size_t from = 2 * (i / halfWidth) * width + 2 * (i % halfWidth);
+      level[i] = 0.25f * (level[from] + level[from + right] + level[from + below] + level[from + right + below]);
+    }
+    level.resize(halfWidth * halfHeight);
+    width = halfWidth;
+    height = halfHeight;
+  }
+}
+
 Bvh hierarchyOf(const Mesh& mesh) {
   std::vector<Bounds> boxes(mesh.indices.size() / 3);
   for (size_t i = 0; i < 3 * boxes.size(); ++i) {
@@ -55,7 +81,7 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
     vertices += mesh.vertices.size();
   }
   for (const Texture& texture : scene.textures) {
-    texels += texture.texels.size();
+    texels += texture.texels.size() / 3 * 4 + 64;  // with the levels
   }
   // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle. The frame's
   // buffers are read as texels and as storage, so both limits apply to them.
@@ -63,7 +89,8 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
                                     16 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceTopNode));
   return {
       .texels = std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle), ofFrame}),
-      .storage = std::max({vertices * sizeof(gpu::TraceVertex), triangles * sizeof(gpu::TraceFace), texels * sizeof(uint64_t), ofFrame})};
+      .storage = std::max({vertices * sizeof(gpu::TraceVertex), triangles * sizeof(gpu::TraceFace),
+                           texels * sizeof(uint64_t), ofFrame})};
 }
 
 TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
@@ -74,9 +101,7 @@ TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
   for (const Texture& texture : scene.textures) {
     content.textures.push_back({static_cast<uint32_t>(content.texels.size()), static_cast<uint32_t>(texture.width),
                                 static_cast<uint32_t>(texture.height)});
-    for (const glm::vec3& texel : texture.texels) {
-      content.texels.push_back(glm::packHalf4x16(glm::vec4(texel, 1.0f)));
-    }
+    appendLevels(texture, content.texels);
   }
   const auto upload = [&](Kind kind, const auto& values, const char* name) {
     const std::span data = std::as_bytes(std::span(values));
