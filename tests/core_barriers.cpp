@@ -36,12 +36,13 @@ TEST_P(Barrier, IsMissedWhenLeftOut) {
   EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
 }
 
-// The other kinds are tested where they occur: presenting in core_window.cpp, checks in finite_watch.cpp, sampled depth
-// in target_views.cpp.
+// The other kinds are tested where they occur: presenting in core_window.cpp, those of compute shaders in
+// finite_watch.cpp, sampled depth in target_views.cpp.
 std::vector<BarrierKind> kindsWithoutWindow() {
   std::vector<BarrierKind> kinds(allBarrierKinds().begin(), allBarrierKinds().end());
   for (const BarrierKind other : {BarrierKind::swapchainToPresent, BarrierKind::targetToCheck,
-                                  BarrierKind::checkToLookUp, BarrierKind::checkToWrite, BarrierKind::depthToSample}) {
+                                  BarrierKind::checkToLookUp, BarrierKind::checkToWrite, BarrierKind::surfacesToShade,
+                                  BarrierKind::shadedToDraw, BarrierKind::depthToSample}) {
     std::erase(kinds, other);
   }
   return kinds;

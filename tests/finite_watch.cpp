@@ -320,6 +320,14 @@ TEST_F(WatchedFrames, ShowTheSameBytesAsUnwatchedOnes) {
 
 class CheckBarrier : public Watch, public testing::WithParamInterface<BarrierKind> {};
 
+const std::string shadow = R"([[light]]
+position = [1, 3, 0]
+casts_shadow = true
+[[object]]
+model = "MODELS/teapot.obj"
+position = [0, 0, -1]
+)";
+
 // Three frames with images and a main view of `samples`.
 std::vector<std::string> messagesWithout(const std::string& kind, const fs::path& scene, const std::string& samples) {
   Options options = headless(scene, size);
@@ -335,7 +343,7 @@ std::vector<std::string> messagesWithout(const std::string& kind, const fs::path
 
 TEST_P(CheckBarrier, IsMissedWhenLeftOut) {
   const std::string kind(barrierName(GetParam()));
-  const fs::path scene = writeScene("hall_" + kind, hall);
+  const fs::path scene = writeScene("hall_" + kind, hall + shadow);
   for (const char* samples : {"1", "4"}) {
     const std::vector<std::string> messages = messagesWithout(kind, scene, samples);
     ASSERT_FALSE(messages.empty()) << samples << " samples";
@@ -346,7 +354,8 @@ TEST_P(CheckBarrier, IsMissedWhenLeftOut) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CheckBarrier,
                          testing::Values(BarrierKind::targetToCheck, BarrierKind::checkToLookUp,
-                                         BarrierKind::checkToWrite),
+                                         BarrierKind::checkToWrite, BarrierKind::surfacesToShade,
+                                         BarrierKind::shadedToDraw),
                          [](const auto& info) { return std::string(barrierName(info.param)); });
 
 }  // namespace

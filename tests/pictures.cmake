@@ -17,8 +17,8 @@ speculum_test(effects_tests SOURCES effects_truth.cpp LIBRARIES picture_support 
 speculum_test(ray_tests SOURCES ray_methods.cpp scarce_memory.cpp LIBRARIES picture_support ext::spdlog LABELS pictures)
 speculum_test(effects_ledger_tests SOURCES effects_ledger.cpp LIBRARIES picture_support LABELS pictures)
 foreach(call CreateBuffer DestroyBuffer CreateImage DestroyImage CreateShaderModule DestroyShaderModule
-             CreateDescriptorSetLayout DestroyDescriptorSetLayout CreateGraphicsPipelines DestroyPipeline CmdDraw
-             CmdDrawIndexed)
+             CreateDescriptorSetLayout DestroyDescriptorSetLayout CreateGraphicsPipelines CreateComputePipelines
+             DestroyPipeline CmdDraw CmdDrawIndexed)
   target_link_options(effects_ledger_tests PRIVATE LINKER:--wrap=vk${call})
 endforeach()
 speculum_test(accumulated_tests SOURCES accumulated_pictures.cpp LIBRARIES picture_support LABELS pictures)
