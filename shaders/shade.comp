@@ -1,4 +1,3 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#define SURFACES sampler2D
 #include "shade.glsl"

@@ -1,41 +1,26 @@
-// Deferred shading: computes the radiance of the surfaces that a pass identified, with rays. Each surface is shaded once
-// for all samples of a pixel that see it, or once for each of them. SURFACES is the type of the pass's color target.
-//
-// An invocation first looks for the surfaces of one pixel and then shades any of its workgroup's, so that pixels with
-// several surfaces do not keep others waiting.
+// Deferred shading: computes the radiance of the surfaces that collect_surfaces.glsl listed, with rays.
 #define COMPUTE
 #include "interface.glsl"
 #include "shading.glsl"
 #include "identifiers.glsl"
+#define SHADED_SET 1
+#define SHADED_ACCESS
 #include "shaded.glsl"
+#include "requests.glsl"
 #include "mirror_plane.glsl"
 #include "trace.glsl"
 #include "traced_light.glsl"
 #include "microfacet.glsl"
 #include "traced_path.glsl"
 
-const uint groupSide = 8;
-const uint groupSize = groupSide * groupSide;
-const uint mostSamples = 16;
-
-layout(local_size_x = groupSide, local_size_y = groupSide) in;
-
-layout(constant_id = 0) const uint samples = 1;
+layout(local_size_x = requestsPerGroup) in;
 
 struct MirrorBlock {
   MirrorData mirror;
   vec4 padding[4];
 };
 
-layout(set = 1, binding = 0) uniform SURFACES surfaces;
-layout(set = 1, binding = 1, std430) writeonly buffer Shaded { uvec2 shaded[]; };
-layout(set = 1, binding = 2, std430) readonly buffer Mirrors { MirrorBlock mirrorBlocks[]; };
-
-layout(push_constant) uniform Area { ShadeConstants area; };
-
-// A surface to shade: its pixel in the workgroup, and in the upper half a bit for each sample that sees it.
-shared uint requests[groupSize * mostSamples];
-shared uint requestCount;
+layout(set = 1, binding = 3, std430) readonly buffer Mirrors { MirrorBlock mirrorBlocks[]; };
 
 // Positions of samples in a pixel: Vulkan specification, "Standard sample locations". Those of n samples start at n - 1.
 const vec2 samplePositions[] = {
@@ -49,33 +34,6 @@ const vec2 samplePositions[] = {
   vec2(0.375, 0.875), vec2(0.5, 0.0625), vec2(0.25, 0.125), vec2(0.125, 0.75),
   vec2(0.0, 0.5), vec2(0.9375, 0.25), vec2(0.875, 0.9375), vec2(0.0625, 0.0)
 };
-
-vec4 colorAt(uvec2 pixel, uint i) { return texelFetch(surfaces, area.corner + ivec2(pixel), int(i)); }
-
-// Reflections in planar mirrors have edges, which samples smooth.
-bool shadesEachSample(vec4 color) {
-  Identifier id = decoded(color);
-  return perSample || (id.mirror && !id.layerOnly);
-}
-
-void request(uvec2 pixel) {
-  for (uint i = 0; i < samples; ++i) {
-    vec4 color = colorAt(pixel, i);
-    if (isIdentifier(color)) {
-      bool alone = shadesEachSample(color);
-      uint seenBy = 0;
-      for (uint j = 0; j < samples; ++j) {
-        bool same = j == i || (!alone && colorAt(pixel, j) == color);
-        seenBy |= uint(same) << j;
-      }
-      if (findLSB(seenBy) == int(i)) {
-        requests[atomicAdd(requestCount, 1)] = gl_LocalInvocationIndex | seenBy << 16;
-      }
-    } else {
-      shaded[shadedIndex(pixel, area.size.x, samples, i)] = uvec2(notShaded);
-    }
-  }
-}
 
 // Mean position of samples, in pixels of the target.
 vec2 positionOf(uvec2 pixel, uint seenBy) {
@@ -180,10 +138,11 @@ Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
   return seen;
 }
 
-void shade(uvec2 pixel, uint seenBy) {
+void shade(uint pixel, uint seenBy) {
   uint first = uint(findLSB(seenBy));
-  Identifier id = decoded(colorAt(pixel, first));
-  vec2 position = positionOf(pixel, seenBy);
+  uvec2 bits = shaded[sampleNumber(pixel, first)];
+  Identifier id = decoded(vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y)));
+  vec2 position = positionOf(uvec2(pixel % area.size.x, pixel / area.size.x), seenBy);
   Seen seen;
   if (id.mirror) {
     seen = seenMirror(id, position, first);
@@ -200,23 +159,14 @@ void shade(uvec2 pixel, uint seenBy) {
   uvec2 halfs = uvec2(packHalf2x16(value.rg), packHalf2x16(value.ba));
   for (uint i = 0; i < samples; ++i) {
     if ((seenBy & 1 << i) != 0) {
-      shaded[shadedIndex(pixel, area.size.x, samples, i)] = halfs;
+      shaded[sampleNumber(pixel, i)] = halfs;
     }
   }
 }
 
 void main() {
-  if (gl_LocalInvocationIndex == 0) {
-    requestCount = 0;
-  }
-  barrier();
-  uvec2 pixel = gl_GlobalInvocationID.xy;
-  if (all(lessThan(pixel, area.size))) {
-    request(pixel);
-  }
-  barrier();
-  for (uint i = gl_LocalInvocationIndex; i < requestCount; i += groupSize) {
-    uint local = requests[i] & 0xffff;
-    shade(groupSide * gl_WorkGroupID.xy + uvec2(local % groupSide, local / groupSide), requests[i] >> 16);
+  if (gl_GlobalInvocationID.x < requestCount) {
+    uint request = requests[gl_GlobalInvocationID.x];
+    shade(request >> samples, request & ((1 << samples) - 1));
   }
 }

@@ -2,5 +2,4 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_query : require
 #define RAY_QUERY
-#define SURFACES sampler2D
 #include "shade.glsl"

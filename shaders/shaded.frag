@@ -1,13 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "gpu_data.h"
+#define SHADED_SET 0
+#define SHADED_ACCESS readonly
 #include "shaded.glsl"
-
-layout(constant_id = 0) const uint samples = 1;
-
-layout(set = 0, binding = 1, std430) readonly buffer Shaded { uvec2 shaded[]; };
-
-layout(push_constant) uniform Area { ShadeConstants area; };
 
 layout(location = 0) flat in uint drawnSample;
 
@@ -15,8 +11,8 @@ layout(location = 0) out vec4 color;
 
 // Replaces a sample's identifier by its radiance. The mask selects the sample, which no device feature is needed for.
 void main() {
-  uvec2 pixel = uvec2(ivec2(gl_FragCoord.xy) - area.corner);
-  uvec2 value = shaded[shadedIndex(pixel, area.size.x, samples, drawnSample)];
+  uint pixel = pixelNumber(uvec2(ivec2(gl_FragCoord.xy) - area.corner));
+  uvec2 value = shaded[sampleNumber(pixel, drawnSample)];
   if (value.x == notShaded) {
     discard;
   }

@@ -1,6 +1,15 @@
-// Radiance and disparity that shade.glsl computed: half floats, of each sample of each pixel of the area that the pass
-// draws, row by row.
+// The samples of the area that a pass draws, in deferred shading. SHADED_SET and SHADED_ACCESS qualify the buffer. Needs
+// gpu_data.h.
+
+// An identifier (identifiers.glsl), afterwards radiance and disparity: half floats of each sample of each pixel, row by
+// row.
+layout(set = SHADED_SET, binding = 1, std430) SHADED_ACCESS buffer Shaded { uvec2 shaded[]; };
 
 const uint notShaded = 0xffffffff;  // the sample's color is no identifier
 
-uint shadedIndex(uvec2 pixel, uint width, uint samples, uint i) { return (pixel.y * width + pixel.x) * samples + i; }
+layout(constant_id = 0) const uint samples = 1;
+
+layout(push_constant) uniform Area { ShadeConstants area; };
+
+uint pixelNumber(uvec2 pixel) { return pixel.y * area.size.x + pixel.x; }
+uint sampleNumber(uint pixel, uint i) { return pixel * samples + i; }

@@ -219,6 +219,13 @@ void Barriers::buildToBuild(VkCommandBuffer commands) {
   recordMemory(commands, builds, builds);
 }
 
+void Barriers::requestsToUse(VkCommandBuffer commands) {
+  constexpr VkPipelineStageFlags stages = computeStage | transferStage | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
+  recordMemory(commands, {stages, VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT},
+               {stages, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
+                            VK_ACCESS_INDIRECT_COMMAND_READ_BIT});
+}
+
 void Barriers::buildToTrace(VkCommandBuffer commands) {
   recordMemory(commands, builds, {computeStage, VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR});
 }

@@ -61,12 +61,13 @@ class Barriers {
   void recordLevel(VkCommandBuffer commands, BarrierKind kind, Image& image, uint32_t level) const;
 
   // Barriers that cannot be omitted, because validation would not report them: nothing has used the image yet, the host
-  // reads, or acceleration structures are built, which the layer 1.3.239 does not follow.
+  // reads, or the layer 1.3.239 does not follow atomics and builds of acceleration structures.
   static void uploadToCopy(VkCommandBuffer commands, Image& fresh);
   static void computeToHost(VkCommandBuffer commands);
   static void copyToHost(VkCommandBuffer commands);
-  static void buildToBuild(VkCommandBuffer commands);  // also to copies and queries of sizes
-  static void buildToTrace(VkCommandBuffer commands);  // ray queries of compute shaders
+  static void buildToBuild(VkCommandBuffer commands);   // also to copies and queries of sizes
+  static void buildToTrace(VkCommandBuffer commands);   // ray queries of compute shaders
+  static void requestsToUse(VkCommandBuffer commands);  // between the uses of DeferredShading's requests
 
  private:
   std::optional<BarrierKind> omitted_;

@@ -1,5 +1,6 @@
 #include "systems/deferred_shading.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -7,7 +8,12 @@ namespace speculum {
 
 namespace {
 
-constexpr uint32_t groupSide = 8;  // in shade.glsl
+constexpr uint32_t groupSide = 8;                 // in collect_surfaces.glsl
+constexpr uint64_t mostSamples = 65535ull * 128;  // groups of one dispatch, times requestsPerGroup in requests.glsl
+constexpr uint64_t shadedBytes = 8;               // of a sample
+constexpr uint64_t requestBytes = 4;
+// The requests' buffer begins with the arguments of the indirect dispatch and their count.
+constexpr std::array<uint32_t, 4> noRequests{0, 1, 1, 0};
 
 uint32_t groups(uint32_t size) {
   return (size + groupSide - 1) / groupSide;
@@ -18,15 +24,26 @@ gpu::ShadeConstants areaOf(const PassDesc& pass) {
   return {.corner = {area.offset.x, area.offset.y}, .size = {area.extent.width, area.extent.height}};
 }
 
-uint64_t bytesOf(const PassDesc& pass) {
-  const VkExtent2D size = pass.renderArea.extent;
-  return uint64_t{8} * size.width * size.height * pass.targets.samples();
+uint64_t samplesOf(const PassDesc& pass) {
+  return uint64_t{pass.renderArea.extent.width} * pass.renderArea.extent.height * pass.targets.samples();
 }
 
 }  // namespace
 
 DeferredShading::DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
-    : device_(device), frameLayout_(frameLayout), shading_(factory), drawing_(factory) {}
+    : device_(device), frameLayout_(frameLayout), collecting_(factory), shading_(factory), drawing_(factory) {}
+
+std::vector<PixelRect> DeferredShading::bands(const PixelRect& part, VkSampleCountFlagBits samples) {
+  // A request has 32 bits for a pixel's number and a bit for each sample.
+  const uint64_t mostPixels = std::min<uint64_t>(mostSamples / samples, uint64_t{1} << (32 - samples));
+  const int rows = std::clamp(static_cast<int>(mostPixels / static_cast<uint64_t>(part.width)), 1, part.height);
+  std::vector<PixelRect> bands;
+  for (int end = part.height; end > 0; end -= rows) {
+    const int first = std::max(end - rows, 0);
+    bands.push_back({part.x, part.y + first, part.width, end - first});
+  }
+  return bands;
+}
 
 PassDesc DeferredShading::identifying(PassDesc pass) {
   pass.targets.resolve = nullptr;
@@ -42,40 +59,69 @@ PassDesc DeferredShading::shaded(PassDesc pass) {
 }
 
 void DeferredShading::prepare(const FrameInfo& info, const PassDesc& pass) {
+  constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
   if (!layout_) {
     constexpr VkShaderStageFlags compute = VK_SHADER_STAGE_COMPUTE_BIT;
-    const std::array bindings = {
-        DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, compute},
-        DescriptorBinding{1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, compute | VK_SHADER_STAGE_FRAGMENT_BIT},
-        DescriptorBinding{2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, compute}};
+    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, compute},
+                                 DescriptorBinding{1, storage, 1, compute | VK_SHADER_STAGE_FRAGMENT_BIT},
+                                 DescriptorBinding{2, storage, 1, compute}, DescriptorBinding{3, storage, 1, compute}};
     layout_ = createDescriptorSetLayout(device_, bindings, "deferred shading");
     sampler_ = createSampler(device_, {.maxLod = 0.0f}, "deferred shading");
   }
-  if (shaded_.bytes() < bytesOf(pass)) {
+  const uint64_t samples = samplesOf(pass);
+  if (shaded_.bytes() < samples * shadedBytes) {
     info.frame.retired->retire(std::exchange(shaded_, {}));
-    shaded_ =
-        Buffer(device_, bytesOf(pass), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::device, "shaded samples");
+    info.frame.retired->retire(std::exchange(requests_, {}));
+    shaded_ = Buffer(device_, samples * shadedBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::device,
+                     "shaded samples");
+    requests_ = Buffer(
+        device_, sizeof noRequests + samples * requestBytes,
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        BufferMemory::device, "surfaces to shade");
   }
   set_ = info.frame.descriptors->allocate(layout_.get());
   DescriptorWriter()
       .image(0, pass.targets.color->descriptor(sampler_.get()))
-      .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, shaded_.descriptor())
-      .buffer(2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, info.data.mirrorBuffer(info.frame))
+      .buffer(1, storage, shaded_.descriptor())
+      .buffer(2, storage, requests_.descriptor())
+      .buffer(3, storage, info.data.mirrorBuffer(info.frame))
       .update(device_, set_);
+}
+
+void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace) {
+  const VkCommandBuffer commands = scope.commands();
+  const VkSampleCountFlagBits samples = scope.desc().targets.samples();
+  const Pipeline& pipeline = collecting_.get({samples, trace}, [&] {
+    return ComputePipelineDesc{
+        .name = "collect surfaces",
+        .comp = samples == VK_SAMPLE_COUNT_1_BIT ? "collect_surfaces.comp" : "collect_surfaces_samples.comp",
+        .constants = {samples, 0, 0, 0, trace.perSample},
+        .setLayouts = {layout_.get()},
+        .pushConstantBytes = sizeof(gpu::ShadeConstants)};
+  });
+  Barriers::requestsToUse(commands);
+  vkCmdUpdateBuffer(commands, requests_.get(), 0, sizeof noRequests, noRequests.data());
+  Barriers::requestsToUse(commands);
+  pipeline.bind(commands);
+  pipeline.bindSet(commands, 0, set_);
+  const gpu::ShadeConstants area = areaOf(scope.desc());
+  pipeline.push(commands, area);
+  vkCmdDispatch(commands, groups(area.size.x), groups(area.size.y), 1);
+  Barriers::requestsToUse(commands);
 }
 
 void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, size_t pass) {
   idleFrames_ = 0;
   prepare(info, scope.desc());
-  const VkSampleCountFlagBits samples = scope.desc().targets.samples();
+  scope.beginLabel("deferred shading");
   const TraceVariant& trace = info.trace.variant();
+  collect(scope, trace);
+  const VkSampleCountFlagBits samples = scope.desc().targets.samples();
   const bool trilinear = info.settings.view.textureFilter == TextureFilter::trilinear;
-  const Pipeline& pipeline = shading_.get({samples, trilinear, trace}, [&] {
-    std::string shader = samples == VK_SAMPLE_COUNT_1_BIT ? "shade" : "shade_samples";
-    shader += trace.hardware ? "_ray_query.comp" : ".comp";
+  const Pipeline& pipeline = shading_.get({samples, trace, trilinear}, [&] {
     return ComputePipelineDesc{.name = "deferred shading",
-                               .comp = shader,
-                               .constants = {samples, trilinear, trace.shadows, trace.castsLight, trace.perSample},
+                               .comp = trace.hardware ? "shade_ray_query.comp" : "shade.comp",
+                               .constants = {samples, trilinear, trace.shadows, trace.castsLight},
                                .setLayouts = {frameLayout_, layout_.get(), info.trace.layout()},
                                .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });
@@ -84,10 +130,8 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, size_
   info.data.bind(pipeline, commands, info.data.passes()[pass]);
   pipeline.bindSet(commands, 1, set_);
   pipeline.bindSet(commands, 2, info.trace.set());
-  const gpu::ShadeConstants area = areaOf(scope.desc());
-  pipeline.push(commands, area);
-  scope.beginLabel("deferred shading");
-  vkCmdDispatch(commands, groups(area.size.x), groups(area.size.y), 1);
+  pipeline.push(commands, areaOf(scope.desc()));
+  vkCmdDispatchIndirect(commands, requests_.get(), 0);
   scope.endLabel();
   device_.barriers().record(commands, BarrierKind::shadedToDraw, shaded_.descriptor());
 }
@@ -120,11 +164,13 @@ void DeferredShading::countPipelines(EffectLedger& ledger) const {
 }
 
 void DeferredShading::endFrame(const TraceVariant& trace, bool imagesShown, RetireQueue& retired) {
-  const auto idle = [&](const TraceVariant& of) { return !(imagesShown && of == trace); };
-  shading_.endFrame([&](const Variant& variant) { return idle(variant.trace); });
+  const auto idle = [&](const auto& variant) { return !imagesShown || variant.trace != trace; };
+  collecting_.endFrame(idle);
+  shading_.endFrame(idle);
   drawing_.endFrame([&](VkSampleCountFlagBits) { return !imagesShown; });
   if (shaded_ && ++idleFrames_ > idleFramesKept) {
     retired.retire(std::exchange(shaded_, {}));
+    retired.retire(std::exchange(requests_, {}));
   }
 }
 

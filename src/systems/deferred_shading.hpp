@@ -12,6 +12,8 @@ class DeferredShading {
  public:
   DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
+  // Divides a part of a pass into bands whose radiance a storage buffer holds on every device, the lowest first.
+  static std::vector<PixelRect> bands(const PixelRect& part, VkSampleCountFlagBits samples);
   // Descriptions of the two renderings of a pass that is described by `pass`.
   static PassDesc identifying(PassDesc pass);
   static PassDesc shaded(PassDesc pass);
@@ -24,25 +26,29 @@ class DeferredShading {
   void countPipelines(EffectLedger& ledger) const;
   // Drops what has not been used for some frames. While cached images are shown, the pipelines stay.
   void endFrame(const TraceVariant& trace, bool imagesShown, RetireQueue& retired);
-  size_t pipelineCount() const { return shading_.size() + drawing_.size(); }
-  uint64_t bytes() const { return shaded_.bytes(); }
+  size_t pipelineCount() const { return collecting_.size() + shading_.size() + drawing_.size(); }
+  uint64_t bytes() const { return shaded_.bytes() + requests_.bytes(); }
 
  private:
   struct Variant {
     VkSampleCountFlagBits samples;
-    bool trilinear;
     TraceVariant trace;
+    bool trilinear = false;  // textures
     auto operator<=>(const Variant&) const = default;
   };
   void prepare(const FrameInfo& info, const PassDesc& pass);
+  // Lists the surfaces in requests_, so that no invocation is without one to shade.
+  void collect(const PassScope& scope, const TraceVariant& trace);
 
   Device& device_;
   VkDescriptorSetLayout frameLayout_;
   DescriptorSetLayoutHandle layout_;
   SamplerHandle sampler_;
+  PipelineVariants<Variant> collecting_;
   PipelineVariants<Variant> shading_;
   PipelineVariants<VkSampleCountFlagBits> drawing_;
-  Buffer shaded_;                         // radiance and disparity of each sample of the largest pass
+  Buffer shaded_;                         // identifier, then radiance and disparity of each sample of a pass
+  Buffer requests_;                       // surfaces to shade
   VkDescriptorSet set_ = VK_NULL_HANDLE;  // of the paused pass
   int idleFrames_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "systems/scene_renderer.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "frame/cube_face.hpp"
@@ -417,14 +418,26 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   cacheRevision_ = renderer_.pipelines().revision();
 }
 
-// Counts the draws of the first tile only: the others repeat them.
+bool SceneRenderer::defers(const FrameInfo& info, size_t index) {
+  return MirrorSystem::defers(info, index) || RenderSystem::defers(info, index);
+}
+
+// Counts the draws of the first part only: the others repeat them.
 void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass) {
   const auto [width, height] = desc.renderArea.extent;
   bool first = tiles_[index].first == 0;
-  for (const PixelRect& rect : tileRects(static_cast<int>(width), static_cast<int>(height), tiles_[index])) {
+  std::vector<PixelRect> rects = tileRects(static_cast<int>(width), static_cast<int>(height), tiles_[index]);
+  if (defers(info, index)) {
+    std::vector<PixelRect> bands;
+    for (const PixelRect& rect : rects) {
+      std::ranges::copy(DeferredShading::bands(rect, desc.targets.samples()), std::back_inserter(bands));
+    }
+    rects = std::move(bands);
+  }
+  for (const PixelRect& rect : rects) {
     PassDesc part = desc;
     part.renderArea = part.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
-    part.keepsSamples = info.plan.tiles.has_value();
+    part.keepsSamples = info.plan.tiles || rects.size() > 1;
     const EffectLedger ledger = ledger_;
     drawScene(info, index, part, pass);
     if (!std::exchange(first, false)) {
@@ -436,15 +449,15 @@ void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDes
 }
 
 void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass) {
-  const bool defers = MirrorSystem::defers(info, index) || RenderSystem::defers(info, index);
-  PassScope scope = renderer_.beginPass(info.frame, defers ? DeferredShading::identifying(desc) : desc);
+  const bool deferred = defers(info, index);
+  PassScope scope = renderer_.beginPass(info.frame, deferred ? DeferredShading::identifying(desc) : desc);
   const PassFormat format{.samples = desc.targets.samples(), .mirrorView = pass.kind == PassKind::mirror};
   pass.draws = maskSystem_.record(scope, info, index, format);
   scope.countSamples();
   pass.draws += mirrorSystem_.record(scope, info, index, format);
   pass.draws += pointLightSystem_.record(scope, info, index, format);
   pass.draws += renderSystem_.record(scope, info, index, format);
-  if (defers) {
+  if (deferred) {
     scope.pause();
     deferredShading_.shade(scope, info, index);
     scope.resume(DeferredShading::shaded(desc));

@@ -86,6 +86,8 @@ class SceneRenderer {
   void endRecord(const FrameInfo& info, bool textured);
   void finishLedger(const FrameInfo& info);
 
+  // Says whether surfaces of pass `index` of info.data are shaded by DeferredShading.
+  static bool defers(const FrameInfo& info, size_t index);
   // Draws the frame's tiles of a mirror pass or the main view.
   void drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass);
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.

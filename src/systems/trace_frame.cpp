@@ -178,12 +178,13 @@ RayUse TraceFrame::chooseRays(const SceneState& state, RayMethod method) {
 
 void TraceFrame::prepareStructures(Frame& frame, const SceneState& state, RayMethod method, bool traces) {
   rays_ = traces ? chooseRays(state, method) : RayUse{};
-  if (traces && !rays_.hardware) {
-    retireIfAny(structures_, *frame.retired);
-  }
   if (!rays_.hardware) {
+    if (traces || ++structureIdleFrames_ > idleFramesKept) {
+      retireIfAny(structures_, *frame.retired);
+    }
     return;
   }
+  structureIdleFrames_ = 0;
   try {
     if (!structures_) {
       check(vkQueueWaitIdle(device_.queue()), "wait for the queue");

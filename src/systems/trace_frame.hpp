@@ -30,7 +30,7 @@ class TraceFrame {
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
   // Storage buffers of deferred shading, with those of FrameData.
-  static constexpr uint32_t storageBuffers = 12;  // 3 + 2 of its own + 4 of the scene + 3 of the frame
+  static constexpr uint32_t storageBuffers = 13;  // 3 + 3 of its own + 4 of the scene + 3 of the frame
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if no effect is called for.
@@ -70,9 +70,10 @@ class TraceFrame {
   std::vector<glm::vec4> mirrorEdges_;  // from x, y to x, y of the mirror
   TraceVariant variant_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
-  int idleFrames_ = 0;    // without any effect
-  bool refused_ = false;  // there was no memory for acceleration structures
-  bool warned_ = false;   // the log says that effects.rays = hardware is not followed
+  int idleFrames_ = 0;           // without any effect
+  int structureIdleFrames_ = 0;  // without ray queries
+  bool refused_ = false;         // there was no memory for acceleration structures
+  bool warned_ = false;          // the log says that effects.rays = hardware is not followed
 };
 
 }  // namespace speculum

@@ -1,4 +1,4 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define SURFACES sampler2DMS
-#include "shade.glsl"
+#include "collect_surfaces.glsl"

@@ -1,6 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_ray_query : require
-#define RAY_QUERY
-#define SURFACES sampler2DMS
-#include "shade.glsl"
