@@ -123,7 +123,8 @@ struct MirrorData {
   vec3 rippleOrigin;  // relative
   float ripplePhase;  // radians
   uint index;         // of this, in the frame's mirrors
-  uint padding[3];
+  uint showsRipples;  // its image is displaced
+  uint padding[2];
 };
 
 // A curved mirror in one view, with the environment map that it looks up.
@@ -280,6 +281,12 @@ const uint itemMirror = 0x40000000u;
 struct ShadeConstants {
   ivec2 corner;
   uvec2 size;
+};
+
+// Push constants of a draw of objects whose reflection is added to a layer.
+struct ReflectionConstants {
+  DrawConstants draw;
+  ShadeConstants area;
 };
 
 // Push constants of the display pass. Texel of the picture = pixel * lookup.xy + lookup.zw.

@@ -22,6 +22,10 @@ uint decoded(vec2 halfs) {
   return ((bits & 0xffff) - leastNormal) | ((bits >> 16) - leastNormal) << fieldBits;
 }
 
+// Stands in the place of disparity where a triangle's reflection will be added, so that no other triangle at its depth
+// adds one too. Below zero and exact in a half float.
+float reflectionMark(Identifier id) { return -1.0 - float((31 * id.index + id.triangle) & 1023); }
+
 vec4 encoded(Identifier id) {
   vec2 index = encoded(id.index);
   vec2 triangle = encoded(id.triangle);

@@ -13,6 +13,7 @@ layout(constant_id = 6) const bool blurs = false;      // the mirror is rough, i
 layout(constant_id = 7) const uint shows = showsImage;
 layout(constant_id = 8) const uint lookup = lookupFetch;
 layout(constant_id = 9) const bool painted = true;    // its back, or its layer under the reflection, is not black
+layout(constant_id = 2) const bool added = false;     // to the layer, which is there already
 layout(constant_id = 11) const bool ripples = false;   // the mirror is rippled, its image is that of a smooth one
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
@@ -308,6 +309,6 @@ void main() {
   } else {
     image.rgb = backgroundRadiance(reflect(hit.ray, mirror.normal));
   }
-  color = storable(f * image.rgb + (1.0 - f) * base, image.a);
+  color = storable(f * (added ? min(image.rgb, shareMax) : image.rgb) + (1.0 - f) * base, image.a);
 #endif
 }

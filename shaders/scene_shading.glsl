@@ -1,13 +1,27 @@
-// The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up a map.
+// The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up a map; with
+// REFLECTION_ONLY the layer under the reflection is there, because shade.glsl has shaded it.
 #include "interface.glsl"
 #include "shading.glsl"
 
 layout(constant_id = 0) const uint diffuseLookup = textureNone;
 layout(constant_id = 1) const bool glossy = true;  // the specular color is not black
 
-layout(constant_id = 2) const bool reflectionOnly = false;  // the mirror's layer is shaded by shade.glsl
+#ifdef REFLECTION_ONLY
+layout(constant_id = 2) const uint samples = 1;
 
+layout(push_constant) uniform Draw {
+  DrawConstants draw;
+  ShadeConstants area;
+};
+
+#include "identifiers.glsl"
+#define SHADED_SET 2
+#define SHADED_ACCESS readonly
+#define SHADED_BY_DRAWS
+#include "shaded.glsl"
+#else
 layout(push_constant) uniform Draw { DrawConstants draw; };
+#endif
 
 layout(set = 1, binding = 0) uniform sampler2D diffuseTexture;  // linear radiance factors; with ENVIRONMENT the map
 
@@ -36,6 +50,20 @@ vec3 diffuseFactor() {
 #include "environment.glsl"
 #endif
 
+#ifdef REFLECTION_ONLY
+// Returns the samples whose layer is that of this triangle.
+int samplesOfLayer() {
+  float mark = reflectionMark(Identifier(false, true, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID)));
+  uint pixel = pixelNumber(uvec2(ivec2(gl_FragCoord.xy) - area.corner));
+  int mask = 0;
+  for (uint i = 0; i < samples; ++i) {
+    uvec2 value = shaded[sampleNumber(pixel, i)];
+    mask |= int(value.x != notShaded && unpackHalf2x16(value.y).y == mark) << i;
+  }
+  return mask;
+}
+#endif
+
 void main() {
   // The side that faces the viewer is lit, by the winding in the model file. gl_FrontFacing already follows the view's
   // handedness; the sign of the instance's determinant corrects it for mirrored instances.
@@ -57,9 +85,11 @@ void main() {
   float cosine = -dot(surface.normal, direction);
   vec3 reflectance = reflectanceAt(map.reflectance, map.schlick, cosine);
   vec3 layer = vec3(0.0);
-  if (!reflectionOnly && any(greaterThan(surface.diffuse, vec3(0.0)))) {
+#ifndef REFLECTION_ONLY
+  if (any(greaterThan(surface.diffuse, vec3(0.0)))) {
     layer = surfaceRadiance(surface);
   }
+#endif
   vec3 radiance = (1.0 - reflectance) * layer +
                   reflectance * environmentRadiance(map, surface, direction, reflectance);
 #else
@@ -68,7 +98,7 @@ void main() {
   // gl_FragCoord.w would be that of the pixel's centre, which on a steep triangle may lie far from the shaded point.
   float w = (view.clipFromRelative * vec4(relativePosition, 1.0)).w;
   color = storable(radiance, disparityLength / max(w, 1e-30));
-#ifdef ENVIRONMENT
-  color.a = reflectionOnly ? 0.0 : color.a;  // added to the layer's
+#ifdef REFLECTION_ONLY
+  gl_SampleMask[0] = samplesOfLayer();
 #endif
 }

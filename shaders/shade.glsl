@@ -112,7 +112,8 @@ Seen seenObject(Identifier id, vec2 position) {
   vec3 direction = safeNormalize(point);
   Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, weights, point, direction);
   float depth = (view.clipFromRelative * vec4(point, 1.0)).w;
-  return Seen(bounce, direction, disparityLength / max(depth, 1e-30), seedAt(position), view.picture, 1);
+  float disparity = id.layerOnly ? reflectionMark(id) : disparityLength / max(depth, 1e-30);
+  return Seen(bounce, direction, disparity, seedAt(position), view.picture, 1);
 }
 
 Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
@@ -122,9 +123,11 @@ Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
   bool front = dot(traceMirrors[mirror.traceMirror].normal, mirror.normal) > 0.0;
   vec3 direction = safeNormalize(hit.ray);
   Seen seen;
-  seen.bounce = mirrorBounce(mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front);
+  // Ripples tilt the layer if they displace the reflection that is added to it.
+  bool ripples = !id.layerOnly || mirror.showsRipples != 0;
+  seen.bounce = mirrorBounce(mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front, ripples);
   seen.direction = direction;
-  seen.disparity = id.layerOnly && seen.bounce.reflects ? 0.0 : hit.disparity;
+  seen.disparity = id.layerOnly && seen.bounce.reflects ? 0.0 : hit.disparity;  // that of the reflection is added
   seen.seed = seedAt(position);
   seen.before = view.picture;
   seen.wanted = 1;
@@ -149,13 +152,12 @@ void shade(uint pixel, uint seenBy) {
   } else {
     seen = seenObject(id, position);
   }
-  vec3 share = vec3(1.0);
-  if (id.layerOnly && seen.bounce.reflects) {
-    share -= seen.bounce.reflectance;
-    seen.bounce.reflects = false;
-  }
-  vec3 radiance = share * tracedRadiance(seen.bounce, seen.direction, seen.seed, seen.before, seen.wanted);
-  vec4 value = storable(radiance, seen.disparity);
+  bool addsReflection = id.layerOnly && seen.bounce.reflects;
+  vec3 share = addsReflection ? 1.0 - seen.bounce.reflectance : vec3(1.0);
+  seen.bounce.reflects = seen.bounce.reflects && !id.layerOnly;
+  vec3 radiance = tracedRadiance(seen.bounce, seen.direction, seen.seed, seen.before, seen.wanted);
+  vec4 value = storable(addsReflection ? share * min(radiance, shareMax) : radiance, max(seen.disparity, 0.0));
+  value.a = seen.disparity < 0.0 ? seen.disparity : value.a;
   uvec2 halfs = uvec2(packHalf2x16(value.rg), packHalf2x16(value.ba));
   for (uint i = 0; i < samples; ++i) {
     if ((seenBy & 1 << i) != 0) {

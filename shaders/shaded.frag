@@ -18,4 +18,5 @@ void main() {
   }
   gl_SampleMask[0] = 1 << drawnSample;
   color = vec4(unpackHalf2x16(value.x), unpackHalf2x16(value.y));
+  color.a = color.a < 0.0 ? 0.0 : color.a;  // a reflectionMark()
 }

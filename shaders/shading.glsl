@@ -20,16 +20,16 @@ struct Surface {
 };
 
 #ifdef COMPUTE
-// Compute shaders have no helper invocations, but compilers cannot know the result.
-bool isHelper() { return gl_LocalInvocationIndex > 0xffff; }
+// Never true, but compilers cannot know.
+bool isUnneeded() { return gl_LocalInvocationIndex > 0xffff; }
 #else
-bool isHelper() { return gl_HelperInvocation; }
+bool isUnneeded() { return gl_HelperInvocation; }
 #endif
 
 // A branch or a loop that depends on uniform values alone makes lavapipe of Mesa 22.3 compile a large shader again for
 // each draw and keep it. Values are chosen with mix() instead, and loops end at this count, which is not uniform because
 // it depends on the invocation. Helper invocations need no light.
-uint countHere(uint count) { return isHelper() ? 0 : count; }
+uint countHere(uint count) { return isUnneeded() ? 0 : count; }
 
 vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
 

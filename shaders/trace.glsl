@@ -1,10 +1,9 @@
 // Rays through the scene: a hierarchy of boxes over instances and mirrors, and one over the triangles of each mesh.
 // Needs interface.glsl and shading.glsl.
 //
-// Written for lavapipe, which runs both sides of every branch, enters every loop once, reads a storage buffer once for
-// each pixel and component, and traces for pixels that no triangle covers. So rays read texels, keep no stack, start at
-// one place for all lights, and end for helper invocations. Boxes do not limit: a ray visits 11 to 22 of instances and
-// mirrors and 9 to 26 of meshes.
+// Written for lavapipe, which runs both sides of every branch, enters every loop once, and reads a storage buffer once
+// for each pixel and component. So rays read texels, keep no stack, and start at one place for all lights. Boxes do not
+// limit: a ray visits 11 to 22 of instances and mirrors and 9 to 26 of meshes.
 
 layout(set = 2, binding = 0) uniform usamplerBuffer traceNodes;      // TraceNode
 layout(set = 2, binding = 1) uniform usamplerBuffer traceTriangles;  // TraceTriangle

@@ -2,7 +2,6 @@
 
 layout(constant_id = 2) const bool shadows = false;
 layout(constant_id = 3) const bool castsLight = false;
-layout(constant_id = 4) const bool perSample = false;  // one invocation for each sample, and rays through it
 
 vec3 tracedMirrorReflectance(uint mirror, float cosine) {
   return reflectanceAt(traceMirrors[mirror].reflectance, traceMirrors[mirror].schlick, cosine);

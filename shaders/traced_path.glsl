@@ -22,8 +22,8 @@ vec3 rippled(uint mirror, vec3 tracePosition) {
                        traceMirrors[mirror].rippleSlope, traceMirrors[mirror].ripplePhase);
 }
 
-// A mirror seen along `direction`, from its front or its back.
-Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front) {
+// A mirror seen along `direction`, from its front or its back, with its ripples or without.
+Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front, bool ripples) {
   float side = front ? 1.0 : -1.0;
   vec3 position = tracePosition - view.traceOffset.xyz;
   Bounce bounce;
@@ -36,7 +36,7 @@ Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front)
     bounce.reflectance = vec3(0.0);
     return bounce;
   }
-  vec3 normal = side * rippled(mirror, tracePosition);
+  vec3 normal = side * (ripples ? rippled(mirror, tracePosition) : traceMirrors[mirror].normal);
   bounce.surface = mirrorLayer(position, normal, traceMirrors[mirror].baseColor);
   bounce.reflectance = tracedMirrorReflectance(mirror, -dot(normal, direction));
   return bounce;
@@ -196,7 +196,7 @@ vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
     }
     if (hit.mirror != none) {
       bool front = dot(traceMirrors[hit.mirror].normal, path.direction) < 0.0;
-      path.bounce = mirrorBounce(hit.mirror, origin + hit.t * path.direction, path.direction, front);
+      path.bounce = mirrorBounce(hit.mirror, origin + hit.t * path.direction, path.direction, front, true);
     } else {
       path.bounce = objectBounce(hit.instance, triangleTexel(hit.slot, 0).w, Weights(hit.weights, vec3(0.0), vec3(0.0)),
                                  surface.position + hit.t * path.direction, path.direction);

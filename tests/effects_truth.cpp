@@ -349,6 +349,27 @@ TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   EXPECT_LT(traced, image);
 }
 
+// With effects.per_sample each sample looks up microfacets of its own.
+TEST(RoughMirrorWithShadows, LooksUpMoreAtEverySample) {
+  const std::filesystem::path file = corner("effects_rough_samples", shadowLight + wall + "roughness = 0.35\n");
+  QuietSession session(headless(file, small));
+  const TraceResult truth = trace(file, small, 3).traced;
+  const auto noise = [&](const char* perSample) {
+    set(session, {{"effects.per_sample", perSample}, {"effects.rough_lookup", "image"}});
+    const auto drawn = [&](const char* lookups) {
+      set(session, {{"effects.rough_samples", lookups}});
+      runFrames(session);
+      return session.radiance();
+    };
+    const LinearImage smooth = drawn("256");
+    return rootMeanSquare(drawn("2"), smooth, {truth.mirrorMask.begin(), truth.mirrorMask.end()});
+  };
+  const double pixel = noise("false");
+  const double samples = noise("true");
+  std::printf("RMSE of 2 look-ups a pixel %.5f, at each of 4 samples %.5f\n", pixel, samples);
+  EXPECT_LT(samples, 0.75 * pixel);
+}
+
 // Ripples that look up the smooth mirror's image are nearer to the truth than a smooth mirror.
 TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const std::filesystem::path file = corner("effects_ripple", plainLight + pool + ripple);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 
 #include "reuse_support.hpp"
@@ -169,6 +170,31 @@ base_color = [0.5, 0.1, 0]
   const Image8 picture = draw(mapped(file, {{"effects.environment_box", "false"}}));
   const PictureAgreement agreement = difference(picture, trace(file, size, 1).picture, 3);
   EXPECT_GE(agreement.within(), 0.98) << agreement.over << " pixels, up to " << agreement.largest;
+}
+
+// Where rays light the layer under a reflection, the reflection is added to it afterwards: once, though both sides of
+// the sheet have the same depth.
+TEST(EnvironmentMaps, ReflectionsAreAddedOnce) {
+  std::ofstream(sceneDirectory() / "sheet.obj")
+      << "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\nf 3 2 1\nf 4 3 1\n";
+  const std::filesystem::path file = writeScene("environment_sheet", R"(
+[environment]
+sky = { zenith = [0.1, 0.2, 0.6], horizon = [0.5, 0.4, 0.3], ground = [0.1, 0.1, 0.05] }
+[camera]
+position = [0, 1.6, 4]
+target = [0, 0.6, 0]
+[[object]]
+model = "sheet.obj"
+position = [0, 1, 0]
+mirror = { reflectance = [0.5, 0.5, 0.5], base_color = [0.2, 0.2, 0.2] }
+[[light]]
+position = [1, 3, 2]
+intensity = 10
+casts_shadow = true
+)");
+  const Image8 rays = draw(mapped(file, {}));
+  const Image8 noRays = draw(mapped(file, {{"effects.shadows", "false"}}));
+  expectAlike(rays, noRays, 2, "environment_sheet");
 }
 
 TEST(EnvironmentMaps, ShowTheBackgroundAtADepthLimit) {

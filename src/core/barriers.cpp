@@ -41,9 +41,10 @@ constexpr Scope computeReads{computeStage, VK_ACCESS_SHADER_READ_BIT};
 constexpr Scope computeWrites{computeStage, VK_ACCESS_SHADER_WRITE_BIT};
 constexpr Scope copyReads{transferStage, VK_ACCESS_TRANSFER_READ_BIT};
 constexpr Scope copyWrites{transferStage, VK_ACCESS_TRANSFER_WRITE_BIT};
-constexpr Scope drawReads{VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | sampleStage,
-                          VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
-                              VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT};
+constexpr Scope drawReads{
+    VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | sampleStage | computeStage,
+    VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
+        VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT};
 constexpr Scope hostReads{VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT};
 // Also waits for copies into the buffers that a build reads.
 constexpr Scope builds{VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR | transferStage,

@@ -1,6 +1,7 @@
 #include "core/pass.hpp"
 
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "core/gpu_timer.hpp"
@@ -127,6 +128,7 @@ PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& ti
 }
 
 void PassScope::begin() {
+  rendering_ = true;
   if (desc_.overlay) {
     device_.barriers().record(commands_, BarrierKind::swapchainBeforeOverlay, *desc_.targets.color);
   } else if (!desc_.grouped) {
@@ -151,6 +153,9 @@ void PassScope::countSamples() {
 }
 
 void PassScope::end() {
+  if (!std::exchange(rendering_, false)) {
+    return;
+  }
   if (dynamic_) {
     device_.functions().endRendering(commands_);
   } else {

@@ -116,6 +116,7 @@ class PassScope {
   PassDesc desc_;
   std::optional<PassGroup> group_;  // none in a group of several
   bool dynamic_;
+  bool rendering_ = false;
   int timerSlot_;
 };
 

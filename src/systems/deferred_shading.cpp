@@ -19,11 +19,6 @@ uint32_t groups(uint32_t size) {
   return (size + groupSide - 1) / groupSide;
 }
 
-gpu::ShadeConstants areaOf(const PassDesc& pass) {
-  const VkRect2D& area = pass.renderArea;
-  return {.corner = {area.offset.x, area.offset.y}, .size = {area.extent.width, area.extent.height}};
-}
-
 uint64_t samplesOf(const PassDesc& pass) {
   return uint64_t{pass.renderArea.extent.width} * pass.renderArea.extent.height * pass.targets.samples();
 }
@@ -43,6 +38,11 @@ std::vector<PixelRect> DeferredShading::bands(const PixelRect& part, VkSampleCou
     bands.push_back({part.x, part.y + first, part.width, end - first});
   }
   return bands;
+}
+
+gpu::ShadeConstants DeferredShading::areaOf(const PassDesc& pass) {
+  const VkRect2D& area = pass.renderArea;
+  return {.corner = {area.offset.x, area.offset.y}, .size = {area.extent.width, area.extent.height}};
 }
 
 PassDesc DeferredShading::identifying(PassDesc pass) {
@@ -160,6 +160,7 @@ void DeferredShading::countPipelines(EffectLedger& ledger) const {
   shading_.forEach([&](const Variant& variant) {
     ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
+    ledger.pipeline(EffectKind::textures, ledger[EffectKind::textures].draws > 0);
   });
 }
 

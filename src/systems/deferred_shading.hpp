@@ -23,6 +23,11 @@ class DeferredShading {
   // Replaces the identifiers by the radiance. The scope was resumed after shade(). Returns the number of draws.
   uint32_t record(const PassScope& scope);
 
+  // The samples, for shaders that include shaded.glsl, and the area of the pass that they belong to.
+  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSet set() const { return set_; }
+  static gpu::ShadeConstants areaOf(const PassDesc& pass);
+
   void countPipelines(EffectLedger& ledger) const;
   // Drops what has not been used for some frames. While cached images are shown, the pipelines stay.
   void endFrame(const TraceVariant& trace, bool imagesShown, RetireQueue& retired);

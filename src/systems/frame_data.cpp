@@ -434,6 +434,7 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
     mirrors_.push_back({mirrorData(draw, mirror, state, effects, pass.view, image)});
     mirrors_.back().mirror.index = range.mirror;
+    mirrors_.back().mirror.showsRipples = ripples;
     for (const ClipPolygon& part : parts) {
       addFan(mirrorVertices_, part);
     }

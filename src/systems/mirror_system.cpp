@@ -39,7 +39,7 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
   GraphicsPipelineDesc desc{.name = "mirror",
                             .vert = "mirror.vert",
                             .frag = "mirror.frag",
-                            .fragConstants = {shading == Shading::base, variant.reprojected},
+                            .fragConstants = {shading == Shading::base, variant.reprojected, variant.added},
                             .setLayouts = {frameLayout_, imageLayout_.get()},
                             .samples = variant.samples,
                             .depthClamp = variant.clampDepth};
@@ -47,11 +47,11 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.frag = "mirror_average.frag";
   } else if (shading == Shading::ownSample) {
     desc.frag = "mirror_sample.frag";
-    desc.sampleShading = true;
   } else if (shading == Shading::identifier) {
     desc.frag = "mirror_identifier.frag";
     desc.fragConstants = {!variant.byRays};
   }
+  desc.sampleShading = shading == Shading::ownSample || variant.perSample;
   if (variant.added) {
     desc.depthCompare = VK_COMPARE_OP_EQUAL;
     desc.depthWrite = false;
@@ -161,6 +161,7 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, size_t pa
   const PassData& data = info.data.passes()[pass];
   const bool identifies = variant.shading == Shading::identifier;
   variant.samples = format.samples;
+  variant.perSample = !identifies && info.trace.variant().perSample && (variant.blurs || variant.ripples);
   variant.clampDepth = !(format.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
   variant.trace = identifies ? info.trace.variant() : TraceVariant{};
   variant.shadowed = variant.painted && info.shadows.set() != VK_NULL_HANDLE;

@@ -30,8 +30,9 @@ class MirrorSystem {
   enum class Shading { single, average, base, ownSample, identifier };
   struct Variant {
     Shading shading = Shading::single;
-    bool added = false;   // only the reflection, added to a layer that is there
-    bool byRays = false;  // the identifier stands for layer and reflection, else for the layer
+    bool added = false;      // only the reflection, added to a layer that is there
+    bool byRays = false;     // the identifier stands for layer and reflection, else for the layer
+    bool perSample = false;  // looks up its image at each sample
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool clampDepth = true;
     bool reprojected = false;

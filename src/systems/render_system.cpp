@@ -5,6 +5,7 @@
 
 #include "frame/scene_names.hpp"
 #include "geometry/mesh_levels.hpp"
+#include "systems/deferred_shading.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/shadow_system.hpp"
 
@@ -50,12 +51,13 @@ void bindBuffers(VkCommandBuffer commands, const Buffer& vertices, const Buffer&
   vkCmdBindIndexBuffer(commands, indices.get(), 0, VK_INDEX_TYPE_UINT32);
 }
 
-GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameInfo& info) const {
+GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameInfo& info,
+                                           const DeferredShading* shading) const {
   GraphicsPipelineDesc desc{.name = "scene",
                             .vert = "scene.vert",
                             .frag = "scene.frag",
                             .vertConstants = {variant.clipDistance},
-                            .fragConstants = {variant.diffuseLookup, variant.glossy, variant.added},
+                            .fragConstants = {variant.diffuseLookup, variant.glossy},
                             .setLayouts = {frameLayout_, textureLayout_},
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
                             .samples = variant.samples,
@@ -68,6 +70,10 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     desc.frag = "scene_environment.frag";
   }
   if (variant.added) {
+    desc.frag = "scene_environment_reflection.frag";
+    desc.fragConstants.push_back(variant.samples);
+    desc.setLayouts.push_back(shading->layout());
+    desc.pushConstantBytes = sizeof(gpu::ReflectionConstants);
     desc.depthCompare = VK_COMPARE_OP_EQUAL;
     desc.depthWrite = false;
     desc.adds = true;
@@ -124,7 +130,7 @@ void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
 }
 
 uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& data,
-                                   const Batch& batch, Variant variant) {
+                                   const Batch& batch, Variant variant, const DeferredShading* shading) {
   const VkCommandBuffer commands = scope.commands();
   variant.curved = batch.curved;
   variant.environment = batch.environment;
@@ -147,16 +153,22 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
       variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
       variant.glossy = constants.specular != glm::vec3(0.0f);
     }
-    const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info); });
+    const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info, shading); });
     pipeline.bind(commands);
     info.data.bind(pipeline, commands, data);
     pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
     if (variant.shadowed) {
       pipeline.bindSet(commands, 2, info.shadows.set());
+    } else if (variant.added) {
+      pipeline.bindSet(commands, 2, shading->set());
     }
     for (const IndexRange& range : drawnRanges(partRange(info.scene, mesh, p, batch), batch)) {
       constants.firstTriangle = range.first / 3;
-      pipeline.push(commands, constants);
+      if (variant.added) {
+        pipeline.push(commands, gpu::ReflectionConstants{constants, DeferredShading::areaOf(scope.desc())});
+      } else {
+        pipeline.push(commands, constants);
+      }
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
       ++draws;
       countDraw(info.ledger, variant);
@@ -222,14 +234,14 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, siz
 }
 
 uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass,
-                                         const PassFormat& format) {
+                                         const PassFormat& format, const DeferredShading& shading) {
   const PassData& data = info.data.passes()[pass];
   Variant variant = variantOf(info, format);
   variant.added = true;
   uint32_t draws = 0;
   for (const Batch& batch : data.batches) {
     if (batch.environment && defers(info, batch)) {
-      draws += recordBatch(scope, info, data, batch, variant);
+      draws += recordBatch(scope, info, data, batch, variant, &shading);
     }
   }
   return draws;

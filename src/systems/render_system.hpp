@@ -5,6 +5,8 @@
 
 namespace speculum {
 
+class DeferredShading;
+
 // Adds the inputs of scene.vert.
 void addVertexInput(GraphicsPipelineDesc& desc);
 // Binds a mesh and the frame's instances as these inputs.
@@ -21,7 +23,8 @@ class RenderSystem {
   // Says whether record() draws identifiers in a pass.
   static bool defers(const FrameInfo& info, size_t pass);
   // After deferred shading: adds what curved mirrors look up in environment maps to the layers under it.
-  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format,
+                             const DeferredShading& shading);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines of traced surfaces, or that look up textures and have not been used for some frames. While cached
   // images are shown, the pipelines that rendered them stay. `textured` is drawsTextures().
@@ -41,17 +44,17 @@ class RenderSystem {
     uint32_t lightCount;
     TraceVariant trace;           // of deferred surfaces
     bool deferred = false;        // draws identifiers
-    bool added = false;           // only the reflection, added to a layer that is there
+    bool added = false;           // only the reflection, added to the layer that DeferredShading has drawn
     bool shadowed = false;        // looks shadows up in maps
     uint32_t shadowedLights = 0;  // constant of shadow_map.glsl
     auto operator<=>(const Variant&) const = default;
   };
-  GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info) const;
+  GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info, const DeferredShading* shading) const;
   static bool defers(const FrameInfo& info, const Batch& batch);
   static void countDraw(EffectLedger& ledger, const Variant& variant);
   static Variant variantOf(const FrameInfo& info, const PassFormat& format);
   uint32_t recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& data, const Batch& batch,
-                       Variant variant);
+                       Variant variant, const DeferredShading* shading = nullptr);
   uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const PassData& data);
 
   VkDescriptorSetLayout frameLayout_;

@@ -463,7 +463,7 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
     scope.resume(DeferredShading::shaded(desc));
     pass.draws += deferredShading_.record(scope);
     pass.draws += mirrorSystem_.recordReflections(scope, info, index, format);
-    pass.draws += renderSystem_.recordReflections(scope, info, index, format);
+    pass.draws += renderSystem_.recordReflections(scope, info, index, format, deferredShading_);
   }
   add(std::move(pass));
 }

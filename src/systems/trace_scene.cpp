@@ -81,7 +81,7 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
     vertices += mesh.vertices.size();
   }
   for (const Texture& texture : scene.textures) {
-    texels += texture.texels.size() / 3 * 4 + 64;  // with the levels
+    texels += 2 * texture.texels.size();  // with the levels
   }
   // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle. The frame's
   // buffers are read as texels and as storage, so both limits apply to them.
