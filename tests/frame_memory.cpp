@@ -94,17 +94,21 @@ TEST(MemoryFit, RaysReplacePassesWhereTheyPay) {
   const Scene scene = wallScene();
   Settings settings;
   settings.reflection.samples = settings.view.samples = 1;
-  const auto passes = [&](ReflectionMethod method, TargetLimits limits) {
+  const auto passes = [&](ReflectionMethod method, TargetLimits limits, int height = 20) {
     settings.reflection.method = method;
     limits.budgetBytes = 1ull << 40;
     limits.largestSide = 4096;
-    return planWithin(limits, scene, evaluate(scene, 0.0), settings, 40, 20).plan.passes.size();
+    return planWithin(limits, scene, evaluate(scene, 0.0), settings, 2 * height, height).plan.passes.size();
   };
   EXPECT_EQ(passes(ReflectionMethod::rays, {}), 0u);
   EXPECT_EQ(passes(ReflectionMethod::rays, {.tracesRays = false}), 1u);
   EXPECT_EQ(passes(ReflectionMethod::automatic, {}), 1u);
   EXPECT_EQ(passes(ReflectionMethod::automatic, {.cpu = true}), 0u);
   EXPECT_EQ(passes(ReflectionMethod::raster, {.cpu = true}), 1u);
+  EXPECT_EQ(passes(ReflectionMethod::automatic, {}, 2000), 0u) << "a GPU, and a mirror that covers much";
+  EXPECT_EQ(passes(ReflectionMethod::automatic, {.tracesRays = false}, 2000), 1u);
+  settings.view.samples = 4;
+  EXPECT_EQ(passes(ReflectionMethod::automatic, {}, 2000), 1u);
 }
 
 TEST(MemoryFit, PlansUnchangedWithNothingLeftToLower) {

@@ -21,6 +21,7 @@ constexpr uint64_t disparityBytes = 4;  // R32F
 // Of DeferredShading.
 constexpr uint64_t mostShadedSamples = 65535ull * 128;
 constexpr uint64_t requestBytes = 4;
+constexpr double pixelsForRays = 4e5;
 constexpr int smallestMap = 16;  // texels
 constexpr int smallestShadowMap = 64;
 
@@ -106,6 +107,14 @@ bool lower(Settings& settings, const FramePlan& plan, std::string& what) {
   return true;
 }
 
+// Says whether a GPU draws the frame faster with rays in the place of mirror images: with one sample a pixel, once a
+// mirror covers much of the picture (docs/scaling.md). More samples were not measured.
+bool raysAreFaster(const FramePlan& plan, const Settings& settings) {
+  return settings.view.samples == 1 && std::ranges::any_of(plan.passes, [](const PlannedPass& pass) {
+           return pass.depth == 0 && pass.areaPx >= pixelsForRays;
+         });
+}
+
 std::string mebibytes(uint64_t bytes) {
   return std::to_string(bytes >> 20) + " MiB";
 }
@@ -150,10 +159,15 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
                      " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
                      " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
   }
+  const bool chooses = reflection.method == ReflectionMethod::automatic && !limits.cpu;
   if (reflection.method == ReflectionMethod::automatic && (!limits.cpu || !limits.tracesRays)) {
-    reflection.method = ReflectionMethod::raster;  // on GPUs always faster (docs/scaling.md)
+    reflection.method = ReflectionMethod::raster;
   }
   plan();
+  if (chooses && limits.tracesRays && raysAreFaster(fitted.plan, fitted.settings)) {
+    reflection.method = ReflectionMethod::rays;
+    plan();
+  }
   if (!limits.tracesRays && fitted.plan.effects.any()) {
     EffectSettings& effects = fitted.settings.effects;
     effects.shadows =
