@@ -77,7 +77,7 @@ class FaultTest : public testing::Test {
   }
 
   test::VirtualDisplay display_;
-  // A mirror, an object with a texture, and a setting that needs a compute shader.
+  // A mirror, an object with a texture, rays, and a setting that needs a compute shader.
   std::string scene_ = writeScene("faults", R"(
 [camera]
 position = [0, 1, 4]
@@ -89,6 +89,7 @@ model = "MODELS/column.obj"
 [[light]]
 position = [0, 3, 3]
 intensity = 10
+casts_shadow = true
 [[mirror]]
 position = [0, 1, -2]
 size = [5, 3]
