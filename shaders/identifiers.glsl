@@ -22,9 +22,9 @@ uint decoded(vec2 halfs) {
   return ((bits & 0xffff) - leastNormal) | ((bits >> 16) - leastNormal) << fieldBits;
 }
 
-// Stands in the place of disparity where a triangle's reflection will be added, so that no other triangle at its depth
+// Stands in the place of disparity where a triangle's reflection will be added, so that hardly any other triangle at its depth
 // adds one too. Below zero and exact in a half float.
-float reflectionMark(Identifier id) { return -1.0 - float((31 * id.index + id.triangle) & 1023); }
+float reflectionMark(Identifier id) { return -1.0 - float((id.index * 0x9e3779b9u + id.triangle * 0x85ebca6bu) >> 21); }
 
 vec4 encoded(Identifier id) {
   vec2 index = encoded(id.index);

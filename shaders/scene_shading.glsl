@@ -90,8 +90,11 @@ void main() {
     layer = surfaceRadiance(surface);
   }
 #endif
-  vec3 radiance = (1.0 - reflectance) * layer +
-                  reflectance * environmentRadiance(map, surface, direction, reflectance);
+  vec3 reflection = environmentRadiance(map, surface, direction, reflectance);
+#ifdef REFLECTION_ONLY
+  reflection = min(reflection, shareMax);
+#endif
+  vec3 radiance = (1.0 - reflectance) * layer + reflectance * reflection;
 #else
   vec3 radiance = surfaceRadiance(surface);
 #endif

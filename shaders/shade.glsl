@@ -126,6 +126,7 @@ Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
   // Ripples tilt the layer if they displace the reflection that is added to it.
   bool ripples = !id.layerOnly || mirror.showsRipples != 0;
   seen.bounce = mirrorBounce(mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front, ripples);
+  seen.bounce.alpha = id.layerOnly ? 0.0 : seen.bounce.alpha;
   seen.direction = direction;
   seen.disparity = id.layerOnly && seen.bounce.reflects ? 0.0 : hit.disparity;  // that of the reflection is added
   seen.seed = seedAt(position);

@@ -406,7 +406,7 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const bool imagesShown = !plan.reused.empty() || plan.mainReused;
   const bool shadowMaps = !plan.shadowMaps.empty();
   renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured);
-  mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.traces());
+  mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.any());
   deferredShading_.endFrame(trace_.variant(), imagesShown && plan.effects.any(), retired);
   pointLightSystem_.endFrame((plan.mainReused && !plan.main.lights.empty()) ||
                              std::ranges::any_of(plan.reused, [](const auto& p) { return !p.lights.empty(); }));
