@@ -16,6 +16,12 @@ CubeFace cubeFace(vec3 d) {
   return CubeFace(axis, component < 0.0 ? -1.0 : 1.0, abs(component));
 }
 
+// The face with this index, for a direction that it shows.
+CubeFace faceOf(uint index, vec3 d) {
+  int axis = int(index / 2);
+  return CubeFace(axis, index % 2 == 0 ? 1.0 : -1.0, abs(d[axis]));
+}
+
 int indexOf(CubeFace face) { return 2 * face.axis + (face.side < 0.0 ? 1 : 0); }
 
 // Components of a vector to the right and down in the face. FaceAxes has the axes.

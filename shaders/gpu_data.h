@@ -63,6 +63,9 @@ const float disparityLength = 0.0625;
 const uint noShadowMap = 0xffffffffu;
 const uint mostShadowMaps = 16;
 
+// Stands for the index of a face where the scene lies in several faces of a shadow map.
+const uint anyShadowFace = 6;
+
 // Windows of a shadow map's faces. The point (x, y) of the plane one metre before the light, in metres right and down,
 // has the texel (x, y) * face.xy + face.zw in the target.
 struct ShadowMapData {

@@ -147,6 +147,43 @@ TEST(MeshError, TracedRaysKeepAllTriangles) {
   }
 }
 
+// An object would stand in the shadow of a level of its own that differs.
+TEST(MeshError, OneLevelInPassesAndShadowMaps) {
+  Scene scene = sceneOf({5, 20, 60});
+  scene.objects.push_back(testing_support::objectAt({3, 0, -8}, glm::dvec3(0.5)));  // in the main view too
+  scene.lights[0].castsShadow = true;
+  const SceneState state = evaluate(scene, 0.0);
+  constexpr double unbounded = 1e9;  // all objects are seen in a pass, whose bound counts
+  for (const double viewError : {0.0, 1.0}) {
+    const FramePlan plan = planOf(
+        scene, 4.0, {{"effects.shadow_lookup", "map"}, {"view.mesh_error", viewError > 0.0 ? "1" : "0"}});
+    std::vector<std::optional<int>> levels(scene.objects.size());
+    const auto check = [&](const PlannedPass& pass, const Projection& projection, double texels) {
+      for (const int i : pass.instances) {
+        const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+        const int level = levelOf(pass, i);
+        EXPECT_EQ(levels[static_cast<size_t>(i)].value_or(level), level);
+        levels[static_cast<size_t>(i)] = level;
+        if (level >= 0) {
+          EXPECT_LE(levelsOf(scene.meshes[0]).levels[static_cast<size_t>(level)].error,
+                    largestError(pass.view, projection, instance, scene.meshes[0], texels));
+        }
+      }
+    };
+    check(plan.main, plan.projection, viewError);
+    ASSERT_FALSE(plan.passes.empty());
+    for (const PlannedPass& pass : plan.passes) {
+      check(pass, plan.projection, 4.0);
+    }
+    ASSERT_EQ(plan.shadowMaps.size(), 1u);
+    for (const ShadowFace& face : plan.shadowMaps[0].faces) {
+      check(face.pass, face.projection, unbounded);
+    }
+    EXPECT_GE(levels[2], 0);
+    EXPECT_EQ(levels[3] >= 0, viewError > 0.0);
+  }
+}
+
 TEST(MeshError, ObjectsAtTheEyeAreExact) {
   Scene scene = sceneOf({11}, 30.0);
   EXPECT_TRUE(planOf(scene, 0.5).passes[0].simplified.empty());

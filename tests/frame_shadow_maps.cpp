@@ -101,6 +101,18 @@ TEST(ShadowMap, OnlyChangedFacesAreRendered) {
   EXPECT_EQ(frames.rendered(), resized);
 }
 
+TEST(ShadowMap, FarLightHasOneFace) {
+  Frames frames(room());
+  EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), std::nullopt) << "the lamp is in the room";
+  frames.scene.lights = {lightAt({-60, 20, -5})};
+  EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), 0u);
+  frames.scene.lights.push_back(lightAt({-60, 25, 0}));
+  EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), 0u);
+  frames.scene.lights[1] = lightAt({60, 25, 0});
+  EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), std::nullopt) << "two lights, two faces";
+  EXPECT_EQ(onlyShadowFace({}), std::nullopt);
+}
+
 // In random scenes, every drawn point looks up a face that is rendered, within the face's window.
 TEST(ShadowMap, VisiblePointsLieInReadFaces) {
   std::mt19937 random(7);
@@ -150,6 +162,7 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
         for (size_t f = 1; f < 6; ++f) {
           in = glm::dot(d, faceAxes()[f].forward) > glm::dot(d, faceAxes()[in].forward) ? f : in;
         }
+        EXPECT_EQ(onlyShadowFace({&map, 1}).value_or(in), in);
         const ShadowFace& face = map.faces[in];
         ASSERT_TRUE(face.read) << "trial " << trial;
         const glm::dvec4 clip = face.projection.clip(face.pass.view.worldToView * d);

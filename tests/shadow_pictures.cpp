@@ -130,6 +130,46 @@ casts_shadow = true
   }
 }
 
+// Shaders know the face if the scene lies in a single one.
+TEST(ShadowMaps, SingleFaceChangesNoByte) {
+  const std::string sunny = R"(
+[environment]
+ambient = [0.1, 0.1, 0.1]
+[camera]
+position = [0, 2, 4]
+target = [0, 0.4, 0]
+[[object]]
+model = "MODELS/block.obj"
+position = [0, -0.2, 0]
+scale = [20, 0.2, 20]
+[[object]]
+model = "MODELS/king.obj"
+[[mirror]]
+position = [0, 1, -2]
+size = [3, 2]
+base_color = [0.2, 0.2, 0.2]
+[[light]]
+position = [-60, 30, 20]
+intensity = 9000
+glow = 0
+casts_shadow = true
+)";
+  const std::string behindTheSun = "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [-90, 30, 20]\n";
+  QuietSession single(mapped(writeScene("shadow_maps_single_face", sunny)));
+  QuietSession several(mapped(writeScene("shadow_maps_several_faces", sunny + behindTheSun)));
+  EXPECT_EQ(difference(picture(single, 0.0), picture(several, 0.0), 0).over, 0);
+}
+
+// Objects of a level that differs from that of the map would shadow themselves.
+TEST(ShadowMaps, SimplifiedObjectsAreNotShadowed) {
+  QuietSession session(mapped(room("levels")));
+  const Image8 exact = picture(session, 0.0);
+  set(session, {{"view.mesh_error", "2"}, {"reflection.mesh_error", "2"}});
+  const PictureAgreement agreement = difference(picture(session, 0.0), exact, 24);
+  std::printf("%d of %d pixels over\n", agreement.over, agreement.counted);
+  EXPECT_LT(agreement.over, agreement.counted / 200);
+}
+
 TEST(ShadowMaps, ListTheirFacesWhenRendered) {
   QuietSession session(mapped(room("faces")));
   const std::vector<std::string> names = drawnMaps("shadow map of ", session);

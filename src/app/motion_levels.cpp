@@ -212,14 +212,14 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   replace(rays.rough, [](E& effects) { effects.roughLookup = ReflectionSource::image; });
   passesTo(32);
   scaleTo(softScale);
+  simplify(2.0, 1.0);  // at half scale it saves a third of the gallery's frame on a CPU, for a FLIP of 0.008
   passesTo(24);
   passesTo(16);
   scaleTo(blurredScale);
-  simplify(2.0, 1.0);
+  simplify(2.0, 2.0);
   passesTo(12);
   passesTo(8);
   scaleTo(leastScale);
-  simplify(2.0, 2.0);
   return levels;
 }
 

@@ -55,6 +55,7 @@ class Planner {
   void findShadows();
   ImageSurroundings surroundings() const;
   void simplify();
+  void simplifyWithMaps();
   void reuseUnchanged();
   void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
@@ -104,12 +105,15 @@ void Planner::findShadows() {
   plan_.shadowMaps = shadowMaps(scene_, state_, allSettings_, readers);
 }
 
-// Chooses mesh levels. Rays from objects and shadow maps rule them out: rays start on what is drawn but meet full
-// meshes, and maps hold full meshes, so a level would stand in the shadow of its own mesh. Drawing without a clip plane
-// rules them out too: an object may then be nearer than the mirror, and a level's error is allowed for the mirror's
-// distance.
+// Chooses mesh levels. Rays from objects rule them out: they start on what is drawn but meet full meshes, in whose
+// shadow a level would stand. Drawing without a clip plane rules them out too: an object may then be nearer than the
+// mirror, and a level's error is allowed for the mirror's distance.
 void Planner::simplify() {
-  if (settings_.clip == ClipMethod::none || plan_.effects.tracesFromObjects() || plan_.effects.shadowMaps) {
+  if (settings_.clip == ClipMethod::none || plan_.effects.tracesFromObjects()) {
+    return;
+  }
+  if (plan_.effects.shadowMaps) {
+    simplifyWithMaps();
     return;
   }
   for (PassNode& node : nodes_) {
@@ -117,6 +121,31 @@ void Planner::simplify() {
     if (texels > 0.0) {
       simplifyPass(node.pass, readable(node.pass.view), plan_.projection, texels, allSettings_.effects, scene_, state_);
     }
+  }
+}
+
+void Planner::simplifyWithMaps() {
+  std::vector<SimplifiedPass> passes;
+  bool simplifies = false;
+  for (PassNode& node : nodes_) {
+    const double texels = meshErrorIn(node.pass.view, allSettings_);
+    passes.push_back({&node.pass, readable(node.pass.view), &plan_.projection, texels});
+    simplifies = simplifies || texels > 0.0;
+  }
+  for (EnvironmentMap& map : plan_.maps) {
+    for (PlannedPass& face : map.faces) {
+      passes.push_back({&face, face.view, &map.projection});
+    }
+  }
+  constexpr double mapTexels = 1.0;  // look-ups blur shadows by as much
+  std::vector<SimplifiedPass> maps;
+  for (ShadowMap& map : plan_.shadowMaps) {
+    for (ShadowFace& face : map.faces) {
+      maps.push_back({&face.pass, face.pass.view, &face.projection, mapTexels});
+    }
+  }
+  if (simplifies) {
+    simplifyAlike(passes, maps, allSettings_.effects, scene_, state_);
   }
 }
 

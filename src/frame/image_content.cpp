@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "frame/mesh_level.hpp"
 #include "scene/scene_fields.hpp"
 
 namespace speculum {
@@ -151,7 +152,8 @@ std::vector<uint64_t> shadowContent(const SceneState& state, const ShadowFace& f
   numbers.addAll(face.pass.view, face.low, face.high, face.projection.near, face.pass.instances);
   for (const int i : face.pass.instances) {
     const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    numbers.addAll(instance.mesh, instance.worldFromMesh.linear, instance.worldFromMesh.translation);
+    numbers.addAll(instance.mesh, levelOf(face.pass, i), instance.worldFromMesh.linear,
+                   instance.worldFromMesh.translation);
   }
   for (const MirrorDraw& draw : face.pass.mirrors) {
     numbers.addAll(draw.mirror, draw.polygon);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -73,23 +74,40 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
   return best;
 }
 
+namespace {
+
+// Chooses the coarsest level whose error is no more than `largestError`, whatever the view sees of it.
+LevelChoice coarsestLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
+                          std::vector<IndexRange> seen) {
+  if (largestError <= 0.0) {
+    return {.ranges = std::move(seen)};
+  }
+  const std::vector<MeshLevel>& levels = levelsOf(mesh).levels;
+  const auto end = std::ranges::upper_bound(levels, largestError, {}, &MeshLevel::error);
+  if (end == levels.begin()) {
+    return {.ranges = std::move(seen)};
+  }
+  const MeshLevel& level = *(end - 1);
+  std::vector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, level.all, level.clusters);
+  return {static_cast<int>(end - 1 - levels.begin()), ranges.empty() ? std::vector{level.all} : std::move(ranges)};
+}
+
+}  // namespace
+
 double meshErrorIn(const View& view, const Settings& settings) {
   return view.path.empty() ? settings.view.meshError : settings.reflection.meshError;
 }
 
-void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, double texels,
-                  const EffectSettings& effects, const Scene& scene, const SceneState& state) {
+namespace {
+
+// Draws each instance of the pass as choose(instance, ranges seen of the mesh) says.
+template <typename Choose>
+void applyLevels(PlannedPass& pass, const Scene& scene, const SceneState& state, const Choose& choose) {
   std::vector<PartialInstance> partial;
   for (const int i : pass.instances) {
-    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    const Mesh& mesh = scene.meshes[instance.mesh];
+    const Mesh& mesh = scene.meshes[state.instances[static_cast<size_t>(i)].mesh];
     const PartialInstance* part = partOf(pass.partial, i);
-    LevelChoice choice{.ranges = part ? part->ranges : std::vector{allOf(mesh)}};
-    const bool curved = effects.curved && scene.objects[instance.object].mirror;
-    if (!curved) {
-      const double largest = largestError(readable, projection, instance, mesh, texels);
-      choice = chooseLevel(readable, largest, instance, mesh, std::move(choice.ranges));
-    }
+    LevelChoice choice = choose(i, part ? part->ranges : std::vector{allOf(mesh)});
     const IndexRange all = choice.level < 0 ? allOf(mesh) : levelsOf(mesh).levels[choice.level].all;
     if (choice.ranges.front() != all) {
       partial.push_back({i, std::move(choice.ranges)});
@@ -99,6 +117,58 @@ void simplifyPass(PlannedPass& pass, const View& readable, const Projection& pro
     }
   }
   pass.partial = std::move(partial);
+}
+
+bool keepsTriangles(const InstanceState& instance, const EffectSettings& effects, const Scene& scene) {
+  return effects.curved && scene.objects[instance.object].mirror;
+}
+
+}  // namespace
+
+void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, double texels,
+                  const EffectSettings& effects, const Scene& scene, const SceneState& state) {
+  applyLevels(pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
+    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const double largest = keepsTriangles(instance, effects, scene)
+                               ? 0.0
+                               : largestError(readable, projection, instance, mesh, texels);
+    return chooseLevel(readable, largest, instance, mesh, std::move(seen));
+  });
+}
+
+void simplifyAlike(std::span<const SimplifiedPass> passes, std::span<const SimplifiedPass> maps,
+                   const EffectSettings& effects, const Scene& scene, const SceneState& state) {
+  constexpr double unseen = std::numeric_limits<double>::infinity();
+  std::vector<double> largest(state.instances.size(), unseen);
+  const auto lower = [&](const SimplifiedPass& simplified, int i) {
+    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const double error = keepsTriangles(instance, effects, scene)
+                             ? 0.0
+                             : largestError(simplified.readable, *simplified.projection, instance,
+                                            scene.meshes[instance.mesh], simplified.texels);
+    largest[static_cast<size_t>(i)] = std::min(largest[static_cast<size_t>(i)], error);
+  };
+  for (const SimplifiedPass& pass : passes) {
+    std::ranges::for_each(pass.pass->instances, [&](int i) { lower(pass, i); });
+  }
+  const std::vector<double> shown = largest;
+  for (const SimplifiedPass& map : maps) {
+    for (const int i : map.pass->instances) {
+      if (shown[static_cast<size_t>(i)] == unseen) {
+        lower(map, i);
+      }
+    }
+  }
+  const auto apply = [&](const SimplifiedPass& simplified) {
+    applyLevels(*simplified.pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
+      const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+      return coarsestLevel(simplified.readable, largest[static_cast<size_t>(i)], instance, scene.meshes[instance.mesh],
+                           std::move(seen));
+    });
+  };
+  std::ranges::for_each(passes, apply);
+  std::ranges::for_each(maps, apply);
 }
 
 std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {
@@ -111,6 +181,9 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
   add(plan.main);
   std::ranges::for_each(plan.passes, add);
   std::ranges::for_each(plan.reused, add);
+  for (const ShadowMap& map : plan.shadowMaps) {
+    std::ranges::for_each(map.faces, [&](const ShadowFace& face) { add(face.pass); });
+  }
   return {meshes.begin(), meshes.end()};
 }
 

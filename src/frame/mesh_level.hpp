@@ -29,6 +29,20 @@ double meshErrorIn(const View& view, const Settings& settings);
 void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, double texels,
                   const EffectSettings& effects, const Scene& scene, const SceneState& state);
 
+// A pass whose objects may be simplified, and its view with what look-ups read around it.
+struct SimplifiedPass {
+  PlannedPass* pass = nullptr;
+  View readable;
+  const Projection* projection = nullptr;
+  double texels = 0.0;  // by which simplified objects may be off
+};
+
+// Chooses one mesh level for each instance in all passes and shadow maps: an object would stand in the shadow of a level
+// of its own that differs. No pass shows an object that is off by more than the pass's texels; the texels of a map count
+// for objects that no pass shows.
+void simplifyAlike(std::span<const SimplifiedPass> passes, std::span<const SimplifiedPass> maps,
+                   const EffectSettings& effects, const Scene& scene, const SceneState& state);
+
 // Returns the indices into Scene::meshes of meshes drawn as a level, each once. Passes that cached images replace count
 // too.
 std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state);

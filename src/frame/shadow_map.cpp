@@ -27,23 +27,30 @@ struct Window {
   }
 };
 
-// Returns the part of the face in which the box is seen: the whole face if the box reaches behind the light.
+// Returns the part of the face in which the box is seen: nothing if the box lies beyond one of the face's sides, the
+// whole face if it reaches behind the light.
 Window windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axes) {
   const glm::dvec3 right = glm::cross(axes.forward, axes.up);
   Window seen{glm::dvec2(1e300), glm::dvec2(-1e300)};
   bool before = false;
   bool behind = false;
+  glm::bvec2 allLow(true);   // all corners lie left of, or above, the face
+  glm::bvec2 allHigh(true);  // right of it, or below
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 p =
         glm::mix(box.low, box.high, glm::bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0)) - center;
     const double w = glm::dot(p, axes.forward);
     before = before || w > 0.0;
     behind = behind || !(w > 1e-6 * glm::length(p));
-    const glm::dvec2 at(glm::dot(p, right) / w, -glm::dot(p, axes.up) / w);
-    seen.low = glm::min(seen.low, at);
-    seen.high = glm::max(seen.high, at);
+    const glm::dvec2 side(glm::dot(p, right), -glm::dot(p, axes.up));
+    for (int axis = 0; axis < 2; ++axis) {
+      allLow[axis] = allLow[axis] && side[axis] < -w;
+      allHigh[axis] = allHigh[axis] && side[axis] > w;
+    }
+    seen.low = glm::min(seen.low, side / w);
+    seen.high = glm::max(seen.high, side / w);
   }
-  if (!before) {
+  if (!before || glm::any(allLow) || glm::any(allHigh)) {
     return {};
   }
   if (behind) {
@@ -226,6 +233,20 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
 
 std::string shadowFaceName(const ShadowMap& map, size_t face) {
   return "shadow map of " + map.name + " " + faceAxes()[face].name;
+}
+
+std::optional<size_t> onlyShadowFace(std::span<const ShadowMap> maps) {
+  std::optional<size_t> only;
+  for (const ShadowMap& map : maps) {
+    for (size_t i = 0; i < map.faces.size(); ++i) {
+      const bool empty = map.faces[i].low == map.faces[i].high;
+      if (!empty && only.value_or(i) != i) {
+        return std::nullopt;
+      }
+      only = empty ? only : i;
+    }
+  }
+  return only;
 }
 
 bool rendersShadows(std::span<const ShadowMap> maps) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,9 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
 
 // Name of a face's pass.
 std::string shadowFaceName(const ShadowMap& map, size_t face);
+
+// Returns the index of the face that contains the whole scene in every map; nothing if there is none.
+std::optional<size_t> onlyShadowFace(std::span<const ShadowMap> maps);
 
 bool rendersShadows(std::span<const ShadowMap> maps);
 

@@ -61,7 +61,8 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.frag = shading == Shading::average ? "mirror_average_shadowed.frag" : "mirror_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
   }
-  desc.fragConstants.resize(5, 0);
+  desc.fragConstants.resize(4, 0);
+  desc.fragConstants.push_back(variant.onlyShadowFace);
   desc.fragConstants.insert(
       desc.fragConstants.end(),
       {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows), static_cast<uint32_t>(variant.lookup),
@@ -166,6 +167,7 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, size_t pa
   variant.trace = identifies ? info.trace.variant() : TraceVariant{};
   variant.shadowed = variant.painted && info.shadows.set() != VK_NULL_HANDLE;
   variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
+  variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.painted ? fixedLightCount(info.scene) : gpu::manyLights;
   const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });
   const MirrorImage* image = imageOf(mirror, info);

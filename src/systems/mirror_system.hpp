@@ -44,7 +44,8 @@ class MirrorSystem {
     uint32_t lightCount = gpu::manyLights;
     TraceVariant trace;
     bool shadowed = false;        // looks shadows up in maps
-    uint32_t shadowedLights = 0;  // constant of shadow_map.glsl
+    uint32_t shadowedLights = 0;  // constants of shadow_map.glsl
+    uint32_t onlyShadowFace = gpu::anyShadowFace;
     auto operator<=>(const Variant&) const = default;
   };
   static bool defers(const FrameInfo& info, const MirrorRange& mirror);

@@ -82,7 +82,8 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     desc.frag = variant.environment ? "scene_environment_shadowed.frag" : "scene_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
   }
-  desc.fragConstants.resize(5, 0);
+  desc.fragConstants.resize(4, 0);
+  desc.fragConstants.push_back(variant.onlyShadowFace);
   desc.fragConstants.push_back(variant.lightCount);
   desc.fragConstants.resize(10, 0);
   desc.fragConstants.push_back(variant.shadowedLights);
@@ -137,6 +138,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.trace = variant.deferred ? info.trace.variant() : TraceVariant{};
   variant.shadowed = !variant.deferred && !variant.added && info.shadows.set() != VK_NULL_HANDLE;
   variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
+  variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
   const bool whole = batch.level < 0;

@@ -46,7 +46,8 @@ class RenderSystem {
     bool deferred = false;        // draws identifiers
     bool added = false;           // only the reflection, added to the layer that DeferredShading has drawn
     bool shadowed = false;        // looks shadows up in maps
-    uint32_t shadowedLights = 0;  // constant of shadow_map.glsl
+    uint32_t shadowedLights = 0;  // constants of shadow_map.glsl
+    uint32_t onlyShadowFace = gpu::anyShadowFace;
     auto operator<=>(const Variant&) const = default;
   };
   GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info, const DeferredShading* shading) const;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "frame/shadow_map.hpp"
+#include "geometry/mesh_levels.hpp"
 #include "systems/image_pool.hpp"
 #include "systems/render_system.hpp"
 
@@ -57,6 +58,7 @@ void ShadowSystem::prepare(Frame& frame, const FramePlan& plan) {
     return;
   }
   create();
+  onlyFace_ = static_cast<uint32_t>(onlyShadowFace(plan.shadowMaps).value_or(gpu::anyShadowFace));
   const glm::ivec2 size = shadowExtent(plan.shadowMaps);
   const VkExtent2D extent{static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y)};
   if (!target_) {
@@ -105,8 +107,11 @@ uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, siz
   }
   for (const Batch& batch : data.batches) {
     const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
-    bindBuffers(commands, mesh.vertices, mesh.indices, info.data);
-    const std::vector<IndexRange> all{allOf(info.scene.meshes[batch.mesh])};
+    const Mesh& source = info.scene.meshes[batch.mesh];
+    const bool whole = batch.level < 0;
+    bindBuffers(commands, whole ? mesh.vertices : mesh.levelVertices, whole ? mesh.indices : mesh.levelIndices,
+                info.data);
+    const std::vector<IndexRange> all{whole ? allOf(source) : levelsOf(source).levels[batch.level].all};
     for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
       ++draws;

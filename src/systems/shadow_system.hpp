@@ -28,6 +28,8 @@ class ShadowSystem {
   // Descriptor set 2 of pipelines that look maps up, and its layout. The set is null in a frame without maps.
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   VkDescriptorSet set() const { return set_; }
+  // Constant of shadow_map.glsl. It stays the same as long as no light or object moves into another face.
+  uint32_t onlyFace() const { return onlyFace_; }
   uint64_t bytes() const;
   size_t pipelineCount() const { return pipelines_.size(); }
 
@@ -45,6 +47,7 @@ class ShadowSystem {
   PipelineVariants<Caster> pipelines_;
   std::unique_ptr<OffScreen> target_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
+  uint32_t onlyFace_ = gpu::anyShadowFace;
   std::vector<ShadowMap> cached_;
   int idleFrames_ = 0;
 };
