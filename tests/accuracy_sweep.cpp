@@ -11,7 +11,6 @@
 #include "accuracy/sweep.hpp"
 #include "accuracy/sweep_json.hpp"
 #include "accuracy/sweep_plan.hpp"
-#include "accuracy/sweep_plan_file.hpp"
 #include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene/scene_loader.hpp"
@@ -34,14 +33,14 @@ TEST(Statistics, QuartilesInterpolateBetweenOrderStatistics) {
 }
 
 TEST(Statistics, LineOfLeastSquares) {
-  const std::vector<Sample2d> exact = {{0, 1}, {1, -1}, {3, -5}};
+  const std::vector<glm::dvec2> exact = {{0, 1}, {1, -1}, {3, -5}};
   ASSERT_TRUE(fitLine(exact));
   EXPECT_NEAR(fitLine(exact)->slope, -2.0, 1e-12);
   EXPECT_NEAR(fitLine(exact)->offset, 1.0, 1e-12);
-  const std::vector<Sample2d> noisy = {{0, 0}, {1, 2}, {2, 1}};
+  const std::vector<glm::dvec2> noisy = {{0, 0}, {1, 2}, {2, 1}};
   EXPECT_NEAR(fitLine(noisy)->slope, 0.5, 1e-12);
   EXPECT_FALSE(fitLine({}));
-  const std::vector<Sample2d> upright = {{1, 1}, {1, 2}};
+  const std::vector<glm::dvec2> upright = {{1, 1}, {1, 2}};
   EXPECT_FALSE(fitLine(upright));
 }
 
@@ -176,9 +175,10 @@ theory = -1.5
   EXPECT_EQ(settingsText(plan.configurations[1].changes), "reflection.scale=0.5 reflection.clip=none");
   ASSERT_EQ(plan.configurations.size(), 7u) << "1 base, 1 named, 4 of the grid, 1 of the series that is new";
   ASSERT_EQ(plan.series.size(), 1u);
-  EXPECT_EQ(plan.series[0].series.x, (std::vector{0.0, 1.0, 2.0}));
-  EXPECT_EQ(plan.series[0].theory, PlannedSeries::Theory::fixed);
-  EXPECT_EQ(plan.series[0].series.axis, SweepSeries::Axis::linear);
+  EXPECT_EQ(plan.series[0].x, (std::vector{0.0, 1.0, 2.0}));
+  EXPECT_EQ(plan.series[0].theorySlope, -1.5);
+  EXPECT_FALSE(plan.series[0].theoryOfDepth);
+  EXPECT_EQ(plan.series[0].axis, SweepSeries::Axis::linear);
 }
 
 TEST_F(SweepFiles, MistakesNameTheLine) {
@@ -216,15 +216,15 @@ TEST(SweepPlans, BuiltInPlansFitDeviceAndScene) {
     }
   }
   EXPECT_TRUE(interval);
-  const auto coarse = std::find_if(full.series.begin(), full.series.end(), [](const PlannedSeries& planned) {
-    return planned.series.key == "reflection.scale" && planned.series.x.front() < 1.0;
+  const auto coarse = std::find_if(full.series.begin(), full.series.end(), [](const SweepSeries& series) {
+    return series.key == "reflection.scale" && series.x.front() < 1.0;
   });
   ASSERT_NE(coarse, full.series.end());
   EXPECT_LT(coarse->fitUpTo, 1.0) << "at scale 1 nothing is resampled";
-  for (const PlannedSeries& planned : full.series) {
-    for (size_t i = 0; i < planned.series.x.size(); ++i) {
-      const Settings settings = settingsWith(context.base, full.configurations[planned.series.points[i]].changes);
-      EXPECT_DOUBLE_EQ(std::stod(settingValue(settings, planned.series.key)), planned.series.x[i]);
+  for (const SweepSeries& series : full.series) {
+    for (size_t i = 0; i < series.x.size(); ++i) {
+      const Settings settings = settingsWith(context.base, full.configurations[series.points[i]].changes);
+      EXPECT_DOUBLE_EQ(std::stod(settingValue(settings, series.key)), series.x[i]);
     }
   }
   const SweepPlan still = sweepPlan("quick", contextOf(false, false));
@@ -291,9 +291,9 @@ reflectance = [0.8, 0.8, 0.8]
 )"))),
         state_(evaluate(scene_, 0.0)) {
     SweepPlanner planner("test", contextOf(true, false));
-    planner.series({.series = {.key = "reflection.max_depth", .name = "depth", .axis = SweepSeries::Axis::linear},
-                    .theory = PlannedSeries::Theory::depth},
-                   {"0", "1", "2", "3", "4", "12"}, SweepPlanner::Changes{});
+    planner.series(
+        {.key = "reflection.max_depth", .name = "depth", .axis = SweepSeries::Axis::linear, .theoryOfDepth = true},
+        {"0", "1", "2", "3", "4", "12"}, SweepPlanner::Changes{});
     plan_ = planner.plan;
   }
 
@@ -332,7 +332,7 @@ TEST_F(SmallSweep, ErrorFallsAsTheThroughputBeyondDepth) {
   ASSERT_TRUE(series.fit);
   EXPECT_LT(series.fit->slope, std::log(0.8)) << "each bounce lets 0.8 through, and some rays leave the mirrors";
   EXPECT_NEAR(series.fit->slope, series.theorySlope, 0.35 * std::abs(series.theorySlope));
-  EXPECT_GT(results.floorWhole.flip, 0.0);
+  EXPECT_GT(results.floor.whole.flip, 0.0);
   EXPECT_GT(results.truthMs, 0.0);
   EXPECT_EQ(results.points[0].gpuMs.repeats, 15);
   EXPECT_TRUE(std::any_of(results.points.begin(), results.points.end(), [](auto& p) { return p.onFront; }));

@@ -141,12 +141,12 @@ TEST(Settings, UnknownKeyListsAll) {
 TEST(Settings, SceneErrorsNameFileAndLine) {
   Scene scene;
   scene.file = "room.toml";
-  scene.settings = {{"reflection.max_depth", int64_t{2}, 4}, {"view.exposure", 0.5, 5}};
+  scene.settings = {{"reflection.max_depth", "2", 4}, {"view.exposure", "0.5", 5}};
   const Settings settings = settingsOf(scene);
   EXPECT_EQ(settings.reflection.maxDepth, 2);
   EXPECT_EQ(settings.view.exposure, 0.5);
 
-  scene.settings = {{"reflection.scale", std::string("1"), 7}};
+  scene.settings = {{"reflection.scale", "1", 7, true}};
   try {
     settingsOf(scene);
     FAIL() << "a string where a number belongs";

@@ -101,8 +101,8 @@ SweepResults exampleResults() {
                        .base = {{"reflection.scale", "1.0"}, {"view.samples", "8"}}};
   results.truthMs = 54321.0;
   results.truthThreads = 2;
-  results.floorWhole = metrics(0.0004);
-  results.floorMirrors = metrics(0.0005);
+  results.floor.whole = metrics(0.0004);
+  results.floor.mirrors = metrics(0.0005);
   addPoints(results);
   addSeries(results);
   for (const int i : {1, 2, 7, 3, 4, 5, 6}) {
@@ -127,7 +127,7 @@ SweepResults oddResults() {
   results.series[0].x[0] = 0.0;
   results.series[1].points[2] = 99;
   results.series[1].fitted = {0, 7, -1};
-  results.floorWhole = {};
+  results.floor.whole = {};
   return results;
 }
 

@@ -164,17 +164,18 @@ TEST(SceneLoader, SettingsAreFlattenedWithTheirLines) {
                            "view = { wireframe = true, tone_map = 'aces' }\nview2.clear_color = [1, 0.5, 0]\n"
                            "[settings.quality]\nshadow = 2\n");
   ASSERT_EQ(scene.settings.size(), 6u);
-  const auto is = [&](size_t i, const std::string& key, int line, const auto& value) {
+  const auto is = [&](size_t i, const std::string& key, int line, const std::string& value) {
     EXPECT_EQ(scene.settings[i].key, key);
     EXPECT_EQ(scene.settings[i].line, line);
-    EXPECT_EQ(scene.settings[i].value, decltype(SettingEntry::value)(value));
+    EXPECT_EQ(scene.settings[i].value, value);
+    EXPECT_EQ(scene.settings[i].quoted, key == "view.tone_map");
   };
-  is(0, "reflection.scale", 5, int64_t{1});
-  is(1, "reflection.samples", 6, 4.5);
-  is(2, "view.tone_map", 8, std::string("aces"));
-  is(3, "view.wireframe", 8, true);
-  is(4, "view2.clear_color", 9, std::vector<double>{1, 0.5, 0});
-  is(5, "quality.shadow", 11, int64_t{2});
+  is(0, "reflection.scale", 5, "1");
+  is(1, "reflection.samples", 6, "4.5");
+  is(2, "view.tone_map", 8, "aces");
+  is(3, "view.wireframe", 8, "true");
+  is(4, "view2.clear_color", 9, "[1.0,0.5,0.0]");
+  is(5, "quality.shadow", 11, "2");
 }
 
 TEST(SceneLoader, EachModelAndTextureIsLoadedOnce) {

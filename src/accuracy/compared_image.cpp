@@ -1,7 +1,6 @@
 #include "accuracy/compared_image.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,10 +25,6 @@ bool isLinearFile(const std::filesystem::path& file) {
 }  // namespace
 
 ComparedImage comparedImage(const Image8& image, std::string name) {
-  std::array<float, 256> linearOf{};
-  for (int code = 0; code < 256; ++code) {
-    linearOf[code] = static_cast<float>(srgbDecode(code / 255.0));
-  }
   ComparedImage result{std::move(name), image.width, image.height};
   const size_t count = static_cast<size_t>(image.width) * image.height;
   result.linear.resize(count);
@@ -37,7 +32,7 @@ ComparedImage comparedImage(const Image8& image, std::string name) {
   for (size_t i = 0; i < count; ++i) {
     for (int c = 0; c < 3; ++c) {
       const uint8_t code = image.rgba[i * 4 + c];
-      result.linear[i][c] = linearOf[code];
+      result.linear[i][c] = srgbDecoded()[code];
       result.display[i][c] = code;
     }
   }

@@ -10,6 +10,7 @@
 
 #include "accuracy/flip.hpp"
 #include "accuracy/ssim.hpp"
+#include "accuracy/statistics.hpp"
 
 namespace speculum {
 
@@ -75,9 +76,7 @@ ImageMetrics metricsOf(const ComparedImage& reference, const ComparedImage& test
   metrics.ssim = meanSsim(maps.ssim, pixels);
   metrics.flip /= count;
   metrics.maxDiff = *std::ranges::max_element(differences);
-  const auto rank = static_cast<size_t>(std::ceil(0.99 * count)) - 1;
-  std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(rank), differences.end());
-  metrics.p99Diff = differences[rank];
+  metrics.p99Diff = nearestRank(std::move(differences), 0.99);
   return metrics;
 }
 
@@ -112,9 +111,8 @@ Comparison compareImages(const ComparedImage& reference, const ComparedImage& te
   requireSameSize(reference, test);
   const PixelMask* mask = options.mask;
   if (mask != nullptr && (mask->width != reference.width || mask->height != reference.height)) {
-    throw std::runtime_error("the mask is " + std::to_string(mask->width) + "x" + std::to_string(mask->height) +
-                             ", but " + reference.name + " is " + std::to_string(reference.width) + "x" +
-                             std::to_string(reference.height) + " (both must have the same size)");
+    throw std::runtime_error(fmt::format("the mask is {}x{}, but {} is {}x{} (both must have the same size)",
+                                         mask->width, mask->height, reference.name, reference.width, reference.height));
   }
   Maps maps{flipMap(reference, test), ssimMap(reference, test)};
   const size_t count = reference.display.size();

@@ -2,9 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace speculum {
 
@@ -24,11 +22,8 @@ std::string comparison(const SweepPoint& chosen, const SweepPoint& best) {
 
 // Returns one candidate for each error, by ascending error: the first, unless a later one is cheaper beyond the spread.
 std::vector<int> onePerError(const std::vector<FrontCandidate>& candidates) {
-  std::vector<int> order(candidates.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](int a, int b) { return candidates[a].error < candidates[b].error; });
   std::vector<int> chosen;
-  for (const int index : order) {
+  for (const int index : indicesBy(candidates.size(), [&](int i) { return candidates[i].error; })) {
     const FrontCandidate& candidate = candidates[index];
     if (chosen.empty() || candidates[chosen.back()].error != candidate.error) {
       chosen.push_back(index);
@@ -58,9 +53,7 @@ std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates) {
 }
 
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points) {
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](int a, int b) { return points[a].changes.size() < points[b].changes.size(); });
+  const std::vector<int> order = indicesBy(points.size(), [&](int i) { return points[i].changes.size(); });
   std::vector<FrontCandidate> candidates;
   for (const int index : order) {
     candidates.push_back({points[index].whole.flip, costSpread(points[index])});
@@ -87,15 +80,10 @@ std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const Q
   }
   const auto affordable = [&](int i) { return budget.ms <= 0.0 || costMs(points[i]) <= budget.ms; };
   const auto exact = [&](int i) { return budget.error <= 0.0 || points[i].whole.flip <= budget.error; };
-  // Returns the indices of all points, best rank first.
-  const auto ordered = [&](const auto& rank) {
-    std::vector<int> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, [&](int a, int b) { return rank(a) < rank(b); });
-    return order;
-  };
-  const std::vector<int> byError = ordered([&](int i) { return std::pair(points[i].whole.flip, costMs(points[i])); });
-  const std::vector<int> byCost = ordered([&](int i) { return std::pair(costMs(points[i]), points[i].whole.flip); });
+  const auto errorOf = [&](int i) { return points[i].whole.flip; };
+  const auto costOf = [&](int i) { return costMs(points[i]); };
+  const std::vector<int> byError = indicesBy(points.size(), [&](int i) { return std::pair(errorOf(i), costOf(i)); });
+  const std::vector<int> byCost = indicesBy(points.size(), [&](int i) { return std::pair(costOf(i), errorOf(i)); });
   const SweepPoint& best = points[byError.front()];
   const auto orElse = [](const std::vector<int>& order, const auto& fits, int otherwise) {
     const auto found = std::ranges::find_if(order, fits);

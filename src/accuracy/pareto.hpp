@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +9,15 @@
 #include "accuracy/sweep_results.hpp"
 
 namespace speculum {
+
+// Returns the indices 0 .. count - 1 by ascending rank(index); equal ranks keep their order.
+template <typename Rank>
+std::vector<int> indicesBy(size_t count, const Rank& rank) {
+  std::vector<int> indices(count);
+  std::iota(indices.begin(), indices.end(), 0);
+  std::ranges::stable_sort(indices, {}, rank);
+  return indices;
+}
 
 struct FrontCandidate {
   double error = 0.0;

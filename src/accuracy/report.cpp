@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -84,20 +83,14 @@ ordered_json picturesJson(const SweepResults& results, const std::filesystem::pa
   return pictures;
 }
 
-std::vector<int> indicesByCost(const SweepResults& results, const std::vector<int>& points) {
-  std::vector<int> sorted = points;
-  std::ranges::stable_sort(sorted, [&](int a, int b) { return costMs(results.points[a]) < costMs(results.points[b]); });
-  return sorted;
+std::vector<int> indicesByCost(const std::vector<SweepPoint>& points) {
+  return indicesBy(points.size(), [&](int i) { return costMs(points[i]); });
 }
 
 std::vector<int> flipFront(const SweepResults& results) {
-  std::vector<int> front;
-  for (size_t i = 0; i < results.points.size(); ++i) {
-    if (results.points[i].onFront) {
-      front.push_back(static_cast<int>(i));
-    }
-  }
-  return indicesByCost(results, front);
+  std::vector<int> front = indicesByCost(results.points);
+  std::erase_if(front, [&](int i) { return !results.points[i].onFront; });
+  return front;
 }
 
 template <typename Error>
@@ -139,10 +132,8 @@ ordered_json changedSettings(const SweepResults& results) {
 
 std::vector<int> shownPoints(const SweepResults& results, int most) {
   const std::vector<SweepPoint>& points = results.points;
-  std::vector<int> byCost(points.size());
-  std::iota(byCost.begin(), byCost.end(), 0);
+  std::vector<int> byCost = indicesByCost(points);
   std::erase_if(byCost, [&](int i) { return points[i].picture.empty(); });
-  byCost = indicesByCost(results, byCost);
   std::vector<int> shown;
   const auto add = [&](int point) {
     if (static_cast<int>(shown.size()) < most && std::ranges::find(shown, point) == shown.end()) {

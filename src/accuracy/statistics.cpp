@@ -28,17 +28,24 @@ Spread spreadOf(std::vector<double> values) {
           .repeats = static_cast<int>(values.size())};
 }
 
-std::optional<LineFit> fitLine(std::span<const Sample2d> samples) {
+double nearestRank(std::vector<double> values, double part) {
+  const double rank = std::ceil(part * static_cast<double>(values.size()));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::optional<LineFit> fitLine(std::span<const glm::dvec2> samples) {
   const double count = static_cast<double>(samples.size());
   double meanX = 0.0;
   double meanY = 0.0;
-  for (const Sample2d& s : samples) {
+  for (const glm::dvec2& s : samples) {
     meanX += s.x / count;
     meanY += s.y / count;
   }
   double xx = 0.0;
   double xy = 0.0;
-  for (const Sample2d& s : samples) {
+  for (const glm::dvec2& s : samples) {
     xx += (s.x - meanX) * (s.x - meanX);
     xy += (s.x - meanX) * (s.y - meanY);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,16 +20,15 @@ struct Spread {
 // Statistical Packages", 1996). All zero without values.
 Spread spreadOf(std::vector<double> values);
 
-struct Sample2d {
-  double x = 0.0;
-  double y = 0.0;
-};
+// Returns the least value that `part` of the values, of which there is one at least, do not exceed (nearest rank).
+double nearestRank(std::vector<double> values, double part);
+
 // y = offset + slope * x
 struct LineFit {
   double slope = 0.0;
   double offset = 0.0;
 };
 // Least squares. Nothing without two different x.
-std::optional<LineFit> fitLine(std::span<const Sample2d> samples);
+std::optional<LineFit> fitLine(std::span<const glm::dvec2> samples);
 
 }  // namespace speculum

@@ -77,7 +77,7 @@ class Sweep {
   bool time();
   void measureErrors(size_t index);
   bool report(const char* stage, double fraction) const { return !progress_ || progress_({stage, fraction}); }
-  void fit(SweepSeries& series, const PlannedSeries& planned, const SweepResults& results) const;
+  void fit(SweepSeries& series, const SweepResults& results) const;
 
   const SweepPlan& plan_;
   const Settings& base_;
@@ -170,27 +170,26 @@ bool Sweep::time() {
 
 // Fits natural logarithms over the points that stand clear of the noise floor. The error left at the greatest recursion
 // depth comes from everything else; independent errors add as squares, so it is taken off as a square.
-void Sweep::fit(SweepSeries& series, const PlannedSeries& planned, const SweepResults& results) const {
-  const bool depths = planned.theory == PlannedSeries::Theory::depth;
-  const double floor = results.floorMirrors ? results.floorMirrors->rmse : results.floorWhole.rmse;
-  const double rest = depths ? seriesError(results.points[series.points.back()]) : 0.0;
-  std::vector<Sample2d> samples;
-  std::vector<Sample2d> expected;
+void Sweep::fit(SweepSeries& series, const SweepResults& results) const {
+  const double floor = results.floor.mirrors ? results.floor.mirrors->rmse : results.floor.whole.rmse;
+  const double rest = series.theoryOfDepth ? seriesError(results.points[series.points.back()]) : 0.0;
+  std::vector<glm::dvec2> samples;
+  std::vector<glm::dvec2> expected;
   for (size_t i = 0; i < series.points.size(); ++i) {
     const double error = seriesError(results.points[series.points[i]]);
-    if (!(error > leastFloors * floor && error > leastRests * rest && series.x[i] <= planned.fitUpTo)) {
+    if (!(error > leastFloors * floor && error > leastRests * rest && series.x[i] <= series.fitUpTo)) {
       continue;
     }
     const double x = series.axis == SweepSeries::Axis::linear ? series.x[i] : std::log(series.x[i]);
     series.fitted.push_back(static_cast<int>(i));
     samples.push_back({x, 0.5 * std::log(error * error - rest * rest)});
     const auto depth = static_cast<size_t>(series.x[i]);
-    if (depths && depth < truth_.throughputBeyond.size() && truth_.throughputBeyond[depth] > 0.0) {
+    if (series.theoryOfDepth && depth < truth_.throughputBeyond.size() && truth_.throughputBeyond[depth] > 0.0) {
       expected.push_back({x, std::log(truth_.throughputBeyond[depth])});
     }
   }
   series.fit = fitLine(samples);
-  if (depths) {
+  if (series.theoryOfDepth) {
     series.theorySlope = fitLine(expected).value_or(LineFit{}).slope;
   }
 }
@@ -201,8 +200,7 @@ void Sweep::fill(SweepResults& results) {
   results.truthMs = truth_.ms;
   results.truthThreads = truth_.threads;
   results.truthSamples = scene_.truthSamples;
-  results.floorWhole = truth_.floor.whole;
-  results.floorMirrors = truth_.floor.mirrors;
+  results.floor = truth_.floor;
   results.points.clear();
   for (size_t i = 0; i < keys_.size(); ++i) {
     const Measurement& measurement = store_.at(keys_[i]);
@@ -226,10 +224,9 @@ void Sweep::fill(SweepResults& results) {
   for (const int index : paretoFront(results.points)) {
     results.points[index].onFront = true;
   }
-  results.series.clear();
-  for (const PlannedSeries& planned : plan_.series) {
-    results.series.push_back(planned.series);
-    fit(results.series.back(), planned, results);
+  results.series = plan_.series;
+  for (SweepSeries& series : results.series) {
+    fit(series, results);
   }
   const Image8 shown = toDisplay(truth_.image, base_.view.displayCurve());
   results.truthPicture = store_.keepPicture("truth.png", shown);

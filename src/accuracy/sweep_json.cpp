@@ -168,7 +168,7 @@ ordered_json sweepJson(const SweepResults& r) {
                         {{"samples", r.truthSamples},
                          {"ms", r.truthMs},
                          {"threads", r.truthThreads},
-                         {"noise_floor", errorsJson({r.floorWhole, r.floorMirrors})},
+                         {"noise_floor", errorsJson(r.floor)},
                          {"picture", r.truthPicture}}}};
   json["points"] = ordered_json::array();
   for (const SweepPoint& point : r.points) {
@@ -215,9 +215,7 @@ SweepResults readSweepResults(const std::filesystem::path& file) {
   results.truthMs = truth.number("ms");
   results.truthThreads = truth.integer("threads");
   results.truthSamples = truth.integer("samples");
-  const ErrorFigures floor = truth.errors("noise_floor");
-  results.floorWhole = floor.whole;
-  results.floorMirrors = floor.mirrors;
+  results.floor = truth.errors("noise_floor");
   results.truthPicture = truth.get<std::string>("picture");
   for (const JsonReader& point : reader.items("points")) {
     results.points.push_back(readPoint(point));

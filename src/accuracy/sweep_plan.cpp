@@ -1,13 +1,10 @@
 #include "accuracy/sweep_plan.hpp"
 
-#include "accuracy/sweep_plan_file.hpp"
-
 namespace speculum {
 
 namespace {
 
 using Changes = SweepPlanner::Changes;
-using Theory = PlannedSeries::Theory;
 using Values = std::vector<std::string>;
 
 constexpr const char* greatestDepth = "32";
@@ -39,14 +36,12 @@ Changes drawn(const SweepContext& context, const std::string& count) {
 void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full) {
   const Values scales =
       full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.25", "0.5", "1"};
-  planner.series(
-      {.series = {.key = "view.scale",
+  planner.series({.key = "view.scale",
                   .name = "Resolution of the main view and of mirror images",
                   .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale",
-                  .theorySlope = -0.5},
-       .theory = Theory::fixed,
-       .fitUpTo = 0.99},
-      scales, drawn(context, std::to_string(context.sampleCounts.back())));
+                  .theorySlope = -0.5,
+                  .fitUpTo = 0.99},
+                 scales, drawn(context, std::to_string(context.sampleCounts.back())));
   for (const std::string& scale : scales) {
     planner.add(joined({{"view.scale", scale}}, drawn(context, "1")));
   }
@@ -55,11 +50,10 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
 // The way to the truth. From 16 pictures on each has one sample, whatever is set.
 void addMeans(SweepPlanner& planner, const SweepContext& context) {
   const Changes deep = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
-  planner.series({.series = {.key = "view.accumulate",
-                             .name = "Pictures in a mean, one sample each",
-                             .note = "Edges N^-0.75, and texture, highlights and shading edges with them",
-                             .theorySlope = -0.75},
-                  .theory = Theory::fixed},
+  planner.series({.key = "view.accumulate",
+                  .name = "Pictures in a mean, one sample each",
+                  .note = "Edges N^-0.75, and texture, highlights and shading edges with them",
+                  .theorySlope = -0.75},
                  {"1", "4", "16", "64"}, joined(drawn(context, "1"), deep));
   planner.add(joined(joined(drawn(context, "4"), deep), {{"view.accumulate", "4"}}));
 }
@@ -67,21 +61,18 @@ void addMeans(SweepPlanner& planner, const SweepContext& context) {
 void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   const Values coarse =
       full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.125", "0.25", "0.5", "1"};
-  planner.series(
-      {.series = {.key = "reflection.scale",
+  planner.series({.key = "reflection.scale",
                   .name = "Resolution of mirror images, up to the screen's",
                   .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale. At 1 "
                           "nothing is resampled, which is another law",
-                  .theorySlope = -0.5},
-       .theory = Theory::fixed,
-       .fitUpTo = 0.99},
-      coarse, best(context));
+                  .theorySlope = -0.5,
+                  .fitUpTo = 0.99},
+                 coarse, best(context));
   const Values fine = full ? Values{"1", "1.5", "2", "3", "4"} : Values{"1", "1.5", "2"};
-  planner.series({.series = {.key = "reflection.scale",
-                             .name = "Resolution above the screen's, one sample a texel",
-                             .note = "Regular N samples an edge of any slope: N^-0.75, with N = scale^2",
-                             .theorySlope = -1.5},
-                  .theory = Theory::fixed},
+  planner.series({.key = "reflection.scale",
+                  .name = "Resolution above the screen's, one sample a texel",
+                  .note = "Regular N samples an edge of any slope: N^-0.75, with N = scale^2",
+                  .theorySlope = -1.5},
                  fine,
                  {{"reflection.samples", "1"},
                   {"view.samples", std::to_string(context.sampleCounts.back())},
@@ -97,12 +88,11 @@ void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool ful
   for (int count = least; count <= (full ? 256 : 128); count *= full ? 2 : 4) {
     rays.push_back(std::to_string(count));
   }
-  planner.series({.series = {.key = "effects.rough_samples",
-                             .name = "Rays a pixel of rough mirrors",
-                             .note = "Random rays err by N^-0.5; a shifted lattice does better where what is seen is "
-                                     "smooth",
-                             .theorySlope = -0.5},
-                  .theory = Theory::fixed},
+  planner.series({.key = "effects.rough_samples",
+                  .name = "Rays a pixel of rough mirrors",
+                  .note = "Random rays err by N^-0.5; a shifted lattice does better where what is seen is "
+                          "smooth",
+                  .theorySlope = -0.5},
                  rays, best(context));
   if (context.mirrors) {
     for (const std::string& count : lookups) {
@@ -113,11 +103,10 @@ void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool ful
 
 void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   const Values counts = texts(context.sampleCounts);
-  PlannedSeries msaa{.series = {.key = "view.samples",
-                                .name = "Samples a pixel, of view and mirror images alike",
-                                .note = "Edges N^-0.75; texture, highlights and shading edges gain nothing",
-                                .theorySlope = -0.75},
-                     .theory = Theory::fixed};
+  SweepSeries msaa{.key = "view.samples",
+                   .name = "Samples a pixel, of view and mirror images alike",
+                   .note = "Edges N^-0.75; texture, highlights and shading edges gain nothing",
+                   .theorySlope = -0.75};
   std::vector<Changes> each;
   for (const std::string& count : counts) {
     each.push_back(context.mirrors ? joined(samples(count), {{"reflection.max_depth", greatestDepth}})
@@ -135,14 +124,13 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   addScaleSeries(planner, context, full);
   const Values depths = full ? Values{"0", "1", "2", "3", "4", "5", "6", "8", "12", "16", greatestDepth}
                              : Values{"0", "1", "2", "3", "4", "8", greatestDepth};
-  planner.series(
-      {.series = {.key = "reflection.max_depth",
+  planner.series({.key = "reflection.max_depth",
                   .name = "Depth of mirrors in mirrors",
                   .axis = SweepSeries::Axis::linear,
                   .note = "Root mean square throughput of the light beyond, from the mirrors in view; what is left at "
-                          "the greatest depth is taken off as a square"},
-       .theory = Theory::depth},
-      depths, samples(std::to_string(context.sampleCounts.back())));
+                          "the greatest depth is taken off as a square",
+                  .theoryOfDepth = true},
+                 depths, samples(std::to_string(context.sampleCounts.back())));
 }
 
 void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {

@@ -1,12 +1,11 @@
-#include "accuracy/sweep_plan_file.hpp"
+#include "accuracy/sweep_plan.hpp"
 
 #include <array>
 #include <limits>
 #include <stdexcept>
 
-#include "accuracy/setting_values.hpp"
 #include "frame/setting_fields.hpp"
-#include "scene/table_reader.hpp"
+#include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"
 
 namespace speculum {
@@ -16,25 +15,23 @@ namespace {
 using Key = std::string_view;
 using Changes = SweepPlanner::Changes;
 
-using Axes = std::vector<std::pair<std::string, std::vector<std::string>>>;
-
-Axes readAxes(const TableReader& table) {
-  Axes axes;
+SettingGrid readGrid(const TableReader& table) {
+  SettingGrid grid;
   if (const std::optional<TableReader> settings = table.subtable("settings")) {
     if (settings->table().size() > settingFields().size()) {
       table.fail("settings", "has " + std::to_string(settings->table().size()) + " keys",
                  "there are " + std::to_string(settingFields().size()) + " settings");
     }
     for (const auto& [key, node] : settings->table()) {
-      axes.emplace_back(std::string(key.str()), valueTexts(*settings, key.str(), node));
+      grid.emplace_back(std::string(key.str()), settingTexts(*settings, key.str(), node));
     }
   }
-  return axes;
+  return grid;
 }
 
 Changes readChanges(const TableReader& table) {
   Changes changes;
-  for (auto& [key, values] : readAxes(table)) {
+  for (auto& [key, values] : readGrid(table)) {
     if (values.size() != 1) {
       table.fail("settings", key + " has several values", "one is needed here; [[grid]] takes several");
     }
@@ -45,19 +42,19 @@ Changes readChanges(const TableReader& table) {
 
 void readSeries(const TableReader& table, SweepPlanner& planner) {
   static constexpr std::array<Key, 2> axes{"logarithmic", "linear"};
-  PlannedSeries planned;
-  SweepSeries& series = planned.series;
+  SweepSeries series;
   series.key = table.text("key");
   series.name = table.text("name", series.key);
-  series.axis = static_cast<SweepSeries::Axis>(table.choice("axis", 0, axes));
+  if (table.has("axis")) {
+    series.axis = static_cast<SweepSeries::Axis>(table.choice("axis", axes));
+  }
   series.note = table.text("note", "");
-  series.theorySlope = table.number("theory", 0.0);
-  planned.theory = table.has("theory") ? PlannedSeries::Theory::fixed : PlannedSeries::Theory::none;
+  series.theorySlope = table.number("theory", 0.0, kAny);
   const toml::node* values = table.table().get("values");
   if (values == nullptr || !values->is_array()) {
     table.fail("values", "is missing or no array", "numbers in ascending order are needed");
   }
-  std::vector<std::string> texts = valueTexts(table, "values", *values);
+  std::vector<std::string> texts = settingTexts(table, "values", *values);
   double last = -std::numeric_limits<double>::infinity();
   for (const toml::node& node : *values->as_array()) {
     const double value = node.value_or(std::numeric_limits<double>::quiet_NaN());
@@ -68,7 +65,7 @@ void readSeries(const TableReader& table, SweepPlanner& planner) {
     last = value;
   }
   const size_t before = planner.plan.series.size();
-  planner.series(std::move(planned), texts, readChanges(table));
+  planner.series(std::move(series), texts, readChanges(table));
   if (planner.plan.series.size() == before) {
     table.fail("values", "makes no two different configurations", "at least two are needed");
   }
@@ -94,13 +91,14 @@ SweepPlan readSweepPlan(const std::filesystem::path& file, const SweepContext& c
   const toml::table root = readToml(file, "sweep file");
   const TableReader reader(file, "", root, 1, keys);
   SweepPlanner planner(file.filename().string(), context);
-  planner.plan.repeats =
-      static_cast<int>(reader.integer("repeats", SweepPlan::leastRepeats, SweepPlan::leastRepeats, 1000));
+  if (reader.has("repeats")) {
+    planner.plan.repeats = static_cast<int>(reader.integer("repeats", SweepPlan::leastRepeats, 1000));
+  }
   for (const TableReader& table : reader.tables("configuration", configurationKeys)) {
     checked(table, [&] { planner.add(readChanges(table), table.text("name", "")); });
   }
   for (const TableReader& table : reader.tables("grid", gridKeys)) {
-    checked(table, [&] { planner.grid(readAxes(table)); });
+    checked(table, [&] { planner.grid(readGrid(table)); });
   }
   for (const TableReader& table : reader.tables("series", seriesKeys)) {
     checked(table, [&] { readSeries(table, planner); });

@@ -29,6 +29,23 @@ std::string shortName(const SweepPlanner::Changes& changes) {
 
 }  // namespace
 
+std::optional<std::vector<std::vector<SettingChange>>> combinations(const SettingGrid& grid, size_t most) {
+  std::vector<std::vector<SettingChange>> all{{}};
+  for (const auto& [key, values] : grid) {
+    std::vector<std::vector<SettingChange>> next;
+    if (all.size() * values.size() > most) {
+      return std::nullopt;
+    }
+    for (const std::vector<SettingChange>& combination : all) {
+      for (const std::string& value : values) {
+        next.push_back(joined(combination, {{key, value}}));
+      }
+    }
+    all = std::move(next);
+  }
+  return all;
+}
+
 SweepPlanner::Changes joined(SweepPlanner::Changes first, const SweepPlanner::Changes& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
@@ -81,47 +98,37 @@ int SweepPlanner::add(const Changes& changes, const std::string& name) {
   return static_cast<int>(all.size()) - 1;
 }
 
-void SweepPlanner::grid(const std::vector<std::pair<std::string, std::vector<std::string>>>& axes) {
-  std::vector<Changes> combinations{{}};
-  for (const auto& [key, values] : axes) {
-    std::vector<Changes> next;
-    if (combinations.size() * values.size() > mostConfigurations) {
-      throw std::invalid_argument("more than " + std::to_string(mostConfigurations) + " combinations");
-    }
-    for (const Changes& combination : combinations) {
-      for (const std::string& value : values) {
-        next.push_back(joined(combination, {{key, value}}));
-      }
-    }
-    combinations = std::move(next);
+void SweepPlanner::grid(const SettingGrid& axes) {
+  const auto all = combinations(axes, mostConfigurations);
+  if (!all) {
+    throw std::invalid_argument("more than " + std::to_string(mostConfigurations) + " combinations");
   }
-  for (const Changes& combination : combinations) {
+  for (const Changes& combination : *all) {
     add(combination);
   }
 }
 
-void SweepPlanner::series(PlannedSeries planned, const std::vector<std::string>& values, const Changes& fixed) {
+void SweepPlanner::series(SweepSeries series, const std::vector<std::string>& values, const Changes& fixed) {
   std::vector<Changes> each;
   for (const std::string& value : values) {
-    each.push_back(joined(fixed, {{planned.series.key, value}}));
+    each.push_back(joined(fixed, {{series.key, value}}));
   }
-  series(std::move(planned), values, each);
+  this->series(std::move(series), values, each);
 }
 
-void SweepPlanner::series(PlannedSeries planned, const std::vector<std::string>& values,
+void SweepPlanner::series(SweepSeries series, const std::vector<std::string>& values,
                           const std::vector<Changes>& each) {
   for (size_t i = 0; i < values.size(); ++i) {
     double x = 0.0;
     std::from_chars(values[i].data(), values[i].data() + values[i].size(), x);
     const int point = add(each[i]);
-    const auto& points = planned.series.points;
-    if (std::ranges::find(points, point) == points.end()) {
-      planned.series.x.push_back(x);
-      planned.series.points.push_back(point);
+    if (std::ranges::find(series.points, point) == series.points.end()) {
+      series.x.push_back(x);
+      series.points.push_back(point);
     }
   }
-  if (planned.series.points.size() > 1) {
-    plan.series.push_back(std::move(planned));
+  if (series.points.size() > 1) {
+    plan.series.push_back(std::move(series));
   }
 }
 

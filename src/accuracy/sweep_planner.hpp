@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,19 +9,16 @@
 
 namespace speculum {
 
+// Values of several settings.
+using SettingGrid = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+// Returns every combination of one value for each setting, the last setting varying fastest; nothing if there are more
+// than `most`.
+std::optional<std::vector<std::vector<SettingChange>>> combinations(const SettingGrid& grid, size_t most);
+
 struct SweepConfiguration {
   std::string name;
   std::vector<SettingChange> changes;  // settings that differ from the base
-};
-
-// A series of SweepResults before it is measured.
-struct PlannedSeries {
-  // Source of the theoretical slope; `depth` computes it from the mirrors in view.
-  enum class Theory { none, fixed, depth };
-
-  SweepSeries series;  // key, name, axis, x, points (indices into SweepPlan::configurations), note, theorySlope
-  Theory theory = Theory::none;
-  double fitUpTo = std::numeric_limits<double>::infinity();  // greatest x of the fit; another law holds beyond
 };
 
 struct SweepPlan {
@@ -31,7 +27,7 @@ struct SweepPlan {
   std::string name;
   int repeats = leastRepeats;                      // timed frames of each configuration
   std::vector<SweepConfiguration> configurations;  // the first is the base itself
-  std::vector<PlannedSeries> series;
+  std::vector<SweepSeries> series;                 // not measured yet; points are indices into `configurations`
 };
 
 // Scene and device that a sweep is planned for.
@@ -54,11 +50,11 @@ class SweepPlanner {
   // Adds a configuration, unless one with the same settings exists, and returns its index. Throws std::invalid_argument
   // with the message of setSetting().
   int add(const Changes& changes, const std::string& name = {});
-  void grid(const std::vector<std::pair<std::string, std::vector<std::string>>>& axes);
+  void grid(const SettingGrid& axes);
   // Adds one configuration for each value. Leaves series of fewer than two different configurations out.
-  void series(PlannedSeries planned, const std::vector<std::string>& values, const Changes& fixed);
+  void series(SweepSeries series, const std::vector<std::string>& values, const Changes& fixed);
   // Does the same with the changes of each value in `each`.
-  void series(PlannedSeries planned, const std::vector<std::string>& values, const std::vector<Changes>& each);
+  void series(SweepSeries series, const std::vector<std::string>& values, const std::vector<Changes>& each);
 
   SweepPlan plan;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ struct SweepSeries {
   // Slope of log(error) over log(x), or over x on a linear axis; 0 where theory gives none. Errors are RMSE over
   // mirrors, or over the whole picture without mirrors in view.
   double theorySlope = 0.0;
+  // Not in results.json: the slope is that of the throughput beyond each depth, and the greatest x that a fit takes,
+  // because another law holds beyond.
+  bool theoryOfDepth = false;
+  double fitUpTo = std::numeric_limits<double>::infinity();
   std::optional<LineFit> fit;  // natural logarithms, same axes, over the points of `fitted`
   std::vector<int> fitted;     // indices into `points` that the fit takes: those above the floor of other errors
 };
@@ -67,8 +72,7 @@ struct SweepResults {
   int truthSamples = 64;
   double truthMs = 0.0;  // wall clock
   int truthThreads = 0;
-  ImageMetrics floorWhole;  // error of a grid with one more sample a side: smaller errors mean nothing
-  std::optional<ImageMetrics> floorMirrors;
+  ErrorFigures floor;        // error of a grid with one more sample a side: smaller errors mean nothing
   std::string truthPicture;  // PNG, relative to the results' folder; empty if it was not kept
 
   std::vector<SweepPoint> points;

@@ -50,7 +50,7 @@ void printFront(const SweepResults& results) {
     std::printf("%-44s %10.3f %10.5f %10.5f\n", point.name.c_str(), costMs(point), point.whole.flip, point.whole.rmse);
   }
   std::printf("%-44s %10.0f %10.5f %10.5f\n", "reference (and its noise floor)", results.truthMs,
-              results.floorWhole.flip, results.floorWhole.rmse);
+              results.floor.whole.flip, results.floor.whole.rmse);
 }
 
 }  // namespace

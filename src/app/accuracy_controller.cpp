@@ -97,7 +97,7 @@ void AccuracyController::setResults(SweepResults results) {
     applyPoint(*point, level.settings);
     level.error = view_.points[static_cast<size_t>(*point)].error;
   }
-  view_.noiseFloor = results_.floorWhole.flip;
+  view_.noiseFloor = results_.floor.whole.flip;
   view_.about.clear();
   budget_ = {};
   chosen_ = -1;

@@ -83,8 +83,7 @@ bool contains(std::span<const glm::dvec2> convex, const glm::dvec2& p) {
   bool left = false;
   bool right = false;
   for (size_t i = 0; i < convex.size(); ++i) {
-    const glm::dvec2 edge = convex[(i + 1) % convex.size()] - convex[i];
-    const double side = edge.x * (p.y - convex[i].y) - edge.y * (p.x - convex[i].x);
+    const double side = cross(convex[(i + 1) % convex.size()] - convex[i], p - convex[i]);
     left = left || side > 0.0;
     right = right || side < 0.0;
   }

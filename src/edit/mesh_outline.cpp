@@ -37,20 +37,8 @@ std::vector<MeshEdge> edgesOf(const Mesh& mesh) {
   return edges;
 }
 
-}  // namespace
-
-bool MeshEdge::outlines(const glm::dvec3& eye) const {
-  const glm::dvec3 normal = glm::cross(b - a, eye - a);
-  return border || glm::dot(normal, left - a) * glm::dot(normal, right - a) >= 0.0;
-}
-
-MeshOutline meshOutline(const Mesh& mesh) {
-  const bool small = mesh.indices.size() <= 3 * mostTriangles;
-  return {.points = outlinePoints(mesh), .edges = small ? edgesOf(mesh) : std::vector<MeshEdge>()};
-}
-
-// Takes directions on a Fibonacci lattice: Gonzalez, "Measurement of Areas on a Sphere Using Fibonacci and
-// Latitude-Longitude Lattices" (2010).
+// Returns all vertices of a small mesh, else the farthest ones in directions on a Fibonacci lattice: Gonzalez,
+// "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude Lattices" (2010).
 std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
   std::vector<glm::dvec3> points;
   if (mesh.vertices.size() <= mostPoints) {
@@ -75,6 +63,18 @@ std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
     points.push_back(mesh.vertices[i].position);
   }
   return points;
+}
+
+}  // namespace
+
+bool MeshEdge::outlines(const glm::dvec3& eye) const {
+  const glm::dvec3 normal = glm::cross(b - a, eye - a);
+  return border || glm::dot(normal, left - a) * glm::dot(normal, right - a) >= 0.0;
+}
+
+MeshOutline meshOutline(const Mesh& mesh) {
+  const bool small = mesh.indices.size() <= 3 * mostTriangles;
+  return {.points = outlinePoints(mesh), .edges = small ? edgesOf(mesh) : std::vector<MeshEdge>()};
 }
 
 }  // namespace speculum

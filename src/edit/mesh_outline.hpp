@@ -21,13 +21,9 @@ struct MeshEdge {
 
 // Points and edges that an object's outline is drawn from.
 struct MeshOutline {
-  std::vector<glm::dvec3> points;  // at most 512, for a convex hull: see outlinePoints
+  std::vector<glm::dvec3> points;  // at most 512, for a convex hull
   std::vector<MeshEdge> edges;     // empty for a mesh with too many triangles to test in every frame
 };
 MeshOutline meshOutline(const Mesh& mesh);
-
-// At most 512 vertices for the mesh's convex hull, relative to Mesh::center: all of a small mesh, else the farthest
-// ones in evenly spread directions.
-std::vector<glm::dvec3> outlinePoints(const Mesh& mesh);
 
 }  // namespace speculum

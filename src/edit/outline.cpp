@@ -21,9 +21,8 @@ std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
   std::vector<glm::dvec2> hull;
   const auto add = [&](const glm::dvec2& p, size_t first) {
     while (hull.size() >= first + 2) {
-      const glm::dvec2 a = hull[hull.size() - 1] - hull[hull.size() - 2];
-      const glm::dvec2 b = p - hull[hull.size() - 2];
-      if (a.x * b.y - a.y * b.x > 0.0) {
+      const glm::dvec2& start = hull[hull.size() - 2];
+      if (cross(hull.back() - start, p - start) > 0.0) {
         break;
       }
       hull.pop_back();

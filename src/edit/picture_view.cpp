@@ -4,14 +4,6 @@
 
 namespace speculum {
 
-namespace {
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-}  // namespace
-
 PictureView::PictureView(const CameraPose& camera, int width, int height)
     : projection_(camera.verticalFov, static_cast<double>(width) / height, camera.near) {
   view_ = mainView(camera, projection_, width, height);

@@ -56,41 +56,39 @@ void editList(TomlEditor& editor, const std::string& name, const std::vector<T>&
       editor.addElement(name, keyTexts(edited[i]));
     } else {
       kept.at(origin) = true;
-      editor.change(*editor.outline().child(name)->children.at(origin), keyTexts(loaded[origin]), keyTexts(edited[i]));
+      editor.change(editor.element(name, origin), keyTexts(loaded[origin]), keyTexts(edited[i]));
     }
   }
   for (size_t i = 0; i < kept.size(); ++i) {
     if (!kept[i]) {
-      editor.removeElement(name, i);
+      editor.remove(editor.element(name, i));
     }
   }
 }
 
 template <typename T>
 void editTable(TomlEditor& editor, const std::string& name, const T& loaded, const T& edited) {
-  if (TomlNode* table = editor.outline().child(name)) {
+  if (const toml::table* table = editor.root().get_as<toml::table>(name)) {
     editor.change(*table, keyTexts(loaded), keyTexts(edited));
   } else if (!(loaded == edited)) {
     editor.addSection(name, {"environment", "camera"}, keyTexts(edited));
   }
 }
 
-// Returns the tables from [settings] to the value of `key`, the value last; empty if the text lacks it. The key's parts
-// may be quoted together or nested.
-std::vector<TomlNode*> findSetting(TomlNode& table, std::string_view key) {
-  for (const auto& child : table.children) {
-    if (child->key == key && child->kind != TomlNode::Kind::table) {
-      return {&table, child.get()};
+// Returns the value of `key`, whose parts may be quoted together or nested; null if the table lacks it.
+const toml::node* findSetting(const toml::table& table, std::string_view key) {
+  for (const auto& [name, node] : table) {
+    const toml::table* inner = node.as_table();
+    if (!inner && name.str() == key) {
+      return &node;
     }
-    if (child->kind == TomlNode::Kind::table && key.starts_with(child->key + ".")) {
-      std::vector<TomlNode*> found = findSetting(*child, key.substr(child->key.size() + 1));
-      if (!found.empty()) {
-        found.insert(found.begin(), &table);
+    if (inner && key.starts_with(std::string(name.str()) + ".")) {
+      if (const toml::node* found = findSetting(*inner, key.substr(name.str().size() + 1))) {
         return found;
       }
     }
   }
-  return {};
+  return nullptr;
 }
 
 std::string settingText(const SettingChange& change) {
@@ -108,17 +106,17 @@ std::string settingText(const SettingChange& change) {
 void editSettings(TomlEditor& editor, const Settings& loaded, std::span<const SettingChange> changes) {
   std::vector<KeyText> fresh;
   for (const SettingChange& change : changes) {
-    TomlNode* settings = editor.outline().child("settings");
-    const std::vector<TomlNode*> found = settings ? findSetting(*settings, change.key) : std::vector<TomlNode*>();
+    const toml::table* settings = editor.root().get_as<toml::table>("settings");
+    const toml::node* found = settings ? findSetting(*settings, change.key) : nullptr;
     if (settingValue(loaded, change.key) == change.value) {
       continue;
     }
-    if (!found.empty() && change.value.empty()) {
-      editor.remove(*found.back());
-    } else if (!found.empty()) {
-      editor.setValue(*found.back(), settingText(change));
+    if (found && change.value.empty()) {
+      editor.remove(*found);
+    } else if (found) {
+      editor.setValue(*found, settingText(change));
     } else if (settings) {
-      editor.addKey({&editor.outline(), settings}, tomlKey(change.key), settingText(change));
+      editor.addKey(*settings, tomlKey(change.key), settingText(change));
     } else {
       fresh.push_back({"", tomlKey(change.key), settingText(change)});
     }

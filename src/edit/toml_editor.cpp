@@ -61,21 +61,59 @@ std::vector<std::pair<std::string, std::string>> statements(const std::vector<Ke
   return list;
 }
 
-// Breaks a list of points into lines if it is too long for one.
-std::string wrappedPoints(const std::string& value, size_t before, const std::string& lineBreak) {
-  if (!value.starts_with("[[") || before + value.size() <= kLongestLine) {
-    return value;
+// Returns the elements of an array as tomlText() writes it; none of any other value.
+std::vector<std::string_view> elementsOf(std::string_view value) {
+  std::vector<std::string_view> elements;
+  if (!value.starts_with('[')) {
+    return elements;
   }
-  const TomlNode points = outlineOfValue(value);
-  std::string text = "[" + lineBreak;
-  for (const auto& point : points.children) {
-    text.append("  ").append(point->value->of(value)).append(",").append(lineBreak);
+  int depth = 0;
+  size_t begin = 1;
+  for (size_t i = 0; i < value.size(); ++i) {
+    depth += value[i] == '[' ? 1 : 0;
+    if (depth == 1 && (value[i] == ',' || value[i] == ']') && i > begin) {
+      elements.push_back(value.substr(begin, i - begin));
+      begin = i + 2;
+    }
+    depth -= value[i] == ']' ? 1 : 0;
   }
-  return text + "]";
+  return elements;
 }
 
-TextRange itemRange(const TomlNode& item) {
-  return item.keyed ? *item.keyed : item.value.value();
+bool isInBraces(const toml::node& node) {
+  return node.is_table() && node.as_table()->is_inline();
+}
+
+bool isArrayOfHeaders(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  return array && array->is_array_of_tables() && array->front().source().begin == array->source().begin;
+}
+
+// Says whether the node stands after an = or in brackets; other tables are made by headers and dotted keys.
+bool isValue(const toml::node& node) {
+  return node.is_table() ? isInBraces(node) : !isArrayOfHeaders(node);
+}
+
+// Says whether only headers of nested tables name the table; it then has the position of the first of them.
+bool isImplicit(const toml::table& table) {
+  return std::ranges::any_of(table, [&](const auto& entry) {
+    const bool headed = entry.second.is_table() || isArrayOfHeaders(entry.second);
+    return headed && entry.second.source().begin == table.source().begin;
+  });
+}
+
+// Calls visit(key, child) for each child; the key is null for elements.
+template <typename Visitor>
+void forEachChild(const toml::node& node, const Visitor& visit) {
+  if (const toml::table* table = node.as_table()) {
+    for (const auto& [key, child] : *table) {
+      visit(&key, child);
+    }
+  } else if (const toml::array* array = node.as_array()) {
+    for (const toml::node& child : *array) {
+      visit(nullptr, child);
+    }
+  }
 }
 
 }  // namespace
@@ -85,17 +123,43 @@ TomlEditor::TomlEditor(std::string text) : text_(std::move(text)) {
   lineBreak_ = first != std::string::npos && first > 0 && text_[first - 1] == '\r' ? "\r\n" : "\n";
   endsInLineBreak_ = text_.empty() || text_.back() == '\n';
   text_ += endsInLineBreak_ ? "" : lineBreak_;
-  root_ = outlineOf(text_);
-  recordOwners(root_, nullptr);
+  lines_.push_back(text_.starts_with("\xef\xbb\xbf") ? 3 : 0);
+  for (size_t i = 0; i < text_.size(); ++i) {
+    if (text_[i] == '\n') {
+      lines_.push_back(i + 1);
+    }
+  }
+  root_ = toml::parse(text_);
+  recordPlaces(root_, nullptr);
 }
 
-void TomlEditor::recordOwners(const TomlNode& node, const TomlNode* list) {
-  owners_[&node] = list;
-  linedUp_ = linedUp_ || (node.section && node.section->linedUp);
-  const TomlNode* inner = node.value && node.kind != TomlNode::Kind::scalar ? &node : list;
-  for (const auto& child : node.children) {
-    recordOwners(*child, inner);
+void TomlEditor::recordPlaces(const toml::node& node, const toml::node* list) {
+  forEachChild(node, [&](const toml::key* key, const toml::node& child) {
+    places_[&child] = {&node, key, list};
+    linedUp_ = linedUp_ || (list == nullptr && isValue(child) && statementOf(child).linedUp);
+    recordPlaces(child, isValue(child) ? &child : list);
+  });
+}
+
+const toml::table& TomlEditor::element(std::string_view list, size_t index) const {
+  return *root_.get_as<toml::array>(list)->get_as<toml::table>(index);
+}
+
+// Returns the byte at a line and column. Columns count code points.
+size_t TomlEditor::offset(const toml::source_position& position) const {
+  size_t at = lines_.at(position.line - 1);
+  for (uint32_t column = 1; column < position.column; ++column) {
+    ++at;
+    while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xc0) == 0x80) {
+      ++at;
+    }
   }
+  return at;
+}
+
+// Returns the whole lines of a region, the last line break included.
+TomlEditor::TextRange TomlEditor::linesOf(const toml::source_region& region) const {
+  return {lines_.at(region.begin.line - 1), std::min(text_.find('\n', offset(region.end)), text_.size() - 1) + 1};
 }
 
 std::string_view TomlEditor::line(size_t begin) const {
@@ -105,21 +169,91 @@ std::string_view TomlEditor::line(size_t begin) const {
   return line;
 }
 
-void TomlEditor::change(TomlNode& table, const std::vector<KeyText>& base, const std::vector<KeyText>& edited) {
+// Says whether dotted keys make the table.
+bool TomlEditor::isDotted(const toml::node& node) const {
+  return node.is_table() && !isInBraces(node) && &node != &root_ && text_[offset(node.source().begin)] != '[';
+}
+
+// Says whether the table has a header of its own, or is the file's.
+bool TomlEditor::hasHeader(const toml::node& node) const {
+  return &node == &root_ || (node.is_table() && !isInBraces(node) && !isDotted(node) && !isImplicit(*node.as_table()));
+}
+
+TomlEditor::Statement TomlEditor::statementOf(const toml::node& value) const {
+  const toml::source_region& key = places_.at(&value).key->source();
+  const TextRange lines{linesOf(key).begin, linesOf(value.source()).end};
+  const size_t keyEnd = offset(key.end);
+  const size_t equals = text_.find('=', keyEnd);
+  return {lines, equals - text_.find_first_not_of(" \t", lines.begin), equals > keyEnd + 1};
+}
+
+// Returns the statements under the table's header, or those whose dotted keys add to it, in the order of the text.
+std::vector<TomlEditor::Statement> TomlEditor::statementsOf(const toml::table& table) const {
+  std::vector<Statement> statements;
+  for (const auto& [key, child] : table) {
+    if (isValue(child)) {
+      statements.push_back(statementOf(child));
+    } else if (isDotted(child)) {
+      const std::vector<Statement> inner = statementsOf(*child.as_table());
+      statements.insert(statements.end(), inner.begin(), inner.end());
+    }
+  }
+  std::ranges::sort(statements, {}, [](const Statement& statement) { return statement.lines.begin; });
+  return statements;
+}
+
+// Returns the lines from the table's header to the last statement under it.
+TomlEditor::TextRange TomlEditor::sectionOf(const toml::table& table) const {
+  const TextRange header = &table == &root_ ? TextRange{lines_.front(), lines_.front()} : linesOf(table.source());
+  const std::vector<Statement> statements = statementsOf(table);
+  return {header.begin, statements.empty() ? header.end : statements.back().lines.end};
+}
+
+// Returns the end of a section, including comments right after it unless they belong to a header right below.
+size_t TomlEditor::contentEnd(const toml::table& table) const {
+  const size_t sectionEnd = sectionOf(table).end;
+  size_t end = sectionEnd;
+  while (end < text_.size() && line(end).starts_with('#')) {
+    end = std::min(text_.find('\n', end), text_.size() - 1) + 1;
+  }
+  return end < text_.size() && line(end).starts_with('[') ? sectionEnd : end;
+}
+
+// Returns the end of the last section in the node; 0 if it has no header.
+size_t TomlEditor::endOfTables(const toml::node& node) const {
+  size_t end = hasHeader(node) ? contentEnd(*node.as_table()) : 0;
+  forEachChild(node, [&](const toml::key*, const toml::node& child) { end = std::max(end, endOfTables(child)); });
+  return end;
+}
+
+// Returns the items of braces or brackets, which commas separate, in the order of the text: the values within, past
+// tables that dotted keys make.
+std::vector<const toml::node*> TomlEditor::itemsOf(const toml::node& list) const {
+  std::vector<const toml::node*> items;
+  forEachChild(list, [&](const toml::key*, const toml::node& child) {
+    const std::vector<const toml::node*> own = isValue(child) ? std::vector{&child} : itemsOf(child);
+    items.insert(items.end(), own.begin(), own.end());
+  });
+  std::ranges::sort(items, std::less<>(), [](const toml::node* item) { return item->source().begin; });
+  return items;
+}
+
+void TomlEditor::change(const toml::table& table, const std::vector<KeyText>& base,
+                        const std::vector<KeyText>& edited) {
   for (const KeyText& key : base) {
-    TomlNode* within = key.table.empty() ? &table : table.child(key.table);
+    const toml::table* within = key.table.empty() ? &table : table.get_as<toml::table>(key.table);
     if (within == nullptr || find(edited, key) != nullptr) {
       continue;
     }
     if (!key.table.empty() && !hasTable(edited, key.table)) {
       remove(*within);
-    } else if (TomlNode* value = within->child(key.key)) {
+    } else if (const toml::node* value = within->get(key.key)) {
       remove(*value);
     }
   }
   for (const auto& [key, text] : statements(edited)) {
-    if (hasTable(edited, key) && table.child(key) == nullptr) {
-      addKey({&table}, key, text);
+    if (hasTable(edited, key) && !table.contains(key)) {
+      addKey(table, key, text);
     }
   }
   for (const KeyText& key : edited) {
@@ -127,123 +261,110 @@ void TomlEditor::change(TomlNode& table, const std::vector<KeyText>& base, const
   }
 }
 
-void TomlEditor::changeKey(TomlNode& table, const std::vector<KeyText>& base, const KeyText& key) {
+void TomlEditor::changeKey(const toml::table& table, const std::vector<KeyText>& base, const KeyText& key) {
   const KeyText* before = find(base, key);
-  TomlNode* within = key.table.empty() ? &table : table.child(key.table);
+  const toml::table* within = key.table.empty() ? &table : table.get_as<toml::table>(key.table);
   if (within == nullptr || (before != nullptr && before->text == key.text)) {
     return;
   }
-  if (const TomlNode* value = within->child(key.key)) {
+  if (const toml::node* value = within->get(key.key)) {
     replaceChangedNumbers(*value, before ? before->text : std::string(), key.text);
   } else if (!key.omissible) {
-    addKey(within == &table ? std::vector{&table} : std::vector{&table, within}, key.key, key.text);
+    addKey(*within, key.key, key.text);
   }
+}
+
+void TomlEditor::setValue(const toml::node& value, const std::string& text) {
+  edits_.push_back({{offset(value.source().begin), offset(value.source().end)}, text});
 }
 
 // Leaves the numbers of an array that did not change as they are written.
-void TomlEditor::replaceChangedNumbers(const TomlNode& value, const std::string& base, const std::string& edited) {
-  const auto compare = [&](const auto& self, const TomlNode& here, const TomlNode& was, const TomlNode& becomes) {
-    const std::string_view text = becomes.value->of(edited);
-    if (was.value->of(base) == text) {
-      return;
-    }
-    const size_t count = becomes.children.size();
-    if (becomes.kind != TomlNode::Kind::array || here.kind != becomes.kind || was.kind != becomes.kind ||
-        here.children.size() != count || was.children.size() != count) {
-      setValue(here, wrappedPoints(std::string(text), 0, lineBreak_));
-      return;
-    }
-    for (size_t i = 0; i < count; ++i) {
-      self(self, *here.children[i], *was.children[i], *becomes.children[i]);
-    }
-  };
-  if (base.empty()) {
-    setValue(value, edited);
-  } else {
-    compare(compare, value, outlineOfValue(base), outlineOfValue(edited));
+void TomlEditor::replaceChangedNumbers(const toml::node& value, std::string_view base, std::string_view edited) {
+  if (base == edited) {
+    return;
+  }
+  const toml::array* array = value.as_array();
+  const std::vector<std::string_view> before = elementsOf(base);
+  const std::vector<std::string_view> after = elementsOf(edited);
+  if (base.empty() || !array || before.size() != after.size() || array->size() != after.size()) {
+    setValue(value, base.empty() ? std::string(edited) : wrappedPoints(edited, 0));
+    return;
+  }
+  for (size_t i = 0; i < after.size(); ++i) {
+    replaceChangedNumbers((*array)[i], before[i], after[i]);
   }
 }
 
-void TomlEditor::addKey(const std::vector<TomlNode*>& tables, const std::string& key, const std::string& text) {
-  const TomlNode& table = *tables.back();
-  if (table.inBraces()) {
+// Breaks a list of points into lines if it is too long for one.
+std::string TomlEditor::wrappedPoints(std::string_view value, size_t before) const {
+  if (!value.starts_with("[[") || before + value.size() <= kLongestLine) {
+    return std::string(value);
+  }
+  std::string text = "[" + lineBreak_;
+  for (const std::string_view point : elementsOf(value)) {
+    text.append("  ").append(point).append(",").append(lineBreak_);
+  }
+  return text + "]";
+}
+
+void TomlEditor::addKey(const toml::table& table, const std::string& key, const std::string& text) {
+  if (table.is_inline()) {
     lists_[&table].added.push_back(keyValue(key, 0, text));
     return;
   }
-  if (!table.section && !table.dotted) {
-    std::vector<TomlNode*> outer(tables.begin(), tables.end() - 1);
-    if (outer.empty() && root_.child(table.key) == &table) {
-      outer.push_back(&root_);
-    }
-    if (outer.empty()) {
-      throw std::logic_error("a table without a place in the text");
-    }
-    return addKey(outer, tomlKey(table.key) + "." + key, text);
+  const bool headed = hasHeader(table);
+  // The key of a table without a header becomes a dotted one: below the table's others, or else in the table around it.
+  if (!headed && (!isDotted(table) || places_.at(&table).list)) {
+    const Place& place = places_.at(&table);
+    return addKey(*place.within->as_table(), tomlKey(place.key->str()) + "." + key, text);
   }
-  // Adds the key under the table's header, or else below the last dotted key.
-  const std::optional<TomlSection>& section = table.section;
-  const size_t at = section ? section->end : table.dotted->end;
-  const std::optional<TextRange> last = section ? section->lastStatement : table.dotted;
+  std::string name = key;
+  for (const toml::node* outer = &table; isDotted(*outer); outer = places_.at(outer).within) {
+    name = tomlKey(places_.at(outer).key->str()) + "." + name;
+  }
+  const std::vector<Statement> statements = statementsOf(table);
+  const size_t at = headed ? sectionOf(table).end : statements.back().lines.end;
   std::string indent;
-  if (last) {
-    const size_t blanks = text_.find_first_not_of(" \t", last->begin) - last->begin;
-    indent = text_.substr(last->begin, blanks);
+  if (!statements.empty()) {
+    const size_t begin = statements.back().lines.begin;
+    indent = text_.substr(begin, text_.find_first_not_of(" \t", begin) - begin);
   }
-  const std::string name = section ? key : table.dottedPrefix + key;
-  const size_t width = section && section->linedUp ? section->keyWidth : 0;
-  const std::string value = wrappedPoints(text, indent.size() + std::max(width, name.size() + 1) + 2, lineBreak_);
+  const bool linedUp = headed && std::ranges::any_of(statements, &Statement::linedUp);
+  const size_t width = linedUp ? statements.back().keyWidth : 0;
+  const std::string value = wrappedPoints(text, indent.size() + std::max(width, name.size() + 1) + 2);
   edits_.push_back({{at, at}, indent + keyValue(name, width, value) + lineBreak_});
 }
 
-void TomlEditor::remove(TomlNode& node) {
-  const TomlNode* list = owners_.at(&node);
-  if (node.statement) {
-    edits_.push_back({*node.statement, ""});
-  } else if (list != nullptr && node.value) {
-    lists_[list].removed.insert(&node);
+void TomlEditor::remove(const toml::node& node) {
+  const Place& place = places_.at(&node);
+  if (isValue(node) && place.list) {
+    lists_[place.list].removed.insert(&node);
+  } else if (isValue(node)) {
+    edits_.push_back({statementOf(node).lines, ""});
   } else {
-    if (node.section) {
-      removeSection(*node.section);
+    const bool headed = hasHeader(node);
+    if (headed) {
+      removeSection(*node.as_table());
     }
-    for (const auto& child : node.children) {
+    forEachChild(node, [&](const toml::key*, const toml::node& child) {
       // Removing a header also removes the statements under it.
-      if (!node.section || !child->statement) {
-        remove(*child);
+      if (!headed || !isValue(child)) {
+        remove(child);
       }
-    }
+    });
   }
 }
 
-// Returns the end of a section, including comments right after it unless they belong to a header right below.
-size_t TomlEditor::contentEnd(const TomlSection& section) const {
-  size_t end = section.end;
-  while (end < text_.size() && line(end).starts_with('#')) {
-    end = std::min(text_.find('\n', end), text_.size() - 1) + 1;
-  }
-  return end < text_.size() && line(end).starts_with('[') ? section.end : end;
-}
-
-void TomlEditor::removeSection(const TomlSection& section) {
+void TomlEditor::removeSection(const toml::table& table) {
   const auto lineBefore = [&](size_t at) { return at < 2 ? 0 : text_.rfind('\n', at - 2) + 1; };
-  size_t begin = section.begin;
+  size_t begin = sectionOf(table).begin;
   while (begin > 0 && line(lineBefore(begin)).starts_with('#')) {
     begin = lineBefore(begin);
   }
   while (begin > 0 && line(lineBefore(begin)).empty()) {
     begin = lineBefore(begin);
   }
-  edits_.push_back({{begin, contentEnd(section)}, ""});
-}
-
-size_t TomlEditor::endOfTable(const TomlNode& table) const {
-  size_t end = 0;
-  if (table.section) {
-    end = contentEnd(*table.section);
-  }
-  for (const auto& child : table.children) {
-    end = std::max(end, endOfTable(*child));
-  }
-  return end;
+  edits_.push_back({{begin, contentEnd(table)}, ""});
 }
 
 void TomlEditor::addBlock(size_t at, const std::string& header, const std::vector<KeyText>& keys) {
@@ -254,7 +375,7 @@ void TomlEditor::addBlock(size_t at, const std::string& header, const std::vecto
   }
   std::string text = lineBreak_ + header + lineBreak_;
   for (const auto& [key, value] : lines) {
-    text += keyValue(key, width, wrappedPoints(value, std::max(width, key.size() + 1) + 2, lineBreak_)) + lineBreak_;
+    text += keyValue(key, width, wrappedPoints(value, std::max(width, key.size() + 1) + 2)) + lineBreak_;
   }
   const bool blankBelow = at == text_.size() || line(at).empty();
   edits_.push_back({{at, at}, text + (blankBelow ? "" : lineBreak_), true});
@@ -262,17 +383,17 @@ void TomlEditor::addBlock(size_t at, const std::string& header, const std::vecto
 
 void TomlEditor::addSection(const std::string& name, const std::vector<std::string>& after,
                             const std::vector<KeyText>& keys) {
-  size_t at = root_.section->end;
+  size_t at = sectionOf(root_).end;
   for (const std::string& other : after) {
-    const TomlNode* table = root_.child(other);
-    at = std::max(at, table != nullptr ? endOfTable(*table) : 0);
+    const toml::node* table = root_.get(other);
+    at = std::max(at, table != nullptr ? endOfTables(*table) : 0);
   }
   addBlock(at, "[" + name + "]", keys);
 }
 
 void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>& keys) {
-  const TomlNode* known = root_.child(list);
-  if (known != nullptr && known->value) {
+  const toml::node* known = root_.get(list);
+  if (known != nullptr && isValue(*known)) {
     std::vector<std::string> items;
     for (const auto& [key, value] : statements(keys)) {
       items.push_back(keyValue(key, 0, value));
@@ -280,13 +401,20 @@ void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>&
     lists_[known].added.push_back(inBraces(items));
     return;
   }
-  const size_t at = known != nullptr ? endOfTable(*known) : text_.size();
-  addBlock(at, "[[" + list + "]]", keys);
+  addBlock(known != nullptr ? endOfTables(*known) : text_.size(), "[[" + list + "]]", keys);
 }
 
 // Removes a run of items with the comma behind it, or at the end of the list with the comma before it.
-void TomlEditor::resolve(const TomlNode& list, const ListChange& change, std::vector<Edit>& edits) const {
-  const std::vector<TomlNode*> items = itemsOf(list);
+void TomlEditor::resolve(const toml::node& list, const ListChange& change, std::vector<Edit>& edits) const {
+  const std::vector<const toml::node*> items = itemsOf(list);
+  std::vector<TextRange> ranges;
+  size_t end = offset(list.source().begin) + 1;
+  for (const toml::node* item : items) {
+    // Keys in braces begin behind the brace or the comma.
+    const size_t begin = list.is_table() ? text_.find_first_not_of(" \t,", end) : offset(item->source().begin);
+    end = offset(item->source().end);
+    ranges.push_back({begin, end});
+  }
   const auto removed = [&](size_t i) { return change.removed.contains(items[i]); };
   bool kept = false;
   for (size_t i = 0; i < items.size(); ++i) {
@@ -299,17 +427,16 @@ void TomlEditor::resolve(const TomlNode& list, const ListChange& change, std::ve
       ++i;
     }
     const bool last = i + 1 == items.size();
-    const size_t begin = last && first > 0 ? itemRange(*items[first - 1]).end : itemRange(*items[first]).begin;
-    edits.push_back({{begin, last ? itemRange(*items[i]).end : itemRange(*items[i + 1]).begin}, ""});
+    const size_t begin = last && first > 0 ? ranges[first - 1].end : ranges[first].begin;
+    edits.push_back({{begin, last ? ranges[i].end : ranges[i + 1].begin}, ""});
   }
   std::string added;
   for (const std::string& item : change.added) {
     added += (kept ? ", " : added.empty() ? " " : ", ") + item;
   }
   if (!added.empty()) {
-    const size_t at = items.empty() ? list.value->begin + 1 : itemRange(*items.back()).end;
-    const bool closes = items.empty() && text_[at] != ' ';
-    edits.push_back({{at, at}, added + (closes ? " " : "")});
+    const bool closes = items.empty() && text_[end] != ' ';
+    edits.push_back({{end, end}, added + (closes ? " " : "")});
   }
 }
 

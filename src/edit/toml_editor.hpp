@@ -1,42 +1,50 @@
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "edit/scene_keys.hpp"
-#include "edit/toml_outline.hpp"
 
 namespace speculum {
 
 // Changes values in the text of a TOML file and keeps everything else: comments, order, blanks, line breaks. Nodes are
-// those of outline(); text() applies the changes collected so far.
+// those of root(), which say where the text has them; text() applies the changes collected so far.
 class TomlEditor {
  public:
   // `text` must have been parsed without an error.
   explicit TomlEditor(std::string text);
 
-  TomlNode& outline() { return root_; }
+  const toml::table& root() const { return root_; }
+  // Element of the file's array `list`, which is one of tables.
+  const toml::table& element(std::string_view list, size_t index) const;
 
   // Changes the table from `base`, the values of the text, to `edited`. Equal values keep their text, and new keys are
   // added unless they are omissible.
-  void change(TomlNode& table, const std::vector<KeyText>& base, const std::vector<KeyText>& edited);
+  void change(const toml::table& table, const std::vector<KeyText>& base, const std::vector<KeyText>& edited);
   // Adds [name] behind the last of the tables `after` that the text has.
   void addSection(const std::string& name, const std::vector<std::string>& after, const std::vector<KeyText>& keys);
-  // Removes an element of the file's array `list`, with the comment right above it.
-  void removeElement(const std::string& list, size_t index) { remove(*root_.child(list)->children.at(index)); }
   // Adds an element at the end of the file's array `list`, which the text may lack.
   void addElement(const std::string& list, const std::vector<KeyText>& keys);
-  void setValue(const TomlNode& value, const std::string& text) { edits_.push_back({value.value.value(), text}); }
-  // Adds a key to the last of `tables`, a path of nested tables. Only the last may be missing from the text.
-  void addKey(const std::vector<TomlNode*>& tables, const std::string& key, const std::string& text);
-  void remove(TomlNode& node);
+  void setValue(const toml::node& value, const std::string& text);
+  void addKey(const toml::table& table, const std::string& key, const std::string& text);
+  // Removes a value, or a table with its headers and the comments right above them.
+  void remove(const toml::node& node);
 
   // The text with the changes.
   std::string text() const;
 
  private:
+  // Bytes of the text, the last one excluded.
+  struct TextRange {
+    size_t begin = 0;
+    size_t end = 0;
+  };
   struct Edit {
     TextRange range;
     std::string text;
@@ -44,28 +52,52 @@ class TomlEditor {
   };
   // Changes of the items in braces or brackets.
   struct ListChange {
-    std::set<const TomlNode*> removed;
+    std::set<const toml::node*> removed;
     std::vector<std::string> added;
   };
+  // Where the tree has a node.
+  struct Place {
+    const toml::node* within = nullptr;  // table or array
+    const toml::key* key = nullptr;      // in that table
+    const toml::node* list = nullptr;    // the braces or brackets around the node, if there are any
+  };
+  // `key = value` on lines of its own.
+  struct Statement {
+    TextRange lines;
+    size_t keyWidth = 0;   // bytes from the key to its =
+    bool linedUp = false;  // the key is padded, so that the = of several keys stand below each other
+  };
 
-  void recordOwners(const TomlNode& node, const TomlNode* list);
-  void changeKey(TomlNode& table, const std::vector<KeyText>& base, const KeyText& key);
-  void replaceChangedNumbers(const TomlNode& value, const std::string& base, const std::string& edited);
-  void removeSection(const TomlSection& section);
-  size_t endOfTable(const TomlNode& table) const;
-  size_t contentEnd(const TomlSection& section) const;
-  void addBlock(size_t at, const std::string& header, const std::vector<KeyText>& keys);
-  void resolve(const TomlNode& list, const ListChange& change, std::vector<Edit>& edits) const;
+  void recordPlaces(const toml::node& node, const toml::node* list);
+  size_t offset(const toml::source_position& position) const;
+  TextRange linesOf(const toml::source_region& region) const;
   std::string_view line(size_t begin) const;
+
+  bool isDotted(const toml::node& node) const;
+  bool hasHeader(const toml::node& node) const;
+  Statement statementOf(const toml::node& value) const;
+  std::vector<Statement> statementsOf(const toml::table& table) const;
+  TextRange sectionOf(const toml::table& table) const;
+  size_t contentEnd(const toml::table& table) const;
+  size_t endOfTables(const toml::node& node) const;
+  std::vector<const toml::node*> itemsOf(const toml::node& list) const;
+
+  void changeKey(const toml::table& table, const std::vector<KeyText>& base, const KeyText& key);
+  void replaceChangedNumbers(const toml::node& value, std::string_view base, std::string_view edited);
+  std::string wrappedPoints(std::string_view value, size_t before) const;
+  void removeSection(const toml::table& table);
+  void addBlock(size_t at, const std::string& header, const std::vector<KeyText>& keys);
+  void resolve(const toml::node& list, const ListChange& change, std::vector<Edit>& edits) const;
 
   std::string text_;
   bool endsInLineBreak_ = true;
   std::string lineBreak_ = "\n";
-  bool linedUp_ = false;  // in any section
-  TomlNode root_;
+  std::vector<size_t> lines_;  // where each begins
+  toml::table root_;
+  std::map<const toml::node*, Place> places_;
+  bool linedUp_ = false;  // some statement is
   std::vector<Edit> edits_;
-  std::map<const TomlNode*, const TomlNode*> owners_;  // the braces or brackets around a node
-  std::map<const TomlNode*, ListChange> lists_;
+  std::map<const toml::node*, ListChange> lists_;
 };
 
 }  // namespace speculum

@@ -148,17 +148,6 @@ std::string unknownKey(std::string_view key) {
   return "unknown setting (" + nearestKeyAdvice(key, keys) + ")";
 }
 
-std::string entryText(const SettingEntry& entry) {
-  struct Visitor {
-    std::string operator()(bool value) const { return value ? "true" : "false"; }
-    std::string operator()(int64_t value) const { return std::to_string(value); }
-    std::string operator()(double value) const { return ordered_json(value).dump(); }
-    std::string operator()(const std::string& value) const { return value; }
-    std::string operator()(const std::vector<double>& values) const { return ordered_json(values).dump(); }
-  };
-  return std::visit(Visitor{}, entry.value);
-}
-
 bool takesText(const SettingField& field) {
   return std::holds_alternative<ChoiceSetting>(field.kind) || std::holds_alternative<TextSetting>(field.kind) ||
          std::holds_alternative<AutomaticSetting>(field.kind);
@@ -214,9 +203,9 @@ Settings settingsOf(const Scene& scene) {
   Settings settings;
   for (const SettingEntry& entry : scene.settings) {
     const SettingField* field = findSettingField(entry.key);
-    const Problem problem = field && std::holds_alternative<std::string>(entry.value) && !takesText(*field)
+    const Problem problem = field && entry.quoted && !takesText(*field)
                                 ? entry.key + ": a string is the wrong type (" + settingRange(*field) + ")"
-                                : setSetting(settings, entry.key, entryText(entry));
+                                : setSetting(settings, entry.key, entry.value);
     if (problem) {
       throw InputError(oneLine(scene.file.string() + ":" + std::to_string(entry.line) + ": " + *problem));
     }

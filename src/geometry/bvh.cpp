@@ -26,15 +26,6 @@ double safeInverse(double d) {
   return 1.0 / (std::abs(d) < 1e-300 ? std::copysign(1e-300, d) : d);
 }
 
-// Widens a box by some units in the last place, so that a ray within one of its faces is inside.
-Bounds widened(Bounds box) {
-  const glm::dvec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
-  const double margin = 1e-15 * std::max({reach.x, reach.y, reach.z});
-  box.low -= margin;
-  box.high += margin;
-  return box;
-}
-
 int binOf(double center, double low, double extent) {
   return std::clamp(static_cast<int>((center - low) / extent * binCount), 0, binCount - 1);
 }
@@ -61,6 +52,20 @@ Split bestOfAxis(const std::array<Bin, binCount>& bins, int axis) {
 }
 
 }  // namespace
+
+Bounds Bounds::around(std::span<const glm::dvec3> points) {
+  Bounds box;
+  for (const glm::dvec3& p : points) {
+    box.add(p);
+  }
+  return box;
+}
+
+Bounds Bounds::widened(double share) const {
+  const glm::dvec3 reach = glm::max(glm::abs(low), glm::abs(high));
+  const double margin = share * std::max({reach.x, reach.y, reach.z});
+  return {low - margin, high + margin};
+}
 
 double Bounds::halfArea() const {
   const glm::dvec3 e = high - low;
@@ -118,7 +123,8 @@ struct Bvh::Builder {
       box.add(primitives[bvh.order_[i]]);
       centers.add(primitives[bvh.order_[i]].center());
     }
-    bvh.nodes_[nodeIndex].box = widened(box);
+    // A ray within one of its faces is inside.
+    bvh.nodes_[nodeIndex].box = box.widened(1e-15);
     const Split split = depth < maxBinnedDepth && count > 1 ? findSplit(first, count, centers) : Split{};
     const bool leafIsCheaper = !(split.cost + traversalCost * box.halfArea() < box.halfArea() * count);
     if (count == 1 || (count <= leafSize && leafIsCheaper)) {

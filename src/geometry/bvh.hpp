@@ -15,6 +15,8 @@ struct Bounds {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
 
+  static Bounds around(std::span<const glm::dvec3> points);
+
   void add(const glm::dvec3& p) {
     low = glm::min(low, p);
     high = glm::max(high, p);
@@ -25,7 +27,8 @@ struct Bounds {
   }
   // Halves first, so that the sum stays a double.
   glm::dvec3 center() const { return 0.5 * low + 0.5 * high; }
-  double halfArea() const;  // half the surface area; 0 if empty
+  double halfArea() const;             // half the surface area; 0 if empty
+  Bounds widened(double share) const;  // on all sides, by a share of its largest coordinate
 };
 
 // origin + t * direction for t in (tMin, tMax). The direction need not be of unit length.

@@ -39,10 +39,7 @@ std::optional<std::vector<ConvexMesh::Edge>> edgesOf(const std::vector<ConvexMes
 
 // Scales the points so that the longest side of their box is 1; returns none if all points are the same.
 std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
-  Bounds box;
-  for (const glm::dvec3& p : points) {
-    box.add(p);
-  }
+  const Bounds box = Bounds::around(points);
   const glm::dvec3 sides = box.high - box.low;
   const double side = std::max({sides.x, sides.y, sides.z});
   std::vector<glm::dvec3> scaled;

@@ -315,10 +315,6 @@ MeshLevels simplified(const Mesh& mesh, const std::function<bool()>& cancelled) 
   return levels;
 }
 
-const MeshLevels& levelsOf(const Mesh& mesh) {
-  return levelsOf(mesh, {});
-}
-
 const MeshLevels& levelsOf(const Mesh& mesh, const std::function<bool()>& cancelled) {
   const std::shared_ptr<LevelsOfMesh> shared = sharedLevels(mesh);
   std::call_once(shared->once, [&] {

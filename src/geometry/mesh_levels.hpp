@@ -39,8 +39,7 @@ bool mayHaveLevels(const Mesh& mesh);
 
 // The levels of a mesh, made by the first call and kept in the mesh and its copies. May be called from any thread.
 // A call that is cancelled throws as simplified() does, and the next one begins anew.
-const MeshLevels& levelsOf(const Mesh& mesh);
-const MeshLevels& levelsOf(const Mesh& mesh, const std::function<bool()>& cancelled);
+const MeshLevels& levelsOf(const Mesh& mesh, const std::function<bool()>& cancelled = {});
 
 // Says whether levelsOf() returns at once. Copies of the mesh that are made afterwards share its levels.
 bool levelsMade(const Mesh& mesh);

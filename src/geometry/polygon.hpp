@@ -8,6 +8,11 @@
 
 namespace speculum {
 
+// Positive if b lies counter-clockwise of a, with y up.
+inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
 // A plane as a point on it and a unit normal. The form n.x = d would lose |d| * 2^-53 far from the origin.
 struct Plane {
   glm::dvec3 point{0.0};

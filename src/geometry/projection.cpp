@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/polygon.hpp"
+
 namespace speculum {
 
 namespace {
@@ -46,9 +48,7 @@ double sign(double x) {
 double twiceArea(std::span<const glm::dvec2> corners) {
   double twice = 0.0;
   for (size_t i = 1; i + 1 < corners.size(); ++i) {
-    const glm::dvec2 a = corners[i] - corners[0];
-    const glm::dvec2 b = corners[i + 1] - corners[0];
-    twice += a.x * b.y - a.y * b.x;
+    twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
   }
   return twice;
 }

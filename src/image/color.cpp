@@ -32,6 +32,17 @@ double srgbDecode(double encoded) {
   return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
+const std::array<float, 256>& srgbDecoded() {
+  static const std::array<float, 256> decoded = [] {
+    std::array<float, 256> table{};
+    for (size_t code = 0; code < table.size(); ++code) {
+      table[code] = static_cast<float>(srgbDecode(static_cast<double>(code) / 255.0));
+    }
+    return table;
+  }();
+  return decoded;
+}
+
 Image8 toDisplay(const LinearImage& image, const DisplayCurve& curve) {
   Image8 display(image.width, image.height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "image/image.hpp"
 
 namespace speculum {
@@ -9,6 +11,7 @@ enum class ToneMap { clamp, aces };
 // IEC 61966-2-1. Both take and return [0, 1].
 double srgbEncode(double linear);
 double srgbDecode(double encoded);
+const std::array<float, 256>& srgbDecoded();  // of each code of 8 bits
 
 // What turns radiance into a picture, besides the sRGB curve.
 struct DisplayCurve {

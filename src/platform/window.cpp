@@ -61,8 +61,10 @@ std::vector<Window*>& openWindows() {
   return windows;
 }
 
-// Returns the first monitor if none shows that point; null without monitors.
-GLFWmonitor* monitorAt(int x, int y) {
+// Returns the monitor under the window's centre, or the first one if none is there; null without monitors.
+GLFWmonitor* monitorUnder(const ScreenRect& window) {
+  const int x = window.x + window.width / 2;
+  const int y = window.y + window.height / 2;
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
   for (int i = 0; i < count; ++i) {
@@ -251,11 +253,7 @@ void Window::resize(int width, int height) {
 }
 
 double Window::refreshRate() const {
-  int x = 0;
-  int y = 0;
-  glfwGetWindowPos(window_.get(), &x, &y);
-  const VkExtent2D extent = size();
-  GLFWmonitor* monitor = monitorAt(x + static_cast<int>(extent.width) / 2, y + static_cast<int>(extent.height) / 2);
+  GLFWmonitor* monitor = monitorUnder(place());
   const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
   return mode && mode->refreshRate > 0 ? mode->refreshRate : 60.0;
 }
@@ -286,7 +284,7 @@ void Window::setFullScreen(bool on) {
     return setPlace(rescuedWindow(windowed_, workAreas()).value_or(windowed_));
   }
   windowed_ = place();
-  GLFWmonitor* monitor = monitorAt(windowed_.x + windowed_.width / 2, windowed_.y + windowed_.height / 2);
+  GLFWmonitor* monitor = monitorUnder(windowed_);
   const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
   if (mode) {
     glfwSetWindowMonitor(window_.get(), monitor, 0, 0, mode->width, mode->height, mode->refreshRate);

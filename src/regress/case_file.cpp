@@ -1,18 +1,18 @@
 #include "regress/case_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
 #include <stdexcept>
 
-#include "accuracy/setting_values.hpp"
+#include "accuracy/sweep_planner.hpp"
 #include "frame/settings.hpp"
 #include "platform/files.hpp"
 #include "regress/driver.hpp"
 #include "scene/camera_text.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/shipped_scene.hpp"
-#include "scene/table_reader.hpp"
 #include "scene/toml_file.hpp"
 
 namespace speculum {
@@ -112,13 +112,13 @@ Tolerance CaseReader::readTolerance(const TableReader& table) const {
   Tolerance tolerance;
   if (const std::optional<TableReader> bounds = table.subtable("tolerance", keys)) {
     const auto fraction = [&](Key key) {
-      return bounds->has(key) ? std::optional(bounds->number(key, 0.0, share)) : std::nullopt;
+      return bounds->has(key) ? std::optional(bounds->number(key, share)) : std::nullopt;
     };
     if (bounds->has("max_diff")) {
-      tolerance.maxDiff = static_cast<int>(bounds->integer("max_diff", 0, 0, 255));
+      tolerance.maxDiff = static_cast<int>(bounds->integer("max_diff", 0, 255));
     }
     if (bounds->has("block")) {
-      tolerance.block = bounds->boolean("block", true);
+      tolerance.block = bounds->boolean("block");
     }
     tolerance.share = fraction("share");
     tolerance.flip = fraction("flip");
@@ -140,7 +140,9 @@ std::vector<Expectation> CaseReader::readExpectations(const TableReader& table) 
         entry.fail("version", error.what(), "comparisons such as \">=25,<26\" are needed");
       }
     }
-    expectation.result = static_cast<ExpectedResult>(entry.choice("result", 0, results));
+    if (entry.has("result")) {
+      expectation.result = static_cast<ExpectedResult>(entry.choice("result", results));
+    }
     expectation.reason = entry.text("reason", "");
     if (expectation.result != ExpectedResult::pass && expectation.reason.empty()) {
       entry.fail("reason", "is missing", "a sentence that says why is needed");
@@ -184,7 +186,7 @@ void CaseReader::read(const TableReader& table, Draft& draft) const {
   if (const std::optional<TableReader> grid = table.subtable("grid")) {
     for (const auto& [key, node] : grid->table()) {
       const std::string name(key.str());
-      draft.grid[name] = valueTexts(*grid, name, node);
+      draft.grid[name] = settingTexts(*grid, name, node);
       for (const std::string& value : draft.grid[name]) {
         Draft scratch;
         apply(*grid, scratch, name, value);
@@ -198,21 +200,17 @@ void CaseReader::read(const TableReader& table, Draft& draft) const {
 }
 
 void CaseReader::expand(const TableReader& table, const Draft& draft, std::vector<RegressCase>& cases) {
-  std::vector<std::pair<Draft, std::string>> drafts{{draft, ""}};
-  for (const auto& [key, values] : draft.grid) {
-    if (cases.size() + drafts.size() * values.size() > mostCases) {
-      table.fail("grid", "makes more than " + std::to_string(mostCases) + " cases", "fewer are needed");
-    }
-    std::vector<std::pair<Draft, std::string>> more;
-    for (const auto& [base, suffix] : drafts) {
-      for (const std::string& value : values) {
-        more.emplace_back(base, suffix + (key == "scene" && !base.name ? "" : "_" + key + "=" + value));
-        apply(table, more.back().first, key, value);
-      }
-    }
-    drafts = std::move(more);
+  const auto all = combinations({draft.grid.begin(), draft.grid.end()}, mostCases - std::min(mostCases, cases.size()));
+  if (!all) {
+    table.fail("grid", "makes more than " + std::to_string(mostCases) + " cases", "fewer are needed");
   }
-  for (const auto& [one, suffix] : drafts) {
+  for (const std::vector<SettingChange>& combination : *all) {
+    Draft one = draft;
+    std::string suffix;
+    for (const auto& [key, value] : combination) {
+      suffix += key == "scene" && !draft.name ? "" : "_" + key + "=" + value;
+      apply(table, one, key, value);
+    }
     add(table, one, suffix, cases);
   }
 }

@@ -8,6 +8,7 @@
 #include "accuracy/compared_image.hpp"
 #include "accuracy/flip.hpp"
 #include "accuracy/heat_map.hpp"
+#include "accuracy/statistics.hpp"
 #include "image/picture_files.hpp"
 
 namespace speculum {
@@ -31,9 +32,7 @@ FlipFigures flipFigures(const Image8& expected, const Image8& actual, const std:
   }
   if (!values.empty()) {
     figures.mean /= static_cast<double>(values.size());
-    const auto rank = values.begin() + static_cast<std::ptrdiff_t>(std::ceil(0.99 * values.size())) - 1;
-    std::nth_element(values.begin(), rank, values.end());
-    figures.p99 = *rank;
+    figures.p99 = nearestRank(std::move(values), 0.99);
   }
   return figures;
 }

@@ -29,13 +29,7 @@ fs::path relativeTo(const fs::path& file, std::string name) {
 }
 
 Texture loadTexture(const fs::path& file) {
-  static const std::array<float, 256> linear = [] {
-    std::array<float, 256> table{};
-    for (size_t i = 0; i < table.size(); ++i) {
-      table[i] = static_cast<float>(srgbDecode(static_cast<double>(i) / 255.0));
-    }
-    return table;
-  }();
+  const std::array<float, 256>& linear = srgbDecoded();
   const Image8 image = readImage8(file);
   Texture texture{.source = file, .width = image.width, .height = image.height};
   texture.texels.reserve(image.rgba.size() / 4);

@@ -4,7 +4,6 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "geometry/mesh.hpp"
@@ -144,8 +143,9 @@ struct Bookmark {
 // One entry of the scene's [settings] table, not interpreted: the keys are described in the frame library.
 struct SettingEntry {
   std::string key;
-  std::variant<bool, int64_t, double, std::string, std::vector<double>> value;
+  std::string value;  // as --set takes it
   int line = 0;
+  bool quoted = false;  // the file has a string
 };
 
 // The part of a scene that can be edited.

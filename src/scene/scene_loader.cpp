@@ -161,6 +161,15 @@ Scene readScene(const TableReader& reader, const fs::path& file, std::string tex
   return scene;
 }
 
+// Returns nothing for a file that cannot be read.
+toml::table tomlIfAny(const fs::path& file) {
+  try {
+    return readToml(file, "scene file");
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 Scene parseScene(const fs::path& file, std::string text) {
@@ -210,20 +219,12 @@ int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
 }
 
 std::string sceneTitle(const fs::path& file) {
-  try {
-    return readToml(file, "scene file")["title"].value_or(std::string());
-  } catch (const InputError&) {
-    return "";
-  }
+  return tomlIfAny(file)["title"].value_or(std::string());
 }
 
 bool isSceneFile(const fs::path& file) {
-  try {
-    const toml::table root = readToml(file, "scene file");
-    return root.contains("camera") || root.contains("object") || root.contains("mirror");
-  } catch (const InputError&) {
-    return false;
-  }
+  const toml::table root = tomlIfAny(file);
+  return root.contains("camera") || root.contains("object") || root.contains("mirror");
 }
 
 }  // namespace speculum

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "geometry/polygon.hpp"
@@ -19,49 +20,43 @@ using Key = std::string_view;
 constexpr size_t kMostVertices = 1000;
 
 template <typename Value, typename Field>
-Value readValue(const TableReader& table, const Field& field, const Value& fallback) {
+Value readValue(const TableReader& table, const Field& field) {
   if constexpr (std::is_same_v<Value, double>) {
-    return std::clamp(table.number(field.key, fallback, field.range), field.floor, field.ceiling);
+    return std::clamp(table.number(field.key, field.range), field.floor, field.ceiling);
   } else if constexpr (std::is_same_v<Value, int>) {
-    return static_cast<int>(table.integer(field.key, fallback, static_cast<int64_t>(field.range.low),
-                                          static_cast<int64_t>(field.range.high)));
+    return static_cast<int>(
+        table.integer(field.key, static_cast<int64_t>(field.range.low), static_cast<int64_t>(field.range.high)));
   } else if constexpr (std::is_same_v<Value, bool>) {
-    return table.boolean(field.key, fallback);
+    return table.boolean(field.key);
   } else if constexpr (std::is_same_v<Value, std::string>) {
-    return field.required ? table.text(field.key) : table.text(field.key, fallback);
+    return table.text(field.key);
   } else if constexpr (std::is_same_v<Value, glm::dvec2>) {
     return table.vec2(field.key, field.range);
   } else if constexpr (std::is_same_v<Value, glm::dvec3>) {
-    return field.required  ? table.vec3(field.key, field.range)
-           : field.uniform ? table.numberOrVec3(field.key, fallback)
-                           : table.vec3(field.key, fallback, field.range);
+    return field.uniform ? table.numberOrVec3(field.key) : table.vec3(field.key, field.range);
   } else if constexpr (std::is_same_v<Value, std::vector<glm::dvec3>>) {
     return table.points(field.key);
   } else {
-    return static_cast<Value>(table.choice(field.key, static_cast<size_t>(fallback), choicesOf(fallback)));
+    return static_cast<Value>(table.choice(field.key, choicesOf(Value())));
   }
 }
 
 template <Described Node>
 void readFields(const TableReader& table, Node& node) {
   forEachField<Node>([&](const auto& field) {
-    if (!field.appliesTo(node)) {
+    if (!field.appliesTo(node) || (!field.required && !table.has(field.key))) {
       return;
     }
     using Value = typename std::decay_t<decltype(field)>::Value;
     Value& value = node.*field.member;
     if constexpr (Described<Value>) {
-      if (const auto within = table.subtable(field.key, keysOf<Value>())) {
-        readFields(*within, value);
-      }
+      readFields(*table.subtable(field.key, keysOf<Value>()), value);
     } else if constexpr (!IsOptional<Value>::value) {
-      value = readValue(table, field, value);
+      value = readValue<Value>(table, field);
     } else if constexpr (Described<typename Value::value_type>) {
-      if (const auto within = table.subtable(field.key, keysOf<typename Value::value_type>())) {
-        readFields(*within, value.emplace());
-      }
-    } else if (table.has(field.key)) {
-      value = readValue(table, field, typename Value::value_type());
+      readFields(*table.subtable(field.key, keysOf<typename Value::value_type>()), value.emplace());
+    } else {
+      value = readValue<typename Value::value_type>(table, field);
     }
   });
 }
@@ -133,33 +128,43 @@ void checkDirections(const TableReader& table, const CameraSpec& camera) {
   }
 }
 
-SettingEntry readSetting(const TableReader& settings, const toml::node& node, const std::string& key, int line) {
+// Returns a boolean, number or string as --set takes it; nothing for any other value.
+std::optional<std::string> plainText(const toml::node& node) {
+  if (const toml::value<std::string>* text = node.as_string()) {
+    return text->get();
+  }
+  if (const toml::value<bool>* flag = node.as_boolean()) {
+    return flag->get() ? "true" : "false";
+  }
+  if (const toml::value<int64_t>* integer = node.as_integer()) {
+    return std::to_string(integer->get());
+  }
+  const toml::value<double>* number = node.as_floating_point();
+  return number ? std::optional(nlohmann::json(number->get()).dump()) : std::nullopt;
+}
+
+// Returns the text of a boolean, number, string or array of numbers.
+std::string settingText(const TableReader& settings, const toml::node& node, const std::string& key) {
   const Key wanted = "a boolean, number, string or array of numbers is needed";
-  SettingEntry entry{.key = key, .value = false, .line = line};
-  if (node.is_boolean()) {
-    entry.value = node.as_boolean()->get();
-  } else if (node.is_integer()) {
-    entry.value = node.as_integer()->get();
-  } else if (node.is_string()) {
-    entry.value = node.as_string()->get();
-  } else if (node.is_floating_point() && std::isfinite(node.as_floating_point()->get())) {
-    entry.value = node.as_floating_point()->get();
-  } else if (node.is_floating_point()) {
+  if (node.is_floating_point() && !std::isfinite(node.as_floating_point()->get())) {
     settings.failAt(node, key, "is not finite", wanted);
-  } else if (const toml::array* array = node.as_array()) {
-    std::vector<double> values;
-    for (const toml::node& element : *array) {
-      const std::optional<double> value = element.is_number() ? element.value<double>() : std::nullopt;
-      if (!value || !std::isfinite(*value)) {
-        settings.failAt(element, key, "has an element that is not a finite number", wanted);
-      }
-      values.push_back(*value);
-    }
-    entry.value = std::move(values);
-  } else {
+  }
+  if (const std::optional<std::string> text = plainText(node)) {
+    return *text;
+  }
+  const toml::array* array = node.as_array();
+  if (!array) {
     settings.failAt(node, key, "is " + std::string(typeName(node)), wanted);
   }
-  return entry;
+  std::vector<double> values;
+  for (const toml::node& element : *array) {
+    const std::optional<double> value = element.is_number() ? element.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value)) {
+      settings.failAt(element, key, "has an element that is not a finite number", wanted);
+    }
+    values.push_back(*value);
+  }
+  return nlohmann::json(values).dump();
 }
 
 // `depth`: number of tables around `table` within [settings].
@@ -179,7 +184,7 @@ void flatten(const TableReader& settings, const toml::table& table, const std::s
     if (entries.contains(full)) {
       settings.failAt(node, full, "is set twice", "set it once, either quoted or nested");
     }
-    entries.emplace(full, readSetting(settings, node, full, line));
+    entries[full] = {full, settingText(settings, node, full), line, node.is_string()};
   }
 }
 
@@ -217,6 +222,29 @@ std::vector<SettingEntry> readSettings(const TableReader& file) {
   }
   std::ranges::stable_sort(entries, [](const SettingEntry& a, const SettingEntry& b) { return a.line < b.line; });
   return entries;
+}
+
+std::vector<std::string> settingTexts(const TableReader& table, Key key, const toml::node& node) {
+  std::vector<std::string> texts;
+  const auto add = [&](const toml::node& value) {
+    const std::optional<std::string> text = plainText(value);
+    if (!text) {
+      table.failAt(value, key, "is " + std::string(typeName(value)),
+                   "a number, true, false, a string or an array of those is needed");
+    }
+    texts.push_back(*text);
+  };
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& element : *array) {
+      add(element);
+    }
+  } else {
+    add(node);
+  }
+  if (texts.empty()) {
+    table.failAt(node, key, "is empty", "at least one value is needed");
+  }
+  return texts;
 }
 
 Object readObject(const TableReader& table) {

@@ -14,6 +14,9 @@ PointLight readLight(const TableReader& table);
 Mirror readMirror(const TableReader& table);
 Bookmark readBookmark(const TableReader& table, const CameraSpec& camera);
 
+// Returns the values of a key of `table` as --set takes them; a plain value counts as a list of one. Throws InputError.
+std::vector<std::string> settingTexts(const TableReader& table, std::string_view key, const toml::node& node);
+
 // Keys of the table that a node is read from.
 template <Described Node>
 std::span<const std::string_view> keysOf() {

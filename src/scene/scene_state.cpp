@@ -112,14 +112,6 @@ struct Placed {
   Bounds bounds;
 };
 
-Placed placedAs(const Mirror& mirror, MirrorState& state) {
-  Placed placed{.mirror = &mirror, .state = &state};
-  for (const glm::dvec3& p : state.polygon) {
-    placed.bounds.add(p);
-  }
-  return placed;
-}
-
 bool inOnePlane(const Placed& a, const Placed& b) {
   const Plane plane{a.state->polygon[0], a.state->normal};
   const double slack = std::max(a.state->slack, b.state->slack);
@@ -169,7 +161,7 @@ void findLayers(std::span<const Mirror> mirrors, std::span<MirrorState> states) 
   std::vector<std::vector<Placed>> planes;
   for (size_t i = 0; i < states.size(); ++i) {
     states[i].plane = static_cast<int>(i);
-    const Placed placed = placedAs(mirrors[i], states[i]);
+    const Placed placed{&mirrors[i], &states[i], Bounds::around(states[i].polygon)};
     const auto same = std::ranges::find_if(planes, [&](const auto& plane) { return inOnePlane(plane[0], placed); });
     if (same == planes.end()) {
       planes.push_back({placed});

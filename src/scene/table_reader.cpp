@@ -40,15 +40,12 @@ std::string_view typeName(const toml::node& node) {
   }
 }
 
-TableReader::TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line)
-    : file_(file), label_(std::move(label)), table_(table), line_(std::max(1, line)) {}
-
 TableReader::TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line,
                          std::span<const std::string_view> known)
-    : TableReader(file, std::move(label), table, line) {
+    : file_(file), label_(std::move(label)), table_(table), line_(std::max(1, line)) {
   const toml::key* first = nullptr;
   for (const auto& [key, value] : table_) {
-    const bool isKnown = std::ranges::find(known, key.str()) != known.end();
+    const bool isKnown = known.empty() || std::ranges::find(known, key.str()) != known.end();
     if (!isKnown && (first == nullptr || key.source().begin.line < first->source().begin.line)) {
       first = &key;
     }
@@ -123,43 +120,31 @@ glm::dvec3 TableReader::vec3Of(const toml::node& node, std::string_view key, con
   return {values[0], values[1], values[2]};
 }
 
-double TableReader::number(std::string_view key, double fallback, const Range& range) const {
-  const toml::node* node = table_.get(key);
-  return node == nullptr ? fallback : numberOf(*node, key, range);
+double TableReader::number(std::string_view key, const Range& range) const {
+  return numberOf(required(key, range.text()), key, range);
 }
 
-int64_t TableReader::integer(std::string_view key, int64_t fallback, int64_t low, int64_t high) const {
-  const toml::node* node = table_.get(key);
-  if (node == nullptr) {
-    return fallback;
-  }
+int64_t TableReader::integer(std::string_view key, int64_t low, int64_t high) const {
   const std::string right = fmt::format("an integer {} .. {} is needed", low, high);
-  expect(node->is_integer(), *node, key, right);
-  const int64_t value = node->as_integer()->get();
+  const toml::node& node = required(key, right);
+  expect(node.is_integer(), node, key, right);
+  const int64_t value = node.as_integer()->get();
   if (value < low || value > high) {
-    failAt(*node, key, fmt::format("is {}", value), right);
+    failAt(node, key, fmt::format("is {}", value), right);
   }
   return value;
 }
 
-bool TableReader::boolean(std::string_view key, bool fallback) const {
-  const toml::node* node = table_.get(key);
-  if (node == nullptr) {
-    return fallback;
-  }
-  expect(node->is_boolean(), *node, key, "true or false is needed");
-  return node->as_boolean()->get();
+bool TableReader::boolean(std::string_view key) const {
+  const toml::node& node = required(key, "true or false is needed");
+  expect(node.is_boolean(), node, key, "true or false is needed");
+  return node.as_boolean()->get();
 }
 
 std::string TableReader::text(std::string_view key) const {
   const toml::node& node = required(key, "a string is needed");
   expect(node.is_string(), node, key, "a string is needed");
   return node.as_string()->get();
-}
-
-glm::dvec3 TableReader::vec3(std::string_view key, const glm::dvec3& fallback, const Range& range) const {
-  const toml::node* node = table_.get(key);
-  return node == nullptr ? fallback : vec3Of(*node, key, range);
 }
 
 glm::dvec3 TableReader::vec3(std::string_view key, const Range& range) const {
@@ -171,12 +156,11 @@ glm::dvec2 TableReader::vec2(std::string_view key, const Range& range) const {
   return {values[0], values[1]};
 }
 
-glm::dvec3 TableReader::numberOrVec3(std::string_view key, const glm::dvec3& fallback) const {
-  const toml::node* node = table_.get(key);
-  if (node != nullptr) {
-    expect(node->is_number() || node->is_array(), *node, key, "a number or an array of 3 numbers is needed");
-  }
-  return node != nullptr && node->is_number() ? glm::dvec3(numberOf(*node, key, kAny)) : vec3(key, fallback);
+glm::dvec3 TableReader::numberOrVec3(std::string_view key) const {
+  constexpr std::string_view right = "a number or an array of 3 numbers is needed";
+  const toml::node& node = required(key, right);
+  expect(node.is_number() || node.is_array(), node, key, right);
+  return node.is_number() ? glm::dvec3(numberOf(node, key, kAny)) : vec3Of(node, key, kAny);
 }
 
 std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
@@ -189,10 +173,7 @@ std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
   return points;
 }
 
-size_t TableReader::choice(std::string_view key, size_t fallback, std::span<const std::string_view> choices) const {
-  if (!has(key)) {
-    return fallback;
-  }
+size_t TableReader::choice(std::string_view key, std::span<const std::string_view> choices) const {
   const std::string value = text(key);
   const auto found = std::ranges::find(choices, value);
   if (found == choices.end()) {
@@ -201,22 +182,13 @@ size_t TableReader::choice(std::string_view key, size_t fallback, std::span<cons
   return static_cast<size_t>(found - choices.begin());
 }
 
-const toml::table* TableReader::tableOf(std::string_view key) const {
-  const toml::node* node = table_.get(key);
-  if (node != nullptr) {
-    expect(node->is_table(), *node, key, "a table is needed");
-  }
-  return node == nullptr ? nullptr : node->as_table();
-}
-
 std::optional<TableReader> TableReader::subtable(std::string_view key, std::span<const std::string_view> known) const {
-  const toml::table* table = tableOf(key);
-  return table == nullptr ? std::nullopt : std::optional<TableReader>({file_, fullKey(key), *table, line(key), known});
-}
-
-std::optional<TableReader> TableReader::subtable(std::string_view key) const {
-  const toml::table* table = tableOf(key);
-  return table == nullptr ? std::nullopt : std::optional<TableReader>({file_, fullKey(key), *table, line(key)});
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) {
+    return std::nullopt;
+  }
+  expect(node->is_table(), *node, key, "a table is needed");
+  return TableReader(file_, fullKey(key), *node->as_table(), line(key), known);
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key, std::span<const std::string_view> known) const {

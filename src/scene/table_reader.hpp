@@ -14,39 +14,35 @@
 
 namespace speculum {
 
-// One table of a scene file. Every getter throws InputError with file, line and full key for a wrong type or a value
-// out of range. An absent key gives the fallback; without a fallback it is an error.
+// One table of a TOML file. Every getter throws InputError with file, line and full key for a wrong type or a value out
+// of range, and for an absent key unless it takes a fallback.
 class TableReader {
  public:
-  // Throws for a key that is not among `known`. `label` is the table's full key, empty for the whole file. `file`,
-  // `table` and `known` must outlive the reader.
+  // Throws for a key that is not among `known`, unless those are empty. `label` is the table's full key, empty for the
+  // whole file. `file` and `table` must outlive the reader.
   TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line,
-              std::span<const std::string_view> known);
-  // Takes any key.
-  TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line);
+              std::span<const std::string_view> known = {});
 
   bool has(std::string_view key) const { return table_.contains(key); }
   int line() const { return line_; }
-  int line(std::string_view key) const;  // the table's own when the key is absent
-  const std::string& label() const { return label_; }
   const toml::table& table() const { return table_; }
 
-  double number(std::string_view key, double fallback, const Range& range = kAny) const;
-  int64_t integer(std::string_view key, int64_t fallback, int64_t low, int64_t high) const;
-  bool boolean(std::string_view key, bool fallback) const;
-  std::string text(std::string_view key, const std::string& fallback) const { return has(key) ? text(key) : fallback; }
+  double number(std::string_view key, const Range& range) const;
+  double number(std::string_view key, double fallback, const Range& range) const {
+    return has(key) ? number(key, range) : fallback;
+  }
+  int64_t integer(std::string_view key, int64_t low, int64_t high) const;
+  bool boolean(std::string_view key) const;
   std::string text(std::string_view key) const;
-  glm::dvec3 vec3(std::string_view key, const glm::dvec3& fallback, const Range& range = kAny) const;
-  glm::dvec3 vec3(std::string_view key, const Range& range = kAny) const;
+  std::string text(std::string_view key, const std::string& fallback) const { return has(key) ? text(key) : fallback; }
   glm::dvec2 vec2(std::string_view key, const Range& range) const;
-  // A number stands for three equal ones.
-  glm::dvec3 numberOrVec3(std::string_view key, const glm::dvec3& fallback) const;
+  glm::dvec3 vec3(std::string_view key, const Range& range) const;
+  glm::dvec3 numberOrVec3(std::string_view key) const;  // a number stands for three equal ones
   std::vector<glm::dvec3> points(std::string_view key) const;
   // Index of the text in `choices`.
-  size_t choice(std::string_view key, size_t fallback, std::span<const std::string_view> choices) const;
+  size_t choice(std::string_view key, std::span<const std::string_view> choices) const;
 
-  std::optional<TableReader> subtable(std::string_view key, std::span<const std::string_view> known) const;
-  std::optional<TableReader> subtable(std::string_view key) const;  // takes any key
+  std::optional<TableReader> subtable(std::string_view key, std::span<const std::string_view> known = {}) const;
   // [[key]] tables; each is labelled with its name, or else its index.
   std::vector<TableReader> tables(std::string_view key, std::span<const std::string_view> known) const;
 
@@ -55,8 +51,8 @@ class TableReader {
                            std::string_view right) const;
 
  private:
+  int line(std::string_view key) const;  // the table's own when the key is absent
   std::string fullKey(std::string_view key) const;
-  const toml::table* tableOf(std::string_view key) const;
   void expect(bool fits, const toml::node& node, std::string_view key, std::string_view right) const;
   const toml::node& required(std::string_view key, std::string_view right) const;
   double numberOf(const toml::node& node, std::string_view key, const Range& range) const;

@@ -19,15 +19,6 @@ bool isInvertible(const glm::dmat3& m) {
   return std::isfinite(glm::dot(inverse[0] + inverse[1] + inverse[2], glm::dvec3(1.0)));
 }
 
-// Adds a margin for the rounding of rays on their way into mesh space.
-Bounds padded(Bounds box) {
-  const glm::dvec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
-  const double margin = 1e-13 * std::max({reach.x, reach.y, reach.z});
-  box.low -= margin;
-  box.high += margin;
-  return box;
-}
-
 }  // namespace
 
 TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene) {
@@ -70,7 +61,8 @@ void TraceWorld::place(const SceneState& state) {
   }
   std::vector<Bounds> boxes;
   for (const Item& item : items) {
-    boxes.push_back(padded(boundsOf(item)));
+    // The margin is for the rounding of rays on their way into mesh space.
+    boxes.push_back(boundsOf(item).widened(1e-13));
   }
   bvh_ = Bvh(boxes, 1);
   items_.clear();
@@ -80,12 +72,11 @@ void TraceWorld::place(const SceneState& state) {
 }
 
 Bounds TraceWorld::boundsOf(const Item& item) const {
-  Bounds box;
   if (item.kind == HitKind::mirror) {
-    for (const glm::dvec3& p : mirrors_[item.index].polygon) {
-      box.add(p);
-    }
-  } else if (item.kind == HitKind::glyph) {
+    return Bounds::around(mirrors_[item.index].polygon);
+  }
+  Bounds box;
+  if (item.kind == HitKind::glyph) {
     const double radius = scene_->lights[item.index].radius;
     box.add(lights_[item.index].position - radius);
     box.add(lights_[item.index].position + radius);

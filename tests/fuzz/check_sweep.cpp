@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/sweep_json.hpp"
-#include "accuracy/sweep_plan_file.hpp"
+#include "accuracy/sweep_plan.hpp"
 #include "fuzz_support.hpp"
 
 namespace speculum::fuzz {
@@ -26,9 +26,8 @@ void checkPlan(const SweepPlan& plan) {
   for (const SweepConfiguration& configuration : plan.configurations) {
     settingsWith(Settings(), configuration.changes);
   }
-  for (const PlannedSeries& planned : plan.series) {
-    require(planned.series.points.size() == planned.series.x.size() && planned.series.points.size() > 1,
-            "a series has points");
+  for (const SweepSeries& series : plan.series) {
+    require(series.points.size() == series.x.size() && series.points.size() > 1, "a series has points");
   }
 }
 
