@@ -70,7 +70,9 @@ constexpr SettingField fields[] = {
     {.key = "reflection.method",
      .kind = choice<&R::method>(reflectionMethods),
      .label = "Method",
-     .text = "mirrors by images that passes render, or by rays; auto: small ones by rays if the device is a CPU",
+     .text =
+         "mirrors by images that passes render, or by rays; auto: rays for small ones on CPUs, and on GPUs for all if "
+         "one covers much of a picture with one sample a pixel",
      .cost = "A ray costs more than a texel, but no pass for each mirror."},
     {.key = "reflection.scale",
      .kind = NumberSetting{at<&R::scale>, 0.125, 4.0},
