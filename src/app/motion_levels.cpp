@@ -59,28 +59,6 @@ Settings lowered(Settings settings, const Settings& limit) {
   return settings;
 }
 
-// Effects of a scene that rays or maps show, under its settings.
-struct RayUse {
-  bool shadows = false;
-  bool castsLight = false;
-  bool ripple = false;
-  bool rough = false;
-  bool curved = false;
-};
-
-RayUse raysOf(const Scene& scene, const EffectSettings& effects) {
-  RayUse use{.shadows = effects.shadows && !shadowLights(scene).empty(),
-             .curved = effects.curved && std::ranges::any_of(scene.objects, [](const Object& object) {
-                         return object.mirror.has_value();
-                       })};
-  for (const Mirror& mirror : scene.mirrors) {
-    use.castsLight = use.castsLight || (effects.castsLight && mirror.castsLight);
-    use.ripple = use.ripple || (effects.ripple && mirror.ripple);
-    use.rough = use.rough || (effects.roughness && mirror.roughness > 0.0);
-  }
-  return use;
-}
-
 // Return the mean FLIP that each setting adds, on average over the shipped scenes without traced effects.
 double scaleError(double scale) {
   return 0.055 * std::pow(1.0 / scale - 1.0, 0.62);
@@ -136,9 +114,22 @@ double addedError(const Settings& chosen, const Settings& lower) {
 
 }  // namespace
 
+AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings) {
+  AskedEffects asked{.shadows = settings.shadows && !shadowLights(scene).empty(),
+                     .curved = settings.curved && std::ranges::any_of(scene.objects, [](const Object& object) {
+                                 return object.mirror.has_value();
+                               })};
+  for (const Mirror& mirror : scene.mirrors) {
+    asked.castsLight = asked.castsLight || (settings.castsLight && mirror.castsLight);
+    asked.ripple = asked.ripple || isRippled(mirror, settings);
+    asked.rough = asked.rough || isRough(mirror, settings);
+  }
+  return asked;
+}
+
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
                                       unsigned sampleCounts, bool simplifies, bool cpuDevice) {
-  const RayUse rays = raysOf(scene, chosen.effects);
+  const AskedEffects rays = askedEffects(scene, chosen.effects);
   std::vector<MotionLevel> levels{{chosen}};
   const auto add = [&](const Settings& settings, double error) {
     if (!sameMainView(settings, levels.back().settings)) {
