@@ -295,7 +295,7 @@ void SceneEditor::remove() {
   }
   beginChange();
   others_.clear();
-  nodes.size() == 1 ? document_.remove(nodes.front()) : document_.remove(std::span(nodes));
+  document_.remove(std::span(nodes));
   forgetPath();
 }
 
@@ -309,30 +309,20 @@ void SceneEditor::removeBookmark(size_t index) {
   document_.removeBookmark(index);
 }
 
-void SceneEditor::undo() {
+// Nodes stay selected together as long as all of them keep their indices.
+std::optional<SettingsStep> SceneEditor::step(UndoWay way) {
   release();
-  if (document_.canUndo()) {
-    step(&SceneDocument::undo);
+  if (document_.changesScene(way)) {
+    beforeChange_();
+    forgetPath();
   }
-}
-
-void SceneEditor::redo() {
-  release();
-  if (document_.canRedo()) {
-    step(&SceneDocument::redo);
-  }
-}
-
-// Undoes or redoes a step. Nodes stay selected together as long as all of them keep their indices.
-void SceneEditor::step(void (SceneDocument::*way)()) {
-  beforeChange_();
   const uint64_t structure = document_.structureRevision();
   const Selection first = document_.selection();
-  (document_.*way)();
-  forgetPath();
+  const std::optional<SettingsStep> settings = way == UndoWay::back ? document_.undo() : document_.redo();
   if (document_.structureRevision() != structure || !sameNode(document_.selection(), first)) {
     others_.clear();
   }
+  return settings;
 }
 
 std::filesystem::path SceneEditor::modelFile(const std::filesystem::path& model) const {
