@@ -1,7 +1,5 @@
 #include "app/workspace.hpp"
 
-#include <algorithm>
-
 #include "app/pace.hpp"
 #include "app/view_command.hpp"
 #include "frame/setting_fields.hpp"
@@ -21,19 +19,6 @@ struct Overloaded : Functions... {
 template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // clang needs it before version 17
 
-// Finds the models that come with the program.
-std::vector<fs::path> findShippedModels() {
-  std::vector<fs::path> models;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(dataDirectory("scenes").parent_path() / "models", none)) {
-    if (isModelFile(entry.path())) {
-      models.push_back(entry.path());
-    }
-  }
-  std::ranges::sort(models);
-  return models;
-}
-
 std::string windowTitle(const EditView& edit) {
   return edit.scene->file.stem().string() + (edit.unsaved ? "* - Speculum" : " - Speculum");
 }
@@ -45,7 +30,7 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
       host_(host),
       logCapture_(captureLog(log_)),
       loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
-      shippedModels_(findShippedModels()),
+      shippedModels_(SceneBrowser::shippedModels()),
       accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
   browser_.list(loaded_->scene.file);
   startDocument();
