@@ -87,28 +87,28 @@ TEST(Accumulation, CountsAllPicturesInItsFigures) {
   runFrames(session);
   const DrawnFrame one = session.lastFrame();
   EXPECT_EQ(one.pictures, 1);
-  double oneMs = one.timings.gpuMs;  // the least of some, because other programs only ever add to it
+  double oneMs = one.gpuMs;  // the least of some, because other programs only ever add to it
   for (int frame = 0; frame < 4; ++frame) {
     session.restart();
     runFrames(session);
-    oneMs = std::min(oneMs, session.lastFrame().timings.gpuMs);
+    oneMs = std::min(oneMs, session.lastFrame().gpuMs);
   }
   shown(session, 5);
   session.finish();
   const DrawnFrame& five = session.lastFrame();
   EXPECT_EQ(five.pictures, 5);
-  ASSERT_EQ(five.passes.size(), one.passes.size() + 1);
-  for (size_t i = 0; i < one.passes.size(); ++i) {
-    const bool displays = one.passes[i].kind == PassKind::display;
+  ASSERT_EQ(five.passes().size(), one.passes().size() + 1);
+  for (size_t i = 0; i < one.passes().size(); ++i) {
+    const bool displays = one.passes()[i].kind == PassKind::display;
     const size_t k = displays ? i + 1 : i;
-    EXPECT_EQ(five.passes[k].name, one.passes[i].name);
-    EXPECT_NEAR(five.passes[k].draws, one.passes[i].draws * (displays ? 1 : 5), 0.02 * five.passes[k].draws)
+    EXPECT_EQ(five.passes()[k].name, one.passes()[i].name);
+    EXPECT_NEAR(five.passes()[k].draws, one.passes()[i].draws * (displays ? 1 : 5), 0.02 * five.passes()[k].draws)
         << "clusters may differ at the edge";
-    EXPECT_NEAR(five.timings.passes[k].triangles, 5.0 * one.timings.passes[i].triangles,
-                0.05 * five.timings.passes[k].triangles + (displays ? 10 : 0));
+    EXPECT_NEAR(five.passes()[k].timing.triangles, 5.0 * one.passes()[i].timing.triangles,
+                0.05 * five.passes()[k].timing.triangles + (displays ? 10 : 0));
   }
-  EXPECT_EQ(five.passes[one.passes.size() - 1].draws, 5u) << "of the pass that adds";
-  EXPECT_GT(five.timings.gpuMs, 2.0 * oneMs);
+  EXPECT_EQ(five.passes()[one.passes().size() - 1].draws, 5u) << "of the pass that adds";
+  EXPECT_GT(five.gpuMs, 2.0 * oneMs);
 }
 
 // The mean hides a wrong value in one picture, so pictures are checked before they are summed.
@@ -243,18 +243,18 @@ TEST(LongDraws, AreDividedWithoutATrace) {
   session.draw(0.0, true);
   session.finish();
   const Image8 whole = session.picture();
-  const std::vector<RecordedPass> passes = session.lastFrame().passes;
-  const uint64_t frame = session.lastFrame().timings.frame;
+  const std::vector<TimedPass> passes = session.lastFrame().passes();
+  const uint64_t frame = session.lastFrame().number;
   set(session, {{"debug.check_finite", "false"}});
   session.draw(0.0, true);
   session.finish();
   EXPECT_EQ(session.picture().rgba, whole.rgba);
-  EXPECT_GE(session.lastFrame().timings.frame, frame + 2) << "several frames drew it";
-  ASSERT_EQ(session.lastFrame().passes.size(), passes.size());
+  EXPECT_GE(session.lastFrame().number, frame + 2) << "several frames drew it";
+  ASSERT_EQ(session.lastFrame().passes().size(), passes.size());
   for (size_t i = 0; i < passes.size(); ++i) {
-    EXPECT_EQ(session.lastFrame().passes[i].name, passes[i].name);
-    EXPECT_EQ(session.lastFrame().passes[i].draws, passes[i].draws);
-    EXPECT_GT(session.lastFrame().timings.passes[i].gpuMs, 0.0);
+    EXPECT_EQ(session.lastFrame().passes()[i].name, passes[i].name);
+    EXPECT_EQ(session.lastFrame().passes()[i].draws, passes[i].draws);
+    EXPECT_GT(session.lastFrame().passes()[i].timing.gpuMs, 0.0);
   }
   EXPECT_FALSE(session.lastFrame().plan.tiles);
 }

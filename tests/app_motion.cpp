@@ -47,9 +47,8 @@ struct Window {
   double raysOfTexel = 0.0;
   MotionController controller{device.isCpu};
   std::vector<MotionLevel> levels = motionLevels({}, {}, {}, 1 + 4, true, false);
-  uint64_t number = 0;
-  std::deque<std::pair<uint64_t, double>> inFlight;  // frames whose times have not arrived yet
-  std::vector<double> times{};                       // ms
+  std::deque<std::pair<FrameWork, double>> inFlight;  // frames whose times have not arrived yet
+  std::vector<double> times{};                        // ms
   std::vector<size_t> chosen{};
 
   FrameWork work(const Settings& settings) const {
@@ -68,10 +67,9 @@ struct Window {
   double draw(const Settings& settings) {
     const FrameWork frame = work(settings);
     const double ms = load * device.frameMs(frame, random);
-    controller.drawn(++number, frame);
-    inFlight.emplace_back(number, ms);
+    inFlight.emplace_back(frame, ms);
     if (inFlight.size() > 2) {
-      controller.finished(inFlight.front().first, inFlight.front().second);
+      controller.learn(inFlight.front().first, inFlight.front().second);
       inFlight.pop_front();
     }
     return ms;

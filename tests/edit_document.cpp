@@ -67,6 +67,32 @@ TEST_F(SceneDocumentTest, UndoRedoRestoreContentLabelAndSelection) {
   EXPECT_FALSE(document.canRedo()) << "a new step ends what could be redone";
 }
 
+TEST_F(SceneDocumentTest, SettingsAreStepsThatLeaveTheScene) {
+  document.change("move object 'teapot'", kTeapot, moveTeapot(1));
+  const uint64_t revision = document.revision();
+  const Settings before;
+  Settings after;
+  after.view.exposure = 2.0;
+  document.settingsChanged(before, before, false);
+  EXPECT_TRUE(document.changesScene(UndoWay::back)) << "nothing has changed";
+  document.settingsChanged(before, after, false);
+  EXPECT_EQ(document.undoLabel(), "change Exposure");
+  EXPECT_FALSE(document.changesScene(UndoWay::back));
+  after.view.samples = 1;
+  document.settingsChanged(before, after, true);
+  EXPECT_EQ(document.undoLabel(), "change settings");
+  const std::optional<SettingsStep> step = document.undo();
+  ASSERT_TRUE(step);
+  EXPECT_EQ(step->before, before);
+  EXPECT_EQ(step->after, after);
+  EXPECT_EQ(document.revision(), revision);
+  EXPECT_TRUE(document.redo());
+  document.undo();
+  EXPECT_FALSE(document.undo()) << "a step of the scene";
+  EXPECT_EQ(scene.objects[0].position.x, 0);
+  EXPECT_TRUE(document.changesScene(UndoWay::forward));
+}
+
 TEST_F(SceneDocumentTest, UnchangedValuesAddNoStep) {
   const uint64_t revision = document.revision();
   document.change("move", kTeapot, moveTeapot(0));

@@ -112,17 +112,17 @@ TEST_F(IdleWindow, TargetsShowTexelsAndNeedTheMainView) {
     run(4);
     EXPECT_EQ(mainView().framesAgo, 0);
     EXPECT_TRUE(view().frame.target.value);
-    return view().frame.target.value.value_or(TexelView{});
+    return view().frame.target.value.value_or(TexelValue{});
   };
-  const TexelView color = valueAt(0);
+  const TexelValue color = valueAt(0);
   EXPECT_FALSE(color.depth);
   EXPECT_EQ(view().frame.target.size, glm::ivec2(width, height));
   EXPECT_EQ(view().frame.target.mirrors.size(), 1u);
   click("targets.depth");
   for (const int left : {0, 10, 20}) {
-    const TexelView depth = valueAt(left);
+    const TexelValue depth = valueAt(left);
     EXPECT_TRUE(depth.depth);
-    EXPECT_NEAR(depth.metres, 6.0, 0.01) << "without the scene there is no depth";
+    EXPECT_NEAR(view().frame.target.near / depth.storedDepth, 6.0, 0.01) << "without the scene there is no depth";
   }
   click("panel.Targets");
   settle();
@@ -131,7 +131,7 @@ TEST_F(IdleWindow, TargetsShowTexelsAndNeedTheMainView) {
   EXPECT_GT(mainView().framesAgo, 0) << "nobody looks at it any more";
   hidePanels();
   for (int i = 0; i < 3; ++i) {
-    const double shown = 255.0 * srgbEncode(std::clamp(color.value[i], 0.0, 1.0));
+    const double shown = 255.0 * srgbEncode(std::clamp(color.value[i], 0.0f, 1.0f));
     EXPECT_NEAR(picture().at(color.texel.x, color.texel.y)[i], shown, 0.6);
   }
 }
@@ -172,7 +172,7 @@ TEST_F(IdleWindow, GalleryShowsAndOpensScenes) {
 
 TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
   hidePanels();
-  Settings settings = view().settings.current;
+  Settings settings = view().settings;
   settings.quality.stillPictures = 5;
   demo_->apply(SetSettings{settings});
   pointAt(width - 100, 90);  // wakes the window
@@ -220,7 +220,7 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   ASSERT_TRUE(waitFor([&] { return !view().accuracy.measuring; }));
   EXPECT_TRUE(view().accuracy.points.empty());
   run(2);
-  Settings settings = view().settings.current;
+  Settings settings = view().settings;
   settings.quality.maxError = 0.9;
   demo_->apply(SetSettings{settings});
   settings.view.exposure = 2.0;
@@ -246,7 +246,7 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   EXPECT_NE(measured.current, best);
   click("accuracy.point " + measured.points[static_cast<size_t>(best)].name);
   EXPECT_EQ(measured.current, best);
-  EXPECT_EQ(view().settings.current.view.samples, 4);
+  EXPECT_EQ(view().settings.view.samples, 4);
   setSetting("quality.max_error", "0.5");
   run(2);
   EXPECT_NE(measured.choice.find("mean FLIP"), std::string::npos) << measured.choice;

@@ -38,8 +38,7 @@ class ScarceMemory : public Journey {
   }
   Image8 expected(const std::filesystem::path& file, const std::string& textures) {
     Options options = headless(file, {width, height});
-    set(options,
-        {{"effects.textures", textures}, {"view.exposure", settingValue(view().settings.current, "view.exposure")}});
+    set(options, {{"effects.textures", textures}, {"view.exposure", settingValue(view().settings, "view.exposure")}});
     return draw(options);
   }
 };
@@ -53,7 +52,7 @@ TEST_F(ScarceMemory, TexturesBeyondMemoryAreLeftOut) {
   EXPECT_EQ(message.find("drawn without textures until a setting is changed: allocate "), 0u) << message;
   EXPECT_NE(message.find("VK_ERROR_OUT_OF_DEVICE_MEMORY"), std::string::npos) << message;
   EXPECT_NE(view().log.lines().back().text.find(message), std::string::npos);
-  EXPECT_TRUE(view().settings.current.effects.textures) << "the user's choice stays";
+  EXPECT_TRUE(view().settings.effects.textures) << "the user's choice stays";
   const int refused = refusedAllocations();
   click("message.dismiss");
   const Image8 without = barePicture();

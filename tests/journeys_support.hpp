@@ -77,7 +77,7 @@ class Journey : public testing::Test {
     const int last = drawn + frames;
     int sleeps = -1;
     ASSERT_TRUE(waitFor([&] {
-      const bool slept = demo_->framesDrawn() == drawn && !view().settings.current.view.continuous;
+      const bool slept = demo_->framesDrawn() == drawn && !view().settings.view.continuous;
       sleeps = slept ? sleeps + 1 : 0;
       drawn = demo_->framesDrawn();
       return drawn >= last || sleeps > 2;
@@ -147,7 +147,7 @@ class Journey : public testing::Test {
   }
   // Changes a setting without a widget.
   void setSetting(const std::string& key, const std::string& value) {
-    Settings settings = view().settings.current;
+    Settings settings = view().settings;
     ASSERT_FALSE(speculum::setSetting(settings, key, value));
     demo_->apply(SetSettings{settings});
     run(3);

@@ -68,6 +68,7 @@ class PanelTest : public testing::Test {
                         .device = device_,
                         .browser = browser_,
                         .settings = settings_,
+                        .sceneSettings = sceneSettings_,
                         .camera = camera_,
                         .playback = playback_,
                         .edit = edit_,
@@ -80,7 +81,7 @@ class PanelTest : public testing::Test {
       for (const Command& command : output_.commands) {
         commands_.push_back(command);
         if (const auto* set = std::get_if<SetSettings>(&command)) {
-          settings_.current = set->settings;
+          settings_ = set->settings;
         }
         const auto* edit = std::get_if<EditNode>(&command);
         if (edit && appliesEdits_) {
@@ -197,7 +198,8 @@ class PanelTest : public testing::Test {
   FrameView frame_;
   DeviceView device_;
   BrowserView browser_;
-  SettingsView settings_;
+  Settings settings_;
+  Settings sceneSettings_;
   CameraView camera_;
   PlaybackView playback_;
   EditView edit_;

@@ -11,20 +11,20 @@ using namespace testing_support;
 TEST_F(PanelTest, SettingsAreEditedAndReset) {
   EXPECT_FALSE(has("reset.view.exposure"));
   drag("view.exposure", 0.5, 60);
-  EXPECT_GT(settings_.current.view.exposure, 1.5);
+  EXPECT_GT(settings_.view.exposure, 1.5);
   drag("view.clear_color", 0.1, 60);
-  ASSERT_TRUE(settings_.current.view.clearColor);
+  ASSERT_TRUE(settings_.view.clearColor);
   const PixelRect slider = widget("view.exposure");
   const PixelRect arrow = widget("reset.view.exposure");
   EXPECT_EQ(arrow.y, slider.y);
   EXPECT_GT(arrow.x, slider.x + slider.width);
   EXPECT_LT(arrow.x + arrow.width, 12 + 420) << "within the panel";
   click("reset.view.exposure");
-  EXPECT_EQ(settings_.current.view.exposure, 1.0);
-  EXPECT_TRUE(settings_.current.view.clearColor) << "only one is reset";
+  EXPECT_EQ(settings_.view.exposure, 1.0);
+  EXPECT_TRUE(settings_.view.clearColor) << "only one is reset";
   EXPECT_FALSE(has("reset.view.exposure"));
   click("reset.view.clear_color");
-  EXPECT_FALSE(settings_.current.view.clearColor);
+  EXPECT_FALSE(settings_.view.clearColor);
   click("view.exposure");
   commands_.clear();
   run(3);
@@ -33,12 +33,12 @@ TEST_F(PanelTest, SettingsAreEditedAndReset) {
 
 TEST_F(PanelTest, ResetArrowIsReachedByKeyboard) {
   drag("view.exposure", 0.2, 60);
-  ASSERT_NE(settings_.current.view.exposure, 1.0);
+  ASSERT_NE(settings_.view.exposure, 1.0);
   // The drag left the keyboard's focus on the slider; the arrow is to its right.
   tap(ImGuiKey_RightArrow);
   tap(ImGuiKey_RightArrow);
   tap(ImGuiKey_Space);
-  EXPECT_EQ(settings_.current.view.exposure, 1.0);
+  EXPECT_EQ(settings_.view.exposure, 1.0);
 }
 
 TEST_F(PanelTest, ResetArrowOfACutRowIsReached) {
@@ -51,11 +51,11 @@ TEST_F(PanelTest, ResetArrowOfACutRowIsReached) {
   hold(true);
   moveTo(ImGui::GetIO().MousePos.x + 60, row.y + 1);
   hold(false);
-  ASSERT_NE(settings_.current.view.exposure, 1.0);
+  ASSERT_NE(settings_.view.exposure, 1.0);
   tap(ImGuiKey_RightArrow);
   tap(ImGuiKey_RightArrow);
   tap(ImGuiKey_Space);
-  EXPECT_EQ(settings_.current.view.exposure, 1.0);
+  EXPECT_EQ(settings_.view.exposure, 1.0);
 }
 
 // Says whether a widget's rectangle lies between two columns of the display.
@@ -142,7 +142,7 @@ TEST_F(PanelTest, TimeRowScrubsAndSteps) {
 }
 
 TEST_F(PanelTest, ButtonsSendTheirCommands) {
-  camera_.bookmarks = {"door", "sky"};
+  scene_.bookmarks = {{.name = "door"}, {.name = "sky"}};
   camera_.bookmark = 1;
   run(2);
   clickFor<CopyCommandLine>("copy");
@@ -214,11 +214,11 @@ TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
     run(2);
   };
   choose(0);
-  EXPECT_EQ(settings_.current.view.samples, 1);
+  EXPECT_EQ(settings_.view.samples, 1);
   choose(1);
-  EXPECT_EQ(settings_.current.view.samples, 4);
+  EXPECT_EQ(settings_.view.samples, 4);
   choose(2);
-  EXPECT_EQ(settings_.current.view.samples, 4) << "there are no more";
+  EXPECT_EQ(settings_.view.samples, 4) << "there are no more";
 }
 
 TEST_F(PanelTest, MenusSendTheirCommands) {
@@ -692,12 +692,12 @@ TEST_F(AccuracyWindow, BoundsBeginWhereSettingsWereMeasured) {
   accuracy_.current = 2;
   run(2);
   click("quality.max_error", 0.1);
-  EXPECT_NEAR(settings_.current.quality.maxError, 0.2, 1e-9);
+  EXPECT_NEAR(settings_.quality.maxError, 0.2, 1e-9);
   accuracy_.current = -1;
   accuracy_.points[0].ms = 123.4;
   run(2);
   click("quality.budget_ms", 0.1);
-  EXPECT_NEAR(settings_.current.quality.budgetMs, 130.0, 1e-9) << "the fastest of the front fits";
+  EXPECT_NEAR(settings_.quality.budgetMs, 130.0, 1e-9) << "the fastest of the front fits";
 }
 
 TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
@@ -711,13 +711,9 @@ TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
 
 TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
   click("accuracy.difference", 0.05);
-  ASSERT_TRUE(sent<ShowDifference>());
-  EXPECT_TRUE(std::get<ShowDifference>(commands_.front()).shown);
-  accuracy_.showsDifference = true;
-  run(2);
+  EXPECT_TRUE(run(2).difference);
   click("panel.Accuracy", 0.1);
-  ASSERT_TRUE(sent<ShowDifference>());
-  EXPECT_FALSE(std::get<ShowDifference>(commands_.front()).shown);
+  EXPECT_FALSE(run(2).difference);
 }
 
 class TargetsWindow : public PanelTest {
@@ -737,24 +733,24 @@ class TargetsWindow : public PanelTest {
 TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
   click("panel.Targets", 0.1);
   run(3);
-  ASSERT_TRUE(target() && target()->area);
+  ASSERT_TRUE(target() && target()->drawn);
   EXPECT_TRUE(target()->path.empty());
   const PixelRect canvas = widget("targets.canvas");
-  EXPECT_NEAR(target()->zoom, std::min(canvas.width / 900.0, canvas.height / 700.0), 1e-6);
+  EXPECT_NEAR(target()->view.zoom, std::min(canvas.width / 900.0, canvas.height / 700.0), 1e-6);
   click("targets.one");
-  EXPECT_EQ(target()->zoom, 1.0);
+  EXPECT_EQ(target()->view.zoom, 1.0);
   const glm::dvec2 before = windows_->state().targets.center;
   drag("targets.canvas", 0.5, -20, -10);
   EXPECT_NEAR(windows_->state().targets.center.x - before.x, 20.0, 1e-6);
   EXPECT_NEAR(windows_->state().targets.center.y - before.y, 10.0, 1e-6);
   wheel(1.0);
-  EXPECT_GT(target()->zoom, 1.1);
-  ASSERT_TRUE(target()->probe) << "the pointer is on it";
+  EXPECT_GT(target()->view.zoom, 1.1);
+  ASSERT_TRUE(target()->view.probe) << "the pointer is on it";
   click("targets.depth", 0.1);
-  EXPECT_TRUE(target()->depth);
-  EXPECT_FALSE(target()->probe);
+  EXPECT_EQ(target()->view.kind, TargetKind::depth);
+  EXPECT_FALSE(target()->view.probe);
   click("targets.mask", 0.1);
-  EXPECT_FALSE(target()->area) << "the panel draws it";
+  EXPECT_FALSE(target()->drawn) << "the panel draws it";
   click("targets.fit");
   EXPECT_EQ(windows_->state().targets.zoom, 0.0);
   click("panel.Targets", 0.1);

@@ -138,7 +138,7 @@ TEST_F(Saving, SecondSaveKeepsSettingsOfTheFirst) {
   send(Save{});
   EXPECT_FALSE(edit().unsaved);
   EXPECT_EQ(settingsOf(onDisk()).view.exposure, 2.0);
-  EXPECT_EQ(view().settings.ofScene.view.exposure, 2.0) << "resets go back to it";
+  EXPECT_EQ(view().sceneSettings.view.exposure, 2.0) << "resets go back to it";
   removeBall();
   send(Save{});
   EXPECT_TRUE(onDisk().objects.empty());
@@ -360,7 +360,7 @@ TEST_F(Saving, OtherWindowsKeepTheirRecords) {
   ASSERT_NE(first, second);
   start();
   EXPECT_EQ(edit().proposedFile, second);
-  recordRecovery(first);  // as another window does meanwhile
+  Recovery().record(first);  // as another window does meanwhile
   send(CancelPrompt{});
   start();
   EXPECT_EQ(edit().proposedFile, first);

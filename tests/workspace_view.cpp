@@ -95,8 +95,8 @@ TEST_F(WindowView, BookmarksAreGoneToAndSaved) {
   send(AddBookmark{});
   send(LookFromMirror{MirrorSide::back});
   send(AddBookmark{});
-  ASSERT_EQ(view().camera.bookmarks.size(), 2u);
-  EXPECT_NE(view().camera.bookmarks[0], view().camera.bookmarks[1]);
+  ASSERT_EQ(scene().bookmarks.size(), 2u);
+  EXPECT_NE(scene().bookmarks[0].name, scene().bookmarks[1].name);
   send(GoToNextBookmark{});
   EXPECT_EQ(view().camera.bookmark, 0);
   EXPECT_NEAR(glm::distance(eye(), framed.eye), 0.0, 1e-9);
@@ -106,7 +106,7 @@ TEST_F(WindowView, BookmarksAreGoneToAndSaved) {
   ASSERT_EQ(saved.bookmarks.size(), 2u);
   EXPECT_EQ(saved.bookmarks[0].position, framed.eye);
   send(RemoveBookmark{0});
-  EXPECT_EQ(view().camera.bookmarks.size(), 1u);
+  EXPECT_EQ(scene().bookmarks.size(), 1u);
   send(GoToBookmark{5});
   EXPECT_EQ(view().camera.bookmark, 0) << "there is none";
 }

@@ -48,6 +48,9 @@ struct BudgetChoice {
 struct QualityBudget {
   double ms = 0.0;     // GPU milliseconds a frame; 0: no bound. The most accurate point whose median fits is chosen
   double error = 0.0;  // mean FLIP; 0: no bound. The fastest point within it is chosen, with both only if it fits ms
+
+  bool bounds() const { return ms > 0.0 || error > 0.0; }
+  bool operator==(const QualityBudget&) const = default;
 };
 // Returns nothing without a bound or without points.
 std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget);

@@ -14,24 +14,6 @@ namespace speculum {
 
 namespace {
 
-// Shows a progress bar for each stage, one after the other.
-class StageProgress {
- public:
-  bool operator()(const SweepStatus& status) {
-    if (!progress_ || stage_ != status.stage) {
-      stage_ = status.stage;
-      progress_.reset();
-      progress_ = std::make_unique<Progress>("accuracy, " + stage_, 1.0);
-    }
-    progress_->set(status.fraction);
-    return !interruptRequested();
-  }
-
- private:
-  std::string stage_;
-  std::unique_ptr<Progress> progress_;
-};
-
 void writeReport(const Options& options, SweepResults& results, const std::string& folder) {
   for (SweepPoint& point : results.points) {
     point.picture = folder + "/" + point.picture;
@@ -70,8 +52,18 @@ int runAccuracy(const Options& options) {
                          .identity = sweepIdentity(session, options)};
   SweepResults results = describeSweep(session, plan, options.time);
   installInterruptHandler();
-  StageProgress progress;
-  if (!runSweep(plan, context.base, scene, subject, store, results, std::ref(progress))) {
+  std::string stage;
+  std::optional<Progress> progress;  // a bar for each stage, one after the other
+  const auto show = [&](const SweepStatus& status) {
+    if (!progress || stage != status.stage) {
+      stage = status.stage;
+      progress.reset();  // ends its line before the next one begins
+      progress.emplace("accuracy, " + stage, 1.0);
+    }
+    progress->set(status.fraction);
+    return !interruptRequested();
+  };
+  if (!runSweep(plan, context.base, scene, subject, store, results, show)) {
     std::fprintf(stderr, "interrupted; the same command goes on from here\n");
     return 1;
   }

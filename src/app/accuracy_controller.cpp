@@ -71,7 +71,7 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
       applyPoint(static_cast<int>(i), scratch);  // throws now if a point cannot be applied
     }
     view_.about = aboutText(results_);
-    budget_ = {loaded.quality.budgetMs, loaded.quality.maxError};
+    acceptBudget(loaded);
     if (const std::optional<BudgetChoice> chosen = chooseForBudget(results_, budget_)) {
       chosen_ = chosen->point;
     }
@@ -156,12 +156,9 @@ void AccuracyController::beforeFrame(Settings& settings) {
 }
 
 void AccuracyController::followBudget(Settings& settings) {
-  if (settings.quality.budgetMs != budget_.ms || settings.quality.maxError != budget_.error) {
-    applyBudget(settings);
+  if (budgetOf(settings) == budget_) {
+    return;
   }
-}
-
-void AccuracyController::applyBudget(Settings& settings) {
   acceptBudget(settings);
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
@@ -169,8 +166,7 @@ void AccuracyController::applyBudget(Settings& settings) {
     view_.choice += isRough_ ? " (rough figures)" : "";
     chosen_ = choice->point;
   } else {
-    const bool bounded = budget_.ms > 0.0 || budget_.error > 0.0;
-    view_.choice = bounded ? "Measure this view first." : "";
+    view_.choice = budget_.bounds() ? "Measure this view first." : "";
   }
 }
 
@@ -182,8 +178,8 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
   const auto at = std::ranges::find_if(pointSettings_, [&](const auto& point) { return isAtPoint(settings, point); });
   view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
   if (view_.current != chosen_) {
-    const bool bounded = budget_.ms > 0.0 || budget_.error > 0.0;
-    view_.choice = bounded && !results_.points.empty() ? "Set by hand. Change a bound to let it choose again." : "";
+    const bool chose = budget_.bounds() && !results_.points.empty();
+    view_.choice = chose ? "Set by hand. Change a bound to let it choose again." : "";
     chosen_ = -1;
   }
 }
@@ -204,7 +200,7 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
   view_.stage = status ? (status->rough ? "" : "Rough: ") + stepText(status->stage) : "";
   view_.progress = status ? status->fraction : 0.0;
   view_.about = sweep_.takeError().value_or(view_.about);
-  const bool changed = view_.showsDifference ? image && difference_.update(shown, image) : difference_.reset();
+  const bool changed = showsDifference_ ? image && difference_.update(shown, image) : difference_.reset();
   coverChanged_ = coverChanged_ || changed;
   view_.difference = difference_.status();
 }
@@ -214,7 +210,7 @@ std::optional<Image8> AccuracyController::takeCover() {
 }
 
 bool AccuracyController::working() const {
-  return sweep_.busy() || coverChanged_ || (view_.showsDifference && difference_.working());
+  return sweep_.busy() || coverChanged_ || (showsDifference_ && difference_.working());
 }
 
 void AccuracyController::forgetScene() {

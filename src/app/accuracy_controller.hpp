@@ -22,14 +22,14 @@ class AccuracyController {
   void cancel();
   void setProblem(const std::string& problem) { view_.about = problem; }
   void applyPoint(int point, Settings& settings) const;
-  void showDifference(bool shown) { view_.showsDifference = shown; }
+  void showDifference(bool shown) { showsDifference_ = shown; }
 
   // Call before a frame. Takes finished results; a budget that is set then chooses a point of them.
   void beforeFrame(Settings& settings);
   // Applies the choice of quality.* if that differs from what was applied last.
   void followBudget(Settings& settings);
   // Takes a budget that undo restored together with the settings that it had chosen, without choosing again.
-  void acceptBudget(const Settings& settings) { budget_ = {settings.quality.budgetMs, settings.quality.maxError}; }
+  void acceptBudget(const Settings& settings) { budget_ = budgetOf(settings); }
   // Call after a frame is drawn. `image` returns its pixels; null if its picture is not finished.
   void afterFrame(const ShownPicture& shown, const std::function<Image8()>& image);
   // Returns the picture to show instead of the scene, if it changed since the last call; one without pixels shows the
@@ -45,7 +45,6 @@ class AccuracyController {
  private:
   void setResults(SweepResults results);
   void takeResults();
-  void applyBudget(Settings& settings);
   void findCurrentPoint(const Settings& settings);
 
   AccuracyView view_;
@@ -63,6 +62,7 @@ class AccuracyController {
   };
   MeasuredView requested_;                // of the measurement that runs
   std::optional<MeasuredView> measured_;  // of the points; none if they were read from a file
+  bool showsDifference_ = false;
   bool coverChanged_ = false;
   SweepResults results_;
   bool isRough_ = false;                                   // results_ are of few pixels and samples

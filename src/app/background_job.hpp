@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -30,12 +31,13 @@ class BackgroundJob {
     cancel();
     task_ = std::make_unique<Task>();
     task_->progress = std::move(first);
-    task_->thread = std::thread([task = task_.get(), work = std::move(work)] { task->run(work); });
+    task_->thread = std::jthread(
+        [task = task_.get(), work = std::move(work)](const std::stop_token& stop) { task->run(stop, work); });
   }
   // Cancels without waiting; the thread ends by itself.
   void cancel() {
     if (task_) {
-      task_->cancelled = true;
+      task_->thread.request_stop();
       cancelled_.push_back(std::move(task_));
     }
     std::erase_if(cancelled_, [](const std::unique_ptr<Task>& task) { return task->ended.load(); });
@@ -67,23 +69,17 @@ class BackgroundJob {
 
  private:
   struct Task {
-    ~Task() {
-      cancelled = true;
-      if (thread.joinable()) {
-        thread.join();
-      }
-    }
-    void run(const Work& work) {
+    void run(const std::stop_token& stop, const Work& work) {
       try {
-        result = work([this](const Progress& now) {
+        result = work([&](const Progress& now) {
           const std::lock_guard lock(mutex);
           progress = now;
-          return !cancelled;
+          return !stop.stop_requested();
         });
       } catch (const std::exception& failure) {
         error = failure.what();
       }
-      if (cancelled) {
+      if (stop.stop_requested()) {
         result.reset();
       }
       ended = true;
@@ -93,9 +89,8 @@ class BackgroundJob {
     Progress progress;
     std::optional<Result> result;  // of the thread until `ended`
     std::string error;
-    std::atomic<bool> cancelled = false;
     std::atomic<bool> ended = false;
-    std::thread thread;
+    std::jthread thread;  // the last member: ends before the others
   };
 
   std::unique_ptr<Task> task_;

@@ -37,6 +37,20 @@ std::string lastLine(std::string text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
+// Returns the arguments for one of the runs that are compared: without --json and what they are measured against.
+std::vector<std::string> argumentsOfARun(const Options& options) {
+  std::vector<std::string> kept;
+  for (auto argument = options.arguments.begin(); argument != options.arguments.end(); ++argument) {
+    const std::string name = argument->substr(0, argument->find('='));
+    if (name != "--against-binary" && name != "--against-set" && name != "--json" && name != "--rounds") {
+      kept.push_back(*argument);
+    } else if (name == *argument) {
+      ++argument;
+    }
+  }
+  return kept;
+}
+
 // Runs the command and returns its median milliseconds, by key; nothing after Ctrl-C.
 std::optional<std::map<std::string, double>> measured(const std::vector<std::string>& command,
                                                       const std::filesystem::path& json) {
@@ -69,8 +83,8 @@ int benchAgainst(const Options& options) {
   const TemporaryDirectory folder;
   const std::filesystem::path json = folder.path() / "bench.json";
   const auto command = [&](const std::filesystem::path& program) {
-    std::vector<std::string> arguments{program.string()};
-    arguments.insert(arguments.end(), options.benchArguments.begin(), options.benchArguments.end());
+    std::vector<std::string> arguments = argumentsOfARun(options);
+    arguments.insert(arguments.begin(), program.string());
     arguments.insert(arguments.end(), {"--json", json.string()});
     return arguments;
   };
@@ -145,7 +159,7 @@ double gpuMs(Session& session, const Settings& settings, double time) {
   session.setSettings(settings);
   session.draw(time, false, untilInterrupted);
   session.finish();
-  return session.lastFrame().timings.gpuMs;
+  return session.lastFrame().gpuMs;
 }
 
 // Adds the GPU milliseconds of each effect that the frame drawn last calls for: draws frames with and without the

@@ -15,6 +15,7 @@ constexpr double zoomPerNotch = 0.88;
 constexpr double lean = 0.15;        // tangent of an angle
 constexpr double steepest = 0.995;   // cosine of view direction and up
 constexpr double leastLight = 0.25;  // metres around a light that are shown
+constexpr double turnSpeed = 90.0;   // degrees a second, of a stick
 
 Sphere boundsOfAll(const SceneState& state) {
   Bounds box;
@@ -40,6 +41,41 @@ Sphere boundsOfAll(const SceneState& state) {
   return sphere;
 }
 
+int mirrorOfInterest(int last, size_t count, const Selection& selected, std::span<const PassView> passes) {
+  if (selected.kind == Selection::Kind::mirror) {
+    return selected.index;
+  }
+  int mirror = last;
+  double area = 0.0;
+  for (const PassView& pass : passes) {
+    if (pass.path.size() == 1 && pass.areaPx > area) {
+      mirror = pass.path[0];
+      area = pass.areaPx;
+    }
+  }
+  // The last mirror may have been deleted since.
+  return mirror >= 0 && mirror < static_cast<int>(count) ? mirror : count > 0 ? 0 : -1;
+}
+
+// Returns the lowest height of all objects and mirrors along the camera's up.
+double lowestHeight(const Scene& scene) {
+  const SceneState state = evaluate(scene, 0.0);
+  const glm::dvec3 up = glm::normalize(scene.camera.up);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const InstanceState& instance : state.instances) {
+    const glm::dvec3 half = scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent;
+    const glm::dmat3& linear = instance.worldFromMesh.linear;
+    const double reach = glm::dot(glm::abs(up * linear), half);
+    lowest = std::min(lowest, glm::dot(instance.worldFromMesh.translation, up) - reach);
+  }
+  for (const MirrorState& mirror : state.mirrors) {
+    for (const glm::dvec3& vertex : mirror.polygon) {
+      lowest = std::min(lowest, glm::dot(vertex, up));
+    }
+  }
+  return std::isinf(lowest) ? -lowest : lowest;
+}
+
 }  // namespace
 
 Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& selection) {
@@ -60,6 +96,13 @@ Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& se
   return {};
 }
 
+void CameraController::sceneChanged(const Scene& scene) {
+  reset(scene.camera);
+  setFloor(lowestHeight(scene));
+  lastMirror_ = -1;
+  view_.bookmark = -1;
+}
+
 void CameraController::reset(const CameraSpec& spec) {
   spec_ = spec;
   pivot_.reset();
@@ -67,17 +110,10 @@ void CameraController::reset(const CameraSpec& spec) {
   last_ = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
 }
 
-void CameraController::moveTo(const CameraSpec& spec) {
-  spec_ = spec;
-  pivot_.reset();
-  eye_ = spec.position;
-  target_ = spec.target;
-  touched_ = true;
-}
-
-void CameraController::startFrom(const CameraPose& pose) {
+// Begins to move the scene's camera from where it is.
+void CameraController::takeOver() {
   if (!touched_) {
-    eye_ = pose.eye;
+    eye_ = last_.eye;
     target_ = spec_.target;
     touched_ = true;
   }
@@ -88,7 +124,7 @@ void CameraController::drag(double dx, double dy) {
 }
 
 void CameraController::pan(double dx, double dy, double pictureHeight) {
-  startFrom(last_);
+  takeOver();
   const double metresPerPixel = 2.0 * std::tan(0.5 * last_.verticalFov) * glm::distance(eye_, target_) / pictureHeight;
   const glm::dvec3 step = glm::transpose(last_.worldToView) * glm::dvec3(-dx, dy, 0.0) * metresPerPixel;
   pivot_.reset();
@@ -97,9 +133,9 @@ void CameraController::pan(double dx, double dy, double pictureHeight) {
 }
 
 void CameraController::turn(double yawDegrees, double pitchDegrees) {
-  startFrom(last_);
+  takeOver();
   const glm::dvec3 up = glm::normalize(spec_.up);
-  const bool orbit = mode_ == CameraMode::orbit;
+  const bool orbit = view_.mode == CameraMode::orbit;
   const glm::dvec3 arm = orbit ? eye_ - target_ : target_ - eye_;
   const glm::dvec3 right = glm::dvec3(glm::transpose(last_.worldToView)[0]);
   const glm::dmat3 yaw = rotationAboutAxis(up, -yawDegrees);
@@ -122,10 +158,10 @@ void CameraController::turn(double yawDegrees, double pitchDegrees) {
 }
 
 void CameraController::zoom(double notches) {
-  startFrom(last_);
+  takeOver();
   const glm::dvec3 arm = eye_ - target_;
   const glm::dvec3 shorter = arm * std::pow(zoomPerNotch, notches);
-  if (mode_ == CameraMode::orbit) {
+  if (view_.mode == CameraMode::orbit) {
     // Keeps the eye from the target, where no view is defined, and from distances at which doubles cannot separate the
     // two. A scene may start beyond these bounds.
     const double now = glm::length(arm);
@@ -139,11 +175,19 @@ void CameraController::zoom(double notches) {
   }
 }
 
-void CameraController::move(const glm::dvec3& direction, double seconds) {
+void CameraController::move(const glm::dvec3& direction, const GamepadState& pad, double seconds) {
+  fly(direction, seconds);
+  if (pad.rightX != 0.0f || pad.rightY != 0.0f) {
+    turn(pad.rightX * turnSpeed * seconds, pad.rightY * turnSpeed * seconds);
+  }
+  fly({pad.leftX, pad.rightTrigger - pad.leftTrigger, pad.leftY}, seconds);
+}
+
+void CameraController::fly(const glm::dvec3& direction, double seconds) {
   if (direction == glm::dvec3(0.0)) {
     return;
   }
-  startFrom(last_);
+  takeOver();
   pivot_.reset();
   // Bounds the speed from below, because it falls near the target.
   const double least = std::min(0.5, 0.6 * glm::distance(spec_.position, spec_.target));
@@ -154,7 +198,7 @@ void CameraController::move(const glm::dvec3& direction, double seconds) {
 }
 
 void CameraController::frame(const Sphere& sphere, double aspect, const Part& part) {
-  startFrom(last_);
+  takeOver();
   const glm::dvec2 slope = std::tan(0.5 * glm::radians(spec_.verticalFov)) * glm::dvec2(aspect, 1.0);
   const double narrowest = std::atan(std::min(slope.x * part.half.x, slope.y * part.half.y));
   const double distance = std::max(sphere.radius, 10.0 * std::min(spec_.near, 1.0)) / std::sin(narrowest);
@@ -165,7 +209,7 @@ void CameraController::frame(const Sphere& sphere, double aspect, const Part& pa
 }
 
 void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, double aspect) {
-  startFrom(last_);
+  takeOver();
   pivot_.reset();
   const glm::dvec3 middle = vertexMean(mirror.polygon);
   double radius = 0.0;
@@ -190,11 +234,45 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
   target_ = eye_ + forward * std::max(distance, radius);
 }
 
-std::optional<CameraSpec> CameraController::place() const {
-  CameraSpec spec = spec_;
-  spec.position = eye_;
-  spec.target = target_;
-  return touched_ ? std::optional(spec) : std::nullopt;
+void CameraController::lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
+                                      std::span<const PassView> passes, double aspect) {
+  lastMirror_ = mirrorOfInterest(lastMirror_, state.mirrors.size(), selected, passes);
+  if (lastMirror_ >= 0) {
+    lookFrom(state.mirrors[static_cast<size_t>(lastMirror_)], side, aspect);
+  }
+}
+
+void CameraController::goToBookmark(size_t index, const Scene& scene) {
+  if (index < scene.bookmarks.size()) {
+    view_.bookmark = static_cast<int>(index);
+    spec_ = cameraOf(scene.bookmarks[index], scene.camera);
+    pivot_.reset();
+    eye_ = spec_.position;
+    target_ = spec_.target;
+    touched_ = true;
+  }
+}
+
+void CameraController::goToNextBookmark(const Scene& scene) {
+  if (!scene.bookmarks.empty()) {
+    goToBookmark(static_cast<size_t>(view_.bookmark + 1) % scene.bookmarks.size(), scene);
+  }
+}
+
+Bookmark CameraController::bookmark(const CameraPose& pose, const CameraSpec& usual) const {
+  const glm::dvec3 ahead = pose.eye - glm::dvec3(glm::transpose(pose.worldToView)[2]);
+  Bookmark bookmark{.name = "view", .position = pose.eye, .target = touched_ ? target_ : ahead};
+  if (touched_ && spec_.up != usual.up) {
+    bookmark.up = spec_.up;
+  }
+  if (touched_ && spec_.verticalFov != usual.verticalFov) {
+    bookmark.verticalFov = spec_.verticalFov;
+  }
+  return bookmark;
+}
+
+void CameraController::bookmarksChanged(const Scene& scene) {
+  view_.bookmark = std::min(view_.bookmark, static_cast<int>(scene.bookmarks.size()) - 1);
 }
 
 CameraPose CameraController::pose(const CameraPose& animated) {

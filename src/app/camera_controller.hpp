@@ -4,8 +4,9 @@
 #include <optional>
 
 #include "edit/selection.hpp"
+#include "platform/gamepad.hpp"
 #include "scene/scene_state.hpp"
-#include "ui/commands.hpp"
+#include "ui/views.hpp"
 
 namespace speculum {
 
@@ -20,10 +21,10 @@ Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& se
 // Camera that the user moves. Until the user does, it is the scene's, animation included.
 class CameraController {
  public:
+  void sceneChanged(const Scene& scene);  // call when another scene is shown
   void reset(const CameraSpec& spec);
-  // Moves the camera there, as if the user had.
-  void moveTo(const CameraSpec& spec);
-  void setMode(CameraMode mode) { mode_ = mode; }
+  void setMode(CameraMode mode) { view_.mode = mode; }
+  void toggleMode() { setMode(view_.mode == CameraMode::fly ? CameraMode::orbit : CameraMode::fly); }
 
   // Turns the view by a drag of the pointer, in pixels; in orbit mode about the target.
   void drag(double dx, double dy);
@@ -34,8 +35,8 @@ class CameraController {
   void turn(double yaw, double pitch);
   // Moves by notches of the wheel: nearer to the target in orbit mode, along the view in fly mode.
   void zoom(double notches);
-  // Flies along right, up and backwards of the view, each in -1 .. 1, for `seconds`.
-  void move(const glm::dvec3& direction, double seconds);
+  // Flies along right, up and backwards of the view, each in -1 .. 1, for `seconds`, and by the gamepad's sticks.
+  void move(const glm::dvec3& direction, const GamepadState& pad, double seconds);
 
   // Part of the picture, from (-1, -1) at its lower left to (1, 1).
   struct Part {
@@ -51,23 +52,36 @@ class CameraController {
   // Looks from the mirror's middle in the direction of its front: from its surface, or from so far behind that all of
   // its back is seen. `aspect` as above.
   void lookFrom(const MirrorState& mirror, MirrorSide side, double aspect);
+  // Looks so from the selected mirror, else from the one that fills most of the picture, else from the last one looked
+  // from.
+  void lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
+                      std::span<const PassView> passes, double aspect);
 
-  // Returns the camera if the user has moved it; nothing while it is the scene's.
-  std::optional<CameraSpec> place() const;
+  void goToBookmark(size_t index, const Scene& scene);
+  void goToNextBookmark(const Scene& scene);
+  // Returns the view of `pose` as a bookmark. It has an up and a field of view of its own if they differ from the
+  // scene's.
+  Bookmark bookmark(const CameraPose& pose, const CameraSpec& usual) const;
+  void setBookmark(int index) { view_.bookmark = index; }
+  void bookmarksChanged(const Scene& scene);
 
+  bool moved() const { return touched_; }  // by the user
   CameraPose pose(const CameraPose& animated);
+  const CameraView& view() const { return view_; }
 
  private:
-  void startFrom(const CameraPose& pose);
+  void takeOver();
+  void fly(const glm::dvec3& direction, double seconds);
 
   CameraSpec spec_;
-  CameraMode mode_ = CameraMode::orbit;
+  CameraView view_;
   CameraPose last_;
   bool touched_ = false;
   glm::dvec3 eye_{0.0};              // world
   glm::dvec3 target_{0.0};           // world; in fly mode a point ahead
   std::optional<glm::dvec3> pivot_;  // of orbits, where it is not the target
   double floor_ = -std::numeric_limits<double>::infinity();
+  int lastMirror_ = -1;  // last mirror looked from; -1: none yet
 };
 
 }  // namespace speculum

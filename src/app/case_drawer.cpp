@@ -105,15 +105,9 @@ Image8 CaseDrawer::draw(const RegressCase& subject, Outcome& outcome) {
     session_ = std::make_unique<Session>(options, &*device_);
   }
   Session& session = *session_;
-  Settings settings = settingsOf(session.scene());
-  for (const auto& [key, value] : options.settings) {
-    if (const auto problem = setSetting(settings, key, value)) {
-      throw UsageError(*problem);
-    }
-  }
   const uint64_t nonFinite = session.sceneRenderer().finiteWatch().count();
   session.setCamera(cameraOf(options, session.scene()));
-  session.setSettings(settings);
+  session.setSettings(settingsOf(session.scene(), options));
   session.restart();
   session.draw(subject.time, true);
   session.finish();

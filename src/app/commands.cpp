@@ -26,8 +26,6 @@ void setUpLog(const std::string& level) {
   spdlog::set_default_logger(logger);
 }
 
-}  // namespace
-
 int runInfo() {
   for (const DeviceInfo& info : Device::list()) {
     std::printf("%d: %s\n   driver %s, Vulkan %s, %.0f MiB, %s%s\n", info.index, info.name.c_str(), info.driver.c_str(),
@@ -56,6 +54,7 @@ int runScenes() {
   return 0;
 }
 
+// Runs the command, once more if the device is lost.
 int runCommand(const Options& options) {
   static const std::map<std::string, int (*)(const Options&)> commands = {
       {"demo",
@@ -80,6 +79,8 @@ int runCommand(const Options& options) {
   }
   return command(options);
 }
+
+}  // namespace
 
 int speculumMain(int argc, const char* const* argv) {
   keepFreedMemory();

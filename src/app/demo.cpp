@@ -98,6 +98,7 @@ void Demo::updateUi(double seconds) {
   workspace_.moveCamera(heldDirection(), navigating ? GamepadState{} : gamepad_, seconds);
   workspace_.prepareView(seconds, !overPanels());
   output_ = ui_->build(view());
+  workspace_.accuracy().showDifference(output_.difference);
   for (const Command& command : std::exchange(output_.commands, {})) {
     workspace_.apply(command);
   }

@@ -93,20 +93,13 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
 void DocumentController::askWhere() {
   const fs::path file = editor_.document().usualFile();
   findSaveFile();
-  proposed_ = wholePath(saveFile_.value_or(ownFolder() / file.filename()));
-  note_.clear();
-  prompt_ = Prompt::saveAs;
+  ask(Prompt::saveAs, wholePath(saveFile_.value_or(ownFolder() / file.filename())));
 }
 
-void DocumentController::offerRecovery(const fs::path& file) {
-  proposed_ = file;
-  prompt_ = Prompt::recovery;
-}
-
-void DocumentController::askWhatToOpen(const fs::path& folder) {
-  proposed_ = folder;
+void DocumentController::ask(Prompt prompt, const fs::path& proposed) {
+  prompt_ = prompt;
+  proposed_ = proposed;
   note_.clear();
-  prompt_ = Prompt::open;
 }
 
 std::optional<Command> DocumentController::saveAs(const fs::path& file, const Settings& settings) {
@@ -168,7 +161,7 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
   fingerprint.add(std::string_view(text));
   const fs::path file = folder / (loaded_.scene.file.stem().string() + "-" + fingerprint.hex() + ".toml");
   keepNewest(folder, mostCopies,
-             [](const fs::path& copy) { return copy.extension() == ".toml" && !hasRecovery(copy); });
+             [](const fs::path& copy) { return copy.extension() == ".toml" && !Recovery::isRecorded(copy); });
   replaceFile(file, std::string_view(text));
   return file;
 }

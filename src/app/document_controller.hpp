@@ -18,6 +18,7 @@ class DocumentController {
   // Says whether the scene may be replaced: true if nothing is unsaved or the user has discarded the changes. Otherwise
   // shows the prompt, and keeps the command `then` to carry out once it is answered.
   bool confirmDiscard(const Settings& settings, std::optional<Command> then);
+  Prompt prompt() const { return prompt_; }
   bool prompting() const { return prompt_ != Prompt::none; }
   void forgetDiscard() { discarded_.reset(); }  // the next confirmDiscard() prompts again
 
@@ -29,8 +30,8 @@ class DocumentController {
   std::optional<Command> saveAs(const std::filesystem::path& file, const Settings& settings);
   std::optional<Command> discard(const Settings& settings);
   void askWhere();
-  void askWhatToOpen(const std::filesystem::path& folder);
-  void offerRecovery(const std::filesystem::path& file);
+  // Shows a prompt that proposes a file, or a folder to open one from.
+  void ask(Prompt prompt, const std::filesystem::path& proposed);
   void closeOpenPrompt() { prompt_ = prompt_ == Prompt::open || prompt_ == Prompt::recovery ? Prompt::none : prompt_; }
   void cancelPrompt();
 
@@ -60,7 +61,7 @@ class DocumentController {
   Settings settingsAtLoad_;                        // before the user changed any
   std::optional<std::filesystem::path> saveFile_;  // none if it comes with the program or cannot be written
   Prompt prompt_ = Prompt::none;
-  std::filesystem::path proposed_;  // for Prompt::saveAs
+  std::filesystem::path proposed_;  // by the prompt
   std::optional<Command> afterPrompt_;
   std::optional<Discarded> discarded_;            // changes that the user discarded
   std::optional<std::filesystem::path> refused_;  // existing file that was not overwritten; a second save overwrites it

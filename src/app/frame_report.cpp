@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "edit/picture_view.hpp"
@@ -26,7 +25,7 @@ TargetView targetOf(const FramePlan& plan, const PlannedPass& pass, const Settin
   const auto texel = [&](const glm::dvec2& device) {
     return glm::vec2((0.5 * device + 0.5) * view.pictureSize - glm::dvec2(view.rect.x, view.rect.y));
   };
-  TargetView target{.size = {view.rect.width, view.rect.height}};
+  TargetView target{.size = {view.rect.width, view.rect.height}, .near = plan.projection.near};
   if (!view.path.empty() && settings.debug.maskPasses) {
     for (const glm::dvec2& p : passMask(view, plan.projection, lookupReach(settings, standardSampleLocations))) {
       target.mask.push_back(texel(p));
@@ -46,17 +45,6 @@ TargetView targetOf(const FramePlan& plan, const PlannedPass& pass, const Settin
     target.mirrors.push_back(std::move(outline));
   }
   return target;
-}
-
-std::optional<TexelView> texelOf(const std::optional<TexelValue>& probed, const FramePlan& plan) {
-  if (!probed) {
-    return std::nullopt;
-  }
-  const double stored = static_cast<double>(probed->storedDepth);
-  return TexelView{.texel = probed->texel,
-                   .depth = probed->depth,
-                   .metres = stored > 0.0 ? plan.projection.near / stored : std::numeric_limits<double>::infinity(),
-                   .value = probed->value};
 }
 
 // Returns the place of a pass in a list of rows or recorded passes.
@@ -98,7 +86,7 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   view_.budgetBytes = budget.budgetBytes;
   view_.usedBytes = budget.usedBytes;
   view_.validationMessages = device.validation() ? device.validationMessages() : -1;
-  view_.target.value = texelOf(sceneRenderer.probed(), frame.plan);
+  view_.target.value = sceneRenderer.probed();
   const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
   updateTimes(frame, timings, timed);
   if (endsPicture(frame.plan)) {
@@ -109,59 +97,49 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   updateSkipped(frame);
 }
 
-// Adds the times of a frame's passes, or parts of passes.
-void FrameReport::addPasses(const FrameTimings& timings, std::span<const RecordedPass> timed, Tiles& tiles) {
-  tiles.timed = tiles.timed && !timings.passes.empty();
-  for (size_t i = 0; i < std::min(timed.size(), timings.passes.size()); ++i) {
-    const auto known = placeOf(tiles.passes, timed[i]);
-    TimedPass& pass = known == tiles.passes.end() ? tiles.passes.emplace_back(TimedPass{timed[i]}) : *known;
-    pass.gpuMs += timings.passes[i].gpuMs;
-  }
-}
-
-void FrameReport::addTiles(const RecordedFrame& frame, const FrameTimings& timings,
+void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timings,
                            std::span<const RecordedPass> timed) {
   if (beginsPicture(frame.plan)) {
-    tiles_ = {};
-  } else if (timings.frame == tiles_.number) {
-    tiles_.gpuMs += timings.gpuMs;
-    addPasses(timings, timed, tiles_);
+    picture_ = {.whole = !frame.plan.tiles};
+  } else if (timings.frame == picture_.number) {
+    picture_.gpuMs += timings.gpuMs;
+    picture_.addPasses(timings, timed);
   }
-  tiles_.cpuMs += frame.cpuMs;
-  tiles_.sinceLastMs += frame.sinceLastMs;
-  tiles_.number = frame.number;
+  picture_.cpuMs += frame.cpuMs;
+  picture_.sinceLastMs += frame.sinceLastMs;
+  picture_.number = frame.number;
 }
 
 // Frames that draw the panels only change no figure: those of the last frame that drew the scene stay. A picture of
 // several frames counts as one frame, the last.
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings,
                               std::span<const RecordedPass> timed) {
-  addTiles(frame, timings, timed);
+  addFrame(frame, timings, timed);
   const bool drawsScene = !frame.plan.mainReused;
   const bool drewScene = endsPicture(frame.plan) && !std::exchange(view_.still, !drawsScene) && !drawn_.empty();
   if (endsPicture(frame.plan) && drawsScene) {
-    const double ms = drewScene ? tiles_.sinceLastMs : std::nan("");
+    const double ms = drewScene ? picture_.sinceLastMs : std::nan("");
     const auto average = [](double& shown, double now, bool begins) {
       shown += (begins ? 1.0 : std::clamp(now / settlingMs, smoothing, 1.0)) * (now - shown);
     };
     averages_ = averages_ && drewScene;
-    average(view_.cpuMs, tiles_.cpuMs, !drewScene);
+    average(view_.cpuMs, picture_.cpuMs, !drewScene);
     if (!std::isnan(ms)) {
       average(view_.frameMs, ms, !std::exchange(averages_, true));
     }
-    view_.history.add(frame.number, ms, tiles_.cpuMs);
-    drawn_.push_front({tiles_, !frame.plan.tiles});
+    view_.history.add(frame.number, ms, picture_.cpuMs);
+    drawn_.push_front(picture_);
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
     tilesTimed_ = tilesTimed_ && frame.plan.tiles;
   }
-  const auto drawn = std::ranges::find(drawn_, timings.frame, [](const DrawnFrame& d) { return d.tiles.number; });
+  const auto drawn = std::ranges::find(drawn_, timings.frame, &Picture::number);
   if (drawn == drawn_.end()) {
     return;
   }
-  view_.gpuMs = drawn->tiles.gpuMs + timings.gpuMs;
+  view_.gpuMs = drawn->gpuMs + timings.gpuMs;
   if (view_.still || view_.frameMs == 0.0) {
-    view_.cpuMs = drawn->tiles.cpuMs;
-    view_.frameMs = drawn->tiles.cpuMs + view_.gpuMs;
+    view_.cpuMs = drawn->cpuMs;
+    view_.frameMs = drawn->cpuMs + view_.gpuMs;
   }
   std::vector<std::pair<std::string, double>> passes;
   if (drawn->whole) {
@@ -169,21 +147,20 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
       passes.emplace_back(pass.name, pass.gpuMs);
     }
   } else {
-    Tiles tiles = drawn->tiles;
-    addPasses(timings, timed, tiles);
-    for (const TimedPass& pass : tiles.timed ? tiles.passes : std::vector<TimedPass>()) {
-      passes.emplace_back(pass.name, pass.gpuMs);
-      setTime(view_.passes, pass, pass.gpuMs);
+    Picture picture = *drawn;
+    picture.addPasses(timings, timed);
+    for (const TimedPass& pass : picture.timed ? picture.passes.passes() : std::vector<TimedPass>()) {
+      passes.emplace_back(pass.name, pass.timing.gpuMs);
+      setTime(view_.passes, pass, pass.timing.gpuMs);
     }
-    tilesTimed_ = tiles.timed;
-    view_.timedGpuMs = tiles.timed ? view_.gpuMs : 0.0;
+    tilesTimed_ = picture.timed;
+    view_.timedGpuMs = picture.timed ? view_.gpuMs : 0.0;
   }
   view_.history.addGpu(timings.frame, view_.gpuMs, passes);
 }
 
 bool FrameReport::drewPicture(uint64_t frame) const {
-  return std::ranges::any_of(drawn_,
-                             [&](const DrawnFrame& drawn) { return drawn.whole && drawn.tiles.number == frame; });
+  return std::ranges::any_of(drawn_, [&](const Picture& drawn) { return drawn.whole && drawn.number == frame; });
 }
 
 // Lists passes of cached images too, because nobody can read a list that changes from frame to frame.
@@ -250,9 +227,8 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
   }
   for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
     const auto kind = static_cast<EffectKind>(view_.effects.size());
-    const EffectCost& cost = ledger[kind];
-    const std::string label = findSettingField(settingsWithout(kind).front().key)->label;  // of its switch
-    view_.effects.push_back({label, effect.calledFor, effect.why, cost.draws, cost.bytes, cost.pipelines});
+    EffectView& view = view_.effects.emplace_back(EffectView{effect, ledger[kind]});
+    view.name = findSettingField(settingsWithout(kind).front().key)->label;  // of its switch
   }
 }
 
@@ -294,21 +270,19 @@ std::optional<DebugView> FrameReport::target(const TargetRequest& request, const
   if (!mirror && !request.path.empty()) {
     return std::nullopt;
   }
-  const std::optional<TexelView> value = std::move(view_.target.value);
+  const std::optional<TexelValue> value = view_.target.value;
   view_.target = targetOf(plan, mirror ? *mirror : plan.main, settings, standardSampleLocations);
   view_.target.value = value;
-  if (!request.area) {
+  if (!request.drawn) {
     return std::nullopt;
   }
+  DebugView view = request.view;
+  view.pass = static_cast<int>(mirror ? mirror - plan.passes.data() : std::ssize(plan.passes));
   // The image may have become smaller since the pointer was there.
-  const bool within = request.probe && request.probe->x < view_.target.size.x && request.probe->y < view_.target.size.y;
-  return DebugView{.pass = static_cast<int>(mirror ? mirror - plan.passes.data() : std::ssize(plan.passes)),
-                   .area = *request.area,
-                   .kind = request.depth ? TargetKind::depth : TargetKind::color,
-                   .zoom = request.zoom,
-                   .origin = request.origin,
-                   .halfDistance = request.halfDistance,
-                   .probe = within ? request.probe : std::nullopt};
+  if (view.probe && (view.probe->x >= view_.target.size.x || view.probe->y >= view_.target.size.y)) {
+    view.probe.reset();
+  }
+  return view;
 }
 
 }  // namespace speculum

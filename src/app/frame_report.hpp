@@ -2,6 +2,7 @@
 
 #include <deque>
 
+#include "app/pass_sums.hpp"
 #include "systems/scene_renderer.hpp"
 #include "ui/views.hpp"
 
@@ -45,31 +46,29 @@ class FrameReport {
   bool drewPicture(uint64_t frame) const;  // the whole of one, among the latest frames
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
   void updateSkipped(const RecordedFrame& frame);
-  void addTiles(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed);
+  void addFrame(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed);
 
-  struct TimedPass : RecordedPass {
-    double gpuMs = 0.0;
-  };
-  // Frames so far that drew a picture: one, or several that drew tiles of it.
-  struct Tiles {
+  // Frames so far that drew a picture: the whole of it, or tiles.
+  struct Picture {
+    bool whole = true;
     uint64_t number = 0;  // of the last one
     double sinceLastMs = 0.0;
     double cpuMs = 0.0;
-    double gpuMs = 0.0;             // without the last one
-    std::vector<TimedPass> passes;  // likewise
-    bool timed = true;              // those are complete
+    double gpuMs = 0.0;  // without the last one
+    PassSums passes;     // likewise
+    bool timed = true;   // those are complete
+
+    void addPasses(const FrameTimings& timings, std::span<const RecordedPass> recorded) {
+      timed = timed && !timings.passes.empty();
+      passes.add(recorded, timings);
+    }
   };
-  struct DrawnFrame {
-    Tiles tiles;
-    bool whole = true;  // one frame drew the picture
-  };
-  static void addPasses(const FrameTimings& timings, std::span<const RecordedPass> timed, Tiles& tiles);
 
   FrameView view_;
-  std::deque<DrawnFrame> drawn_;  // that drew the scene and not the panels only, the latest
-  Tiles tiles_;
-  bool tilesTimed_ = false;  // times of passes are of a picture that several frames drew
-  bool averages_ = false;    // FrameView::frameMs: its frames followed each other
+  std::deque<Picture> drawn_;  // of the scene, not the panels only; the latest
+  Picture picture_;            // that the last frame drew
+  bool tilesTimed_ = false;    // times of passes are of a picture that several frames drew
+  bool averages_ = false;      // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
 };
 

@@ -27,26 +27,20 @@ class HistorySink : public spdlog::sinks::base_sink<std::mutex> {
 
 }  // namespace
 
-struct LogCapture::Before {
-  std::shared_ptr<spdlog::logger> logger;
-  spdlog::level::level_enum level;
-  spdlog::sink_ptr sink;
-};
-
-LogCapture::LogCapture(LogHistory& history) {
+std::shared_ptr<void> captureLog(LogHistory& history) {
   const std::shared_ptr<spdlog::logger> logger = spdlog::default_logger();
-  before_ = std::make_unique<Before>(Before{logger, logger->level(), std::make_shared<HistorySink>(history)});
+  const spdlog::level::level_enum level = logger->level();
+  const auto capture = std::make_shared<HistorySink>(history);
   for (const spdlog::sink_ptr& sink : logger->sinks()) {
-    sink->set_level(std::max(sink->level(), logger->level()));
+    sink->set_level(std::max(sink->level(), level));
   }
-  before_->sink->set_level(spdlog::level::info);
-  logger->sinks().push_back(before_->sink);
-  logger->set_level(std::min(logger->level(), spdlog::level::info));
-}
-
-LogCapture::~LogCapture() {
-  before_->logger->set_level(before_->level);
-  std::erase(before_->logger->sinks(), before_->sink);
+  capture->set_level(spdlog::level::info);
+  logger->sinks().push_back(capture);
+  logger->set_level(std::min(level, spdlog::level::info));
+  return {capture.get(), [=](void*) {
+            logger->set_level(level);
+            std::erase(logger->sinks(), capture);
+          }};
 }
 
 }  // namespace speculum

@@ -15,8 +15,7 @@ constexpr double farBelow = 0.5;     // a better level predicted to take less is
 
 constexpr double leastPatience = 0.25;  // seconds
 constexpr double mostPatience = 4.0;
-constexpr double settled = 1.0;  // seconds at a better level after which raising it was no mistake
-constexpr size_t mostPending = 8;
+constexpr double settled = 1.0;      // seconds at a better level after which raising it was no mistake
 constexpr int longestInterval = 60;  // frames
 
 }  // namespace
@@ -88,21 +87,6 @@ size_t MotionController::choose(std::span<const MotionLevel> levels, double budg
     predicted_.clear();
   }
   return level_;
-}
-
-void MotionController::drawn(uint64_t number, const FrameWork& work) {
-  pending_.push_back({number, work});
-  if (pending_.size() > mostPending) {
-    pending_.pop_front();
-  }
-}
-
-void MotionController::finished(uint64_t number, double ms) {
-  const auto found = std::ranges::find(pending_, number, &Pending::number);
-  if (found != pending_.end()) {
-    model_.learn(found->work, ms);
-    pending_.erase(pending_.begin(), found + 1);
-  }
 }
 
 }  // namespace speculum

@@ -27,23 +27,15 @@ class MotionController {
   // Call when the picture stands still: the next moving frame may have any level.
   void setStill() { moving_ = false; }
 
-  // Call when frame `number` was drawn, moving or still, unless it did unusual work that `work` does not contain.
-  void drawn(uint64_t number, const FrameWork& work);
-  // Call with the time of frame `number` once it is known. Frames without drawn() are ignored.
-  void finished(uint64_t number, double ms);
+  // Call with the time of each frame, moving or still, unless it did unusual work that `work` does not contain.
+  void learn(const FrameWork& work, double ms) { model_.learn(work, ms); }
   double predict(const FrameWork& work) const { return model_.predict(work); }
 
  private:
   size_t fittingLevel(std::span<const MotionLevel> levels, size_t first, size_t planned, const FrameWork& work,
                       double ms) const;
 
-  struct Pending {
-    uint64_t number = 0;
-    FrameWork work;
-  };
-
   CostModel model_;
-  std::deque<Pending> pending_;  // drawn and not finished
   size_t level_ = 0;
   bool moving_ = false;
   double patience_ = 0.0;         // seconds at a level before a better one is tried

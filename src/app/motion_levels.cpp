@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "frame/mirror_sight.hpp"
 #include "frame/traced_effects.hpp"
@@ -59,86 +59,61 @@ Settings lowered(Settings settings, const Settings& limit) {
   return settings;
 }
 
-// Effects of a scene that rays or maps show, under its settings.
-struct RayUse {
-  bool shadows = false;
-  bool castsLight = false;
-  bool ripple = false;
-  bool rough = false;
-  bool curved = false;
-};
-
-RayUse raysOf(const Scene& scene, const EffectSettings& effects) {
-  RayUse use{.shadows = effects.shadows && !shadowLights(scene).empty(),
-             .curved = effects.curved && std::ranges::any_of(scene.objects, [](const Object& object) {
-                         return object.mirror.has_value();
-                       })};
-  for (const Mirror& mirror : scene.mirrors) {
-    use.castsLight = use.castsLight || (effects.castsLight && mirror.castsLight);
-    use.ripple = use.ripple || (effects.ripple && mirror.ripple);
-    use.rough = use.rough || (effects.roughness && mirror.roughness > 0.0);
-  }
-  return use;
-}
-
-// Return the mean FLIP that each setting adds, on average over the shipped scenes without traced effects.
-double scaleError(double scale) {
-  return 0.055 * std::pow(1.0 / scale - 1.0, 0.62);
-}
-double viewSampleError(int samples) {
-  return 0.025 / samples;
-}
-double mirrorSampleError(int samples) {
-  return 0.009 / samples;
-}
-double depthError(int depth) {
-  return depth == 0 ? 0.2 : 0.08 / depth;
-}
-double passError(int passes) {
-  return 0.03 * std::pow(8.0 / passes, 1.6);
-}
-double viewMeshError(double texels) {
-  return 0.012 * texels;
-}
-double mirrorMeshError(double texels) {
-  return 0.003 * texels;
-}
-double shadowError(const EffectSettings& effects) {
-  return effects.shadowLookup == ShadowLookup::map ? 4.0 / effects.shadowMapSize : 0.0;
-}
-double roughError(const Settings& settings) {
+// Returns the mean FLIP that each setting adds, on average over the shipped scenes without traced effects.
+std::array<double, 8> errorsOf(const Settings& settings) {
+  const ViewSettings& view = settings.view;
+  const ReflectionSettings& reflection = settings.reflection;
   const EffectSettings& effects = settings.effects;
   const bool image = effects.roughLookup == ReflectionSource::image;
-  return std::hypot(image ? 0.13 : 0.0,
-                    0.18 / std::sqrt(image ? effects.roughSamples : roughRays(effects, settings.view.samples)));
+  const int roughSamples = image ? effects.roughSamples : roughRays(effects, view.samples);
+  return {0.055 * std::pow(1.0 / view.scale - 1.0, 0.62),
+          0.025 / view.samples,
+          0.009 / reflection.samples,
+          0.03 * std::pow(8.0 / reflection.maxPasses, 1.6),
+          0.012 * view.meshError,
+          0.003 * reflection.meshError,
+          effects.shadowLookup == ShadowLookup::map ? 4.0 / effects.shadowMapSize : 0.0,
+          std::hypot(image ? 0.13 : 0.0, 0.18 / std::sqrt(roughSamples))};
 }
 
 // Adds errors of different kinds as squares, like independent ones.
 double addedError(const Settings& chosen, const Settings& lower) {
-  const auto added = [](double less, double more) { return std::max(0.0, more * more - less * less); };
-  const ReflectionSettings& a = chosen.reflection;
-  const ReflectionSettings& b = lower.reflection;
-  const double sum = added(scaleError(chosen.view.scale), scaleError(lower.view.scale)) +
-                     added(viewSampleError(chosen.view.samples), viewSampleError(lower.view.samples)) +
-                     added(mirrorSampleError(a.samples), mirrorSampleError(b.samples)) +
-                     added(a.maxDepth == b.maxDepth ? depthError(b.maxDepth) : 0.0, depthError(b.maxDepth)) +
-                     added(passError(a.maxPasses), passError(b.maxPasses)) +
-                     added(viewMeshError(chosen.view.meshError), viewMeshError(lower.view.meshError)) +
-                     added(mirrorMeshError(a.meshError), mirrorMeshError(b.meshError));
-  const EffectSettings& c = chosen.effects;
-  const EffectSettings& d = lower.effects;
-  const auto once = [](bool differs, double error) { return differs ? error * error : 0.0; };
-  const double effects = once(c.perSample != d.perSample, 0.01) + added(shadowError(c), shadowError(d)) +
-                         once(c.rippleLookup != d.rippleLookup, 0.03) + once(c.curvedLookup != d.curvedLookup, 0.045) +
-                         once(c.castsLight != d.castsLight, 0.08) + added(roughError(chosen), roughError(lower));
-  return std::sqrt(sum + effects);
+  const std::array<double, 8> less = errorsOf(chosen);
+  const std::array<double, 8> more = errorsOf(lower);
+  double sum = 0.0;
+  for (size_t i = 0; i < more.size(); ++i) {
+    sum += std::max(0.0, more[i] * more[i] - less[i] * less[i]);
+  }
+  const int depth = lower.reflection.maxDepth;
+  const EffectSettings& a = chosen.effects;
+  const EffectSettings& b = lower.effects;
+  for (const auto& [differs, error] :
+       {std::pair(chosen.reflection.maxDepth != depth, depth == 0 ? 0.2 : 0.08 / depth),
+        std::pair(a.perSample != b.perSample, 0.01), std::pair(a.rippleLookup != b.rippleLookup, 0.03),
+        std::pair(a.curvedLookup != b.curvedLookup, 0.045), std::pair(a.castsLight != b.castsLight, 0.08)}) {
+    sum += differs ? error * error : 0.0;
+  }
+  return std::sqrt(sum);
 }
 
 }  // namespace
 
+AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings) {
+  AskedEffects asked{.shadows = settings.shadows && !shadowLights(scene).empty(),
+                     .curved = settings.curved && std::ranges::any_of(scene.objects, [](const Object& object) {
+                                 return object.mirror.has_value();
+                               })};
+  for (const Mirror& mirror : scene.mirrors) {
+    asked.castsLight = asked.castsLight || (settings.castsLight && mirror.castsLight);
+    asked.ripple = asked.ripple || isRippled(mirror, settings);
+    asked.rough = asked.rough || isRough(mirror, settings);
+  }
+  return asked;
+}
+
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
                                       unsigned sampleCounts, bool simplifies, bool cpuDevice) {
-  const RayUse rays = raysOf(scene, chosen.effects);
+  const AskedEffects rays = askedEffects(scene, chosen.effects);
   std::vector<MotionLevel> levels{{chosen}};
   const auto add = [&](const Settings& settings, double error) {
     if (!sameMainView(settings, levels.back().settings)) {

@@ -8,6 +8,16 @@
 
 namespace speculum {
 
+// Effects of a scene that rays or maps show, unless the settings leave them out.
+struct AskedEffects {
+  bool shadows = false;
+  bool castsLight = false;
+  bool ripple = false;
+  bool rough = false;
+  bool curved = false;
+};
+AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings = {});
+
 // Settings that a moving picture can be drawn with.
 struct MotionLevel {
   Settings settings;

@@ -3,8 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "app/usage.hpp"
 #include "app/version.hpp"
@@ -70,7 +70,9 @@ void addTime(CLI::App& app, Options& options) {
   app.add_option("--time", options.time, "seconds of animation")->check(CLI::Number);
 }
 
-void addCamera(CLI::App& app, Raw& raw) {
+void addView(CLI::App& app, Options& options, Raw& raw) {
+  addScene(app, options, raw);
+  addTime(app, options);
   app.add_option(
       "--camera", raw.camera,
       "X,Y,Z:X,Y,Z[:X,Y,Z[:DEG]]: position, target, up and vertical field of view in the place of the scene's; or a "
@@ -78,9 +80,7 @@ void addCamera(CLI::App& app, Raw& raw) {
 }
 
 void addRender(CLI::App& app, Options& options, Raw& raw) {
-  addScene(app, options, raw);
-  addTime(app, options);
-  addCamera(app, raw);
+  addView(app, options, raw);
   app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
   addSweepResults(app, options);
   app.add_option("--stats", options.stats, "JSON: passes, skipped mirrors, effects, totals");
@@ -90,17 +90,13 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
 }
 
 void addReference(CLI::App& app, Options& options, Raw& raw) {
-  addScene(app, options, raw);
-  addTime(app, options);
-  addCamera(app, raw);
+  addView(app, options, raw);
   app.add_option("--out", options.out, "F.png or F.exr")->required();
   app.add_option("--samples", options.samples, "rays a pixel, a square number")->check(CLI::Range(1, 65536));
 }
 
 void addBench(CLI::App& app, Options& options, Raw& raw) {
-  addScene(app, options, raw);
-  addTime(app, options);
-  addCamera(app, raw);
+  addView(app, options, raw);
   app.add_option("--frames", options.frames, "measured frames")->check(CLI::Range(1, 1000000));
   app.add_option("--warmup", options.warmup, "frames before")->check(CLI::Range(0, 1000000));
   app.add_option("--json", options.json, "write the figures to F");
@@ -171,21 +167,6 @@ std::vector<std::pair<std::string, std::string>> parseSettings(const std::string
   return settings;
 }
 
-// Returns the arguments of `bench` for one of the runs that are compared.
-std::vector<std::string> benchArguments(int argc, const char* const* argv) {
-  std::vector<std::string> kept;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const std::string name = argument.substr(0, argument.find('='));
-    if (name != "--against-binary" && name != "--against-set" && name != "--json" && name != "--rounds") {
-      kept.push_back(argument);
-    } else if (name == argument) {
-      ++i;
-    }
-  }
-  return kept;
-}
-
 void applyRaw(const Raw& raw, Options& options) {
   if (!raw.size.empty()) {
     options.size = parseSize(raw.size);
@@ -213,9 +194,9 @@ void applyRaw(const Raw& raw, Options& options) {
     throw UsageError("--render-path: '" + raw.renderPath + "' is not a choice (auto | dynamic | renderpass)");
   }
   options.renderPath = *path;
-  const std::map<std::string, PresentMode> modes = {
-      {"fifo", PresentMode::fifo}, {"mailbox", PresentMode::mailbox}, {"immediate", PresentMode::immediate}};
-  options.presentMode = modes.at(raw.presentMode);
+  for (const PresentMode mode : {PresentMode::fifo, PresentMode::mailbox, PresentMode::immediate}) {
+    options.presentMode = presentModeName(mode) == raw.presentMode ? mode : options.presentMode;
+  }
 }
 
 std::string settingsText() {
@@ -226,11 +207,9 @@ std::string settingsText() {
   return text;
 }
 
-std::string oneLine(std::string text) {
-  for (char& c : text) {
-    c = c == '\n' ? ' ' : c;
-  }
-  while (!text.empty() && text.back() == ' ') text.pop_back();
+std::string withoutLineBreaks(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  text.erase(text.find_last_not_of(' ') + 1);
   return text;
 }
 
@@ -299,7 +278,8 @@ std::optional<Options> parseOptions(int givenCount, const char* const* givenArgu
       return std::nullopt;
     }
     const std::string unknown = unknownArgument(app);
-    throw UsageError(oneLine(unknown.empty() ? error.what() + std::string(" (see speculum --help)") : unknown));
+    throw UsageError(
+        withoutLineBreaks(unknown.empty() ? error.what() + std::string(" (see speculum --help)") : unknown));
   }
   if (!app.get_subcommands().empty()) {
     options.command = app.get_subcommands().front()->get_name();
@@ -309,9 +289,6 @@ std::optional<Options> parseOptions(int givenCount, const char* const* givenArgu
     options.out = "regress-report";
   }
   options.arguments.assign(argv + 1, argv + argc);
-  if (options.command == "bench") {
-    options.benchArguments = benchArguments(argc, argv);
-  }
   return options;
 }
 

@@ -50,15 +50,14 @@ struct Options {
   std::filesystem::path againstBinary;  // bench: another speculum to measure in turn; empty: none
   std::vector<std::pair<std::string, std::string>> againstSettings;  // bench: settings to measure in turn; may be none
   int benchRounds = 7;                                               // bench: runs of each of the two
-  std::vector<std::string> benchArguments;  // of bench, without --json and what it is measured against
-  std::filesystem::path cases;              // regress
-  std::string filter = "*";                 // of the cases' names
-  int jobs = 0;                             // worker processes; 0: by the processor
-  int repeat = 1;                           // pictures of each case, which must be equal
-  std::optional<std::string> update;        // names of the cases whose expected pictures are replaced
-  std::filesystem::path junit;              // empty: none
-  bool worker = false;                      // draws the cases whose indices come on standard input
-  std::vector<std::string> arguments;       // of the command line, without the program
+  std::filesystem::path cases;                                       // regress
+  std::string filter = "*";                                          // of the cases' names
+  int jobs = 0;                                                      // worker processes; 0: by the processor
+  int repeat = 1;                                                    // pictures of each case, which must be equal
+  std::optional<std::string> update;   // names of the cases whose expected pictures are replaced
+  std::filesystem::path junit;         // empty: none
+  bool worker = false;                 // draws the cases whose indices come on standard input
+  std::vector<std::string> arguments;  // of the command line, without the program
 };
 
 // Bad usage; what() is one line.

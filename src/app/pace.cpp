@@ -20,6 +20,11 @@ constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and witho
 constexpr double leastShare = 0.1;   // of such a frame's time is its tiles'
 constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
 
+Settings withPictures(Settings settings, int pictures) {
+  settings.view.accumulate = pictures;
+  return settings;
+}
+
 // Says whether tiles can draw the picture; debug.check_finite looks at whole ones.
 bool drawnInTiles(const FittedPlan& fitted) {
   return !fitted.plan.mainReused && !fitted.settings.debug.checkFinite;
@@ -42,7 +47,7 @@ const FittedPlan& Pace::plan(const Request& request, const Planner& plan) {
     work_ = workOf(fitted.plan, request.scene, request.state, fitted.settings);
     return fitted;
   };
-  drawsTiles_ = false;
+  fitted_.plan.tiles.reset();
   if (moving() && request.budgetMs > 0.0) {
     planMoving(request, counted);
   } else {
@@ -54,8 +59,7 @@ const FittedPlan& Pace::plan(const Request& request, const Planner& plan) {
 
 // Plans the frame within the budget. The text says what the picture gives up for that.
 void Pace::planWithinBudget(const Request& request, const Planner& plan) {
-  Settings chosen = request.chosen;
-  chosen.view.accumulate = 1;
+  const Settings chosen = withPictures(request.chosen, 1);
   const std::vector<MotionLevel> levels =
       motionLevels(request.scene, chosen, request.front, sampleCounts_, request.simplifies, cpuDevice_);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
@@ -73,7 +77,8 @@ void Pace::planMoving(const Request& request, const Planner& plan) {
 
 void Pace::planStill(const Request& request, const Planner& plan) {
   pictures_ = moving() ? 1 : stillPictures(request.chosen);
-  const std::pair shown(request.chosen, request.shown);
+  // The mean begins anew when nothing moves any more, even if nothing else has changed.
+  const auto shown = moving() ? std::nullopt : std::optional(std::pair(request.chosen, request.shown));
   if (std::exchange(shown_, shown) != shown || moving()) {
     picture_ = -1;
     slow_.reset();
@@ -84,42 +89,44 @@ void Pace::planStill(const Request& request, const Planner& plan) {
     slow_.reset();
   }
   text_.clear();
-  Settings settings = request.chosen;
-  settings.view.accumulate = 1;
-  const bool single = pictures_ == 1;
-  if (moving()) {
-    shown_.reset();  // the mean begins anew when nothing moves, even if nothing else has changed
-  }
-  if (moving() || (single && !divides)) {
+  if (moving() || (pictures_ == 1 && !divides)) {
     picture_ = pictures_;
-    fitted_ = plan(settings, 0);
-    return;
+    fitted_ = plan(withPictures(request.chosen, 1), 0);
+  } else if (picture_ >= 0 || !planFirst(request, plan)) {
+    planPicture(request, plan);
   }
-  if (picture_ < 0) {
-    fitted_ = plan(settings, 0);
-    // Draws this frame in full quality if it is fast. A slow one would delay the mean, whose pictures have one sample;
-    // a single picture is drawn in tiles only if it would hold up input for long.
-    const double most = (single ? longestWait : 1.0) * request.budgetMs;
-    const bool whole = request.budgetMs <= 0.0 || controller_.predict(work_) <= most;
-    picture_ = whole && single ? 1 : 0;
-    if (whole) {
-      return;
-    }
-    Settings mean = settings;
-    mean.view.accumulate = pictures_;
-    if (controller_.predict(scaledWork(work_, settings, pictureSettings(mean))) > longestWait * request.budgetMs) {
-      slow_.emplace();
-      planWithinBudget(request, plan);
-      draft_ = text_ = "Draft: " + text_;
-      return;
-    }
+}
+
+// Plans the first frame in full quality if that is fast, else a draft. Returns false if the first picture of the mean
+// is fast enough to come at once. A slow frame would delay the mean, whose pictures have one sample; a single picture
+// is drawn in tiles only if it would hold up input for long.
+bool Pace::planFirst(const Request& request, const Planner& plan) {
+  const bool single = pictures_ == 1;
+  const Settings settings = withPictures(request.chosen, 1);
+  fitted_ = plan(settings, 0);
+  const double most = (single ? longestWait : 1.0) * request.budgetMs;
+  const bool whole = request.budgetMs <= 0.0 || controller_.predict(work_) <= most;
+  picture_ = whole && single ? 1 : 0;
+  if (whole) {
+    return true;
   }
-  settings.view.accumulate = pictures_;
-  if (!slow_ && picture_ > 0 && divides) {
+  const FrameWork work = scaledWork(work_, settings, pictureSettings(withPictures(request.chosen, pictures_)));
+  if (controller_.predict(work) <= longestWait * request.budgetMs) {
+    return false;
+  }
+  slow_.emplace();
+  planWithinBudget(request, plan);
+  draft_ = text_ = "Draft: " + text_;
+  return true;
+}
+
+// Plans the next picture of the mean or, if it is slow, its next tiles.
+void Pace::planPicture(const Request& request, const Planner& plan) {
+  if (!slow_ && picture_ > 0 && request.budgetMs > 0.0 && request.divides) {
     slow_.emplace();
   }
   if (!slow_ || slow_->finished()) {
-    fitted_ = plan(settings, single ? 0 : picture_);
+    fitted_ = plan(withPictures(request.chosen, pictures_), pictures_ == 1 ? 0 : picture_);
     const double ms = controller_.predict(work_);
     if (slow_ && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
       slow_->begin(tileCount(fitted_.plan), ms);
@@ -127,21 +134,24 @@ void Pace::planStill(const Request& request, const Planner& plan) {
     }
   }
   if (slow_ && !slow_->finished()) {
-    drawsTiles_ = true;
-    const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
-    besidesMs_ = cpuMs_ + controller_.predict({.plainTexels = pixels});
-    // At least half of the time goes to the tiles, whatever the rest of a frame takes.
-    fitted_.plan.tiles =
-        slow_->next(std::max((request.input ? 1.0 : tilesShare) * request.budgetMs - besidesMs_, besidesMs_));
+    planTiles(request);
     if (!slow_->finished()) {
       text_ = tilesText();
       return;
     }
   }
   picture_ = std::min(picture_ + 1, pictures_);
-  if (!single) {
+  if (pictures_ > 1) {
     text_ = fmt::format("{} of {} pictures", picture_, pictures_);
   }
+}
+
+void Pace::planTiles(const Request& request) {
+  const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
+  besidesMs_ = cpuMs_ + controller_.predict({.plainTexels = pixels});
+  const double most = (request.input ? 1.0 : tilesShare) * request.budgetMs;
+  // At least half of the time goes to the tiles, whatever the rest of a frame takes.
+  fitted_.plan.tiles = slow_->next(std::max(most - besidesMs_, besidesMs_));
 }
 
 std::string Pace::tilesText() const {
@@ -154,11 +164,9 @@ std::string Pace::tilesText() const {
 }
 
 void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
-  if (usual) {
-    controller_.drawn(number, work_);
-  }
   cpuMs_ = cpuMs;
-  drawn_.push_back({.number = number, .cpuMs = cpuMs, .begun = begun_});
+  drawn_.push_back(
+      {.number = number, .cpuMs = cpuMs, .begun = begun_, .work = usual ? std::optional(work_) : std::nullopt});
   if (drawn_.size() > mostDrawn) {
     drawn_.pop_front();
   }
@@ -173,18 +181,17 @@ void Pace::finished(const FrameTimings& timings) {
     return;
   }
   const double sum = found->cpuMs + timings.gpuMs;
-  const double ms = !cpuDevice_ && !drawsTiles_ ? std::max(found->cpuMs, timings.gpuMs)
-                    : found->frameMs == 0       ? sum
-                                                : std::min(found->frameMs, sum);
-  if (drawsTiles_ && found + 1 == drawn_.end()) {
+  const double ms = !cpuDevice_ && !drawsTiles() ? std::max(found->cpuMs, timings.gpuMs)
+                    : found->frameMs == 0        ? sum
+                                                 : std::min(found->frameMs, sum);
+  if (drawsTiles() && found + 1 == drawn_.end()) {
     slow_->took(std::max(ms - besidesMs_, leastShare * ms));
     // The frames took longer than one would have, so their time is learned only where even that was less.
     if (slow_->finished() && slow_->totalMs() < controller_.predict(slowWork_)) {
-      controller_.drawn(timings.frame, slowWork_);
-      controller_.finished(timings.frame, slow_->totalMs());
+      controller_.learn(slowWork_, slow_->totalMs());
     }
-  } else if (timings.passes.empty()) {
-    controller_.finished(timings.frame, ms);
+  } else if (found->work && timings.passes.empty()) {
+    controller_.learn(*found->work, ms);
   }
   drawn_.erase(drawn_.begin(), found + 1);
 }

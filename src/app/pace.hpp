@@ -51,7 +51,7 @@ class Pace {
   }
   // Says whether the last frame drew tiles of a picture. If so, wait for it before the next events: finished() learns
   // from its time, and no second frame delays them.
-  bool drawsTiles() const { return drawsTiles_; }
+  bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
   // Says whether the next frames are likely to draw tiles.
   bool drawsSlowly() const { return !moving() && slow_ && (slow_->begun() || !draft_.empty()); }
 
@@ -94,6 +94,9 @@ class Pace {
   void planWithinBudget(const Request& request, const Planner& plan);
   void planMoving(const Request& request, const Planner& plan);
   void planStill(const Request& request, const Planner& plan);
+  bool planFirst(const Request& request, const Planner& plan);
+  void planPicture(const Request& request, const Planner& plan);
+  void planTiles(const Request& request);
   std::string tilesText() const;
 
   using Clock = std::chrono::steady_clock;
@@ -101,7 +104,8 @@ class Pace {
     uint64_t number = 0;
     double cpuMs = 0.0;
     Clock::time_point begun;
-    double frameMs = 0.0;  // until the next frame began; 0: not yet
+    double frameMs = 0.0;           // until the next frame began; 0: not yet
+    std::optional<FrameWork> work;  // if the times are those of such a frame
   };
 
   bool cpuDevice_;
@@ -116,9 +120,8 @@ class Pace {
   std::string text_;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
-  int picture_ = -1;  // next picture of the mean; -1: a picture in full quality, or a draft, comes first
-  int pictures_ = 0;  // in the mean; 1: a single picture instead
-  bool drawsTiles_ = false;
+  int picture_ = -1;                 // next picture of the mean; -1: a picture in full quality, or a draft, comes first
+  int pictures_ = 0;                 // in the mean; 1: a single picture instead
   std::optional<SlowPicture> slow_;  // nothing until a picture or draft is shown, which stays while tiles are drawn
   FrameWork slowWork_;
   std::string draft_;       // what the draft gives up that is shown until the first picture is complete

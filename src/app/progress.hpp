@@ -15,7 +15,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void advance(double by = 1.0) { set(done_ + by); }
+  void advance() { set(done_ + 1.0); }
   void set(double done);
 
  private:

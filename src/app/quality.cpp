@@ -35,10 +35,6 @@ void warnOfDifferences(const SweepResults& results, const Options& options, cons
   }
 }
 
-bool bounded(const Settings& settings) {
-  return settings.quality.budgetMs > 0.0 || settings.quality.maxError > 0.0;
-}
-
 }  // namespace
 
 std::vector<SettingChange> settingsOfPoint(const SweepResults& results, int point) {
@@ -76,7 +72,7 @@ void applyPoint(const SweepResults& results, int point, const std::vector<std::s
 
 std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
                                            Settings& settings) {
-  if (!bounded(settings)) {
+  if (!budgetOf(settings).bounds()) {
     return std::nullopt;
   }
   const auto keys = std::views::keys(options.settings);
@@ -92,8 +88,7 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
     return std::nullopt;
   }
   const SweepResults results = readSweepResults(options.sweepResults);
-  const QualityBudget budget{settings.quality.budgetMs, settings.quality.maxError};
-  const std::optional<BudgetChoice> choice = chooseForBudget(results, budget);
+  const std::optional<BudgetChoice> choice = chooseForBudget(results, budgetOf(settings));
   if (!choice) {
     throw InputError(options.sweepResults.string() + ": points: none (a sweep with at least one point is needed)");
   }

@@ -9,6 +9,10 @@
 
 namespace speculum {
 
+inline QualityBudget budgetOf(const Settings& settings) {
+  return {settings.quality.budgetMs, settings.quality.maxError};
+}
+
 // The point of a sweep that the bounds of quality.* chose.
 struct QualityChoice {
   SweepPoint point;

@@ -1,5 +1,7 @@
 #include "app/recovery.hpp"
 
+#include <utility>
+
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 
@@ -19,32 +21,43 @@ fs::path recordOf(const fs::path& copy) {
 
 }  // namespace
 
-void recordRecovery(const fs::path& copy) {
-  storeFile(recordOf(copy), copy.string());
+const std::optional<fs::path>& Recovery::findNewest() {
+  std::error_code none;
+  fs::file_time_type time;
+  for (const auto& record : fs::directory_iterator(recordFolder(), none)) {
+    const fs::path copy = readTextIfAny(record);
+    if (isFile(copy) && (!copy_ || record.last_write_time(none) > time)) {
+      copy_ = copy;
+      time = record.last_write_time(none);
+    }
+  }
+  return copy_;
 }
 
-bool hasRecovery(const fs::path& copy) {
+bool Recovery::isRecorded(const fs::path& copy) {
   std::error_code none;
   return fs::exists(recordOf(copy), none);
 }
 
-std::optional<fs::path> newestRecovery() {
-  std::error_code none;
-  std::optional<fs::path> newest;
-  fs::file_time_type time;
-  for (const auto& record : fs::directory_iterator(recordFolder(), none)) {
-    const fs::path copy = readTextIfAny(record);
-    if (isFile(copy) && (!newest || record.last_write_time(none) > time)) {
-      newest = copy;
-      time = record.last_write_time(none);
-    }
+void Recovery::record(const fs::path& copy, bool unanswered) {
+  storeFile(recordOf(copy), copy.string());
+  if (copy != copy_ && !unanswered) {
+    forget();
   }
-  return newest;
+  copy_ = copy;
 }
 
-void forgetRecovery(const fs::path& copy) {
-  std::error_code none;
-  fs::remove(recordOf(copy), none);
+void Recovery::forget() {
+  if (copy_) {
+    std::error_code none;
+    fs::remove(recordOf(*std::exchange(copy_, std::nullopt)), none);
+  }
+}
+
+void Recovery::postpone(const fs::path& file) {
+  if (file != copy_) {
+    copy_.reset();
+  }
 }
 
 }  // namespace speculum

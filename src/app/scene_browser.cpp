@@ -16,15 +16,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t mostListed = 64;  // scenes of one folder
+constexpr size_t mostListed = 64;  // files of one folder
 constexpr size_t mostRecent = 10;
 constexpr int largestThumbnail = 192;  // pixels; scripts/thumbnails makes no larger ones
 
-std::vector<fs::path> filesIn(const fs::path& folder) {
+bool mayBeScene(const fs::path& file) {
+  return file.extension() == ".toml";
+}
+
+std::vector<fs::path> filesIn(const fs::path& folder, bool (*wanted)(const fs::path& file)) {
   std::error_code none;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder, none)) {
-    if (entry.path().extension() == ".toml") {
+    if (wanted(entry.path())) {
       files.push_back(entry.path());
     }
   }
@@ -38,6 +42,10 @@ fs::path recentFile() {
 }
 
 }  // namespace
+
+std::vector<fs::path> SceneBrowser::shippedModels() {
+  return filesIn(dataDirectory("scenes").parent_path() / "models", isModelFile);
+}
 
 fs::path SceneBrowser::newScene() {
   return dataDirectory("scenes") / "new" / "untitled.toml";
@@ -75,13 +83,13 @@ void SceneBrowser::remember(const fs::path& file) {
 void SceneBrowser::list(const fs::path& file) {
   const std::vector<SceneEntry> before = std::exchange(view_.scenes, {});
   indices_.clear();
-  for (const fs::path& own : filesIn(file.parent_path())) {
+  for (const fs::path& own : filesIn(file.parent_path(), mayBeScene)) {
     if (isSceneFile(own)) {
       add(own);
     }
   }
   add(file);
-  for (const fs::path& shipped : filesIn(dataDirectory("scenes"))) {
+  for (const fs::path& shipped : filesIn(dataDirectory("scenes"), mayBeScene)) {
     add(shipped);
   }
   addSaved(before);
@@ -155,7 +163,7 @@ void SceneBrowser::open(const fs::path& file, const Options& options) {
 
 fs::path SceneBrowser::choose(const std::vector<fs::path>& files) {
   const auto file = std::ranges::find_if(
-      files, [](const fs::path& candidate) { return isModelFile(candidate) || candidate.extension() == ".toml"; });
+      files, [](const fs::path& candidate) { return isModelFile(candidate) || mayBeScene(candidate); });
   if (file == files.end()) {
     throw InputError((files.empty() ? std::string("nothing") : files.front().string()) +
                      ": not a scene (a .toml scene or an .obj model is needed)");

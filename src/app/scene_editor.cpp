@@ -18,29 +18,13 @@ constexpr double sameSpot = 4.0;       // pixels within which a click repeats th
 constexpr double objectAhead = 2.5;    // least distance of an added object in half diagonals: the eye is outside it
 constexpr double farthestAhead = 4.0;  // metres from the eye to where nodes are added
 
-glm::dvec3 anchorOf(const SceneNode& node) {
-  return std::visit(
-      [](const auto& placed) {
-        using Node = std::decay_t<decltype(placed)>;
-        if constexpr (std::is_same_v<Node, std::monostate>) {
-          return glm::dvec3(0.0);
-        } else if constexpr (std::is_same_v<Node, Mirror>) {
-          return placed.polygon.empty() ? placed.position : placed.polygon.front();
-        } else {
-          return placed.position;
-        }
-      },
-      node);
-}
-
 // Gives copies that would all stand in one place a step beside each other.
 SceneNode withCopiesApart(const Scene& scene, const Selection& target, SceneNode node) {
   auto* object = std::get_if<Object>(&node);
   const bool first = object && object->copies.count > 1 && object->copies.step == glm::dvec3(0.0) &&
                      scene.objects.at(static_cast<size_t>(target.index)).copies.count <= 1;
   if (first) {
-    const glm::dvec3 beside = anchorOf(copyBeside(scene, target)) - anchorOf(nodeOf(scene, target));
-    object->copies.step = glm::round(beside * 1000.0) / 1000.0;
+    object->copies.step = glm::round(stepBeside(scene, target) * 1000.0) / 1000.0;
   }
   return node;
 }
@@ -264,9 +248,8 @@ void SceneEditor::addObject(const SceneView& view, int mesh) {
 // Returns the side (1 or -1) on which a copy is in sight, the usual one (1) if neither is.
 double SceneEditor::sideInSight(const SceneView& view, const Selection& node, const PixelRect& free) const {
   const glm::dvec3 pivot = pivotOf(document_.scene(), view.state, node);
-  const glm::dvec3 before = anchorOf(nodeOf(document_.scene(), node));
   for (const double side : {1.0, -1.0}) {
-    const auto at = view.picture.pixel(pivot + anchorOf(copyBeside(document_.scene(), node, side)) - before);
+    const auto at = view.picture.pixel(pivot + stepBeside(document_.scene(), node, side));
     if (at && free.contains(static_cast<int>(at->x), static_cast<int>(at->y))) {
       return side;
     }
@@ -295,7 +278,7 @@ void SceneEditor::remove() {
   }
   beginChange();
   others_.clear();
-  nodes.size() == 1 ? document_.remove(nodes.front()) : document_.remove(std::span(nodes));
+  document_.remove(std::span(nodes));
   forgetPath();
 }
 
@@ -309,30 +292,20 @@ void SceneEditor::removeBookmark(size_t index) {
   document_.removeBookmark(index);
 }
 
-void SceneEditor::undo() {
+// Nodes stay selected together as long as all of them keep their indices.
+std::optional<SettingsStep> SceneEditor::step(UndoWay way) {
   release();
-  if (document_.canUndo()) {
-    step(&SceneDocument::undo);
+  if (document_.changesScene(way)) {
+    beforeChange_();
+    forgetPath();
   }
-}
-
-void SceneEditor::redo() {
-  release();
-  if (document_.canRedo()) {
-    step(&SceneDocument::redo);
-  }
-}
-
-// Undoes or redoes a step. Nodes stay selected together as long as all of them keep their indices.
-void SceneEditor::step(void (SceneDocument::*way)()) {
-  beforeChange_();
   const uint64_t structure = document_.structureRevision();
   const Selection first = document_.selection();
-  (document_.*way)();
-  forgetPath();
+  const std::optional<SettingsStep> settings = way == UndoWay::back ? document_.undo() : document_.redo();
   if (document_.structureRevision() != structure || !sameNode(document_.selection(), first)) {
     others_.clear();
   }
+  return settings;
 }
 
 std::filesystem::path SceneEditor::modelFile(const std::filesystem::path& model) const {

@@ -55,8 +55,7 @@ class SceneEditor {
   void remove();
   void addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
-  void undo();
-  void redo();
+  std::optional<SettingsStep> step(UndoWay way);  // undoes or redoes one, as SceneDocument does
 
   // Returns the file of an AddObject command's model. Throws InputError if it does not exist.
   std::filesystem::path modelFile(const std::filesystem::path& model) const;
@@ -81,7 +80,6 @@ class SceneEditor {
   void replace(const std::string& verb, std::span<const PlacedNode> nodes);
   void beginChange();
   std::vector<Selection> selected() const;  // the document's first
-  void step(void (SceneDocument::*way)());
   void forgetPath();
   PictureView clickedImage(const SceneView& view) const;
   Gizmo gizmo(const SceneView& view) const;

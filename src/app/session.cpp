@@ -57,6 +57,16 @@ std::filesystem::path findScene(const std::string& wanted) {
                    "' (a scene file, a model, or a name from speculum scenes)");
 }
 
+Settings settingsOf(const Scene& scene, const Options& options) {
+  Settings settings = settingsOf(scene);
+  for (const auto& [key, value] : options.settings) {
+    if (const auto problem = setSetting(settings, key, value)) {
+      throw UsageError("--set: " + *problem);
+    }
+  }
+  return settings;
+}
+
 LoadedScene loadSceneWithSettings(const Options& options) {
   return loadSceneWithSettings(findScene(options.scene), options);
 }
@@ -64,12 +74,7 @@ LoadedScene loadSceneWithSettings(const Options& options) {
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
                                   const LoadProgress& progress) {
   LoadedScene loaded{.scene = loadScene(file, progress)};
-  loaded.settings = settingsOf(loaded.scene);
-  for (const auto& [key, value] : options.settings) {
-    if (const auto problem = setSetting(loaded.settings, key, value)) {
-      throw UsageError("--set: " + *problem);
-    }
-  }
+  loaded.settings = settingsOf(loaded.scene, options);
   loaded.quality = chooseQuality(options, file, loaded.settings);
   return loaded;
 }
@@ -222,36 +227,19 @@ void Session::drawPicture(bool capture) {
   ++frame_.pictures;
 }
 
-// Adds up passes by their ids, because several frames may draw parts of a pass, and pictures of a mean may differ in
-// passes at the edge of the view. A pass that is new stands behind the one before it.
 void Session::collectFinished() {
   while (!unfinished_.empty()) {
     const FrameTimings* timings = renderer_.timingsOf(unfinished_.front().number);
     if (!timings) {
       return;
     }
-    const std::span<const RecordedPass> passes = sceneRenderer_.passesOf(unfinished_.front().number);
-    place_ = unfinished_.front().beginsPicture ? 0 : place_;
-    unfinished_.pop_front();
-    frame_.timings.frame = timings->frame;
-    frame_.timings.gpuMs += timings->gpuMs;
-    for (size_t i = 0; i < passes.size(); ++i) {
-      const PassId& id = passes[i];
-      const auto known = std::ranges::find_if(frame_.passes, [&](const PassId& pass) { return pass == id; });
-      if (known == frame_.passes.end()) {
-        place_ = std::min(place_, frame_.passes.size());
-        frame_.passes.insert(frame_.passes.begin() + static_cast<std::ptrdiff_t>(place_), passes[i]);
-        frame_.passes[place_].draws = 0;
-        frame_.timings.passes.insert(frame_.timings.passes.begin() + static_cast<std::ptrdiff_t>(place_), PassTiming{});
-      } else {
-        place_ = static_cast<size_t>(known - frame_.passes.begin());
-      }
-      frame_.passes[place_].draws += passes[i].draws;
-      if (i < timings->passes.size()) {
-        frame_.timings.passes[place_] += timings->passes[i];
-      }
-      ++place_;
+    if (unfinished_.front().beginsPicture) {
+      frame_.sums.beginPicture();
     }
+    frame_.sums.add(sceneRenderer_.passesOf(timings->frame), *timings);
+    frame_.number = timings->frame;
+    frame_.gpuMs += timings->gpuMs;
+    unfinished_.pop_front();
   }
 }
 

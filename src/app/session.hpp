@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/options.hpp"
+#include "app/pass_sums.hpp"
 #include "app/quality.hpp"
 #include "frame/effects.hpp"
 #include "frame/memory_fit.hpp"
@@ -25,6 +26,8 @@ struct LoadedScene {
   Settings settings;
   std::optional<QualityChoice> quality;
 };
+// Returns the scene's settings, with those of --set. Throws UsageError.
+Settings settingsOf(const Scene& scene, const Options& options);
 LoadedScene loadSceneWithSettings(const Options& options);
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
                                   const LoadProgress& progress = {});
@@ -68,11 +71,14 @@ struct DrawnFrame {
   FramePlan plan;     // of the last picture
   Settings settings;  // of the plan
   int pictures = 0;
+  uint64_t number = 0;   // of the renderer's last frame that has finished
   double cpuMs = 0.0;    // planning and recording
+  double gpuMs = 0.0;    // from the first pass's start to the last one's end
   double frameMs = 0.0;  // from its beginning until the GPU has finished
-  std::vector<RecordedPass> passes;
-  FrameTimings timings;  // of `passes`, by index
+  PassSums sums;
   EffectLedger ledger;
+
+  const std::vector<TimedPass>& passes() const { return sums.passes(); }
 };
 
 // A scene drawn without a window.
@@ -126,7 +132,6 @@ class Session {
     bool beginsPicture = true;
   };
   std::deque<Unfinished> unfinished_;
-  size_t place_ = 0;  // in frame_.passes, behind the last pass whose figures were added
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -36,7 +36,7 @@ FrameCost SessionSubject::cost(const Settings& settings) {
     const bool counts = frame < counted;
     drawEarlierFrame(counted == 1 ? 0 : frame, false, counts);
     if (counts) {
-      cost.gpuMs += session_.lastFrame().timings.gpuMs / counted;
+      cost.gpuMs += session_.lastFrame().gpuMs / counted;
       cost.cpuMs += session_.lastFrame().cpuMs / counted;
       cost.frameMs += session_.lastFrame().frameMs / counted;
     }

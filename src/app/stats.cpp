@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "accuracy/statistics.hpp"
 #include "frame/depth_readout.hpp"
@@ -53,12 +52,12 @@ ordered_json depthJson(const Session& session, const std::vector<int>& path) {
 }
 
 // Returns the index of the pass that looks this one's image up; null if none does.
-ordered_json parentJson(const std::vector<RecordedPass>& passes, const RecordedPass& pass) {
+ordered_json parentJson(const std::vector<PassId>& passes, const PassId& pass) {
   if (pass.path.empty()) {
     return nullptr;
   }
   const std::vector<int> seenIn(pass.path.begin(), pass.path.end() - 1);
-  const auto parent = std::ranges::find_if(passes, [&](const RecordedPass& other) {
+  const auto parent = std::ranges::find_if(passes, [&](const PassId& other) {
     return (other.kind == PassKind::mirror || other.kind == PassKind::main) && other.path == seenIn;
   });
   return parent == passes.end() ? ordered_json(nullptr) : ordered_json(parent - passes.begin());
@@ -66,15 +65,14 @@ ordered_json parentJson(const std::vector<RecordedPass>& passes, const RecordedP
 
 ordered_json passesJson(Session& session) {
   ordered_json passes = ordered_json::array();
-  const auto& [recorded, timings] = std::tie(session.lastFrame().passes, session.lastFrame().timings);
-  for (size_t i = 0; i < recorded.size(); ++i) {
-    const RecordedPass& pass = recorded[i];
-    const PassTiming timing = i < timings.passes.size() ? timings.passes[i] : PassTiming{};
+  const std::vector<PassId> ids = passIds(session);
+  for (const TimedPass& pass : session.lastFrame().passes()) {
+    const PassTiming& timing = pass.timing;
     const bool mirror = pass.kind == PassKind::mirror;
     passes.push_back({{"name", pass.name},
                       {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
                       {"path", pathJson(session.scene(), pass.path)},
-                      {"parent", parentJson(recorded, pass)},
+                      {"parent", parentJson(ids, pass)},
                       {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
                       {"gpu_ms", timing.gpuMs},
                       {"draws", pass.draws},
@@ -163,52 +161,38 @@ ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
   return merged;
 }
 
-// Figures of a pass in the frames in which it ran.
-struct GatheredPass {
-  PassId id;
-  std::vector<const ordered_json*> passes;
-  const ordered_json* lastFrame = nullptr;
+// Passes of several frames, each once, with their figures in the frames in which they ran.
+struct GatheredPasses {
+  std::vector<PassId> ids;
+  std::vector<std::vector<const ordered_json*>> figures;  // by index into `ids`
 };
 
-std::vector<GatheredPass> gatherPasses(const std::vector<ordered_json>& frames,
-                                       const std::vector<std::vector<PassId>>& ids) {
-  std::vector<GatheredPass> gathered;
+GatheredPasses gatherPasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
+  GatheredPasses gathered;
   for (size_t f = 0; f < frames.size(); ++f) {
-    auto next = gathered.begin();
-    for (size_t i = 0; i < ids[f].size(); ++i) {
-      auto found = std::ranges::find(gathered, ids[f][i], &GatheredPass::id);
-      if (found == gathered.end()) {
-        found = gathered.insert(next, {.id = ids[f][i]});
+    std::ptrdiff_t place = 0;
+    for (size_t i = 0; i < ids[f].size(); ++i, ++place) {
+      const auto known = std::ranges::find(gathered.ids, ids[f][i]);
+      if (known == gathered.ids.end()) {
+        gathered.ids.insert(gathered.ids.begin() + place, ids[f][i]);
+        gathered.figures.emplace(gathered.figures.begin() + place);
+      } else {
+        place = known - gathered.ids.begin();
       }
-      found->passes.push_back(&frames[f].at("passes").at(i));
-      found->lastFrame = &frames[f];
-      next = found + 1;
+      gathered.figures[static_cast<size_t>(place)].push_back(&frames[f].at("passes").at(i));
     }
   }
   return gathered;
 }
 
-// Returns the index among the gathered passes of the one that looks this one's image up.
-ordered_json gatheredParent(const std::vector<GatheredPass>& gathered, const GatheredPass& pass) {
-  const ordered_json& parent = pass.passes.back()->at("parent");
-  if (parent.is_null()) {
-    return nullptr;
-  }
-  const ordered_json* sought = &pass.lastFrame->at("passes").at(parent.get<size_t>());
-  const auto found = std::ranges::find_if(gathered, [&](const GatheredPass& other) {
-    return std::ranges::find(other.passes, sought) != other.passes.end();
-  });
-  return found - gathered.begin();
-}
-
 ordered_json mergePasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
   ordered_json merged = ordered_json::array();
-  const std::vector<GatheredPass> gathered = gatherPasses(frames, ids);
-  for (const GatheredPass& pass : gathered) {
-    merged.push_back(mergeObjects(pass.passes));
-    merged.back()["parent"] = gatheredParent(gathered, pass);
-    if (pass.passes.size() < frames.size()) {
-      merged.back()["frames"] = pass.passes.size();
+  const GatheredPasses gathered = gatherPasses(frames, ids);
+  for (size_t i = 0; i < gathered.ids.size(); ++i) {
+    merged.push_back(mergeObjects(gathered.figures[i]));
+    merged.back()["parent"] = parentJson(gathered.ids, gathered.ids[i]);
+    if (gathered.figures[i].size() < frames.size()) {
+      merged.back()["frames"] = gathered.figures[i].size();
     }
   }
   return merged;
@@ -238,7 +222,7 @@ ordered_json frameStats(Session& session) {
                        {"why", quality->why}};
   }
   json["totals"] = {{"cpu_ms", frame.cpuMs},
-                    {"gpu_ms", frame.timings.gpuMs},
+                    {"gpu_ms", frame.gpuMs},
                     {"frame_ms", frame.frameMs},
                     {"pictures", frame.pictures},
                     {"device_bytes", device.allocatedBytes()},
@@ -252,7 +236,7 @@ ordered_json frameStats(Session& session) {
 }
 
 std::vector<PassId> passIds(Session& session) {
-  const std::vector<RecordedPass>& passes = session.lastFrame().passes;
+  const std::vector<TimedPass>& passes = session.lastFrame().passes();
   return {passes.begin(), passes.end()};
 }
 

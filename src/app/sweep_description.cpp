@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "accuracy/fingerprint.hpp"
+#include "app/motion_levels.hpp"
 #include "app/session_subject.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
@@ -36,31 +37,6 @@ void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
   }
 }
 
-template <typename Item, typename Predicate>
-bool contains(const std::vector<Item>& items, Predicate predicate) {
-  return std::ranges::any_of(items, predicate);
-}
-
-bool isRough(const Mirror& mirror) {
-  return mirror.roughness > 0.0;
-}
-
-std::vector<std::string> effectsAskedFor(const Scene& scene) {
-  const std::vector<std::pair<std::string, bool>> switches = {
-      {"effects.shadows", contains(scene.lights, [](const PointLight& light) { return light.castsShadow; })},
-      {"effects.roughness", contains(scene.mirrors, isRough)},
-      {"effects.ripple", contains(scene.mirrors, [](const Mirror& mirror) { return mirror.ripple.has_value(); })},
-      {"effects.casts_light", contains(scene.mirrors, [](const Mirror& mirror) { return mirror.castsLight; })},
-      {"effects.curved", contains(scene.objects, [](const Object& object) { return object.mirror.has_value(); })}};
-  std::vector<std::string> wanted;
-  for (const auto& [key, asked] : switches) {
-    if (asked) {
-      wanted.push_back(key);
-    }
-  }
-  return wanted;
-}
-
 }  // namespace
 
 std::string utcNow() {
@@ -68,12 +44,21 @@ std::string utcNow() {
 }
 
 SweepContext sweepContext(Session& session) {
-  return {.base = session.settings(),
-          .sampleCounts = sampleCountsOf(session.device()),
-          .mirrors = !session.scene().mirrors.empty(),
-          .animated = moves(session.scene()),
-          .rough = contains(session.scene().mirrors, isRough),
-          .effects = effectsAskedFor(session.scene())};
+  const AskedEffects asked = askedEffects(session.scene());
+  SweepContext context{.base = session.settings(),
+                       .sampleCounts = sampleCountsOf(session.device()),
+                       .mirrors = !session.scene().mirrors.empty(),
+                       .animated = moves(session.scene()),
+                       .rough = asked.rough};
+  for (const auto& [key, wanted] :
+       {std::pair("effects.shadows", asked.shadows), std::pair("effects.roughness", asked.rough),
+        std::pair("effects.ripple", asked.ripple), std::pair("effects.casts_light", asked.castsLight),
+        std::pair("effects.curved", asked.curved)}) {
+    if (wanted) {
+      context.effects.emplace_back(key);
+    }
+  }
+  return context;
 }
 
 // Returns a text that changes with build, shaders, driver and what is measured, so that old figures are not reused.

@@ -1,10 +1,8 @@
 #include "app/workspace.hpp"
 
-#include <algorithm>
-
 #include "app/pace.hpp"
-#include "app/recovery.hpp"
 #include "app/view_command.hpp"
+#include "frame/setting_fields.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 
@@ -21,19 +19,6 @@ struct Overloaded : Functions... {
 template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // clang needs it before version 17
 
-// Finds the models that come with the program.
-std::vector<fs::path> findShippedModels() {
-  std::vector<fs::path> models;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(dataDirectory("scenes").parent_path() / "models", none)) {
-    if (isModelFile(entry.path())) {
-      models.push_back(entry.path());
-    }
-  }
-  std::ranges::sort(models);
-  return models;
-}
-
 std::string windowTitle(const EditView& edit) {
   return edit.scene->file.stem().string() + (edit.unsaved ? "* - Speculum" : " - Speculum");
 }
@@ -43,17 +28,16 @@ std::string windowTitle(const EditView& edit) {
 Workspace::Workspace(const Options& options, WorkspaceHost& host)
     : options_(options),
       host_(host),
-      logCapture_(log_),
+      logCapture_(captureLog(log_)),
       loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
-      shippedModels_(findShippedModels()),
+      shippedModels_(SceneBrowser::shippedModels()),
       accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
   browser_.list(loaded_->scene.file);
   startDocument();
   if (options.frames == 0) {
-    recovery_ = newestRecovery();
-  }
-  if (recovery_) {
-    document_->offerRecovery(*recovery_);
+    if (const std::optional<fs::path>& copy = recovery_.findNewest()) {
+      document_->ask(Prompt::recovery, *copy);
+    }
   }
 }
 
@@ -64,20 +48,15 @@ void Workspace::startDocument() {
   pointer_.cancel();
   camera_.sceneChanged(scene());
   report_.clear();
-  const Environment& environment = scene().environment;
-  settings_ = {.current = loaded_->settings,
-               .ofScene = loaded_->settings,
-               .sky = environment.sky.has_value(),
-               .background = glm::vec3(environment.background)};
-  settingsHistory_ = {};
+  settings_ = loaded_->settings;
   shownStructure_ = document_->editor().document().structureRevision();
   edit_ = {};
-  fillEdit();
+  document_->fill(edit_, settings_);
 }
 
 void Workspace::apply(const Command& command) {
   std::visit(Overloaded{
-                 [&](const ResetCamera&) { camera_.reset(scene()); },
+                 [&](const ResetCamera&) { camera_.reset(scene().camera); },
                  [&](const ToggleCameraMode&) { camera_.toggleMode(); },
                  [&](const SetCameraMode& c) { camera_.setMode(c.mode); },
                  [&](const FrameSelection&) { frame(editor().document().selection()); },
@@ -110,19 +89,13 @@ void Workspace::apply(const Command& command) {
                    browser_.cancelLoading();
                    document_->forgetDiscard();
                  },
-                 [&](const Save&) {
-                   resume(document_->save(settings_.current));
-                   forgetRecoveryIfSaved();
-                 },
+                 [&](const Save&) { resume(document_->save(settings_)); },
                  [&](const AskWhereToSave&) { document_->askWhere(); },
-                 [&](const SaveAs& c) {
-                   resume(document_->saveAs(c.file, settings_.current));
-                   forgetRecoveryIfSaved();
-                 },
-                 [&](const DiscardChanges&) { resume(document_->discard(settings_.current)); },
+                 [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_)); },
+                 [&](const DiscardChanges&) { resume(document_->discard(settings_)); },
                  [&](const CancelPrompt&) {
-                   if (edit_.prompt == Prompt::recovery) {
-                     forgetRecoveryOfThis();
+                   if (document_->prompt() == Prompt::recovery) {
+                     recovery_.forget();
                    }
                    document_->cancelPrompt();
                    if (browser_.loaded()) {
@@ -167,11 +140,10 @@ void Workspace::apply(const Command& command) {
                  [&](const MeasureAccuracy&) { measureAccuracy(); },
                  [&](const CancelMeasurement&) { accuracy_.cancel(); },
                  [&](const ApplyPoint& c) {
-                   Settings settings = settings_.current;
+                   Settings settings = settings_;
                    accuracy_.applyPoint(c.point, settings);
                    setSettings(settings);
                  },
-                 [&](const ShowDifference& c) { accuracy_.showDifference(c.shown); },
                  [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
                  [&](const ToggleRecording& c) { toggleRecording(c.withPanel); },
                  [&](const CopyCommandLine&) { copyCommandLine(); },
@@ -203,20 +175,16 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
 
 void Workspace::pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap) {
   const glm::dvec2 pixelsPerUnit = glm::dvec2(host_.pictureSize()) / glm::max(windowSize, 1.0);
-  pointer_.move(position, pixelsPerUnit, windowSize.y, snap, editor(), camera_.camera());
+  pointer_.move(position, pixelsPerUnit, windowSize.y, snap, editor(), camera_);
 }
 
 double Workspace::frameSeconds(double seconds) const {
   return capture_.recording() ? 1.0 / Capture::framesPerSecond : seconds;
 }
 
-void Workspace::moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds) {
-  camera_.move(direction, pad, seconds);
-}
-
 SceneState Workspace::state(double time) {
   SceneState state = evaluate(scene(), time);
-  state.camera = camera_.camera().pose(state.camera);
+  state.camera = camera_.pose(state.camera);
   return state;
 }
 
@@ -228,7 +196,7 @@ std::optional<SceneView> Workspace::sceneView(double time) {
   }
   SceneState shown = state(time);
   const PictureView picture(shown.camera, size.x, size.y);
-  const ReflectionSettings& reflection = settings_.current.reflection;
+  const ReflectionSettings& reflection = settings_.reflection;
   return SceneView{.state = std::move(shown),
                    .picture = picture,
                    .limits = {reflection.maxDepth, reflection.minThroughput, report_.skipped()},
@@ -241,7 +209,7 @@ double Workspace::aspect() const {
 }
 
 void Workspace::prepareView(double seconds, bool pointerOverPicture) {
-  fillEdit();
+  document_->fill(edit_, settings_);
   if (title_ != windowTitle(edit_)) {
     host_.setTitle(title_ = windowTitle(edit_));
   }
@@ -252,14 +220,8 @@ void Workspace::prepareView(double seconds, bool pointerOverPicture) {
       edit_.overlay = editor().overlay(*view, points ? std::optional(pointer_.pixel()) : std::nullopt);
     }
   }
-  camera_.listBookmarks(scene());
+  camera_.bookmarksChanged(scene());
   status_.update(capture_.wanted());
-}
-
-void Workspace::fillEdit() {
-  document_->fill(edit_, settings_.current);
-  edit_.undo = settingsHistory_.label(UndoWay::back, editor().document());
-  edit_.redo = settingsHistory_.label(UndoWay::forward, editor().document());
 }
 
 UiView Workspace::view(const DeviceView& device, const std::string& message) const {
@@ -267,6 +229,7 @@ UiView Workspace::view(const DeviceView& device, const std::string& message) con
           .device = device,
           .browser = browser_.view(),
           .settings = settings_,
+          .sceneSettings = loaded_->settings,
           .camera = camera_.view(),
           .playback = playback_.view(),
           .edit = edit_,
@@ -279,7 +242,7 @@ UiView Workspace::view(const DeviceView& device, const std::string& message) con
 void Workspace::update() {
   takeSceneChange();
   // Prompts for changes made while the scene was loading, too.
-  if (browser_.loaded() && document_->confirmDiscard(settings_.current, std::nullopt)) {
+  if (browser_.loaded() && document_->confirmDiscard(settings_, std::nullopt)) {
     showScene(browser_.takeLoaded());
   } else if (const std::optional<std::string> error = browser_.takeError()) {
     problem_ = *error;
@@ -290,7 +253,7 @@ void Workspace::update() {
   }
   takeChosenFile();
   browser_.updateView();
-  accuracy_.beforeFrame(settings_.current);
+  accuracy_.beforeFrame(settings_);
 }
 
 // Drops cached images of the old scene that content comparison does not cover: those reused by an interval, and those
@@ -299,7 +262,7 @@ void Workspace::takeSceneChange() {
   if (!editor().changedSinceLastCall()) {
     return;
   }
-  const Settings& settings = settings_.current;
+  const Settings& settings = settings_;
   const uint64_t structure = editor().document().structureRevision();
   const bool restructured = std::exchange(shownStructure_, structure) != structure;
   if (restructured || settings.reflection.updateInterval > 1 || settings.effects.environmentInterval > 1) {
@@ -327,7 +290,7 @@ fs::path Workspace::folderToOpen() const {
 // The desktop's dialog, if it has one that can be started; else a prompt of the window.
 void Workspace::askWhatToOpen() {
   if (!fileDialog_.open(folderToOpen())) {
-    document_->askWhatToOpen(folderToOpen());
+    document_->ask(Prompt::open, folderToOpen());
   }
 }
 
@@ -336,17 +299,17 @@ void Workspace::takeChosenFile() {
   if (answer && answer->file) {
     open(*answer->file);
   } else if (answer && answer->failed && !document_->prompting()) {
-    document_->askWhatToOpen(folderToOpen());
+    document_->ask(Prompt::open, folderToOpen());
   }
 }
 
 // Opens a scene, after the prompt about unsaved changes if there are any.
 void Workspace::open(const fs::path& file) {
-  if (edit_.prompt == Prompt::recovery && file != recovery_) {
-    recovery_.reset();  // not answered: the next start asks again
+  if (document_->prompt() == Prompt::recovery) {
+    recovery_.postpone(file);
   }
   document_->closeOpenPrompt();
-  if (document_->confirmDiscard(settings_.current, OpenScene{file})) {
+  if (document_->confirmDiscard(settings_, OpenScene{file})) {
     Options options = options_;
     options.sweepResults.clear();  // they belong to the first scene
     problem_.clear();
@@ -426,7 +389,9 @@ void Workspace::useModels() {
 void Workspace::resume(const std::optional<Command>& afterPrompt) {
   if (document_->savedSinceLastCall()) {
     status_.set(document_->note());
-    settings_.ofScene = settings_.current;
+    if (!document_->hasUnsaved(settings_)) {
+      recovery_.forget();
+    }
     if (browser_.show(scene().file, false)) {
       host_.scenesListed();
     }
@@ -437,9 +402,9 @@ void Workspace::resume(const std::optional<Command>& afterPrompt) {
 }
 
 void Workspace::quit() {
-  if (document_->confirmDiscard(settings_.current, Quit{})) {
-    if (edit_.prompt != Prompt::recovery) {
-      forgetRecoveryOfThis();  // what it was about is saved or discarded
+  if (document_->confirmDiscard(settings_, Quit{})) {
+    if (document_->prompt() != Prompt::recovery) {
+      recovery_.forget();
     }
     host_.close();
   }
@@ -466,8 +431,8 @@ void Workspace::escape() {
 void Workspace::setSettings(const Settings& settings, bool continued) {
   Settings chosen = settings;
   accuracy_.followBudget(chosen);
-  settingsHistory_.changed(settings_.current, chosen, continued, editor().document());
-  settings_.current = chosen;
+  editor().document().settingsChanged(settings_, chosen, continued);
+  settings_ = chosen;
 }
 
 void Workspace::togglePanels() {
@@ -480,11 +445,16 @@ void Workspace::step(UndoWay way) {
   editor().release();
   editor().endEdit();
   const bool back = way == UndoWay::back;
-  const std::string step = settingsHistory_.label(way, editor().document());
-  if (!settingsHistory_.step(way, editor().document(), settings_.current)) {
-    back ? editor().undo() : editor().redo();
+  const std::string step = back ? editor().document().undoLabel() : editor().document().redoLabel();
+  if (const std::optional<SettingsStep> changed = editor().step(way)) {
+    // Only these, because a measurement may have chosen others since.
+    for (const SettingField& field : settingFields()) {
+      if (!sameSetting(field, changed->before, changed->after)) {
+        copySetting(field, back ? changed->before : changed->after, settings_);
+      }
+    }
   }
-  accuracy_.acceptBudget(settings_.current);
+  accuracy_.acceptBudget(settings_);
   status_.set(step.empty() ? (back ? "Nothing to undo" : "Nothing to redo") : (back ? "Undone: " : "Redone: ") + step);
 }
 
@@ -495,14 +465,13 @@ void Workspace::frame(const Selection& node) {
     const PixelRect free = host_.freePicture();
     const glm::dvec2 half = glm::dvec2(free.width, free.height) / size;
     const glm::dvec2 corner = 2.0 * glm::dvec2(free.x, free.y) / size;
-    camera_.camera().frame(bounds, aspect(),
-                           {.center = {corner.x + half.x - 1.0, 1.0 - corner.y - half.y}, .half = half});
+    camera_.frame(bounds, aspect(), {.center = {corner.x + half.x - 1.0, 1.0 - corner.y - half.y}, .half = half});
   }
 }
 
 void Workspace::lookFromMirror(MirrorSide side) {
-  camera_.lookFromMirror(side, scene(), evaluate(scene(), time()), editor().document().selection(),
-                         report_.view().passes, aspect());
+  camera_.lookFromMirror(side, evaluate(scene(), time()), editor().document().selection(), report_.view().passes,
+                         aspect());
 }
 
 // Returns the options that draw the present view of the scene in `file`.
@@ -519,10 +488,10 @@ void Workspace::copyCommandLine() {
   try {
     const fs::path file = document_->savedOrCopy(loaded_->settings);
     Options options = shownOptions(file);
-    if (camera_.camera().place()) {
+    if (camera_.moved()) {
       options.camera = camera_.bookmark(state(time()).camera, scene().camera);
     }
-    Settings settings = settings_.current;
+    Settings settings = settings_;
     settings.view.accumulate = stillPictures(settings);
     const std::string command = viewCommand(options, file, scene(), settings);
     host_.setClipboard(command);
@@ -536,7 +505,7 @@ void Workspace::copyCommandLine() {
 void Workspace::measureAccuracy() {
   try {
     SweepRequest request{.options = shownOptions(document_->savedOrCopy(loaded_->settings)),
-                         .base = settings_.current,
+                         .base = settings_,
                          .camera = state(time()).camera,
                          .time = time()};
     request.options.gpu = host_.gpu();
@@ -555,7 +524,7 @@ void Workspace::toggleRecording(bool withPanel) {
 bool Workspace::undoFailedChange(const std::string& why) {
   editor().release();
   editor().endEdit();
-  const std::string label = settingsHistory_.label(UndoWay::back, editor().document());
+  const std::string label = editor().document().undoLabel();
   if (std::exchange(tookBack_, !label.empty())) {
     step(UndoWay::forward);  // it was not that step
     tookBack_ = false;
@@ -569,28 +538,11 @@ bool Workspace::undoFailedChange(const std::string& why) {
   return true;
 }
 
-void Workspace::forgetRecoveryIfSaved() {
-  if (!document_->hasUnsaved(settings_.current)) {
-    forgetRecoveryOfThis();
-  }
-}
-
-// Other windows have records of their own.
-void Workspace::forgetRecoveryOfThis() {
-  if (recovery_) {
-    forgetRecovery(*std::exchange(recovery_, std::nullopt));
-  }
-}
-
 void Workspace::keepUnsavedWork() noexcept {
   try {
     const fs::path file = document_->savedOrCopy(settings());
     if (file != scene().file) {
-      recordRecovery(file);
-      if (file != recovery_ && edit_.prompt != Prompt::recovery) {
-        forgetRecoveryOfThis();  // this copy has its changes too
-      }
-      recovery_ = file;
+      recovery_.record(file, document_->prompt() == Prompt::recovery);
       spdlog::error("unsaved changes are kept in {}", file.string());
     }
   } catch (const std::exception& error) {

@@ -8,10 +8,9 @@
 #include "app/log_capture.hpp"
 #include "app/playback.hpp"
 #include "app/pointer_controller.hpp"
+#include "app/recovery.hpp"
 #include "app/scene_browser.hpp"
-#include "app/settings_history.hpp"
 #include "app/status_line.hpp"
-#include "app/view_controller.hpp"
 
 namespace speculum {
 
@@ -57,11 +56,13 @@ class Workspace {
   // Handle the pointer, in screen coordinates of the window. `overPanels` says that the event belongs to the panels.
   void pointerButton(const MouseButtonEvent& event, bool overPanels);
   void pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap);
-  void scrolled(double notches) { camera_.camera().zoom(notches); }
+  void scrolled(double notches) { camera_.zoom(notches); }
 
   // The stages of a frame, in this order. `seconds` since the last frame.
   double frameSeconds(double seconds) const;  // animation time of the frame: fixed while frames are recorded
-  void moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds);
+  void moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds) {
+    camera_.move(direction, pad, seconds);
+  }
   // Fills the view for the frame that is `seconds` from now. With `pointerOverPicture` the handle below the pointer
   // lights up.
   void prepareView(double seconds, bool pointerOverPicture);
@@ -88,8 +89,7 @@ class Workspace {
   void keepUnsavedWork() noexcept;
 
   const Scene& scene() const { return loaded_->scene; }
-  Settings& settings() { return settings_.current; }
-  const Settings& settings() const { return settings_.current; }
+  const Settings& settings() const { return settings_; }
   double time() const { return playback_.view().time; }
   SceneState state(double time);                           // with the camera of the window
   const std::string& problem() const { return problem_; }  // with the last scene; empty: none
@@ -106,8 +106,6 @@ class Workspace {
   std::filesystem::path folderToOpen() const;
   void askWhatToOpen();
   void takeChosenFile();
-  void forgetRecoveryIfSaved();
-  void forgetRecoveryOfThis();
   void open(const std::filesystem::path& file);
   void openDropped(const std::vector<std::filesystem::path>& files);
   void showScene(std::unique_ptr<LoadedScene> scene);
@@ -127,7 +125,6 @@ class Workspace {
   void frame(const Selection& node);  // none: the whole scene
   void lookFromMirror(MirrorSide side);
   void takeSceneChange();
-  void fillEdit();
   std::optional<SceneView> sceneView(double time);
   Options shownOptions(const std::filesystem::path& file);
   double aspect() const;
@@ -136,21 +133,20 @@ class Workspace {
   Options options_;
   WorkspaceHost& host_;
   LogHistory log_;
-  LogCapture logCapture_;
+  std::shared_ptr<void> logCapture_;
   std::unique_ptr<LoadedScene> loaded_;
   std::vector<std::filesystem::path> shippedModels_;
-  std::unique_ptr<DocumentController> document_;   // of loaded_
-  std::optional<std::filesystem::path> recovery_;  // copy with unsaved changes that was offered or made
+  std::unique_ptr<DocumentController> document_;  // of loaded_
+  Recovery recovery_;
   SceneBrowser browser_;
   AccuracyController accuracy_;
-  ViewController camera_;
+  CameraController camera_;
   PointerController pointer_;
   Playback playback_;
   Capture capture_;
   StatusLine status_;
   FrameReport report_;
-  SettingsView settings_;
-  SettingsHistory settingsHistory_;
+  Settings settings_;
   EditView edit_;
   FileDialog fileDialog_;
   std::string title_;  // of the window

@@ -84,21 +84,25 @@ Object newObject(const Scene& scene, int mesh, const glm::dvec3& position) {
   return object;
 }
 
-SceneNode copyBeside(const Scene& scene, const Selection& selection, double side) {
+glm::dvec3 stepBeside(const Scene& scene, const Selection& selection, double side) {
   const size_t index = selection.index;
   switch (selection.kind) {
     case Selection::Kind::object: {
       const Object& object = scene.objects.at(index);
       const double width = 2.2 * halfExtent(object, scene.meshes.at(object.mesh)).x + std::abs(rowOf(object).x);
-      return copyMoved(object, {side * width, 0.0, 0.0});
+      return {side * width, 0.0, 0.0};
     }
     case Selection::Kind::mirror:
-      return copyMoved(scene.mirrors.at(index), side * stepInPlane(evaluate(scene, 0.0).mirrors[index]));
+      return side * stepInPlane(evaluate(scene, 0.0).mirrors.at(index));
     case Selection::Kind::light:
-      return copyMoved(scene.lights.at(index), {side * 6.0 * scene.lights[index].radius, 0.0, 0.0});
+      return {side * 6.0 * scene.lights.at(index).radius, 0.0, 0.0};
     default:
-      return {};
+      return glm::dvec3(0.0);
   }
+}
+
+SceneNode copyBeside(const Scene& scene, const Selection& selection, double side) {
+  return copyMoved(nodeOf(scene, selection), stepBeside(scene, selection, side));
 }
 
 std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes) {

@@ -17,8 +17,9 @@ PointLight newLight(const glm::dvec3& position, const glm::dvec3& viewer);
 // middle.
 Object newObject(const Scene& scene, int mesh, const glm::dvec3& position);
 
-// Copies a node, an object with all its copies, a little beside it, on the other side for -1. Throws std::out_of_range
-// if the node does not exist.
+// Returns the step from a node, an object with all its copies, to a place a little beside it, on the other side for -1.
+// Throws std::out_of_range if the node does not exist.
+glm::dvec3 stepBeside(const Scene& scene, const Selection& selection, double side = 1.0);
 SceneNode copyBeside(const Scene& scene, const Selection& selection, double side = 1.0);
 // Copies several nodes beside the originals, all by the same step so that they stay together.
 std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes);

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "frame/setting_fields.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 
@@ -77,7 +78,6 @@ void SceneDocument::record(Step step) {
     return;
   }
   redo_.clear();
-  ++changes_;
   push(std::move(step));
 }
 
@@ -88,7 +88,6 @@ void SceneDocument::push(Step step) {
   while (undo_.size() > mostSteps || (undo_.size() > 1 && undoBytes_ > mostBytes)) {
     undoBytes_ -= undo_.front().bytes;
     undo_.pop_front();
-    ++dropped_;
   }
 }
 
@@ -199,6 +198,24 @@ void SceneDocument::removeBookmark(size_t index) {
   });
 }
 
+void SceneDocument::settingsChanged(const Settings& before, const Settings& after, bool continued) {
+  if (before == after) {
+    return;
+  }
+  if (!continued || undo_.empty() || !undo_.back().settings) {
+    push({.settings = SettingsStep{.before = before}});
+  }
+  Step& step = undo_.back();
+  step.settings->after = after;
+  step.label.clear();
+  for (const SettingField& field : settingFields()) {
+    if (!sameSetting(field, step.settings->before, after)) {
+      step.label = step.label.empty() ? std::string("change ") + field.label : "change settings";
+    }
+  }
+  redo_.clear();
+}
+
 void SceneDocument::beginGesture() {
   endGesture();
   gesture_ = Step{.content = content(), .before = selection_, .after = selection_};
@@ -213,7 +230,6 @@ void SceneDocument::endGesture() {
     return;
   }
   redo_.clear();
-  ++changes_;
   push(std::move(step));
 }
 
@@ -233,29 +249,38 @@ void SceneDocument::swapContent(Step& step) {
   recordChange(step.content);
 }
 
-void SceneDocument::undo() {
-  endGesture();
-  if (undo_.empty()) {
-    return;
-  }
-  Step step = std::move(undo_.back());
-  undo_.pop_back();
-  undoBytes_ -= step.bytes;
-  swapContent(step);
-  selection_ = step.before;
-  redo_.push_back(std::move(step));
+bool SceneDocument::changesScene(UndoWay way) const {
+  return way == UndoWay::back ? canUndo() && !undo_.back().settings : canRedo() && !redo_.back().settings;
 }
 
-void SceneDocument::redo() {
+std::optional<SettingsStep> SceneDocument::undo() {
+  endGesture();
+  if (undo_.empty()) {
+    return std::nullopt;
+  }
+  Step& step = redo_.emplace_back(std::move(undo_.back()));
+  undo_.pop_back();
+  undoBytes_ -= step.bytes;
+  if (!step.settings) {
+    swapContent(step);
+    selection_ = step.before;
+  }
+  return step.settings;
+}
+
+std::optional<SettingsStep> SceneDocument::redo() {
   endGesture();
   if (redo_.empty()) {
-    return;
+    return std::nullopt;
   }
   Step step = std::move(redo_.back());
   redo_.pop_back();
-  swapContent(step);
-  selection_ = step.after;
+  if (!step.settings) {
+    swapContent(step);
+    selection_ = step.after;
+  }
   push(std::move(step));
+  return undo_.back().settings;
 }
 
 bool SceneDocument::modified() const {

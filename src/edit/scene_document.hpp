@@ -12,8 +12,16 @@
 
 namespace speculum {
 
+enum class UndoWay { back, forward };
+
+// Settings before and after a step that changed only these.
+struct SettingsStep {
+  Settings before;
+  Settings after;
+};
+
 // A scene that a user edits, with undo and saving. Changes go to the scene itself; meshes, textures and settings are
-// left to others.
+// left to others, but changes of settings are steps too.
 class SceneDocument {
  public:
   // The oldest steps are dropped beyond these; the last one is always kept.
@@ -54,16 +62,18 @@ class SceneDocument {
   std::string addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
 
+  // Call after a change of the settings. `continued`: it belongs to the step before, if that changed settings.
+  void settingsChanged(const Settings& before, const Settings& after, bool continued);
+
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }
   std::string undoLabel() const { return undo_.empty() ? "" : undo_.back().label; }  // "move object 'teapot'"
   std::string redoLabel() const { return redo_.empty() ? "" : redo_.back().label; }
-  // position() counts steps that were taken and not undone, changes() all steps ever taken.
-  size_t position() const { return dropped_ + undo_.size(); }
-  uint64_t changes() const { return changes_; }
-  void clearRedo() { redo_.clear(); }
-  void undo();  // nothing happens if there is no step
-  void redo();
+  // Says whether the next step that way changes the scene; false if there is none.
+  bool changesScene(UndoWay way) const;
+  // Nothing happens if there is no step. A step that changed settings is returned, for the caller to restore them.
+  std::optional<SettingsStep> undo();
+  std::optional<SettingsStep> redo();
 
   // The node that the user works on; undo and redo restore it.
   const Selection& selection() const { return selection_; }
@@ -92,6 +102,7 @@ class SceneDocument {
     Selection before;
     Selection after;
     size_t bytes = 0;
+    std::optional<SettingsStep> settings;  // set if the step changed these and not the content
   };
 
   SceneContent& content() { return scene_; }
@@ -111,8 +122,6 @@ class SceneDocument {
   std::deque<Step> undo_;
   std::vector<Step> redo_;
   size_t undoBytes_ = 0;
-  size_t dropped_ = 0;    // of the oldest steps
-  uint64_t changes_ = 0;  // steps ever taken
   std::optional<Step> gesture_;
   Selection selection_;
   SceneContent saved_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,13 @@ struct Effect {
   std::string name;
   bool calledFor = false;
   std::string why;
+};
+
+// Cost of an effect in the last recorded frame.
+struct EffectCost {
+  uint32_t draws = 0;
+  uint64_t bytes = 0;      // of device objects that it needs; effects that trace rays share theirs
+  uint32_t pipelines = 0;  // alive
 };
 
 // Returns the settings (at least one) that leave an effect out of the picture.

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "frame/debug_view.hpp"
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "systems/effect_ledger.hpp"
@@ -11,19 +12,6 @@
 #include "systems/watched_depth.hpp"
 
 namespace speculum {
-
-enum class TargetKind { color, depth };
-
-// A pass's target, shown over the picture in an area of the display image.
-struct DebugView {
-  int pass = 0;    // index into FramePlan::passes; passes.size() is the main view
-  PixelRect area;  // pixels
-  TargetKind kind = TargetKind::color;
-  double zoom = 0.0;                // display pixels for each texel; 0 fits the image into the area
-  glm::dvec2 origin{0.0};           // texel at the area's upper left corner; only if zoom > 0
-  double halfDistance = 1.0;        // metres from the eye that depth shows half bright
-  std::optional<glm::ivec2> probe;  // texel to read: see SceneRenderer::probed
-};
 
 // Draws into the display image: the picture with exposure, tone curve and sRGB encoding, and over it the target of a
 // debug view.

@@ -10,13 +10,6 @@ namespace speculum {
 // Number of frames without a call for an effect after which its resources are released.
 inline constexpr int idleFramesKept = 120;
 
-// Cost of an effect in the last recorded frame.
-struct EffectCost {
-  uint32_t draws = 0;
-  uint64_t bytes = 0;      // of device objects that it needs; effects that trace rays share theirs
-  uint32_t pipelines = 0;  // alive
-};
-
 // How the rays of the last recorded frame were traced.
 struct RayUse {
   bool traced = false;

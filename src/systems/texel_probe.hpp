@@ -4,18 +4,11 @@
 #include <optional>
 
 #include "core/renderer.hpp"
+#include "frame/debug_view.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/pipeline_variants.hpp"
 
 namespace speculum {
-
-// Value of a target at one texel.
-struct TexelValue {
-  glm::ivec2 texel{0};      // from the target's top left
-  bool depth = false;       // of a depth image, whose `value` is 0
-  glm::vec4 value{0.0f};    // linear radiance, disparity in 1/m; the mean of the texel's samples
-  float storedDepth = 0.0;  // of the first sample; near plane / metres along the view, 0: infinitely far
-};
 
 // Reads a texel of a target back from the GPU. Nothing exists on the GPU before probe() and after release().
 class TexelProbe {

@@ -114,9 +114,6 @@ struct CancelMeasurement {};
 struct ApplyPoint {
   int point = -1;
 };
-struct ShowDifference {
-  bool shown = false;
-};
 
 // Output.
 struct TakeScreenshot {
@@ -146,14 +143,14 @@ struct ClearHistory {};
 struct ClearLog {};
 
 // One action of the user. Panels, keys and the gamepad make commands; Workspace::apply carries them out.
-using Command = std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
-                             GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused,
-                             SetTimeSpeed, MultiplyTimeSpeed, SetSettings, ResetSettings, NewScene, AskWhatToOpen,
-                             OpenScene, OpenDropped, CancelLoading, Save, AskWhereToSave, SaveAs, DiscardChanges,
-                             CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode,
-                             EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected, RemoveSelected, Undo,
-                             Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, ShowDifference, TakeScreenshot,
-                             ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen, TogglePanel,
-                             ToggleHelp, ToggleInspector, Escape, PauseHistory, ClearHistory, ClearLog>;
+using Command =
+    std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
+                 GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused, SetTimeSpeed,
+                 MultiplyTimeSpeed, SetSettings, ResetSettings, NewScene, AskWhatToOpen, OpenScene, OpenDropped,
+                 CancelLoading, Save, AskWhereToSave, SaveAs, DiscardChanges, CancelPrompt, Quit, SelectNode,
+                 ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode, EditNode, EndEdit, AddMirror, AddLight, AddObject,
+                 DuplicateSelected, RemoveSelected, Undo, Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint,
+                 TakeScreenshot, ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen,
+                 TogglePanel, ToggleHelp, ToggleInspector, Escape, PauseHistory, ClearHistory, ClearLog>;
 
 }  // namespace speculum

@@ -34,7 +34,7 @@ void FrameHistory::add(uint64_t number, double frameMs, double cpuMs) {
   if (paused_) {
     return;
   }
-  rows_.push_back({number, frameMs, cpuMs, unknown, {}});
+  rows_.push_back({number, {frameMs, cpuMs, unknown}, {}});
   if (rows_.size() > longest) {
     rows_.pop_front();
   }
@@ -42,10 +42,10 @@ void FrameHistory::add(uint64_t number, double frameMs, double cpuMs) {
 
 void FrameHistory::addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes) {
   const auto row = std::ranges::find(rows_, number, &Row::number);
-  if (paused_ || row == rows_.end() || !std::isnan(row->gpuMs)) {
+  if (paused_ || row == rows_.end() || !std::isnan(row->ms.back())) {
     return;
   }
-  row->gpuMs = gpuMs;
+  row->ms.back() = gpuMs;
   for (const auto& [name, ms] : passes) {
     const size_t index = std::ranges::find(names_, name) - names_.begin();
     if (index == names_.size()) {
@@ -63,20 +63,9 @@ void FrameHistory::clear() {
 }
 
 std::vector<float> FrameHistory::series(Figure figure) const {
-  const auto ms = [&](const Row& row) {
-    switch (figure) {
-      case Figure::frame:
-        return row.frameMs;
-      case Figure::cpu:
-        return row.cpuMs;
-      case Figure::gpu:
-        break;
-    }
-    return row.gpuMs;
-  };
   std::vector<float> values;
   for (const Row& row : rows_) {
-    values.push_back(static_cast<float>(ms(row)));
+    values.push_back(static_cast<float>(row.ms[static_cast<size_t>(figure)]));
   }
   return values;
 }
@@ -109,7 +98,7 @@ std::string FrameHistory::csv() const {
     text += "," + quoted(name + " ms");
   }
   for (const Row& row : rows_) {
-    text += fmt::format("\n{},{},{},{}", row.number, field(row.frameMs), field(row.cpuMs), field(row.gpuMs));
+    text += fmt::format("\n{},{},{},{}", row.number, field(row.ms[0]), field(row.ms[1]), field(row.ms[2]));
     for (const size_t column : columns) {
       text += "," + field(passOf(row.passes, column));
     }

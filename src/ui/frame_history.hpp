@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -41,9 +42,7 @@ class FrameHistory {
  private:
   struct Row {
     uint64_t number = 0;
-    double frameMs = 0.0;
-    double cpuMs = 0.0;
-    double gpuMs = 0.0;
+    std::array<double, 3> ms{};  // by Figure
     std::vector<double> passes;  // by index in names_; those at the end may be missing
   };
   std::deque<Row> rows_;

@@ -1,32 +1,41 @@
 #include "ui/input_map.hpp"
 
 #include <array>
+#include <map>
+#include <string_view>
+#include <utility>
 
 namespace speculum {
 
 namespace {
 
+// Returns the key that has this name in the list of keys.
+Key keyNamed(std::string_view name) {
+  static const std::map<std::string_view, Key> words = {{"Space", Key::space}, {"Tab", Key::tab}, {"Del", Key::del},
+                                                        {"Esc", Key::escape},  {"F1", Key::f1},   {"F2", Key::f2},
+                                                        {"F10", Key::f10},     {"F11", Key::f11}, {"F12", Key::f12}};
+  const auto word = words.find(name);
+  return word != words.end() ? word->second : static_cast<Key>(name.front());  // Key has the codes of characters
+}
+
 Shortcut pointer(const char* keys, const char* help) {
   return {.keys = keys, .help = help};
 }
 
-Shortcut plain(const char* keys, const char* help, Key key, Command command) {
-  return {.keys = keys, .help = help, .key = key, .command = std::move(command)};
+// Takes the key from its name after the modifiers, as in "Ctrl+Shift+Z".
+Shortcut key(const char* keys, const char* help, Command command, bool repeats = false) {
+  const std::string_view names = keys;
+  return {.keys = keys,
+          .help = help,
+          .key = keyNamed(names.substr(names.rfind('+') + 1)),
+          .control = names.starts_with("Ctrl+"),
+          .shift = names.find("Shift+") != std::string_view::npos,
+          .repeats = repeats,
+          .command = std::move(command)};
 }
 
-Shortcut withShift(Shortcut shortcut) {
-  shortcut.shift = true;
-  return shortcut;
-}
-
-Shortcut withControl(Shortcut shortcut) {
-  shortcut.control = true;
-  return shortcut;
-}
-
-Shortcut repeated(Shortcut shortcut) {
-  shortcut.repeats = true;
-  return shortcut;
+Shortcut repeated(const char* keys, const char* help, Command command) {
+  return key(keys, help, std::move(command), true);
 }
 
 }  // namespace
@@ -36,48 +45,38 @@ std::span<const ShortcutGroup> shortcutGroups() {
       {{"View",
         {pointer("drag", "Orbit about the target, or look around in fly mode"), pointer("drag middle or right", "Pan"),
          pointer("wheel", "Zoom"), pointer("W A S D", "Move forward, left, back, right"),
-         pointer("Q E", "Move down, up"),
-         plain("F", "Frame the selection, or the whole scene", Key::f, FrameSelection{}),
-         plain("B", "Look from behind the selected mirror, or the largest in the picture", Key::b,
-               LookFromMirror{MirrorSide::back}),
-         withShift(plain("Shift+B", "Look out of that mirror", Key::b, LookFromMirror{MirrorSide::front})),
-         plain("M", "Bookmark the view (saved with the scene)", Key::m, AddBookmark{}),
-         withShift(plain("Shift+M", "Go to the next bookmark", Key::m, GoToNextBookmark{}))}},
+         pointer("Q E", "Move down, up"), key("F", "Frame the selection, or the whole scene", FrameSelection{}),
+         key("B", "Look from behind the selected mirror, or the largest in the picture",
+             LookFromMirror{MirrorSide::back}),
+         key("Shift+B", "Look out of that mirror", LookFromMirror{MirrorSide::front}),
+         key("M", "Bookmark the view (saved with the scene)", AddBookmark{}),
+         key("Shift+M", "Go to the next bookmark", GoToNextBookmark{})}},
        {"Time",
-        {plain("Space", "Pause or play", Key::space, TogglePaused{}),
-         repeated(plain(".", "Step forward by 1/60 s", Key::period, StepTime{1})),
-         repeated(plain(",", "Step back by 1/60 s", Key::comma, StepTime{-1})),
-         plain("[", "Halve the speed", Key::leftBracket, MultiplyTimeSpeed{0.5}),
-         plain("]", "Double the speed", Key::rightBracket, MultiplyTimeSpeed{2.0})}},
+        {key("Space", "Pause or play", TogglePaused{}), repeated(".", "Step forward by 1/60 s", StepTime{1}),
+         repeated(",", "Step back by 1/60 s", StepTime{-1}), key("[", "Halve the speed", MultiplyTimeSpeed{0.5}),
+         key("]", "Double the speed", MultiplyTimeSpeed{2.0})}},
        {"Capture",
-        {plain("F12", "Save a screenshot", Key::f12, TakeScreenshot{true}),
-         withShift(plain("Shift+F12", "Save a screenshot without the panels", Key::f12, TakeScreenshot{false})),
-         plain("F10", "Start or stop recording frames", Key::f10, ToggleRecording{true}),
-         withShift(plain("Shift+F10", "Record frames without the panels", Key::f10, ToggleRecording{false}))}},
+        {key("F12", "Save a screenshot", TakeScreenshot{true}),
+         key("Shift+F12", "Save a screenshot without the panels", TakeScreenshot{false}),
+         key("F10", "Start or stop recording frames", ToggleRecording{true}),
+         key("Shift+F10", "Record frames without the panels", ToggleRecording{false})}},
        {"Edit",
         {pointer("click", "Select, in mirrors too; click again for the mirror it is seen in"),
          pointer("Shift+click", "Add to the selection, or remove from it"),
-         plain("G", "Switch between move, rotate and scale handles (Ctrl while dragging: snap)", Key::g,
-               NextGizmoMode{}),
-         repeated(plain("N", "Select the next object, light or mirror", Key::n, SelectNext{1})),
-         repeated(withShift(plain("Shift+N", "Select the previous one", Key::n, SelectNext{-1}))),
-         withControl(plain("Ctrl+D", "Duplicate", Key::d, DuplicateSelected{})),
-         plain("Del", "Delete", Key::del, RemoveSelected{}),
-         repeated(withControl(plain("Ctrl+Z", "Undo", Key::z, Undo{}))),
-         repeated(withControl(withShift(plain("Ctrl+Shift+Z", "Redo", Key::z, Redo{})))),
-         repeated(withControl(plain("Ctrl+Y", "Redo", Key::y, Redo{}))),
-         withControl(plain("Ctrl+N", "New scene", Key::n, NewScene{})),
-         withControl(plain("Ctrl+O", "Open", Key::o, AskWhatToOpen{})),
-         withControl(plain("Ctrl+S", "Save", Key::s, Save{})),
-         withControl(withShift(plain("Ctrl+Shift+S", "Save as", Key::s, AskWhereToSave{})))}},
+         key("G", "Switch between move, rotate and scale handles (Ctrl while dragging: snap)", NextGizmoMode{}),
+         repeated("N", "Select the next object, light or mirror", SelectNext{1}),
+         repeated("Shift+N", "Select the previous one", SelectNext{-1}),
+         key("Ctrl+D", "Duplicate", DuplicateSelected{}), key("Del", "Delete", RemoveSelected{}),
+         repeated("Ctrl+Z", "Undo", Undo{}), repeated("Ctrl+Shift+Z", "Redo", Redo{}),
+         repeated("Ctrl+Y", "Redo", Redo{}), key("Ctrl+N", "New scene", NewScene{}),
+         key("Ctrl+O", "Open", AskWhatToOpen{}), key("Ctrl+S", "Save", Save{}),
+         key("Ctrl+Shift+S", "Save as", AskWhereToSave{})}},
        {"Window",
-        {plain("F2", "Show or hide the inspector", Key::f2, ToggleInspector{}),
-         plain("F11", "Full screen", Key::f11, ToggleFullScreen{}),
-         plain("Tab", "Show or hide the panels", Key::tab, TogglePanel{}),
+        {key("F2", "Show or hide the inspector", ToggleInspector{}), key("F11", "Full screen", ToggleFullScreen{}),
+         key("Tab", "Show or hide the panels", TogglePanel{}),
          pointer("arrows", "Walk through the panel's widgets; Space presses"),
-         plain("F1", "Show or hide this list", Key::f1, ToggleHelp{}),
-         plain("Esc", "Cancel the drag, deselect, close the top window", Key::escape, Escape{}),
-         withControl(plain("Ctrl+Q", "Quit", Key::q, Quit{}))}}}};
+         key("F1", "Show or hide this list", ToggleHelp{}),
+         key("Esc", "Cancel the drag, deselect, close the top window", Escape{}), key("Ctrl+Q", "Quit", Quit{})}}}};
   return groups;
 }
 

@@ -98,7 +98,7 @@ void historyButtons(PanelContext& ui) {
   continueRow("Redo");
   commandButton(ui, "Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, Redo{}, !edit.redo.empty());
   commandButton(ui, "Save", "edit.save", "Ctrl+S   " + (edit.saveFile ? edit.saveFile->string() : "Asks for a file"),
-                Save{}, edit.unsaved || edit.isModel);
+                Save{}, edit.canSave());
   continueRow("Save as...");
   commandButton(ui, "Save as...", "edit.save_as", "Ctrl+Shift+S", AskWhereToSave{});
   const char* state = edit.unsaved ? "unsaved changes" : edit.isModel ? "a model, no scene yet" : "saved";

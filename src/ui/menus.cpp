@@ -31,7 +31,7 @@ void fileMenu(PanelContext& ui) {
   }
   ImGui::Separator();
   const EditView& edit = ui.view.edit;
-  item(ui, "Save", Save{}, edit.unsaved || edit.isModel);
+  item(ui, "Save", Save{}, edit.canSave());
   item(ui, "Save as...", AskWhereToSave{});
   ImGui::Separator();
   item(ui, "Save screenshot", TakeScreenshot{true});
@@ -75,7 +75,7 @@ void viewMenu(PanelContext& ui) {
   item(ui, "Reset camera", ResetCamera{});
   ImGui::Separator();
   item(ui, "Bookmark view", AddBookmark{});
-  item(ui, "Next bookmark", GoToNextBookmark{}, !ui.view.camera.bookmarks.empty());
+  item(ui, "Next bookmark", GoToNextBookmark{}, !ui.view.edit.scene->bookmarks.empty());
   ImGui::Separator();
   item(ui, ui.view.playback.paused ? "Play" : "Pause", TogglePaused{});
   item(ui, "Full screen", ToggleFullScreen{});

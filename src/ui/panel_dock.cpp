@@ -213,7 +213,7 @@ void PanelDock::arrange(Edge edge, float width, float taken) {
   }
   const std::vector<WindowPlace> places = arrangeWindows(wishes, room);
   for (size_t i = 0; i < panels.size(); ++i) {
-    docked_[panels[i]] = places[i];
+    panels[i]->place = places[i];
   }
 }
 
@@ -253,9 +253,8 @@ bool PanelDock::begin(const char* name, bool* open, Edge edge, const glm::vec2& 
   const glm::vec2 size = panel.wish.size.x > 0.0f ? panel.wish.size : ems * ImGui::GetFontSize();
   const WindowRect wish{panel.wish.corner, size};
   const bool room = glm::all(glm::greaterThanEqual(displaySize(), panel.display));
-  const WindowPlace docked = docked_[&panel];
-  const WindowRect place = panel.docked ? docked : room ? wish : fitWindow(wish, displaySize());
-  panel.folded = panel.docked && docked.folded;
+  const WindowRect place = panel.docked ? panel.place : room ? wish : fitWindow(wish, displaySize());
+  panel.folded = panel.docked && panel.place.folded;
   const bool collapsed = panel.collapsed || panel.folded;
   const bool held = ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsMouseDown(ImGuiMouseButton_Left);
   if (place != panel.given && !(held && !panel.docked)) {

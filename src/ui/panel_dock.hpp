@@ -40,6 +40,7 @@ class PanelDock {
     WindowRect wish;          // set by the user; of a docked window only the size, 0: none
     glm::vec2 display{0.0f};  // size of the display when the window was put there
     WindowRect given;         // last rectangle of the window
+    WindowPlace place;        // while it is docked
     Edge edge = Edge::left;
     glm::vec2 ems{0.0f};
     bool shown = false;   // in this frame or the last
@@ -60,7 +61,6 @@ class PanelDock {
 
   std::map<std::string, Panel> panels_;
   std::vector<Panel*> order_;  // shown windows in the order of opening
-  std::map<const Panel*, WindowPlace> docked_;
   int lastRank_ = 0;
   float top_ = 0.0f;
   float bottom_ = 0.0f;

@@ -17,7 +17,7 @@ PanelWindows::PanelWindows()
     : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
 
 UiOutput PanelWindows::build(const UiView& view) {
-  PanelContext ui{.view = view, .state = state_, .settings = view.settings.current, .output = {}};
+  PanelContext ui{.view = view, .state = state_, .settings = view.settings, .output = {}};
   state_.widgets.clear();
   state_.targets.pointed.reset();
   state_.targets.canvas.reset();
@@ -51,11 +51,8 @@ UiOutput PanelWindows::build(const UiView& view) {
         panels::statusLine(view.status, visible_ ? std::max(statusWidth_, 18.0f * ImGui::GetFontSize()) : 0.0f,
                            free.corner.x + free.size.x);
   }
-  const bool difference = state_.choices.accuracy && state_.showDifference;
-  if (difference != view.accuracy.showsDifference) {
-    ui.send(ShowDifference{difference});
-  }
-  if (ui.settings != view.settings.current) {
+  ui.output.difference = state_.choices.accuracy && state_.showDifference;
+  if (ui.settings != view.settings) {
     const bool continued = std::exchange(state_.setting, ImGui::IsAnyItemActive());
     ui.output.commands.insert(ui.output.commands.begin(), SetSettings{ui.settings, continued});
   } else if (!ImGui::IsAnyItemActive()) {
@@ -157,10 +154,10 @@ void PanelWindows::presentModes(PanelContext& ui) {
 }
 
 void PanelWindows::sideWindows(PanelContext& ui) {
-  const auto window = [&](const char* name, bool& open, const glm::vec2& ems, const auto& content) {
+  const auto window = [&](const char* name, bool& open, const glm::vec2& ems, const auto& content, int flags = 0) {
     if (open) {
       ImGui::SetNextWindowBgAlpha(1.0f);  // opaque, because figures over the picture are hard to read
-      if (dock_.begin(name, &open, PanelDock::Edge::right, ems)) {
+      if (dock_.begin(name, &open, PanelDock::Edge::right, ems, flags)) {
         content();
       }
       ImGui::End();
@@ -172,28 +169,19 @@ void PanelWindows::sideWindows(PanelContext& ui) {
   window("Accuracy", choices.accuracy, {27.0f, 40.0f}, [&] { panels::accuracy(ui); });
   window("Device", choices.device, {27.0f, 30.0f}, [&] { panels::device(ui); });
   window("Log", choices.log, {27.0f, 14.0f}, [&] { panels::log(ui); });
-  targetsWindow(ui);
+  // Without a background, because the renderer draws the target below it: this version of ImGui's Vulkan backend draws
+  // no texture but its font.
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+  window(
+      "Targets", choices.targets, {27.0f, 22.0f}, [&] { panels::targets(ui); }, flags);
+  if (!choices.targets) {
+    state_.targets.path.reset();
+    ui.output.target.reset();
+  }
   if (choices != savedChoices_) {
     savedChoices_ = choices;
     savePanelChoices(choices);
-  }
-}
-
-// Shows the Targets window without a background, because the renderer draws the target below it: this version of
-// ImGui's Vulkan backend draws no texture but its font.
-void PanelWindows::targetsWindow(PanelContext& ui) {
-  bool& open = state_.choices.targets;
-  if (open) {
-    constexpr ImGuiWindowFlags flags =
-        ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
-    if (dock_.begin("Targets", &open, PanelDock::Edge::right, {27.0f, 22.0f}, flags)) {
-      panels::targets(ui);
-    }
-    ImGui::End();
-  }
-  if (!open) {
-    state_.targets.path.reset();
-    ui.output.target.reset();
   }
 }
 

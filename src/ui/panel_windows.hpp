@@ -37,7 +37,6 @@ class PanelWindows {
   void windowMenu(PanelContext& ui);
   void presentModes(PanelContext& ui);
   void sideWindows(PanelContext& ui);
-  void targetsWindow(PanelContext& ui);
 
   PanelDock dock_;
   PanelState state_;

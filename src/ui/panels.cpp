@@ -16,17 +16,17 @@ namespace speculum::panels {
 namespace {
 
 void bookmarks(PanelContext& ui) {
-  const CameraView& camera = ui.view.camera;
-  const int shown = camera.bookmark;
+  const std::vector<Bookmark>& bookmarks = ui.view.edit.scene->bookmarks;
+  const int shown = ui.view.camera.bookmark;
   ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
-  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? camera.bookmarks[shown].c_str() : "Bookmarks");
+  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? bookmarks[shown].name.c_str() : "Bookmarks");
   recordWidget(ui, "bookmarks");
   if (open) {
-    for (size_t i = 0; i < camera.bookmarks.size(); ++i) {
-      if (ImGui::Selectable(camera.bookmarks[i].c_str(), static_cast<int>(i) == shown)) {
+    for (size_t i = 0; i < bookmarks.size(); ++i) {
+      if (ImGui::Selectable(bookmarks[i].name.c_str(), static_cast<int>(i) == shown)) {
         ui.send(GoToBookmark{i});
       }
-      recordWidget(ui, "bookmark." + camera.bookmarks[i]);
+      recordWidget(ui, "bookmark." + bookmarks[i].name);
     }
     ImGui::EndCombo();
   }
@@ -99,7 +99,7 @@ void describe(PanelContext& ui, std::string_view key) {
   const auto price = accuracy.prices.find(key);
   const bool priced = price != accuracy.prices.end() && !accuracy.otherView;
   recordWidget(ui, key, settingHelp(key) + measuredHere(ui.view.frame, key) + (priced ? price->second : ""));
-  const Settings& ofScene = ui.view.settings.ofScene;
+  const Settings& ofScene = ui.view.sceneSettings;
   const SettingField& field = *findSettingField(key);
   if (sameSetting(field, ui.settings, ofScene)) {
     return;

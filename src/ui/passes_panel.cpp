@@ -1,4 +1,4 @@
-// The tree of passes, and the outline of the mirror that is pointed at in it.
+// The tree of passes.
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -143,24 +143,6 @@ void header() {
 }
 
 }  // namespace
-
-// Draws light lines over wider dark ones, which show on any picture.
-void passOutline(const PanelContext& ui) {
-  if (ui.output.hoveredPath.empty() || ui.output.hoveredPath != ui.view.frame.outlinedPath) {
-    return;
-  }
-  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-  const auto onScreen = [&](const glm::dvec2& p) {
-    return ImVec2(static_cast<float>(p.x) / pixels.x, static_cast<float>(p.y) / pixels.y);
-  };
-  const float width = std::max(1.0f, 0.14f * ImGui::GetFontSize());
-  for (const auto& [color, thickness] :
-       {std::pair(IM_COL32(0, 0, 0, 190), 2.5f * width), std::pair(IM_COL32(255, 196, 40, 255), width)}) {
-    for (const PixelLine& line : ui.view.frame.outline) {
-      ImGui::GetBackgroundDrawList()->AddLine(onScreen(line.a), onScreen(line.b), color, thickness);
-    }
-  }
-}
 
 void mirrorRow(PanelContext& ui, const std::vector<int>& path) {
   ui.output.hoveredPath = path;

@@ -151,15 +151,15 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
 }
 
 void settingRows(PanelContext& ui, std::string_view prefix) {
+  const Environment& environment = ui.view.edit.scene->environment;
   for (const SettingField& field : settingFields()) {
     const bool needed = !field.needs || settingValue(ui.settings, field.needs->key) == field.needs->value;
     if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {
       ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
-      std::visit(Widget{field, ui.settings, glm::dvec3(ui.view.settings.background), ui.view.device.samples},
-                 field.kind);
+      std::visit(Widget{field, ui.settings, environment.background, ui.view.device.samples}, field.kind);
       ImGui::PopID();
       describe(ui, field.key);
-      if (field.key == "view.clear_color" && ui.view.settings.sky && !ui.settings.view.clearColor) {
+      if (field.key == "view.clear_color" && environment.sky && !ui.settings.view.clearColor) {
         dimmedText("The scene's sky is shown in its place.");
       }
     }

@@ -1,4 +1,5 @@
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -15,28 +16,30 @@ constexpr double smallestZoom = 1.0 / 16.0;  // pixels of the display a texel
 constexpr double largestZoom = 64.0;
 constexpr double wheelStep = 1.25;
 
-struct Rect {
-  ImVec2 low;
-  ImVec2 high;
-};
+glm::dvec2 vec(const ImVec2& v) {
+  return {v.x, v.y};
+}
 
-// Fills `outer` without `inner`, which lies in it.
-void fillAround(const Rect& outer, const Rect& inner, ImU32 color) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(outer.low, {outer.high.x, inner.low.y}, color);
-  list.AddRectFilled({outer.low.x, inner.high.y}, outer.high, color);
-  list.AddRectFilled({outer.low.x, inner.low.y}, {inner.low.x, inner.high.y}, color);
-  list.AddRectFilled({inner.high.x, inner.low.y}, {outer.high.x, inner.high.y}, color);
+// Returns the parts of `outer` above, below, left and right of `inner`, which lies in it.
+std::array<ImRect, 4> partsAround(const ImRect& outer, const ImRect& inner) {
+  return {ImRect(outer.Min, {outer.Max.x, inner.Min.y}), ImRect({outer.Min.x, inner.Max.y}, outer.Max),
+          ImRect({outer.Min.x, inner.Min.y}, {inner.Min.x, inner.Max.y}),
+          ImRect({inner.Max.x, inner.Min.y}, {outer.Max.x, inner.Max.y})};
+}
+
+void fillAround(const ImRect& outer, const ImRect& inner, ImU32 color) {
+  for (const ImRect& part : partsAround(outer, inner)) {
+    ImGui::GetWindowDrawList()->AddRectFilled(part.Min, part.Max, color);
+  }
 }
 
 // Fills the window below its title bar, except the canvas.
-void background(const Rect& canvas) {
-  const ImVec2 corner = ImGui::GetWindowPos();
-  const ImVec2 size = ImGui::GetWindowSize();
-  const Rect window{{corner.x, corner.y + ImGui::GetFrameHeight()}, {corner.x + size.x, corner.y + size.y}};
+void background(const ImRect& canvas) {
+  ImRect window = ImGui::GetCurrentWindow()->Rect();
+  window.Min.y += ImGui::GetFrameHeight();
   ImVec4 color = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
   color.w = 1.0f;
-  ImGui::PushClipRect(window.low, window.high, false);
+  ImGui::PushClipRect(window.Min, window.Max, false);
   fillAround(window, canvas, ImGui::ColorConvertFloat4ToU32(color));
   ImGui::PopClipRect();
 }
@@ -109,27 +112,28 @@ void moveView(Targets& targets, const glm::dvec2& image, const glm::dvec2& room,
     targets.center = texel - (pointer - 0.5 * room) / targets.zoom;
   } else if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0.0f)) {
     targets.zoom = targets.shownZoom;
-    targets.center -= glm::dvec2(io.MouseDelta.x, io.MouseDelta.y) / targets.zoom;
+    targets.center -= vec(io.MouseDelta) / targets.zoom;
   }
   targets.center = glm::clamp(targets.center, glm::dvec2(0.0), image);
   targets.shownZoom = targets.zoom > 0.0 ? targets.zoom : targets.shownZoom;
 }
 
 // Returns the value of the texel under the pointer; "..." until it arrives from the GPU.
-std::string valueText(const Targets& targets, const std::optional<TexelView>& value) {
+std::string valueText(const Targets& targets, const TargetView& target) {
   if (targets.kind == Targets::Kind::mask) {
     return "";
   }
+  const std::optional<TexelValue>& value = target.value;
   if (!value || value->texel != *targets.pointed || value->depth != (targets.kind == Targets::Kind::depth)) {
     return "...";
   }
-  const glm::dvec4& v = value->value;
+  const glm::dvec4 v = value->value;
   return !value->depth               ? fmt::format("RGB {:.5g} {:.5g} {:.5g}  A {:.5g}", v.r, v.g, v.b, v.a)
-         : std::isinf(value->metres) ? "infinitely far"
-                                     : fmt::format("{:.6g} m", value->metres);
+         : value->storedDepth > 0.0f ? fmt::format("{:.6g} m", target.near / static_cast<double>(value->storedDepth))
+                                     : "infinitely far";
 }
 
-void maskImage(const TargetView& target, double zoom, const Rect& canvas, const glm::dvec2& corner) {
+void maskImage(const TargetView& target, double zoom, const ImRect& canvas, const glm::dvec2& corner) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto toScreen = [&](const std::vector<glm::vec2>& polygon) {
     std::vector<ImVec2> points;
@@ -139,8 +143,8 @@ void maskImage(const TargetView& target, double zoom, const Rect& canvas, const 
     }
     return points;
   };
-  ImGui::PushClipRect(canvas.low, canvas.high, true);
-  list.AddRectFilled(canvas.low, canvas.high, IM_COL32(16, 16, 18, 255));
+  ImGui::PushClipRect(canvas.Min, canvas.Max, true);
+  list.AddRectFilled(canvas.Min, canvas.Max, IM_COL32(16, 16, 18, 255));
   const std::vector<ImVec2> mask = toScreen(target.mask);
   list.AddConvexPolyFilled(mask.data(), static_cast<int>(mask.size()), IM_COL32(150, 150, 150, 255));
   for (const std::vector<glm::vec2>& mirror : target.mirrors) {
@@ -152,22 +156,20 @@ void maskImage(const TargetView& target, double zoom, const Rect& canvas, const 
 }
 
 // Fills the canvas around the image, whose upper left corner is at `corner` of the screen.
-void coverAround(const Rect& canvas, const glm::dvec2& corner, const glm::dvec2& size) {
-  const glm::dvec2 first(canvas.low.x, canvas.low.y);
-  const glm::dvec2 last(canvas.high.x, canvas.high.y);
-  const glm::dvec2 low = glm::clamp(corner, first, last);
-  const glm::dvec2 high = glm::clamp(corner + size, low, last);
+void coverAround(const ImRect& canvas, const glm::dvec2& corner, const glm::dvec2& size) {
+  const glm::dvec2 low = glm::clamp(corner, vec(canvas.Min), vec(canvas.Max));
+  const glm::dvec2 high = glm::clamp(corner + size, low, vec(canvas.Max));
   fillAround(canvas,
              {ImVec2(static_cast<float>(std::ceil(low.x - 0.5)), static_cast<float>(std::ceil(low.y - 0.5))),
               ImVec2(static_cast<float>(std::floor(high.x)), static_cast<float>(std::floor(high.y)))},
              IM_COL32(16, 16, 18, 255));
 }
 
-PixelRect inPixels(const Rect& rect) {
+PixelRect inPixels(const ImRect& rect) {
   const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;
   const auto pixels = [](float position, float by) { return static_cast<int>(position * by); };
-  return {pixels(rect.low.x, scale.x), pixels(rect.low.y, scale.y), pixels(rect.high.x - rect.low.x, scale.x),
-          pixels(rect.high.y - rect.low.y, scale.y)};
+  return {pixels(rect.Min.x, scale.x), pixels(rect.Min.y, scale.y), pixels(rect.GetWidth(), scale.x),
+          pixels(rect.GetHeight(), scale.y)};
 }
 
 // Returns the pass whose target is shown: the chosen one, or the main view if that is gone.
@@ -181,13 +183,13 @@ const PassView* shownPass(PanelContext& ui) {
   return shown != passes.end() ? &*shown : nullptr;
 }
 
-void caption(PanelContext& ui, const Rect& canvas, bool hovered, const glm::dvec2& texel) {
+void caption(PanelContext& ui, const ImRect& canvas, bool hovered, const glm::dvec2& texel) {
   const TargetView& target = ui.view.frame.target;
   Targets& targets = ui.state.targets;
-  ImGui::SetCursorScreenPos({canvas.low.x, canvas.low.y - ImGui::GetTextLineHeightWithSpacing()});
+  ImGui::SetCursorScreenPos({canvas.Min.x, canvas.Min.y - ImGui::GetTextLineHeightWithSpacing()});
   if (hovered && texel.x >= 0 && texel.y >= 0 && texel.x < target.size.x && texel.y < target.size.y) {
     targets.pointed = glm::ivec2(texel);
-    ImGui::Text("%d, %d  %s", targets.pointed->x, targets.pointed->y, valueText(targets, target.value).c_str());
+    ImGui::Text("%d, %d  %s", targets.pointed->x, targets.pointed->y, valueText(targets, target).c_str());
   } else {
     ImGui::TextDisabled("%dx%d  %.0f %%  wheel: zoom  drag: pan", target.size.x, target.size.y,
                         100.0 * targets.shownZoom);
@@ -201,12 +203,10 @@ void besideTarget(const PanelContext& ui, const std::function<void()>& draw) {
     return draw();
   }
   const WindowRect& canvas = *ui.state.targets.canvas;
-  const ImVec2 low(canvas.corner.x, canvas.corner.y);
-  const ImVec2 high(low.x + canvas.size.x, low.y + canvas.size.y);
-  const ImVec2 end = ImGui::GetIO().DisplaySize;
-  for (const Rect& part : {Rect{{0.0f, 0.0f}, {end.x, low.y}}, Rect{{0.0f, high.y}, end},
-                           Rect{{0.0f, low.y}, {low.x, high.y}}, Rect{{high.x, low.y}, {end.x, high.y}}}) {
-    ImGui::GetBackgroundDrawList()->PushClipRect(part.low, part.high);
+  const glm::vec2 end = canvas.corner + canvas.size;
+  for (const ImRect& part :
+       partsAround({{0.0f, 0.0f}, ImGui::GetIO().DisplaySize}, {{canvas.corner.x, canvas.corner.y}, {end.x, end.y}})) {
+    ImGui::GetBackgroundDrawList()->PushClipRect(part.Min, part.Max);
     draw();
     ImGui::GetBackgroundDrawList()->PopClipRect();
   }
@@ -229,27 +229,25 @@ void targets(PanelContext& ui) {
   const ImVec2 start = ImGui::GetCursorScreenPos();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float top = start.y + ImGui::GetFrameHeightWithSpacing();
-  const Rect canvas{{start.x, top}, {start.x + std::max(room.x, 1.0f), std::max(start.y + room.y, top + 1.0f)}};
+  const ImRect canvas({start.x, top}, {start.x + std::max(room.x, 1.0f), std::max(start.y + room.y, top + 1.0f)});
   list.ChannelsSetCurrent(0);
   background(canvas);
   list.ChannelsMerge();
-  targets.canvas =
-      WindowRect{{canvas.low.x, canvas.low.y}, {canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y}};
-  const glm::dvec2 size(canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y);
+  const glm::dvec2 size = vec(canvas.GetSize());
+  targets.canvas = WindowRect{vec(canvas.Min), size};
   const glm::dvec2 image = glm::max(glm::dvec2(target.size), glm::dvec2(1.0));
   if (targets.zoom == 0.0) {
     targets.center = 0.5 * image;
   }
   targets.shownZoom = targets.zoom > 0.0 ? targets.zoom : std::min(size.x / image.x, size.y / image.y);
-  ImGui::SetCursorScreenPos(canvas.low);
-  ImGui::InvisibleButton("canvas", {canvas.high.x - canvas.low.x, canvas.high.y - canvas.low.y});
+  ImGui::SetCursorScreenPos(canvas.Min);
+  ImGui::InvisibleButton("canvas", canvas.GetSize());
   recordWidget(ui, "targets.canvas");
   const bool hovered = ImGui::IsItemHovered();
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const glm::dvec2 pointer(mouse.x - canvas.low.x, mouse.y - canvas.low.y);
+  const glm::dvec2 pointer = vec(ImGui::GetIO().MousePos) - vec(canvas.Min);
   moveView(targets, glm::dvec2(target.size), size, pointer);
   const glm::dvec2 origin = targets.center - 0.5 * size / targets.shownZoom;
-  const glm::dvec2 corner = glm::dvec2(canvas.low.x, canvas.low.y) - targets.shownZoom * origin;
+  const glm::dvec2 corner = vec(canvas.Min) - targets.shownZoom * origin;
   const bool there = shown && target.size.x > 0 && target.size.y > 0;
   const bool isMask = targets.kind == Targets::Kind::mask;
   if (there) {
@@ -259,12 +257,13 @@ void targets(PanelContext& ui) {
   caption(ui, canvas, there && hovered, glm::floor(origin + pointer / targets.shownZoom));
   if (shown) {
     ui.output.target = {.path = shown->path,
-                        .area = there && !isMask ? std::optional(inPixels(canvas)) : std::nullopt,
-                        .depth = targets.kind == Targets::Kind::depth,
-                        .zoom = targets.shownZoom,
-                        .origin = origin,
-                        .halfDistance = targets.halfDistance,
-                        .probe = isMask ? std::nullopt : targets.pointed};
+                        .drawn = there && !isMask,
+                        .view = {.area = inPixels(canvas),
+                                 .kind = targets.kind == Targets::Kind::depth ? TargetKind::depth : TargetKind::color,
+                                 .zoom = targets.shownZoom,
+                                 .origin = origin,
+                                 .halfDistance = targets.halfDistance,
+                                 .probe = isMask ? std::nullopt : targets.pointed}};
   }
 }
 

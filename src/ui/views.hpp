@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "frame/debug_view.hpp"
 #include "frame/depth_readout.hpp"
+#include "frame/effects.hpp"
 #include "frame/frame_plan.hpp"
 #include "geometry/projection.hpp"
 #include "ui/commands.hpp"
@@ -34,29 +36,15 @@ struct SkippedView {
   std::string detail;
 };
 
-struct EffectView {
-  std::string name;
-  bool calledFor = false;
-  std::string why;
-  uint32_t draws = 0;
-  uint64_t bytes = 0;
-  uint32_t pipelines = 0;
-};
-
-// A value of a target at a texel.
-struct TexelView {
-  glm::ivec2 texel{0};
-  bool depth = false;     // `metres` holds the value, otherwise `value` does
-  double metres = 0.0;    // from the eye along the view; infinite where nothing is
-  glm::dvec4 value{0.0};  // linear radiance; disparity, 1/m
-};
+struct EffectView : Effect, EffectCost {};
 
 // The target that UiOutput::target requested.
 struct TargetView {
   glm::ivec2 size{0};                           // texels
   std::vector<glm::vec2> mask;                  // texels that the pass shades
   std::vector<std::vector<glm::vec2>> mirrors;  // visible regions of the mirrors seen in it, texels
-  std::optional<TexelView> value;               // under the pointer, a few frames later
+  double near = 0.0;                            // metres from the eye to the near plane
+  std::optional<TexelValue> value;              // under the pointer, a few frames later
 };
 
 // Figures of the frame that drew the scene last.
@@ -112,17 +100,9 @@ struct BrowserView {
   std::vector<std::filesystem::path> recent;  // opened or saved, the last one first
 };
 
-struct SettingsView {
-  Settings current;
-  Settings ofScene;            // values of the scene and the command line, to which a reset returns
-  bool sky = false;            // the scene has a sky; shown instead of the clear color while none is set
-  glm::vec3 background{0.0f};  // linear; shown as the clear color while none is set
-};
-
 struct CameraView {
   CameraMode mode = CameraMode::orbit;
-  std::vector<std::string> bookmarks;
-  int bookmark = -1;  // index of the last one used; -1: none
+  int bookmark = -1;  // of Scene::bookmarks, the last one used; -1: none
 };
 
 inline constexpr double timeStep = 1.0 / 60.0;  // seconds, of a single step
@@ -164,6 +144,8 @@ struct EditView {
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
   std::string note;                    // what was saved, or why it was not
   OverlayView overlay;
+
+  bool canSave() const { return unsaved || isModel; }
 };
 
 // A measured configuration.
@@ -185,11 +167,10 @@ struct AccuracyView {
   bool otherView = false;                                  // the camera or the time is another now
   double secondsLeft = 0.0;                                // of the stage that runs; 0: not known
   bool measuring = false;
-  std::string stage;       // of the measurement that runs
-  double progress = 0.0;   // of the stage, 0 .. 1
-  std::string choice;      // point chosen by the budget, beside the most accurate one
-  std::string difference;  // error of the picture, or progress of the difference view
-  bool showsDifference = false;
+  std::string stage;               // of the measurement that runs
+  double progress = 0.0;           // of the stage, 0 .. 1
+  std::string choice;              // point chosen by the budget, beside the most accurate one
+  std::string difference;          // error of the picture, or progress of the difference view
   std::vector<glm::vec3> heatBar;  // colors from no error to an error of 1, display sRGB
 };
 
@@ -207,7 +188,8 @@ struct UiView {
   const FrameView& frame;
   const DeviceView& device;
   const BrowserView& browser;
-  const SettingsView& settings;
+  const Settings& settings;
+  const Settings& sceneSettings;  // values of the scene and the command line, to which a reset returns
   const CameraView& camera;
   const PlaybackView& playback;
   const EditView& edit;
@@ -219,13 +201,9 @@ struct UiView {
 
 // Request to draw a pass's target over the picture.
 struct TargetRequest {
-  std::vector<int> path;          // mirrors from the eye; empty: the main view
-  std::optional<PixelRect> area;  // pixels of the display image; none if only TargetView is wanted
-  bool depth = false;
-  double zoom = 1.0;                // pixels of the display a texel
-  glm::dvec2 origin{0.0};           // texel at the upper left corner of `area`
-  double halfDistance = 5.0;        // metres that depth shows half bright
-  std::optional<glm::ivec2> probe;  // texel whose value is wanted
+  std::vector<int> path;  // of the pass: mirrors from the eye; empty: the main view
+  bool drawn = false;     // else only TargetView is wanted
+  DebugView view;         // without the pass
 };
 
 // Commands from the panels of one frame, and their requests for the next frame.
@@ -233,6 +211,7 @@ struct UiOutput {
   std::vector<Command> commands;
   std::optional<TargetRequest> target;
   std::vector<int> hoveredPath;  // of the mirror that is to be outlined; empty: none
+  bool difference = false;       // the difference view is wanted over the picture
 };
 
 }  // namespace speculum

@@ -1,6 +1,7 @@
-// Outline and handles of the selected nodes.
+// Outlines over the picture, and the handles of the selected nodes.
 #include <imgui.h>
 
+#include <algorithm>
 #include <span>
 
 #include "ui/panels.hpp"
@@ -78,6 +79,17 @@ class Painter {
 };
 
 }  // namespace
+
+// Draws light lines over wider dark ones, which show on any picture.
+void passOutline(const PanelContext& ui) {
+  if (ui.output.hoveredPath.empty() || ui.output.hoveredPath != ui.view.frame.outlinedPath) {
+    return;
+  }
+  const float width = std::max(1.0f, 0.14f * ImGui::GetFontSize());
+  Painter painter;
+  painter.lines(ui.view.frame.outline, IM_COL32(0, 0, 0, 190), 2.5f * width);
+  painter.lines(ui.view.frame.outline, IM_COL32(255, 196, 40, 255), width);
+}
 
 void editOverlay(const OverlayView& overlay) {
   Painter painter;
