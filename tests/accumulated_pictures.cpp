@@ -26,8 +26,7 @@ Options shipped(const std::string& scene, int pictures) {
 
 Image8 shown(Session& session, int pictures) {
   set(session, {{"view.accumulate", std::to_string(pictures)}});
-  session.draw(0.0, true);
-  return session.picture();
+  return draw(session);
 }
 
 // Draws one picture of a mean by itself.
@@ -35,10 +34,8 @@ LinearImage single(Session& session, const SceneState& state, const Settings& me
   const FramePlan plan = planFrame(session.scene(), state, mean, size.width, size.height, {}, picture);
   Settings alone = mean;
   alone.view.accumulate = 1;
-  Frame frame = session.renderer().beginFrame().value();
-  session.sceneRenderer().record(frame, state, alone, plan);
-  session.renderer().endFrame(frame);
-  return session.sceneRenderer().radiance();
+  recordFrame(session, state, alone, plan);
+  return session.radiance();
 }
 
 TEST(Accumulation, IsTheMeanOfItsPictures) {
@@ -72,8 +69,7 @@ TEST(Accumulation, IsTheMeanOfItsPictures) {
 
 TEST(Accumulation, BeginsWithThePictureItself) {
   QuietSession session(shipped("rough", 1));
-  session.draw(0.0, false);
-  const LinearImage picture = session.radiance();
+  const LinearImage picture = drawRadiance(session);
   set(session, {{"view.accumulate", "5"}});
   session.draw(0.0, false, [] { return false; });
   EXPECT_EQ(session.lastFrame().pictures, 1);
@@ -131,14 +127,11 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
   const Settings settings = pictureSettings(session.settings());
   const FramePlan plan = planFrame(session.scene(), state, settings, size.width, size.height, {}, 4);
   EXPECT_TRUE(plan.passes.empty());
-  Frame frame = session.renderer().beginFrame().value();
-  frame.capture = true;
-  session.sceneRenderer().record(frame, state, settings, plan);
-  session.renderer().endFrame(frame);
+  recordFrame(session, state, settings, plan);
   EXPECT_EQ(session.sceneRenderer().passes().size(), 1u);
   EXPECT_EQ(session.picture().rgba, picture.rgba);
   const FramePlan late = planFrame(session.scene(), state, settings, size.width, size.height, {}, 2);
-  frame = session.renderer().beginFrame().value();
+  Frame frame = session.renderer().beginFrame().value();
   EXPECT_THROW(session.sceneRenderer().record(frame, state, settings, late), std::logic_error);
   session.renderer().endFrame(frame);
 }
@@ -155,9 +148,7 @@ void drawTiles(Session& session, int number, size_t step, size_t end = SIZE_MAX)
     if (step > 0) {
       plan.tiles = {first, std::min(first + step, count)};
     }
-    Frame frame = session.renderer().beginFrame().value();
-    session.sceneRenderer().record(frame, state, mean, plan);
-    session.renderer().endFrame(frame);
+    recordFrame(session, state, mean, plan);
   }
 }
 
@@ -195,8 +186,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Tiles,
 TEST(UnfinishedTiles, AreNotShownAndCanBeDropped) {
   QuietSession session(inTiles("gallery"));
   set(session, {{"view.accumulate", "1"}});
-  session.draw(1.0, false);
-  const LinearImage draft = session.radiance();
+  const LinearImage draft = drawRadiance(session, 1.0);
   set(session, {{"view.accumulate", "16"}});
   drawTiles(session, 0, 0);
   const LinearImage whole = session.radiance();
@@ -211,8 +201,7 @@ TEST(UnfinishedTiles, AreNotShownAndCanBeDropped) {
   EXPECT_TRUE(session.radiance().pixels == whole.pixels);
   drawTiles(session, 1, 20, 40);
   set(session, {{"view.accumulate", "1"}});
-  session.draw(1.0, false);
-  EXPECT_TRUE(session.radiance().pixels == draft.pixels);
+  EXPECT_TRUE(drawRadiance(session, 1.0).pixels == draft.pixels);
 }
 
 // Several samples a pixel; mirrors read the images of others sample by sample, or averaged at another render scale.
@@ -240,15 +229,11 @@ TEST(LongDraws, AreDividedWithoutATrace) {
   set(options, {{"effects.rough_samples", "4096"}, {"view.scale", "1"}});
   QuietSession session(options);
   session.setCamera(lookAt({0.0, 0.0, 60.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 30.0, 0.1));
-  session.draw(0.0, true);
-  session.finish();
-  const Image8 whole = session.picture();
+  const Image8 whole = draw(session);
   const std::vector<TimedPass> passes = session.lastFrame().passes();
   const uint64_t frame = session.lastFrame().number;
   set(session, {{"debug.check_finite", "false"}});
-  session.draw(0.0, true);
-  session.finish();
-  EXPECT_EQ(session.picture().rgba, whole.rgba);
+  EXPECT_EQ(draw(session).rgba, whole.rgba);
   EXPECT_GE(session.lastFrame().number, frame + 2) << "several frames drew it";
   ASSERT_EQ(session.lastFrame().passes().size(), passes.size());
   for (size_t i = 0; i < passes.size(); ++i) {
@@ -270,13 +255,7 @@ TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
     const auto error = [&](int rays, int pictures) {
       set(session, {{"effects.rough_samples", std::to_string(rays)}});
       shown(session, pictures);
-      const LinearImage image = session.radiance();
-      double squares = 0.0;
-      for (size_t i = 0; i < image.pixels.size(); ++i) {
-        const glm::vec3 off = image.pixels[i] - truth.pixels[i];
-        squares += glm::dot(off, off);
-      }
-      return std::sqrt(squares);
+      return rootMeanSquare(session.radiance(), truth);
     };
     const double one = error(1, 16);
     EXPECT_LT(one, 0.7 * error(1, 4)) << lookup;

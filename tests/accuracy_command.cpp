@@ -8,36 +8,13 @@
 #include "command_support.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
+#include "scene_text.hpp"
 
 namespace speculum {
 namespace {
 
 using namespace testing_support;
 namespace fs = std::filesystem;
-
-const std::string facing = R"([environment]
-background = [0.2, 0.3, 0.4]
-[camera]
-position = [0.4, 1, 1]
-target = [0, 1, -1]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0.5, 1, -0.5]
-scale = 0.3
-spin = [0, 90, 0]
-[[light]]
-position = [0, 2, 0.5]
-intensity = 4
-[[mirror]]
-position = [0, 1, -1.5]
-size = [3, 3]
-reflectance = [0.8, 0.8, 0.8]
-[[mirror]]
-position = [0, 1, 1.5]
-rotation = [0, 180, 0]
-size = [3, 3]
-reflectance = [0.8, 0.8, 0.8]
-)";
 
 const std::string sweep = R"([[series]]
 key = "reflection.max_depth"
@@ -55,7 +32,7 @@ class AccuracyCommand : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     out_ = std::make_unique<TemporaryDirectory>();
-    scene_ = writeScene("accuracy_command", facing).string();
+    scene_ = writeScene("accuracy_command", corridorScene()).string();
     std::ofstream(out("sweep.toml")) << sweep;
   }
   static void TearDownTestSuite() { out_.reset(); }

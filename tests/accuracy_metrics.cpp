@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/image_metrics.hpp"
+#include "error_message.hpp"
 #include "image/color.hpp"
 
 namespace speculum {
@@ -32,15 +33,6 @@ Image8 gray(int width, int height, uint8_t code) {
 
 Comparison compare(const Image8& a, const Image8& b, const CompareOptions& options = {}) {
   return compareImages(comparedImage(a, "a.png"), comparedImage(b, "b.png"), options);
-}
-
-std::string messageOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(ImageMetrics, EqualPicturesHaveNoError) {

@@ -36,7 +36,6 @@ const Device fastCpu{.picture = 2e-6, .pass = 0.05, .triangle = 5e-6, .texel = 1
 const Device shadingBound{.picture = 1e-6, .pass = 0.0, .triangle = 0.0, .texel = 1.2e-4, .sample = 1.2e-4};
 const Device geometryBound{.picture = 4e-6, .pass = 0.2, .triangle = 5e-5, .texel = 3e-5, .sample = 1e-6};
 const Device gpu{.picture = 1e-6, .pass = 0.2, .triangle = 5e-6, .texel = 3e-5, .sample = 1e-5, .isCpu = false};
-const Device devices[] = {slowCpu, fastCpu, shadingBound, geometryBound, gpu};
 
 // A window on a device. `mirrors` scales what is seen in mirrors.
 struct Window {
@@ -112,76 +111,64 @@ struct Window {
   }
 };
 
-TEST(MotionController, KeepsTheBudgetOnEveryDevice) {
-  for (const Device& device : devices) {
-    SCOPED_TRACE(&device - devices);
-    Window run{device};
-    run.move(300);
-    run.clear();
-    run.move(300);
-    EXPECT_LE(run.share(0.95), 1.4 * budget);
-    EXPECT_LE(std::accumulate(run.times.begin(), run.times.end(), 0.0) / 300.0, budget);
-    EXPECT_FALSE(run.wastes()) << "level " << run.chosen.back();
-  }
+class OnEveryDevice : public testing::TestWithParam<Device> {
+ protected:
+  Window run_{GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(MotionController, OnEveryDevice,
+                         testing::Values(slowCpu, fastCpu, shadingBound, geometryBound, gpu));
+
+TEST_P(OnEveryDevice, BudgetIsKept) {
+  run_.move(300);
+  run_.clear();
+  run_.move(300);
+  EXPECT_LE(run_.share(0.95), 1.4 * budget);
+  EXPECT_LE(std::accumulate(run_.times.begin(), run_.times.end(), 0.0) / 300.0, budget);
+  EXPECT_FALSE(run_.wastes()) << "level " << run_.chosen.back();
 }
 
-TEST(MotionController, LevelDoesNotOscillate) {
-  for (const Device& device : devices) {
-    SCOPED_TRACE(&device - devices);
-    Window run{device};
-    run.move(100);
-    run.clear();
-    run.move(600);
-    EXPECT_LE(run.changes(), 6) << "a change in a hundred frames";
-  }
+TEST_P(OnEveryDevice, LevelDoesNotOscillate) {
+  run_.move(100);
+  run_.clear();
+  run_.move(600);
+  EXPECT_LE(run_.changes(), 6) << "a change in a hundred frames";
 }
 
-TEST(MotionController, PredictsTheFirstMovingFrame) {
-  for (const Device& device : devices) {
-    SCOPED_TRACE(&device - devices);
-    Window run{device};
-    run.stand(6);
-    run.move(1);
-    EXPECT_LE(run.times[0], 1.4 * budget);
-    run.move(60);
-    run.stand(6);
-    run.clear();
-    run.move(1);
-    EXPECT_LE(run.times[0], 1.4 * budget);
-    EXPECT_FALSE(run.wastes());
-  }
+TEST_P(OnEveryDevice, FirstMovingFrameIsPredicted) {
+  run_.stand(6);
+  run_.move(1);
+  EXPECT_LE(run_.times[0], 1.4 * budget);
+  run_.move(60);
+  run_.stand(6);
+  run_.clear();
+  run_.move(1);
+  EXPECT_LE(run_.times[0], 1.4 * budget);
+  EXPECT_FALSE(run_.wastes());
 }
 
-TEST(MotionController, FollowsTheLoadOfTheMachine) {
-  for (const Device& device : devices) {
-    SCOPED_TRACE(&device - devices);
-    Window run{device};
-    run.move(100);
-    const size_t calm = run.chosen.back();
-    run.load = 2.5;
-    run.move(12);
-    run.clear();
-    run.move(20);
-    EXPECT_LE(run.share(0.9), 1.4 * budget) << "within twelve frames";
-    run.load = 1.0;
-    run.move(400);
-    EXPECT_LE(run.chosen.back(), calm + 1);
-    EXPECT_FALSE(run.wastes());
-  }
+TEST_P(OnEveryDevice, LoadOfTheMachineIsFollowed) {
+  run_.move(100);
+  const size_t calm = run_.chosen.back();
+  run_.load = 2.5;
+  run_.move(12);
+  run_.clear();
+  run_.move(20);
+  EXPECT_LE(run_.share(0.9), 1.4 * budget) << "within twelve frames";
+  run_.load = 1.0;
+  run_.move(400);
+  EXPECT_LE(run_.chosen.back(), calm + 1);
+  EXPECT_FALSE(run_.wastes());
 }
 
-TEST(MotionController, FollowsTheViewWithoutDelay) {
-  for (const Device& device : devices) {
-    SCOPED_TRACE(&device - devices);
-    Window run{device};
-    run.move(100);
-    run.clear();
-    for (int i = 0; i < 200; ++i) {
-      run.mirrors = i % 100 < 50 ? 0.1 : 1.5;
-      run.move(1);
-    }
-    EXPECT_LE(run.share(0.95), 1.4 * budget);
+TEST_P(OnEveryDevice, ViewIsFollowedWithoutDelay) {
+  run_.move(100);
+  run_.clear();
+  for (int i = 0; i < 200; ++i) {
+    run_.mirrors = i % 100 < 50 ? 0.1 : 1.5;
+    run_.move(1);
   }
+  EXPECT_LE(run_.share(0.95), 1.4 * budget);
 }
 
 TEST(MotionController, RaisesOneLevelAtATime) {
@@ -399,198 +386,187 @@ TEST(Movement, LastsAMomentAfterTheLastStep) {
 
 class PacedScene : public testing::Test {
  protected:
+  FittedPlan frame(bool moves = false) {
+    pace_.begin({}, moves, seconds_);
+    return pace_.plan({.scene = scene_,
+                       .state = state_,
+                       .chosen = chosen_,
+                       .shown = {.revision = revision_},
+                       .budgetMs = budgetMs_,
+                       .input = input_,
+                       .divides = divides_},
+                      [&](const Settings& settings, int picture) {
+                        planned_ = settings;
+                        picture_ = {settings.view.accumulate, picture};
+                        FittedPlan fitted{.settings = settings};
+                        const auto side = static_cast<int>(side_ * settings.view.scale);
+                        fitted.plan.main.view.rect = {0, 0, side, side};
+                        return fitted;
+                      });
+  }
+  // Plans a frame and returns the pictures of its mean and the one that is drawn.
+  std::pair<int, int> pictureOf(bool moves = false) {
+    frame(moves);
+    return picture_;
+  }
+  void expectText(const std::string& start) const { EXPECT_TRUE(pace_.text().starts_with(start)) << pace_.text(); }
+
   Pace pace_{true, 1 + 4};
   Scene scene_;
   SceneState state_;
   Settings chosen_;
-  uint64_t number_ = 0;  // of the last frame
+  Settings planned_;
+  std::pair<int, int> picture_;
+  double seconds_ = 0.1;  // between frames
+  uint64_t revision_ = 1;
+  double budgetMs_ = 0.0;
   bool divides_ = true;
+  bool input_ = false;
+  int side_ = 0;         // of the main view, pixels
+  uint64_t number_ = 0;  // of the last frame
 };
 
 // Draws on a device whose frames take half a second whatever they draw.
 TEST_F(PacedScene, LowersOnlyWhatMoves) {
   chosen_.quality.stillPictures = 1;
-  Settings planned;
-  const auto frame = [&](bool moves, double budget) {
-    pace_.begin({}, moves, 0.5);
-    pace_.plan({.scene = scene_, .state = state_, .chosen = chosen_, .budgetMs = budget},
-               [&](const Settings& settings, int) {
-                 planned = settings;
-                 FittedPlan fitted{.settings = settings};
-                 fitted.plan.main.view.rect = {0, 0, 1280, 720};
-                 return fitted;
-               });
+  seconds_ = 0.5;
+  side_ = 960;
+  const auto draw = [&](bool moves) {
+    frame(moves);
     pace_.drawn(++number_, 1.0, true);
     pace_.finished({.frame = number_, .gpuMs = 500.0});
   };
-  frame(false, 0.0);
-  EXPECT_TRUE(sameMainView(planned, {}));
+  draw(false);
+  EXPECT_TRUE(sameMainView(planned_, {}));
   EXPECT_EQ(pace_.text(), "");
-  frame(true, 0.0);
-  EXPECT_TRUE(sameMainView(planned, {})) << "never, with 0";
+  draw(true);
+  EXPECT_TRUE(sameMainView(planned_, {})) << "never, with 0";
+  budgetMs_ = budget;
   for (int i = 0; i < 8; ++i) {
-    frame(true, 50.0);
+    draw(true);
   }
-  EXPECT_LT(planned.view.scale, 0.2);
-  EXPECT_EQ(pace_.text().rfind("Moving: 0.1", 0), 0u) << pace_.text();
-  frame(false, 50.0);
-  EXPECT_EQ(pace_.text().rfind("Draft: 0.1", 0), 0u) << pace_.text();
-  frame(false, 50.0);
-  EXPECT_TRUE(sameMainView(planned, {})) << "tiles of the whole picture";
+  EXPECT_LT(planned_.view.scale, 0.2);
+  expectText("Moving: 0.1");
+  draw(false);
+  expectText("Draft: 0.1");
+  draw(false);
+  EXPECT_TRUE(sameMainView(planned_, {})) << "tiles of the whole picture";
 }
 
 TEST_F(PacedScene, StillPicturesConvergeOnce) {
   chosen_.quality.stillPictures = 3;
-  std::vector<std::pair<int, int>> planned;  // pictures of the mean and the one that is drawn
-  const auto frame = [&](uint64_t revision, double budget = 0.0) {
-    planned.clear();
-    pace_.begin({}, false, 0.1);
-    pace_.plan(
-        {.scene = scene_, .state = state_, .chosen = chosen_, .shown = {.revision = revision}, .budgetMs = budget},
-        [&](const Settings& settings, int picture) {
-          planned.emplace_back(settings.view.accumulate, picture);
-          return FittedPlan{.settings = settings};
-        });
-    return planned.back();
-  };
-  EXPECT_EQ(frame(1), std::pair(1, 0)) << "full quality first";
+  EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "full quality first";
   for (int picture = 0; picture < 3; ++picture) {
     EXPECT_TRUE(pace_.wantsFrame());
-    EXPECT_EQ(frame(1), std::pair(3, picture));
+    EXPECT_EQ(pictureOf(), std::pair(3, picture));
   }
   EXPECT_EQ(pace_.text(), "3 of 3 pictures");
   EXPECT_FALSE(pace_.wantsFrame());
   EXPECT_FALSE(pace_.drawsSlowly()) << "each took one frame";
-  EXPECT_EQ(frame(1), std::pair(3, 3)) << "the mean again";
-  EXPECT_EQ(frame(2), std::pair(1, 0)) << "something else is shown";
-  EXPECT_EQ(frame(3, 1e-9), std::pair(1, 0)) << "full quality would take too long";
-  EXPECT_EQ(pace_.text().rfind("Draft: 0.1", 0), 0u) << pace_.text();
-  EXPECT_EQ(frame(3, 1e-9), std::pair(3, 0));
+  EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the mean again";
+  revision_ = 2;
+  EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "something else is shown";
+  revision_ = 3;
+  budgetMs_ = 1e-9;
+  EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "full quality would take too long";
+  expectText("Draft: 0.1");
+  EXPECT_EQ(pictureOf(), std::pair(3, 0));
 }
 
 // As while frames are recorded, or with quality.motion_ms at 0.
 TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutABudget) {
   chosen_.quality.stillPictures = 3;
-  std::pair<int, int> planned;
-  const auto frame = [&](bool moves) {
-    pace_.begin({}, moves, 1.0);
-    pace_.plan({.scene = scene_, .state = state_, .chosen = chosen_}, [&](const Settings& settings, int picture) {
-      planned = {settings.view.accumulate, picture};
-      return FittedPlan{.settings = settings};
-    });
-    return planned;
-  };
-  frame(false);
-  EXPECT_EQ(frame(false), std::pair(3, 0));
-  EXPECT_EQ(frame(true), std::pair(1, 0));
-  EXPECT_EQ(frame(false), std::pair(1, 0));
-  EXPECT_EQ(frame(false), std::pair(3, 0));
+  seconds_ = 1.0;
+  frame();
+  EXPECT_EQ(pictureOf(), std::pair(3, 0));
+  EXPECT_EQ(pictureOf(true), std::pair(1, 0));
+  EXPECT_EQ(pictureOf(), std::pair(1, 0));
+  EXPECT_EQ(pictureOf(), std::pair(3, 0));
 }
 
-TEST_F(PacedScene, SlowPicturesAreDrawnTileByTile) {
-  chosen_.quality.stillPictures = 16;
-  chosen_.view.samples = chosen_.reflection.samples = 1;
-  constexpr size_t count = 40000;  // tiles
-  double ms = 0.0;                 // of the last frame's tiles
-  double besidesMs = 0.0;
-  const auto frame = [&](uint64_t revision, bool input = false) {
-    pace_.finished({.frame = number_, .gpuMs = ms});
-    pace_.begin({}, false, 0.1);
-    const FittedPlan fitted = pace_.plan({.scene = scene_,
-                                          .state = state_,
-                                          .chosen = chosen_,
-                                          .shown = {.revision = revision},
-                                          .budgetMs = budget,
-                                          .input = input},
-                                         [&](const Settings& settings, int) {
-                                           FittedPlan whole{.settings = settings};
-                                           const auto side = static_cast<int>(3200 * settings.view.scale);
-                                           whole.plan.main.view.rect = {0, 0, side, side};
-                                           return whole;
-                                         });
-    // A tenth of the tiles is dear.
+// Pictures that take several budgets. The device reports the time of a frame when the next one begins.
+class SlowPictures : public PacedScene {
+ protected:
+  SlowPictures() {
+    budgetMs_ = budget;
+    side_ = 3200;
+  }
+  FittedPlan draw() {
+    pace_.finished({.frame = number_, .gpuMs = ms_});
+    const FittedPlan fitted = frame();
     const TileRange tiles = tilesOfPasses(fitted.plan)[0];
-    ms = 0.0;
+    ms_ = 0.0;
     for (size_t tile = tiles.first; tile < tiles.end; ++tile) {
-      ms += (tile % 8000 < 800 ? 5.0 : 0.5) / 16;
+      ms_ += (tile % 8000 < 800 ? 5.0 : 0.5) / 16;  // a tenth of the tiles is dear
     }
-    pace_.drawn(++number_, besidesMs, false);
+    pace_.drawn(++number_, besidesMs_, false);
     return fitted;
-  };
-  EXPECT_FALSE(frame(1).plan.tiles);
-  EXPECT_EQ(pace_.text().rfind("Draft: ", 0), 0u) << pace_.text();
-  const auto wholePicture = [&](bool input, uint64_t revision = 1) {
+  }
+  // Draws a picture tile by tile and returns the times of its frames.
+  std::vector<double> drawPicture() {
     std::vector<double> times;
-    TileRange before;
-    do {
-      const FittedPlan fitted = frame(revision, input);
-      EXPECT_TRUE(pace_.drawsTiles());
+    size_t end = 0;
+    while (end < count_) {
+      EXPECT_TRUE(pace_.wantsFrame());
+      const FittedPlan fitted = draw();
       if (!fitted.plan.tiles) {
         ADD_FAILURE() << "no tiles";
         break;
       }
-      EXPECT_EQ(fitted.plan.tiles->first, before.end);
-      EXPECT_TRUE(pace_.wantsFrame());
-      before = *fitted.plan.tiles;
-      times.push_back(ms);
-    } while (before.end < count);
+      EXPECT_EQ(fitted.plan.tiles->first, end);
+      EXPECT_EQ(fitted.settings.view.samples, chosen_.view.samples);
+      end = fitted.plan.tiles->end;
+      times.push_back(ms_);
+    }
     return times;
-  };
-  EXPECT_LE(std::ranges::max(wholePicture(false)), 8.0 * budget);
+  }
+
+  const size_t count_ = 40000;  // tiles
+  double ms_ = 0.0;             // of the last frame's tiles
+  double besidesMs_ = 0.0;
+};
+
+TEST_F(SlowPictures, AreDrawnTileByTile) {
+  chosen_.quality.stillPictures = 16;
+  chosen_.view.samples = chosen_.reflection.samples = 1;
+  EXPECT_FALSE(draw().plan.tiles);
+  expectText("Draft: ");
+  EXPECT_LE(std::ranges::max(drawPicture()), 8.0 * budget);
+  EXPECT_TRUE(pace_.drawsTiles());
   EXPECT_EQ(pace_.text(), "1 of 16 pictures");
   for (int picture = 1; picture < 4; ++picture) {
-    wholePicture(false);
+    drawPicture();
   }
   for (const bool input : {false, true}) {
-    EXPECT_LE(std::ranges::max(wholePicture(input)), (input ? 2.0 : 2.6) * budget) << "the dear tiles are known";
+    input_ = input;
+    EXPECT_LE(std::ranges::max(drawPicture()), (input ? 2.0 : 2.6) * budget) << "the dear tiles are known";
   }
-  frame(1);
-  EXPECT_EQ(pace_.text().rfind("Picture 7 of 16: ", 0), 0u) << pace_.text();
-  EXPECT_FALSE(frame(2).plan.tiles) << "another picture is asked for";
-  EXPECT_EQ(pace_.text().rfind("Draft: ", 0), 0u) << pace_.text();
-  EXPECT_EQ(frame(2).plan.tiles->first, 0u);
+  input_ = false;
+  draw();
+  expectText("Picture 7 of 16: ");
+  revision_ = 2;
+  EXPECT_FALSE(draw().plan.tiles) << "another picture is asked for";
+  expectText("Draft: ");
+  EXPECT_EQ(draw().plan.tiles->first, 0u);
   EXPECT_NE(pace_.text().find("; first picture "), std::string::npos) << "the draft is still shown: " << pace_.text();
-  besidesMs = 3.0 * budget;
-  while (frame(2).plan.tiles.value_or(TileRange{0, count}).end < count) {
+  besidesMs_ = 3.0 * budget;
+  while (draw().plan.tiles.value_or(TileRange{0, count_}).end < count_) {
   }
-  EXPECT_LE(wholePicture(false, 2).size(), 20u) << "a slow program does not leave one tile for each frame";
+  EXPECT_LE(drawPicture().size(), 20u) << "a slow program does not leave one tile for each frame";
 }
 
-TEST_F(PacedScene, SingleSlowPictureIsDrawnInTiles) {
+TEST_F(SlowPictures, SingleOneEndsWithItsTiles) {
   chosen_.quality.stillPictures = 1;
-  double ms = 1000.0;
-  const auto frame = [&] {
-    pace_.finished({.frame = number_, .gpuMs = ms});
-    pace_.begin({}, false, 0.1);
-    const FittedPlan fitted =
-        pace_.plan({.scene = scene_, .state = state_, .chosen = chosen_, .budgetMs = budget, .divides = divides_},
-                   [&](const Settings& settings, int picture) {
-                     EXPECT_EQ(picture, 0);
-                     FittedPlan whole{.settings = settings};
-                     whole.plan.main.view.rect = {0, 0, 3200, 3200};
-                     return whole;
-                   });
-    pace_.drawn(++number_, 0.0, false);
-    return fitted;
-  };
-  EXPECT_FALSE(frame().plan.tiles);
-  EXPECT_EQ(pace_.text().rfind("Draft: ", 0), 0u) << pace_.text();
-  size_t end = 0;
-  ms = budget;
-  while (end < 40000) {
-    ASSERT_TRUE(pace_.wantsFrame());
-    const FittedPlan fitted = frame();
-    ASSERT_TRUE(fitted.plan.tiles);
-    ASSERT_EQ(fitted.plan.tiles->first, end);
-    EXPECT_EQ(fitted.settings.view.samples, 4);
-    end = fitted.plan.tiles->end;
-  }
+  EXPECT_FALSE(draw().plan.tiles);
+  expectText("Draft: ");
+  drawPicture();
+  EXPECT_EQ(picture_, std::pair(1, 0));
   EXPECT_FALSE(pace_.wantsFrame());
   EXPECT_EQ(pace_.text(), "");
-  EXPECT_TRUE(frame().plan.tiles) << "another event, and the picture cannot be shown again";
+  EXPECT_TRUE(draw().plan.tiles) << "another event, and the picture cannot be shown again";
   EXPECT_TRUE(pace_.wantsFrame()) << "it is not left unfinished";
   divides_ = false;
-  EXPECT_FALSE(frame().plan.tiles) << "a target shows a whole pass";
+  EXPECT_FALSE(draw().plan.tiles) << "a target shows a whole pass";
   EXPECT_EQ(pace_.text(), "");
 }
 

@@ -3,18 +3,14 @@
 #include <cstdlib>
 
 #include "core_fixture.hpp"
+#include "error_message.hpp"
 #include "platform/process.hpp"
 
 namespace speculum::test {
 namespace {
 
 std::string errorOf(const DeviceOptions& options) {
-  try {
-    const Device device(options);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return messageOf([&] { const Device device(options); });
 }
 
 TEST(Device, NeedsNoWindowSystem) {

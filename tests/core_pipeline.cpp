@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core_fixture.hpp"
+#include "error_message.hpp"
 #include "platform/files.hpp"
 #include "test_paths.hpp"
 
@@ -182,12 +183,8 @@ TEST_F(HotReload, CompileErrorKeepsTheOldPipeline) {
 TEST(ShaderLibrary, ErrorsNameTheFileOrDirectory) {
   Device device({});
   ShaderLibrary library(device, binaryDir() / "tests" / "shaders");
-  try {
-    library.module("missing.frag");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("missing.frag.spv"), std::string::npos);
-  }
+  const std::string error = messageOf([&] { library.module("missing.frag"); });
+  EXPECT_NE(error.find("missing.frag.spv"), std::string::npos) << error;
   EXPECT_THROW(ShaderLibrary(device, "", "/no/such/directory"), std::runtime_error);
   const TemporaryDirectory directory;
   replaceFile(directory.path() / "bad.frag.spv", std::vector<uint8_t>(64, 7));

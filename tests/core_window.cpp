@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core_fixture.hpp"
+#include "error_message.hpp"
 #include "platform/process.hpp"
 #include "test_paths.hpp"
 #include "virtual_display.hpp"
@@ -272,12 +273,8 @@ TEST(WindowMonitors, FullScreenEndsWithItsMonitor) {
 TEST(WindowErrors, NoDisplaySaysWhatToDo) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  try {
-    const Window window(WindowOptions{});
-    FAIL() << "a window opened without a display";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("render command"), std::string::npos) << error.what();
-  }
+  const std::string error = messageOf([] { const Window window(WindowOptions{}); });
+  EXPECT_NE(error.find("render command"), std::string::npos) << error;
 }
 
 }  // namespace

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "picture_support.hpp"
+#include "random.hpp"
 #include "scene_text.hpp"
+#include "studio.hpp"
 
 namespace speculum {
 namespace {
@@ -16,13 +15,10 @@ using namespace testing_support;
 constexpr int width = 480;
 constexpr int height = 270;
 
-using Random = std::mt19937;
-
 glm::dvec3 randomColor(Random& random) {
-  std::uniform_real_distribution<double> channel(0.05, 1.0);
-  const double r = channel(random);
-  const double g = channel(random);
-  return {r, g, channel(random)};
+  const double r = random.uniform(0.05, 1.0);
+  const double g = random.uniform(0.05, 1.0);
+  return {r, g, random.uniform(0.05, 1.0)};
 }
 
 // Gives each node a color of its own, independent of light. A mirror shows half of its reflection and half of its own
@@ -30,14 +26,10 @@ glm::dvec3 randomColor(Random& random) {
 void makeFlat(Scene& scene) {
   Random random(7);
   scene.environment = {.ambient = glm::dvec3(1.0)};
-  for (Mesh& mesh : scene.meshes) {
-    for (MeshPart& part : mesh.parts) {
-      part.material = Material{.specular = glm::dvec3(0.0)};
-    }
-  }
   for (Object& object : scene.objects) {
     object.color = randomColor(random);
     object.specular = glm::dvec3(0.0);
+    object.emission = glm::dvec3(0.0);
     object.mirror.reset();
   }
   for (PointLight& light : scene.lights) {
@@ -85,32 +77,16 @@ glm::dvec3 flatColor(const Scene& scene, const SceneState& state, const std::vec
 
 class PickedScene : public testing::TestWithParam<const char*> {
  protected:
-  PickedScene()
-      : options_(headless(sourceFile("scenes/" + std::string(GetParam()) + ".toml"), {width, height})),
-        loaded_(loadSceneWithSettings(options_)),
-        device_(deviceOptions(options_, nullptr)),
-        renderer_(device_, rendererOptions(options_, nullptr)) {
-    makeFlat(loaded_.scene);
-    loaded_.settings.view.samples = 1;
-    loaded_.settings.reflection.samples = 1;
-    state_ = evaluate(loaded_.scene, 1.0);
+  PickedScene() {
+    makeFlat(studio_.scene);
+    studio_.settings.view.samples = studio_.settings.reflection.samples = 1;
+    studio_.settings.effects.textures = false;
+    studio_.time = 1.0;
   }
 
-  LinearImage draw() {
-    SceneRenderer drawn(renderer_, loaded_.scene);
-    Frame frame = renderer_.beginFrame().value();
-    plan_ = planFrame(loaded_.scene, state_, loaded_.settings, width, height);
-    drawn.record(frame, state_, loaded_.settings, plan_);
-    renderer_.endFrame(frame);
-    return drawn.radiance();
-  }
-
-  Options options_;
-  LoadedScene loaded_;
-  Device device_;
-  Renderer renderer_;
-  SceneState state_;
-  FramePlan plan_;
+  Options options_ = headless(sourceFile("scenes/" + std::string(GetParam()) + ".toml"), {width, height});
+  Gpu gpu_{options_};
+  Studio studio_{gpu_, options_};
 };
 
 double largestDifference(const glm::dvec3& a, const glm::dvec3& b) {
@@ -119,22 +95,22 @@ double largestDifference(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 TEST_P(PickedScene, IsWhatThePixelShows) {
-  const LinearImage drawn = draw();
-  const PictureView picture(state_.camera, width, height);
-  Picker picker(loaded_.scene);
-  const ReflectionSettings& r = loaded_.settings.reflection;
-  const PickLimits limits{r.maxDepth, r.minThroughput, plan_.skipped};
+  studio_.draw();
+  const LinearImage drawn = studio_.sceneRenderer.radiance();
+  const Scene& scene = studio_.scene;
+  const PictureView picture(studio_.state.camera, width, height);
+  Picker picker(scene);
+  const ReflectionSettings& r = studio_.settings.reflection;
+  const PickLimits limits{r.maxDepth, r.minThroughput, studio_.plan.skipped};
   Random random(11);
-  std::uniform_int_distribution<int> column(1, width - 2);
-  std::uniform_int_distribution<int> row(1, height - 2);
   constexpr int pixels = 1500;
   int edges = 0;
   std::array<int, 4> byDepth{};
   for (int i = 0; i < pixels; ++i) {
-    const int x = column(random);
-    const int y = row(random);
-    const auto found = picker.at(state_, picture, {x + 0.5, y + 0.5}, limits);
-    const glm::dvec3 expected = flatColor(loaded_.scene, state_, found, picture);
+    const int x = static_cast<int>(random.uniform(1, width - 1));
+    const int y = static_cast<int>(random.uniform(1, height - 1));
+    const auto found = picker.at(studio_.state, picture, {x + 0.5, y + 0.5}, limits);
+    const glm::dvec3 expected = flatColor(scene, studio_.state, found, picture);
     const auto at = [&](int dx, int dy) {
       return glm::dvec3(drawn.pixels[static_cast<size_t>(y + dy) * width + static_cast<size_t>(x + dx)]);
     };
@@ -149,27 +125,27 @@ TEST_P(PickedScene, IsWhatThePixelShows) {
       nearest = std::min(nearest, largestDifference(at(n % 3 - 1, n / 3 - 1), expected));
     }
     EXPECT_LT(nearest, 0.003) << "pixel " << x << ", " << y << ": "
-                              << (found.empty() ? "nothing" : describe(loaded_.scene, found[0].what));
+                              << (found.empty() ? "nothing" : describe(scene, found[0].what));
   }
   EXPECT_LE(edges, pixels / 500);
   std::printf("%s: %d directly, %d in one mirror, %d in two, %d in more; %d at edges\n", GetParam(), byDepth[0],
               byDepth[1], byDepth[2], byDepth[3], edges);
   RecordProperty("edges", edges);
   EXPECT_TRUE(std::string(GetParam()) == "no_mirror" || byDepth[1] > 20);
-  EXPECT_EQ(device_.validationMessages(), 0);
 }
 
 TEST_P(PickedScene, LiesWhereItIsSeen) {
-  const PictureView picture(state_.camera, width, height);
-  Picker picker(loaded_.scene);
+  const Scene& scene = studio_.scene;
+  const SceneState state = evaluate(scene, studio_.time);
+  const PictureView picture(state.camera, width, height);
+  Picker picker(scene);
   Random random(5);
-  std::uniform_real_distribution<double> x(0.0, width);
-  std::uniform_real_distribution<double> y(0.0, height);
   int checked = 0;
   for (int i = 0; i < 300; ++i) {
-    const glm::dvec2 pixel(x(random), y(random));
-    for (const Picked& picked : picker.at(state_, picture, pixel, {.maxDepth = 3})) {
-      const auto seen = picture.through(loaded_.scene, state_, picked.path);
+    const double x = random.uniform(0, width);
+    const glm::dvec2 pixel(x, random.uniform(0, height));
+    for (const Picked& picked : picker.at(state, picture, pixel, {.maxDepth = 3})) {
+      const auto seen = picture.through(scene, state, picked.path);
       ASSERT_TRUE(seen);
       const auto back = seen->pixel(picked.point);
       ASSERT_TRUE(back);

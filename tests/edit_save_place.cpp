@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "edit/scene_writer.hpp"
+#include "error_message.hpp"
 #include "temporary_folder.hpp"
 
 namespace speculum {
@@ -24,13 +25,8 @@ TEST(SavePlace, MissingFolderIsNamed) {
   const TemporaryFolder folder;
   EXPECT_NO_THROW(requireFolder(folder / "a.toml"));
   EXPECT_NO_THROW(requireFolder("a.toml")) << "the working directory";
-  try {
-    requireFolder(folder / "one" / "two" / "a.toml");
-    FAIL();
-  } catch (const SaveError& error) {
-    EXPECT_NE(std::string(error.what()).find("no folder " + (folder / "one").string() + " ("), std::string::npos)
-        << error.what();
-  }
+  const std::string error = messageOf<SaveError>([&] { requireFolder(folder / "one" / "two" / "a.toml"); });
+  EXPECT_NE(error.find("no folder " + (folder / "one").string() + " ("), std::string::npos) << error;
   std::ofstream(folder / "file") << "no folder";
   EXPECT_THROW(requireFolder(folder / "file" / "a.toml"), SaveError);
   EXPECT_FALSE(fs::exists(folder / "one"));

@@ -42,16 +42,17 @@ const std::string plainLight = "[[light]]\nposition = [-1.6, 2, 1.2]\nintensity 
 
 const std::string byRays = "[settings]\n\"reflection.method\" = \"rays\"\n";
 
-// Returns the root mean square difference in radiance, over the pixels whose `counts` is set.
-double rootMeanSquare(const LinearImage& drawn, const LinearImage& reference, const std::vector<bool>& counts) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (size_t i = 0; i < drawn.pixels.size(); ++i) {
-    const glm::dvec3 off = glm::dvec3(drawn.pixels[i]) - glm::dvec3(reference.pixels[i]);
-    sum += counts[i] ? glm::dot(off, off) : 0.0;
-    count += counts[i] ? 1.0 : 0.0;
-  }
-  return std::sqrt(sum / count);
+// With as many samples, at the size `small`.
+TraceResult traceSmall(const std::filesystem::path& file, const TraceOptions& samples) {
+  Tracing tracing = tracingOf(file, small, 3);
+  tracing.options.samples = samples.samples;
+  tracing.options.roughSamples = samples.roughSamples;
+  return tracing.result();
+}
+
+// Root of the mean squared error in radiance within the mirrors.
+double mirrorError(const LinearImage& drawn, const TraceResult& traced) {
+  return rootMeanSquare(drawn, traced.image, {traced.mirrorMask.begin(), traced.mirrorMask.end()});
 }
 
 struct Case {
@@ -171,16 +172,11 @@ TEST(ExactEffects, EqualTheTracerFarFromOrigin) {
 // the tracer.
 TEST(ExactEffects, RaysAtEverySampleReduceError) {
   const std::filesystem::path file = corner("effects_samples", shadowLight + nearBall + "mirror = {}\n");
-  const Scene scene = loadScene(file);
-  const RayTracer tracer(scene, evaluate(scene, 0.0));
-  const TraceResult reference =
-      *tracer.render({.width = small.width, .height = small.height, .samples = 16, .maxDepth = 3});
+  const TraceResult reference = traceSmall(file, {.samples = 16});
   QuietSession session(headless(file, small));
   const auto error = [&](const char* perSample) {
     set(session, {{"effects.per_sample", perSample}, {"reflection.max_depth", "3"}});
-    runFrames(session);
-    const LinearImage drawn = session.radiance();
-    return rootMeanSquare(drawn, reference.image, std::vector<bool>(drawn.pixels.size(), true));
+    return rootMeanSquare(drawRadiance(session), reference.image);
   };
   const double once = error("false");
   const double each = error("true");
@@ -212,8 +208,7 @@ TEST(RoughFloor, MeetsAWallWithoutDarkPixels) {
                           "reflectance = [0.8, 0.8, 0.8]\n[[mirror]]\nposition = [0, 1.5, -3]\nsize = [6, 3]\n"
                           "reflectance = [0.9, 0.9, 0.9]\n"),
                size));
-  runFrames(session);
-  const LinearImage picture = session.radiance();
+  const LinearImage picture = drawRadiance(session);
   const auto darkest = std::ranges::min_element(picture.pixels, {}, [](const auto& pixel) { return pixel[0]; });
   EXPECT_NEAR((*darkest)[0], 0.5 * 0.8 * 0.9, 0.001);
 }
@@ -236,11 +231,11 @@ TEST(ExactEffects, ThroughputIsPerChannel) {
 
 TEST(ExactEffects, UpdateIntervalChangesNoByte) {
   QuietSession session(headless(sourceFile("tests/golden/effects.toml"), small));
-  const Image8 expected = picture(session, 0.0);
+  const Image8 expected = draw(session);
   set(session, {{"reflection.update_interval", "3"}});
   session.restart();
   for (int frame = 0; frame < 3; ++frame) {
-    EXPECT_EQ(picture(session, 0.0).rgba, expected.rgba) << "frame " << frame;
+    EXPECT_EQ(draw(session).rgba, expected.rgba) << "frame " << frame;
   }
 }
 
@@ -303,22 +298,14 @@ class RoughMirror : public testing::Test {
 
   // Traced once for all tests.
   const TraceResult& reference() const {
-    static const TraceResult traced = [&] {
-      const Scene scene = loadScene(file_);
-      const RayTracer tracer(scene, evaluate(scene, 0.0));
-      return *tracer.render(
-          {.width = small.width, .height = small.height, .samples = 1, .maxDepth = 3, .roughSamples = 1024});
-    }();
+    static const TraceResult traced = traceSmall(file_, {.samples = 1, .roughSamples = 1024});
     return traced;
   }
 
-  // Root of the mean squared radiance error within the mirror.
   double error(const std::vector<std::pair<std::string, std::string>>& settings) {
     session_.setSettings(usual_);
     set(session_, settings);
-    runFrames(session_);
-    return rootMeanSquare(session_.radiance(), reference().image,
-                          {reference().mirrorMask.begin(), reference().mirrorMask.end()});
+    return mirrorError(drawRadiance(session_), reference());
   }
 
   QuietSession session_{truthOptions(file_, small, 3)};
@@ -353,16 +340,15 @@ TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
 TEST(RoughMirrorWithShadows, LooksUpMoreAtEverySample) {
   const std::filesystem::path file = corner("effects_rough_samples", shadowLight + wall + "roughness = 0.35\n");
   QuietSession session(headless(file, small));
-  const TraceResult truth = trace(file, small, 3).traced;
+  TraceResult smooth = traceSmall(file, {.samples = 1});
   const auto noise = [&](const char* perSample) {
     set(session, {{"effects.per_sample", perSample}, {"effects.rough_lookup", "image"}});
     const auto drawn = [&](const char* lookups) {
       set(session, {{"effects.rough_samples", lookups}});
-      runFrames(session);
-      return session.radiance();
+      return drawRadiance(session);
     };
-    const LinearImage smooth = drawn("256");
-    return rootMeanSquare(drawn("2"), smooth, {truth.mirrorMask.begin(), truth.mirrorMask.end()});
+    smooth.image = drawn("256");
+    return mirrorError(drawn("2"), smooth);
   };
   const double pixel = noise("false");
   const double samples = noise("true");
@@ -373,18 +359,15 @@ TEST(RoughMirrorWithShadows, LooksUpMoreAtEverySample) {
 // Ripples that look up the smooth mirror's image are nearer to the truth than a smooth mirror.
 TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const std::filesystem::path file = corner("effects_ripple", plainLight + pool + ripple);
-  const Scene scene = loadScene(file);
-  const RayTracer tracer(scene, evaluate(scene, 0.0));
-  const TraceResult truth =
-      *tracer.render({.width = small.width, .height = small.height, .samples = 16, .maxDepth = 3});
+  const TraceResult truth = traceSmall(file, {.samples = 16});
   QuietSession session(truthOptions(file, small, 3));
   const Settings usual = session.settings();
   const auto error = [&](const std::vector<std::pair<std::string, std::string>>& settings) {
     session.setSettings(usual);
     set(session, settings);
-    runFrames(session);
+    const double e = mirrorError(drawRadiance(session), truth);
     EXPECT_EQ(session.lastFrame().plan.effects.ripple.has_value(), settings[0].first != "effects.ripple");
-    return rootMeanSquare(session.radiance(), truth.image, {truth.mirrorMask.begin(), truth.mirrorMask.end()});
+    return e;
   };
   const double smooth = error({{"effects.ripple", "false"}});
   const double image = error({{"effects.ripple_lookup", "image"}});
@@ -439,8 +422,7 @@ TEST(Effects, EffectsWithoutRaysCanBeSwitchedOff) {
   QuietSession plain(truthOptions(expected, small, 3));
   const auto drawn = [](Session& of, const std::string& key, const std::string& value) {
     set(of, {{key, value}});
-    of.draw(0.0, true);
-    return of.picture();
+    return draw(of);
   };
   const std::vector<std::string> effects = {"effects.fresnel", "effects.textures", "effects.glyphs"};
   for (const char* lookup : {"traced", "environment"}) {

@@ -114,23 +114,7 @@ TEST(CachedImages, NestedMirrorsAreRenderedWithTheirParent) {
   }
 }
 
-TEST(CachedImages, BudgetIgnoresReuse) {
-  Scene scene = corridor();
-  scene.mirrors.push_back(wall({1.9, 0, -2}, -90, {3, 3}));
-  PlanSequence sequence = withInterval(scene, 2);
-  sequence.settings.reflection.maxPasses = 5;
-  std::map<std::vector<int>, int> inFirst;
-  for (const PlannedPass& pass : sequence.next().passes) {
-    ++inFirst[pass.view.path];
-  }
-  ASSERT_EQ(inFirst.size(), 5u);
-  for (int frame = 0; frame < 4; ++frame) {
-    for (const PlannedPass& pass : sequence.next().passes) {
-      EXPECT_TRUE(inFirst.count(pass.view.path)) << "a pass that frame 0 had no budget for";
-    }
-  }
-}
-
+// frame_settings.cpp tests which settings images show.
 TEST(CachedImages, ChangedSettingsAndSizesRenderAnew) {
   const auto freshAfter = [](auto change) {
     PlanSequence sequence = withInterval(row(), 100);
@@ -140,14 +124,7 @@ TEST(CachedImages, ChangedSettingsAndSizesRenderAnew) {
   };
   EXPECT_EQ(freshAfter([](Settings&) {}), 0u);
   EXPECT_EQ(freshAfter([](Settings& s) { s.view.exposure = 2.0; }), 0u);
-  EXPECT_EQ(freshAfter([](Settings& s) { s.view.toneMap = ToneMap::aces; }), 0u);
-  EXPECT_EQ(freshAfter([](Settings& s) { s.view.samples = 1; }), 0u);
   EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.scale = 0.5; }), 6u);
-  EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.samples = 1; }), 6u);
-  EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.maxDepth = 2; }), 6u);
-  EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.clip = ClipMethod::oblique; }), 6u);
-  EXPECT_EQ(freshAfter([](Settings& s) { s.view.clearColor = glm::dvec3(0.5); }), 6u);
-  EXPECT_EQ(freshAfter([](Settings& s) { s.view.wireframe = true; }), 6u);
   EXPECT_EQ(freshAfter([](Settings& s) { s.reflection.updateInterval = 1; }), 6u);
 
   PlanSequence sequence = withInterval(row(), 100);

@@ -2,50 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "frame/mesh_level.hpp"
 #include "frame_support.hpp"
 #include "random.hpp"
+#include "reference_scenes.hpp"
 
 namespace speculum {
 namespace {
 
 using testing_support::wall;
 
-// A ball of radius 1 with 2 x 48 x 24 triangles, less at the poles.
-Mesh ball() {
-  constexpr uint32_t around = 48;
-  constexpr uint32_t up = 24;
-  Mesh mesh{.halfExtent = glm::dvec3(1.0), .radius = 1.0};
-  for (uint32_t j = 0; j <= up; ++j) {
-    for (uint32_t i = 0; i < around; ++i) {
-      const double a = 2.0 * std::numbers::pi * i / around;
-      const double b = std::numbers::pi * j / up;
-      const glm::dvec3 p(std::sin(b) * std::cos(a), std::cos(b), -std::sin(b) * std::sin(a));
-      mesh.vertices.push_back({p, p, {}});
-    }
-  }
-  for (uint32_t j = 0; j < up; ++j) {
-    for (uint32_t i = 0; i < around; ++i) {
-      const uint32_t a = around * j + i;
-      const uint32_t b = around * j + (i + 1) % around;
-      if (j > 0) {
-        mesh.indices.insert(mesh.indices.end(), {a, a + around, b});
-      }
-      if (j + 1 < up) {
-        mesh.indices.insert(mesh.indices.end(), {b, a + around, b + around});
-      }
-    }
-  }
-  mesh.parts = {{0, static_cast<uint32_t>(mesh.indices.size()), {}}};
-  return mesh;
-}
-
 // A mirror 10 m before the camera, and balls behind it at these distances from the mirror.
 Scene sceneOf(const std::vector<double>& distances, double scale = 0.5) {
   Scene scene = testing_support::sceneWith({wall({0, 0, -10}, 0, {8, 8})});
-  scene.meshes = {ball()};
+  scene.meshes = {testing::sphereMesh(24)};
   for (const double distance : distances) {
     scene.objects.push_back(testing_support::objectAt({0, 0, distance - 10.0}, glm::dvec3(scale)));
   }
@@ -252,13 +223,6 @@ TEST(MeshError, BoundHoldsForAnyTwoPoints) {
   }
   EXPECT_GT(compared, 1000);
   EXPECT_GT(tightest, 0.7) << "far too careful";
-}
-
-TEST(MeshError, ChangesMirrorImages) {
-  Settings exact;
-  Settings simplified;
-  simplified.reflection.meshError = 1.0;
-  EXPECT_FALSE(sameMirrorImages(exact, simplified));
 }
 
 }  // namespace

@@ -145,8 +145,9 @@ TEST_F(Occluders, BoxesAndPanesHideNothingVisibleTogether) {
   int hidden = 0;
   for (int round = 0; round < 2000; ++round) {
     Scene scene = sceneWith({wall({uniform(-1, 1), uniform(-1, 1), uniform(-8, -2)}, uniform(-60, 60), {1.5, 1})});
-    const OccluderShape shape = box();
-    scene.meshes = {meshOf(shape.positions, shape.indices)};
+    Triangles box;
+    box.box(glm::dvec3(-1.0), glm::dvec3(1.0));
+    scene.meshes = {meshOf(box.positions, box.indices)};
     for (int i = 0; i < 3; ++i) {
       scene.objects.push_back(place(0));
       scene.objects.back().name = std::to_string(i);

@@ -168,17 +168,6 @@ TEST(FramePlan, CoplanarNeighboursDoNotReflectEachOther) {
   }
 }
 
-TEST(FramePlan, ScaleChangesMirrorImagesOnly) {
-  Settings settings;
-  settings.reflection.scale = 0.5;
-  const FramePlan p = planOf(corridor(), settings);
-  EXPECT_EQ(p.main.view.rect, (PixelRect{0, 0, width, height}));
-  for (const PlannedPass& pass : p.passes) {
-    EXPECT_EQ(pass.view.pictureSize, glm::dvec2(width / 2, height / 2));
-    EXPECT_LE(pass.view.rect.width, width / 2);
-  }
-}
-
 TEST(FramePlan, TexelsFollowBothScales) {
   Random random(3);
   const Scene scene = corridor();

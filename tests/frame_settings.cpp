@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "error_message.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/scene_loader.hpp"
 
@@ -52,14 +53,16 @@ Settings changed(const SettingField& field) {
 }
 
 TEST(Settings, EachValueStandsInItsOwnMember) {
+  Settings all;
   for (const SettingField& field : settingFields()) {
     const Settings settings = changed(field);
-    Settings copy;
-    copySetting(field, settings, copy);
+    const Settings before = all;
+    copySetting(field, settings, all);
     for (const SettingField& other : settingFields()) {
       EXPECT_EQ(sameSetting(other, settings, Settings()), other.key != field.key) << field.key << " and " << other.key;
-      EXPECT_TRUE(sameSetting(other, settings, copy)) << field.key << " and " << other.key;
+      EXPECT_EQ(sameSetting(other, all, before), other.key != field.key) << field.key << " and " << other.key;
     }
+    EXPECT_TRUE(sameSetting(field, all, settings)) << field.key;
     EXPECT_NE(settingsKey(settings), settingsKey(Settings())) << field.key;
   }
 }
@@ -147,11 +150,20 @@ TEST(Settings, SceneErrorsNameFileAndLine) {
   EXPECT_EQ(settings.view.exposure, 0.5);
 
   scene.settings = {{"reflection.scale", "1", 7, true}};
-  try {
-    settingsOf(scene);
-    FAIL() << "a string where a number belongs";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "room.toml:7: reflection.scale: a string is the wrong type (0.125 .. 4)");
+  EXPECT_EQ(messageOf<InputError>([&] { settingsOf(scene); }),
+            "room.toml:7: reflection.scale: a string is the wrong type (0.125 .. 4)");
+}
+
+TEST(SettingHelp, NamesEffectRangeAndCost) {
+  EXPECT_EQ(settingHelp("view.samples"),
+            "Samples a pixel of the main view. Shading grows with it.\nview.samples: 1 2 4 8");
+  EXPECT_EQ(settingHelp("no.such_key"), "");
+}
+
+TEST(SettingHelp, NoFigureIsOfAnotherDevice) {
+  for (const SettingField& field : settingFields()) {
+    EXPECT_EQ(settingHelp(field.key).find("H200"), std::string::npos) << field.key;
+    EXPECT_EQ(field.cost.find(" ms"), std::string_view::npos) << field.key;
   }
 }
 

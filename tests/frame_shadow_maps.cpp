@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "frame/cube_face.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame/shadow_map.hpp"
 #include "frame_support.hpp"
+#include "random.hpp"
 
 namespace speculum {
 namespace {
@@ -115,26 +115,21 @@ TEST(ShadowMap, FarLightHasOneFace) {
 
 // In random scenes, every drawn point looks up a face that is rendered, within the face's window.
 TEST(ShadowMap, VisiblePointsLieInReadFaces) {
-  std::mt19937 random(7);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  const auto point = [&](double reach) {
-    return glm::dvec3(uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach));
-  };
+  testing_support::Random random(7);
   int looked = 0;
   int unread = 0;
   for (int trial = 0; trial < 200; ++trial) {
     Scene scene = room();
     scene.objects.clear();
     for (int i = 0; i < 8; ++i) {
-      scene.objects.push_back(objectAt(point(6), {uniform(0.1, 3), uniform(0.1, 3), uniform(0.1, 3)}));
-      scene.objects.back().rotation = 60.0 * point(1);
+      scene.objects.push_back(
+          objectAt(random.inBox(6), {random.uniform(0.1, 3), random.uniform(0.1, 3), random.uniform(0.1, 3)}));
+      scene.objects.back().rotation = 60.0 * random.inBox(1);
     }
-    scene.lights = {lightAt(point(4)), lightAt(point(40))};
-    scene.mirrors = {testing_support::wall(point(5), uniform(-180, 180), {3, 3})};
-    scene.camera.position = point(8);
-    scene.camera.target = point(3);
+    scene.lights = {lightAt(random.inBox(4)), lightAt(random.inBox(40))};
+    scene.mirrors = {testing_support::wall(random.inBox(5), random.uniform(-180, 180), {3, 3})};
+    scene.camera.position = random.inBox(8);
+    scene.camera.target = random.inBox(3);
     Frames frames(scene);
     frames.settings.debug.skipHidden = false;
     frames.next();
@@ -147,12 +142,12 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
       unread += static_cast<int>(std::ranges::count(map.faces, false, &ShadowFace::read));
     }
     for (int sample = 0; sample < 400; ++sample) {
-      const PlannedPass& pass = *passes[random() % passes.size()];
+      const PlannedPass& pass = *passes[random.index(passes.size())];
       if (pass.instances.empty()) {
         continue;
       }
-      const int instance = pass.instances[random() % pass.instances.size()];
-      const glm::dvec3 p = state.instances[static_cast<size_t>(instance)].worldFromMesh.point(point(0.5));
+      const int instance = pass.instances[random.index(pass.instances.size())];
+      const glm::dvec3 p = state.instances[static_cast<size_t>(instance)].worldFromMesh.point(random.inBox(0.5));
       if (!sphereVisible(pass.view, p, 0.0)) {
         continue;
       }

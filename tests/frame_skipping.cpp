@@ -9,6 +9,7 @@
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
 #include "random.hpp"
+#include "triangles.hpp"
 
 namespace speculum {
 namespace {
@@ -128,23 +129,20 @@ TEST(Hidden, OccluderOfAllIsNamedAlone) {
 // A scene with boxes of 2 m whose sides are cut into 2 n^2 triangles. They have no flat occluders.
 Scene sceneWithBoxes(std::vector<Mirror> mirrors, const std::vector<Object>& objects, int n = 1) {
   Scene scene = sceneWith(std::move(mirrors), objects);
-  std::vector<glm::dvec3> positions;
-  std::vector<uint32_t> indices;
+  Triangles boxes;
   for (int side = 0; side < 6; ++side) {
     for (int cell = 0; cell < n * n; ++cell) {
-      for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) {
-        indices.push_back(static_cast<uint32_t>(positions.size()) + i);
-      }
-      for (const glm::ivec2 corner : {glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(1, 1), glm::ivec2(0, 1)}) {
+      const auto at = [&](int x, int y) {
         glm::dvec3 p;
         p[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
-        p[(side / 2 + 1) % 3] = 2.0 * (cell % n + corner.x) / n - 1.0;
-        p[(side / 2 + 2) % 3] = 2.0 * (cell / n + corner.y) / n - 1.0;
-        positions.push_back(p);
-      }
+        p[(side / 2 + 1) % 3] = 2.0 * (cell % n + x) / n - 1.0;
+        p[(side / 2 + 2) % 3] = 2.0 * (cell / n + y) / n - 1.0;
+        return p;
+      };
+      boxes.quad(at(0, 0), at(1, 0), at(1, 1), at(0, 1));
     }
   }
-  scene.meshes = {meshOf(positions, indices)};
+  scene.meshes = {meshOf(boxes.positions, boxes.indices)};
   scene.meshes[0].faces.clear();
   return scene;
 }
@@ -197,7 +195,7 @@ TEST(Hidden, SimplifiedMeshesHideNothingInMirrors) {
   }
 }
 
-TEST(Hidden, SimplifiedMeshesHideNothingInTheMainView) {
+TEST(Hidden, SimplifiedMeshesHideNothingInMainView) {
   const Scene scene = sceneWithBoxes({wall({0, 0, -4}, 0, {1, 1})}, {square({0, 0, -2}, {3, 3, 0.5})}, 2);
   Settings settings;
   settings.reflection.meshError = 0.5;

@@ -5,23 +5,19 @@
 #endif
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "geometry/triangle_mesh.hpp"
+#include "random.hpp"
 #include "reference_scenes.hpp"
 
 namespace speculum {
 namespace {
 
-glm::dvec3 randomDirection(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-}
+using testing_support::Random;
 
 // Origins and directions are floats, so that both tracers follow the same rays.
-Ray randomRay(std::mt19937& random) {
-  const glm::dvec3 origin(glm::vec3(2.0 * randomDirection(random)));
-  const glm::dvec3 target = 0.9 * randomDirection(random);
+Ray randomRay(Random& random) {
+  const glm::dvec3 origin(glm::vec3(2.0 * random.direction()));
+  const glm::dvec3 target = 0.9 * random.direction();
   return {origin, glm::dvec3(glm::vec3(target - origin))};
 }
 
@@ -85,7 +81,7 @@ TEST(ReferenceBvh, MeetsTheSameTrianglesAsEmbree) {
     const Mesh mesh = testing::bumpyMesh(40 * static_cast<int>(seed), seed);
     const TriangleMesh ours(mesh);
     const EmbreeMesh theirs(mesh);
-    std::mt19937 random(seed);
+    Random random(seed);
     for (int i = 0; i < 50000; ++i, ++rays) {
       const Ray ray = randomRay(random);
       const auto hit = ours.closest(ray);
@@ -108,7 +104,7 @@ TEST(ReferenceBvh, FindsWhatTestingEveryTriangleFinds) {
     one.parts = {{0, 3, {}}};
     single.emplace_back(one);
   }
-  std::mt19937 random(3);
+  Random random(3);
   for (int i = 0; i < 2000; ++i) {
     const Ray ray = randomRay(random);
     double nearest = std::numeric_limits<double>::infinity();

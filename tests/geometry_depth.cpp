@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <random>
 
 #include "geometry/depth_resolution.hpp"
+#include "random.hpp"
 
 namespace speculum {
 namespace {
@@ -96,15 +96,11 @@ struct Triangle {
   std::array<glm::dvec3, 3> corners;  // relative to it
 };
 
-std::mt19937 engine(1);
-
-double uniform(double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(engine);
-}
+testing_support::Random numbers(1);
 
 glm::dvec3 turned(const glm::dvec3& normal, double length) {
   const glm::dvec3 side = glm::normalize(glm::cross(normal, glm::dvec3(0.36, 0.48, 0.8)));
-  const double angle = uniform(0.0, 6.283185307179586);
+  const double angle = numbers.uniform(0.0, 6.283185307179586);
   return length * (std::cos(angle) * side + std::sin(angle) * glm::cross(normal, side));
 }
 
@@ -133,10 +129,10 @@ float pixelDepth(const Triangle& triangle, const glm::dmat4& clipFromView, const
 
 // A triangle of random size around a point of the plane, in a mesh whose centre is up to `extent` away.
 Triangle triangleAt(const glm::dvec3& point, const glm::dvec3& normal, double extent) {
-  const double size = std::pow(10.0, uniform(-2.0, 0.0)) * std::min(extent, -0.3 * point.z);
+  const double size = std::pow(10.0, numbers.uniform(-2.0, 0.0)) * std::min(extent, -0.3 * point.z);
   const glm::dvec3 first = turned(normal, size);
   const glm::dvec3 second = glm::cross(normal, first);
-  Triangle triangle{.center = point + turned(normal, uniform(0.0, std::max(extent - 2.0 * size, 0.0)))};
+  Triangle triangle{.center = point + turned(normal, numbers.uniform(0.0, std::max(extent - 2.0 * size, 0.0)))};
   const glm::dvec3 middle = point - triangle.center;
   triangle.corners = {middle + first, middle - 0.5 * first + 0.9 * second, middle - 0.5 * first - 0.9 * second};
   return triangle;
@@ -153,16 +149,16 @@ struct Setting {
 
 Setting randomSetting(bool withPlane) {
   Setting setting;
-  setting.pixel = glm::floor(glm::dvec2(uniform(0.0, picture.x), uniform(0.0, picture.y))) + 0.5;
+  setting.pixel = glm::floor(glm::dvec2(numbers.uniform(0.0, picture.x), numbers.uniform(0.0, picture.y))) + 0.5;
   const glm::dvec2 ndc = 2.0 * setting.pixel / picture - 1.0;
   setting.ray =
       glm::normalize(glm::dvec3(ndc.x * projection.aspect / projection.focal, -ndc.y / projection.focal, -1.0));
-  const double t = std::pow(10.0, uniform(0.0, 4.0));
-  const double angle = glm::radians(uniform(0.0, 80.0));
+  const double t = std::pow(10.0, numbers.uniform(0.0, 4.0));
+  const double angle = glm::radians(numbers.uniform(0.0, 80.0));
   const glm::dvec3 normal = std::cos(angle) * -setting.ray + turned(-setting.ray, std::sin(angle));
-  setting.surface = {t * setting.ray, normal, t * std::pow(10.0, uniform(-2.0, 1.0))};
+  setting.surface = {t * setting.ray, normal, t * std::pow(10.0, numbers.uniform(-2.0, 1.0))};
   if (withPlane) {
-    setting.view.plane = mirrorPlane(std::pow(10.0, uniform(-3.0, 1.0)));
+    setting.view.plane = mirrorPlane(std::pow(10.0, numbers.uniform(-3.0, 1.0)));
     setting.clipFromView = *obliqueProjection(projection, *setting.view.plane);
   }
   return setting;

@@ -9,7 +9,6 @@ speculum_test(hard_cases_readout SOURCES ${hard}/depth_readout_pictures.cpp
 speculum_test(hard_cases_scenes SOURCES ${hard}/scene_pictures.cpp ${hard}/seam_pictures.cpp ${hard}/bound_pictures.cpp
               LIBRARIES picture_support LABELS hard_cases pictures)
 speculum_test(hard_cases_inputs SOURCES ${hard}/inputs.cpp LIBRARIES picture_support ext::spdlog LABELS hard_cases)
-add_dependencies(hard_cases_inputs speculum)
 speculum_test(hard_cases_finite SOURCES ${hard}/finite_pictures.cpp
               LIBRARIES picture_support display_support LABELS hard_cases pictures window)
 speculum_test(hard_cases_properties SOURCES ${hard}/properties.cpp ${hard}/transform_support.cpp

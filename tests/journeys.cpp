@@ -163,7 +163,7 @@ TEST_F(Journey, CloseButtonAsksAndSaves) {
   EXPECT_TRUE(loadScene(options_.scene).objects.empty());
 }
 
-TEST_F(Journey, InputBetweenFramesGoesWhereItWasMeant) {
+TEST_F(Journey, InputBetweenFramesGoesWhereMeant) {
   press("ctrl+shift+s");
   run(4);
   // Sends all keys before the next frame.
@@ -188,9 +188,9 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   press("space");
   press("F12");
   press("shift+F12");
-  ASSERT_EQ(pictures().size(), 2u);
-  const Image8 window = readImage8(pictures()[0]);
-  const Image8 bare = readImage8(pictures()[1]);
+  ASSERT_EQ(home_.pictures().size(), 2u);
+  const Image8 window = readImage8(home_.pictures()[0]);
+  const Image8 bare = readImage8(home_.pictures()[1]);
   ASSERT_EQ(window.width, width);
   EXPECT_NE(window.rgba, bare.rgba);
   EXPECT_TRUE(barePicture().rgba == bare.rgba);
@@ -199,7 +199,7 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   press("F10");
   EXPECT_NE(view().status.text.find("Recorded "), std::string::npos);
   // Pictures and recordings of one second share a name, so their order tells nothing.
-  const std::vector<std::filesystem::path> files = pictures();
+  const std::vector<std::filesystem::path> files = home_.pictures();
   const auto recording =
       std::find_if(files.begin(), files.end(), [](const auto& file) { return std::filesystem::is_directory(file); });
   ASSERT_NE(recording, files.end());

@@ -102,7 +102,7 @@ TEST_F(IdleWindow, DrawsNothingUntilSomethingHappens) {
   settle();
 }
 
-TEST_F(IdleWindow, TargetsShowTexelsAndNeedTheMainView) {
+TEST_F(IdleWindow, TargetsShowTexelsAndNeedMainView) {
   click("panel.Targets");
   run(3);
   click("targets.one");

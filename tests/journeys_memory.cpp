@@ -12,25 +12,16 @@ using namespace testing_support;
 constexpr uint64_t fewest = 690'000;
 constexpr uint64_t most = 760'000;
 
-const std::string textured = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[settings]
-"view.samples" = 1
-[[object]]
-model = "MODELS/column.obj"
-)";
+std::string texturedScene() {
+  return replaced(wallScene.substr(0, wallScene.find("[[light]]")), "sphere", "column");
+}
 
 class ScarceMemory : public Journey {
  protected:
   ~ScarceMemory() override { stopRefusingMemory(); }
 
   std::filesystem::path open(const std::string& name) {
-    const std::filesystem::path file = writeScene(name, textured);
+    const std::filesystem::path file = writeScene(name, texturedScene());
     demo_->apply(OpenScene{file});
     EXPECT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == name; }));
     run(6);

@@ -10,10 +10,9 @@
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
-#include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "scene_text.hpp"
+#include "user_folders.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum::testing_support {
@@ -28,11 +27,6 @@ class Journey : public testing::Test {
  protected:
   explicit Journey(const std::string& toml = wallScene, const Options& more = {}) : options_(more) {
     keepDriverLoaded();
-    // Settings and pictures of the user must neither be used nor written.
-    for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_DATA_HOME", "HOME"}) {
-      environment_.emplace_back(name, environment(name));
-      setEnvironment(name, (home_.path() / name).string());
-    }
     runProcess({"xdotool", "mousemove", "640", "450"});  // as in a session that begins
     options_.scene = writeScene("journey", toml).string();
     options_.size = {width, height};
@@ -52,9 +46,6 @@ class Journey : public testing::Test {
     demo_.reset();
     if (otherKeyboard_) {
       runProcess({"setxkbmap", "us"});
-    }
-    for (const auto& [name, value] : environment_) {
-      setEnvironment(name, value);
     }
   }
 
@@ -175,19 +166,8 @@ class Journey : public testing::Test {
     run(3);
     return image;
   }
-  std::vector<std::filesystem::path> pictures() {
-    std::error_code none;
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(picturesDir() / "Speculum", none)) {
-      files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-  }
-
+  UserFolders home_{"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_DATA_HOME", "HOME"};
   test::VirtualDisplay display_;
-  TemporaryDirectory home_;
-  std::vector<std::pair<std::string, std::string>> environment_;
   Options options_;
   std::unique_ptr<Demo> demo_;
   std::string window_;  // its id

@@ -1,8 +1,6 @@
 // reflection.mesh_error: how many triangles simplified objects in mirrors save, and how much the picture changes.
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include "accuracy/image_metrics.hpp"
 #include "reuse_support.hpp"
 #include "scene_text.hpp"
@@ -70,9 +68,7 @@ struct Drawn {
 
 Drawn drawn(Session& session, const std::string& meshError) {
   set(session, {{"reflection.mesh_error", meshError}});
-  session.draw(0.0, true);
-  session.finish();
-  Drawn result{.picture = session.picture()};
+  Drawn result{.picture = draw(session)};
   const nlohmann::ordered_json stats = frameStats(session);
   for (const auto& pass : stats["passes"]) {
     if (pass["triangles"].is_number()) {
@@ -108,28 +104,6 @@ TEST(LevelPictures, SettingTradesTrianglesForError) {
   }
 }
 
-// Objects and camera move, stop and come back. An image with another level must not count as unchanged.
-TEST(LevelPictures, SkippingWhatIsUnchangedChangesNoByte) {
-  const std::filesystem::path file = objectsScene();
-  QuietSession skipping(optionsFor(file, "2", {{"reflection.skip_unchanged", "true"}}));
-  QuietSession rendering(optionsFor(file, "2", {{"reflection.skip_unchanged", "false"}}));
-  const auto drawnAt = [](Session& session, double time, const char* meshError) {
-    set(session, {{"reflection.mesh_error", meshError}});
-    return picture(session, time).rgba;
-  };
-  double before = -1.0;
-  std::map<std::pair<double, std::string>, std::vector<uint8_t>> rendered;
-  for (const double time : {1.0, 1.0, 1.1, 1.3, 1.3, 6.0, 6.0, 1.1}) {
-    const char* meshError = time == 1.3 && before == 1.3 ? "0.5" : "2";
-    std::vector<uint8_t>& expected = rendered[{time, meshError}];
-    if (expected.empty()) {
-      expected = drawnAt(rendering, time, meshError);
-    }
-    ASSERT_EQ(drawnAt(skipping, time, meshError), expected) << "at " << time;
-    before = time;
-  }
-}
-
 TEST(LevelPictures, CachedImagesOfSimplifiedObjectsAreQuiet) {
   QuietSession session(optionsFor(objectsScene(), "2", {{"reflection.update_interval", "3"}}));
   for (int frame = 0; frame < 8; ++frame) {
@@ -138,8 +112,7 @@ TEST(LevelPictures, CachedImagesOfSimplifiedObjectsAreQuiet) {
 }
 
 TEST(LevelPictures, MemoryFollowsTheSetting) {
-  std::string knot = wallScene;
-  knot.replace(knot.find("sphere"), 6, "torus_knot");
+  const std::string knot = replaced(wallScene, "sphere", "torus_knot");
   Options options = optionsFor(writeScene("knot", knot), "0", {{"debug.check_finite", "false"}});
   options.size = {32, 18};
   QuietSession session(options);

@@ -12,6 +12,7 @@
 #include "image/enlarge.hpp"
 #include "picture_support.hpp"
 #include "sampling.hpp"
+#include "scene_text.hpp"
 
 namespace speculum {
 namespace {
@@ -74,15 +75,13 @@ TEST(MirrorPictures, OverlappingMirrorsHaveTheirOwnImages) {
 
 // The room, but the camera looks the other way.
 std::string turnedRoom() {
-  std::string turned = room;
-  return turned.replace(turned.find("target = [0, 1, 0]"), 18, "target = [0, 1, 9]");
+  return replaced(room, "target = [0, 1, 0]", "target = [0, 1, 9]");
 }
 
 // The camera looks into a large mirror that shows the two.
 TEST(MirrorPictures, NestedOverlappingMirrorsHaveTheirOwnImages) {
-  std::string turned = turnedRoom();
   // Limits the depth: below it the large mirror would show the two in each other.
-  turned.replace(turned.find("[settings]"), 10, "[settings]\n\"reflection.max_depth\" = 2");
+  const std::string turned = replaced(turnedRoom(), "[settings]", "[settings]\n\"reflection.max_depth\" = 2");
   const std::string behind = mirror("big", "position = [0, 1, 9]\nrotation = [0, 180, 0]\nsize = [12, 8]");
   expectIndependent("nested_overlap", turned, behind);
 }
@@ -119,8 +118,7 @@ TEST_P(Seams, ShowNoBackground) {
   std::ofstream(scene.parent_path() / "seam_floor.obj") << "v -10 0 -10\nv -10 0 10\nv 10 0 10\nv 10 0 -10\n"
                                                         << "f 1 2 3 4\n";
   QuietSession session(headless(scene, size));
-  session.draw(0.0, true);
-  const LinearImage picture = session.radiance();
+  const LinearImage picture = drawRadiance(session);
   int wrong = 0;
   float mostBlue = 0.0f;
   for (const glm::vec3& pixel : picture.pixels) {
@@ -145,13 +143,9 @@ Image8 drawDebugView(const std::string& samples) {
   set(options, {{"reflection.samples", samples}});
   QuietSession session(options);
   const DrawnFrame first = session.draw(0.0, false);
-  Frame frame = session.renderer().beginFrame().value();
-  frame.capture = true;
-  const DebugView debug{.pass = 0, .area = {0, 0, size.width, size.height}};
-  session.sceneRenderer().record(frame, first.state, session.settings(), first.plan, debug);
-  session.renderer().endFrame(frame);
-  Image8 picture = session.picture();
-  return picture;
+  recordFrame(session, first.state, session.settings(), first.plan,
+              DebugView{.pass = 0, .area = {0, 0, size.width, size.height}});
+  return session.picture();
 }
 
 double shareAlike(const Image8& a, const Image8& b) {
@@ -175,8 +169,7 @@ std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string
   {
     QuietSession session(options);
     for (const double time : {0.0, 0.05}) {
-      session.draw(time, true);
-      pictures.push_back(session.picture().rgba);
+      pictures.push_back(draw(session, time).rgba);
     }
   }
   ::mallopt(M_PERTURB, 0);
@@ -296,7 +289,7 @@ TEST(MirrorPictures, DriverKeepsNoMemoryOfFrames) {
   }
 }
 
-TEST(MirrorPictures, TurningAwayReleasesTheMirrorsMemory) {
+TEST(MirrorPictures, UnseenMirrorsTakeNoMemory) {
   QuietSession with(headless(writeScene("away", turnedRoom() + left + right), size));
   QuietSession without(headless(writeScene("no_mirrors", turnedRoom()), size));
   for (Session* session : {&with, &without}) {
@@ -322,10 +315,8 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
     settings.view.scale = scale;
     settings.reflection.minPixels = 0.0;  // pixels of the picture, which differ
     whole.setSettings(settings);
-    whole.draw(0.0, true);
-    whole.finish();
+    const Image8 picture = draw(whole);
     EXPECT_EQ(whole.lastFrame().plan.main.areaPx, drawn.width * drawn.height);
-    const Image8 picture = whole.picture();
     const LinearImage radiance = whole.radiance();
     ASSERT_EQ(radiance.width, size.width);
     EXPECT_LE(difference(picture, toDisplay(radiance), 1).over, 0) << scale;
@@ -334,8 +325,7 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
       small.size = drawn;
       small.settings = {{"view.samples", "4"}, {"reflection.samples", "4"}, {"reflection.min_pixels", "0"}};
       Session half(small);
-      half.draw(0.0, true);
-      EXPECT_TRUE(enlarged(half.radiance(), size.width, size.height).pixels == radiance.pixels);
+      EXPECT_TRUE(enlarged(drawRadiance(half), size.width, size.height).pixels == radiance.pixels);
     }
   }
 }

@@ -8,10 +8,8 @@
 #include <sstream>
 
 #include "frame/frame_plan.hpp"
-#include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
-#include "reference/ray_tracer.hpp"
 #include "sampling.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_fields.hpp"
@@ -116,12 +114,6 @@ class NumberRanges : public testing::Test {
     return studio_.fresh();
   }
 
-  static Image8 trace(const Scene& scene, double time) {
-    const TraceResult traced = *RayTracer(scene, evaluate(scene, time))
-                                    .render({.width = size.width, .height = size.height, .samples = 1, .maxDepth = 2});
-    return toDisplay(traced.image);
-  }
-
   std::filesystem::path file_ = writeScene("numbers", everyNumber);
   Gpu gpu_{headless(file_, size)};
   Studio studio_{gpu_, headless(file_, size)};
@@ -158,7 +150,7 @@ TEST_F(NumberRanges, NumbersAreRefusedByKeyOrDrawn) {
       ++drawn;
       const double time = 1.5;
       const Image8 picture = draw(*scene, time);
-      const PictureAgreement agreement = difference(picture, trace(*scene, time), 3);
+      const PictureAgreement agreement = difference(picture, trace(file, size, 2, time).picture, 3);
       EXPECT_GE(agreement.within(), 0.97) << what << ": " << agreement.over << " pixels, up to " << agreement.largest;
     }
     node.is_integer() ? void(node.as_integer()->get() = static_cast<int64_t>(value))

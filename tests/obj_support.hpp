@@ -21,7 +21,7 @@ class ObjTest : public testing::Test {
   }
   template <typename... Texts>
   std::string faultOf(const Texts&... texts) {
-    return withoutFolder(inputErrorOf([&] { load(texts...); }));
+    return withoutFolder(messageOf<InputError>([&] { load(texts...); }));
   }
   std::string warnings() const { return withoutFolder(log_.text()); }
 

@@ -23,20 +23,9 @@ double anyScale(std::mt19937& engine, double low, double high) {
   return std::exp(uniform(engine, std::log(low), std::log(high)));
 }
 
-class Builder {
- public:
-  explicit Builder(std::string name) { shape_.name = std::move(name); }
+struct Builder : OccluderShape {
+  explicit Builder(std::string of) { name = std::move(of); }
 
-  void triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    for (const glm::dvec3& p : {a, b, c}) {
-      shape_.indices.push_back(static_cast<uint32_t>(shape_.positions.size()));
-      shape_.positions.push_back(p);
-    }
-  }
-  void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
-    triangle(a, b, c);
-    triangle(a, c, d);
-  }
   // Between two polylines, pairwise.
   void strip(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b, bool closed) {
     for (size_t i = 0; i + (closed ? 0 : 1) < a.size(); ++i) {
@@ -49,10 +38,6 @@ class Builder {
       triangle(ring[i], ring[(i + 1) % ring.size()], tip);
     }
   }
-  OccluderShape shape() { return std::move(shape_); }
-
- private:
-  OccluderShape shape_;
 };
 
 // A closed outline around the origin, radius about 1.
@@ -92,16 +77,6 @@ std::string OccluderShape::obj() const {
   return text.str();
 }
 
-OccluderShape box() {
-  Builder box("box");
-  for (const double side : {-1.0, 1.0}) {
-    box.quad({side, -1, -1}, {side, 1, -1}, {side, 1, 1}, {side, -1, 1});
-    box.quad({-1, side, -1}, {1, side, -1}, {1, side, 1}, {-1, side, 1});
-    box.quad({-1, -1, side}, {1, -1, side}, {1, 1, side}, {-1, 1, side});
-  }
-  return box.shape();
-}
-
 OccluderShape wallWithArch(std::mt19937& engine) {
   Builder wall("arch");
   const int cuts = uniformInt(engine, 2, 900);
@@ -124,7 +99,7 @@ OccluderShape wallWithArch(std::mt19937& engine) {
       break;
     }
   }
-  return wall.shape();
+  return wall;
 }
 
 OccluderShape stairs(std::mt19937& engine) {
@@ -142,7 +117,7 @@ OccluderShape stairs(std::mt19937& engine) {
   }
   stairs.quad({-1, -1, -z}, {1, -1, -z}, {1, -1, z}, {-1, -1, z});
   stairs.quad({1, -1, -z}, {1, 1, -z}, {1, 1, z}, {1, -1, z});
-  return stairs.shape();
+  return stairs;
 }
 
 OccluderShape bentSheet(std::mt19937& engine) {
@@ -160,7 +135,7 @@ OccluderShape bentSheet(std::mt19937& engine) {
     sides[1].push_back(p + up);
   }
   sheet.strip(sides[0], sides[1], false);
-  return sheet.shape();
+  return sheet;
 }
 
 OccluderShape star(std::mt19937& engine) {
@@ -169,7 +144,7 @@ OccluderShape star(std::mt19937& engine) {
   const double thickness = anyScale(engine, 1e-6, 1.0);
   star.fan({0, 0, thickness}, ring);
   star.fan({0, 0, -thickness * uniform(engine, 0.01, 1.0)}, ring);
-  return star.shape();
+  return star;
 }
 
 OccluderShape tapered(std::mt19937& engine) {
@@ -184,7 +159,7 @@ OccluderShape tapered(std::mt19937& engine) {
   tapered.strip(wide, narrow, true);
   tapered.fan({0, 0, 0}, wide);
   tapered.fan({0, 0, length}, narrow);
-  return tapered.shape();
+  return tapered;
 }
 
 OccluderShape boards(std::mt19937& engine) {
@@ -193,7 +168,7 @@ OccluderShape boards(std::mt19937& engine) {
     boards.quad({-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z});
     boards.quad({-1, 1, z}, {-1, -1, z}, {1, -1, z}, {1, 1, z});
   }
-  return boards.shape();
+  return boards;
 }
 
 OccluderShape ball(std::mt19937& engine) {
@@ -218,7 +193,7 @@ OccluderShape ball(std::mt19937& engine) {
       }
     }
   }
-  return ball.shape();
+  return ball;
 }
 
 OccluderShape randomShape(std::mt19937& engine) {

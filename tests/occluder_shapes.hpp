@@ -1,23 +1,18 @@
 #pragma once
 
-#include <cstdint>
-#include <glm/glm.hpp>
 #include <random>
 #include <string>
-#include <vector>
+
+#include "triangles.hpp"
 
 namespace speculum::testing_support {
 
 // Triangles of about 2 m in size around the origin.
-struct OccluderShape {
+struct OccluderShape : Triangles {
   std::string name;
-  std::vector<glm::dvec3> positions;
-  std::vector<uint32_t> indices;
 
   std::string obj() const;
 };
-
-OccluderShape box();
 
 // Another shape of the same kind for each state of the engine.
 OccluderShape wallWithArch(std::mt19937& engine);  // one opening, cut coarsely or finely

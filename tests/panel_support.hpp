@@ -7,10 +7,9 @@
 
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
-#include "platform/files.hpp"
-#include "platform/process.hpp"
 #include "scene/scene_loader.hpp"
 #include "ui/panel_windows.hpp"
+#include "user_folders.hpp"
 
 namespace speculum::testing_support {
 
@@ -18,17 +17,13 @@ namespace speculum::testing_support {
 // collected.
 class PanelTest : public testing::Test {
  protected:
-  PanelTest() : configHome_(environment("XDG_CONFIG_HOME")) {
-    setEnvironment("XDG_CONFIG_HOME", config_.path().string());
+  PanelTest() {
     scene_ = loadScene(sourceFile("scenes/facing_mirrors.toml"));
     browser_.scenes = {{"one", "One", "/scenes/one.toml"}, {"two", "", "/scenes/two.obj"}};
     edit_.scene = &scene_;
     start();
   }
-  ~PanelTest() override {
-    stop();
-    setEnvironment("XDG_CONFIG_HOME", configHome_);
-  }
+  ~PanelTest() override { stop(); }
 
   // A session of the program, with the layout that the last one left.
   void start() {
@@ -59,6 +54,15 @@ class PanelTest : public testing::Test {
       ImGui::DestroyContext();
       windows_.reset();
     }
+  }
+
+  void restart() {
+    stop();
+    start();
+  }
+  void resize(float width, float height) {
+    ImGui::GetIO().DisplaySize = {width, height};
+    run(5);
   }
 
   const UiOutput& run(int frames = 1) {
@@ -112,13 +116,21 @@ class PanelTest : public testing::Test {
     ImGui::GetIO().MouseDown[0] = down;
     run(2);
   }
+  void press() {
+    hold(true);
+    hold(false);
+  }
   // The commands that a click on the widget makes.
   std::vector<Command> click(const std::string& name, double part = 0.5) {
     hover(name, part);
     commands_.clear();
-    hold(true);
-    hold(false);
+    press();
     return commands_;
+  }
+  // Opens or closes a window.
+  void toggle(const std::string& window) {
+    click("panel." + window, 0.1);
+    run(3);
   }
   // Presses at a part of the widget's width, moves, releases.
   std::vector<Command> drag(const std::string& name, double part, double dx, double dy = 0.0) {
@@ -191,8 +203,7 @@ class PanelTest : public testing::Test {
     return std::ranges::any_of(commands_, [](const Command& command) { return std::holds_alternative<Kind>(command); });
   }
 
-  TemporaryDirectory config_;
-  std::string configHome_;
+  UserFolders config_{"XDG_CONFIG_HOME"};
   std::string iniFile_;
   Scene scene_;
   FrameView frame_;

@@ -6,7 +6,7 @@ speculum_test(render_path_tests SOURCES render_paths.cpp LIBRARIES picture_suppo
 speculum_test(finite_watch_tests SOURCES finite_watch.cpp LIBRARIES picture_support ext::spdlog LABELS pictures)
 speculum_test(mirror_tests SOURCES mirror_image.cpp mirror_pictures.cpp target_views.cpp
               LIBRARIES picture_support LABELS pictures)
-speculum_test(skipping_tests SOURCES skipping_pictures.cpp occluder_shapes.cpp LIBRARIES picture_support LABELS pictures)
+speculum_test(skipping_tests SOURCES skipping_pictures.cpp LIBRARIES picture_support LABELS pictures)
 speculum_test(command_line_tests SOURCES command_line.cpp completion.cpp LIBRARIES picture_support LABELS command_line)
 add_dependencies(command_line_tests speculum)
 speculum_test(truth_tests SOURCES truth_tests.cpp LIBRARIES picture_support LABELS pictures)

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-#include <string>
-
+#include "error_message.hpp"
 #include "platform/process.hpp"
 
 namespace speculum::test {
@@ -19,12 +17,8 @@ TEST(Folders, CacheDirectoryFollowsXdg) {
 }
 
 TEST(Folders, MissingDataDirectoryListsWhereItLooked) {
-  try {
-    dataDirectory("no-such-data");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("share/speculum/no-such-data"), std::string::npos) << error.what();
-  }
+  const std::string error = messageOf([] { dataDirectory("no-such-data"); });
+  EXPECT_NE(error.find("share/speculum/no-such-data"), std::string::npos) << error;
   EXPECT_TRUE(std::filesystem::exists(dataDirectory("shaders")));
 }
 

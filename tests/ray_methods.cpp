@@ -1,13 +1,12 @@
 // Rays by ray queries and by shaders: the choice between them, its reason, their needs, and equal pictures of both.
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <sstream>
 
 #include "app/stats.hpp"
 #include "effect_scenes.hpp"
+#include "log_capture.hpp"
 #include "picture_support.hpp"
 #include "scarce_memory.hpp"
 
@@ -52,34 +51,22 @@ int64_t structuresAlive() {
   return found == alive.end() ? 0 : found->second;
 }
 
-// Collects what is logged.
-class Log {
- public:
-  Log() {
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_st>(text_)));
+// Says how often the log has the text.
+int count(const LogCapture& log, const std::string& part) {
+  const std::string text = log.text();
+  int found = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
   }
-  ~Log() { spdlog::set_default_logger(before_); }
-  int count(const std::string& part) const {
-    const std::string text = text_.str();
-    int found = 0;
-    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-      ++found;
-    }
-    return found;
-  }
-
- private:
-  std::ostringstream text_;
-  std::shared_ptr<spdlog::logger> before_ = spdlog::default_logger();
-};
+  return found;
+}
 
 class RayMethods : public testing::TestWithParam<const char*> {};
 
 TEST_P(RayMethods, FollowSettingAndDevice) {
   const std::string rays = GetParam();
   const std::filesystem::path file = writeScene("methods", room + shadowLight);
-  const Log log;
+  const LogCapture log;
   QuietSession session(with(file, rays, small));
   runFrames(session, 3);
   const bool cpu = session.device().info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
@@ -90,7 +77,7 @@ TEST_P(RayMethods, FollowSettingAndDevice) {
   EXPECT_EQ(stats["bytes"] > 0, hardware) << stats;
   EXPECT_EQ(stats["structures"], structuresAlive());
   EXPECT_NE(stats["why"], "");
-  EXPECT_EQ(log.count("effects.rays = hardware: shaders trace the rays"), rays == "hardware" && !hardware ? 1 : 0);
+  EXPECT_EQ(count(log, "effects.rays = hardware: shaders trace the rays"), rays == "hardware" && !hardware ? 1 : 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Values, RayMethods, testing::Values("auto", "hardware", "software"),
@@ -133,24 +120,20 @@ TEST(RayStructures, MissingMemoryLeavesShaders) {
   if (!hasRayQueries()) {
     GTEST_SKIP() << withoutRayQueries;
   }
-  const Log log;
+  const LogCapture log;
   QuietSession session(with(writeScene("scarce", room + shadowLight), "software", small));
-  for (uint32_t i = 0; i < framesInFlight; ++i) {
-    session.draw(0.0, true);
-    session.finish();
-  }
-  const Image8 software = session.picture();
+  runFrames(session);
+  const Image8 software = draw(session);
   set(session, {{"effects.rays", "hardware"}});
   const int before = refusedAllocations();
   {
     const NoMemory none;
-    session.draw(0.0, true);
-    session.finish();
+    draw(session);
   }
   EXPECT_GT(refusedAllocations(), before);
   EXPECT_EQ(frameStats(session)["rays"]["method"], "software");
   EXPECT_EQ(session.picture().rgba, software.rgba);
-  EXPECT_EQ(log.count("there is no memory for acceleration structures"), 1);
+  EXPECT_EQ(count(log, "there is no memory for acceleration structures"), 1);
   EXPECT_EQ(structuresAlive(), 0);
 }
 
@@ -219,9 +202,7 @@ TEST(BothMethods, AgreeWhileThingsMove) {
     hardware.draw(time, compared);
     hardware.finish();
     if (compared) {
-      software.draw(time, true);
-      software.finish();
-      expectAlike(hardware.picture(), software.picture(), 2, "rays_moving_" + std::to_string(i));
+      expectAlike(hardware.picture(), draw(software, time), 2, "rays_moving_" + std::to_string(i));
     }
   }
 }

@@ -5,7 +5,7 @@
 
 #include "scene/scene_state.hpp"
 
-// Scenes and meshes assembled in memory for the tests of the reference tracer.
+// Scenes and meshes assembled in memory.
 namespace speculum::testing {
 
 // Vertices of a polygon with one flat normal; appended to the mesh's last part.

@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include "error_message.hpp"
 #include "image/picture_files.hpp"
 #include "platform/process.hpp"
 #include "regress/driver.hpp"
@@ -26,12 +27,7 @@ class CaseFile : public testing::Test {
   }
   // Returns the error message about the file, without the file's folder.
   std::string mistake(const std::string& text) {
-    try {
-      read(text);
-      return "none";
-    } catch (const InputError& error) {
-      return std::string(error.what()).substr(folder_.path().string().size() + 1);
-    }
+    return messageOf<InputError>([&] { read(text); }).substr(folder_.path().string().size() + 1);
   }
   TemporaryFolder folder_;
 };

@@ -4,6 +4,7 @@
 #include "command_support.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
+#include "scene_text.hpp"
 #include "temporary_folder.hpp"
 
 namespace speculum {
@@ -11,24 +12,10 @@ namespace {
 
 using namespace testing_support;
 
-constexpr const char* room = R"([environment]
-background = [0.2, 0.3, 0.4]
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0.5, 1, 0]
-[[light]]
-position = [0, 3, 3]
-intensity = 10
+const std::string side = R"(
 [[light]]
 position = [-2, 1, 2]
 intensity = 3
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [5, 3]
 [[mirror]]
 name = "side"
 position = [2.5, 1, 0]
@@ -50,14 +37,8 @@ class RegressCommand : public testing::Test {
                       text);
   }
   void writeRoom(const std::string& name, const std::string& from = "", const std::string& to = "") {
-    std::string text = room;
-    for (const auto& [what, by] :
-         {std::pair<std::string, std::string>{"MODELS", sourceFile("models").string()}, {from, to}}) {
-      const size_t at = text.find(what);
-      ASSERT_NE(at, std::string::npos) << what;
-      text.replace(at, what.size(), by);
-    }
-    folder_.write(name, text);
+    const std::string text = replaced(wallScene + side, "MODELS", sourceFile("models").string());
+    folder_.write(name, replaced(text, from, to));
   }
   // Says what became of a case, as the command prints it.
   static std::string lineOf(const std::string& name, const std::string& output) {

@@ -45,20 +45,13 @@ size = [3, 2]
   return writeScene("room", turning ? camera + "orbit_speed = 5\n" + room + side : camera + room);
 }
 
-inline Image8 picture(Session& session, double time) {
-  session.draw(time, true);
-  session.finish();
-  return session.picture();
-}
-
 inline int mirrorPasses(const SceneRenderer& renderer) {
   return static_cast<int>(std::ranges::count_if(renderer.passes(), [](const auto& pass) { return pass.depth >= 0; }));
 }
 
 // Draws a frame and returns the names of its passes with that beginning. Expects that they belong to no mirror.
 inline std::vector<std::string> drawnMaps(const std::string& beginning, Session& session, double time = 0.0) {
-  session.draw(time, true);
-  session.finish();
+  draw(session, time);
   std::vector<std::string> names;
   const nlohmann::ordered_json stats = frameStats(session);
   for (const auto& pass : stats["passes"]) {
@@ -83,7 +76,7 @@ inline void expectSameOnBothPaths(Options options, const std::vector<double>& ti
   Session passes(options);
   ASSERT_NE(dynamic.device().renderPath(), passes.device().renderPath());
   for (const double time : times) {
-    EXPECT_EQ(picture(dynamic, time).rgba, picture(passes, time).rgba) << "at " << time;
+    EXPECT_EQ(draw(dynamic, time).rgba, draw(passes, time).rgba) << "at " << time;
   }
   expectQuiet(dynamic);
   expectQuiet(passes);

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include "geometry/polygon.hpp"
+#include "random.hpp"
 #include "scene/beside_mirrors.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
 namespace {
+
+using testing_support::Random;
 
 void expectNear(const glm::dvec3& value, const glm::dvec3& expected, double tolerance) {
   EXPECT_NEAR(value.x, expected.x, tolerance);
@@ -84,13 +86,13 @@ TEST(Evaluate, InstancesAreSorted) {
 }
 
 TEST(Evaluate, BoundingSphereHoldsEveryVertex) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> number(-3.0, 3.0);
+  Random random(7);
   for (int i = 0; i < 200; ++i) {
-    const auto vector = [&] { return glm::dvec3(number(random), number(random), number(random)); };
-    const Scene scene =
-        sceneWithObject({.position = vector(), .rotation = 100.0 * vector(), .scale = vector(), .spin = vector()});
-    const InstanceState instance = evaluate(scene, number(random)).instances[0];
+    const Scene scene = sceneWithObject({.position = random.inBox(3.0),
+                                         .rotation = random.inBox(300.0),
+                                         .scale = random.inBox(3.0),
+                                         .spin = random.inBox(3.0)});
+    const InstanceState instance = evaluate(scene, random.uniform(-3.0, 3.0)).instances[0];
     for (const Vertex& vertex : scene.meshes[0].vertices) {
       EXPECT_LE(glm::distance(instance.worldFromMesh.point(vertex.position), instance.center), instance.radius);
     }
@@ -191,15 +193,14 @@ TEST(LookAt, RefusesMissingDirections) {
 
 // Three planes through a light. Between the most acute ones the point is nearer, so that it stays beside the light.
 TEST(BesideMirrors, IsAsFarFromEachPlane) {
-  std::mt19937 random(5);
-  std::normal_distribution<double> normal;
+  Random random(5);
   int compared = 0;
   for (int i = 0; i < 2000; ++i) {
-    const glm::dvec3 light(normal(random), normal(random), normal(random));
+    const glm::dvec3 light = random.inBox(2.0);
     std::vector<MirrorState> mirrors(3);
     for (int k = 0; k < 3; ++k) {
-      mirrors[k].normal = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-      mirrors[k].origin = light + glm::cross(mirrors[k].normal, glm::dvec3(normal(random), 1.0, 0.5));
+      mirrors[k].normal = random.direction();
+      mirrors[k].origin = light + glm::cross(mirrors[k].normal, glm::dvec3(random.uniform(-2.0, 2.0), 1.0, 0.5));
       mirrors[k].slack = 1e-9 * (k + 1);
       mirrors[k].plane = k;
     }

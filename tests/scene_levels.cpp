@@ -3,18 +3,19 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <set>
 #include <thread>
 
 #include "geometry/mesh_levels.hpp"
 #include "geometry/surface_distance.hpp"
+#include "random.hpp"
 #include "scene/obj_loader.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {
 namespace {
 
+using testing_support::Random;
 using Corners = std::array<glm::dvec3, 3>;
 
 Mesh model(const std::string& name) {
@@ -22,15 +23,9 @@ Mesh model(const std::string& name) {
   return loadObj(sourceDir() / "models" / (name + ".obj"), textures);
 }
 
-glm::dvec3 randomPoint(std::mt19937& random, double reach) {
-  std::uniform_real_distribution<double> uniform(-reach, reach);
-  return {uniform(random), uniform(random), uniform(random)};
-}
-
-glm::dvec3 randomPoint(std::mt19937& random, const Corners& triangle) {
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  const double a = std::sqrt(uniform(random));
-  const double b = uniform(random);
+glm::dvec3 randomPoint(Random& random, const Corners& triangle) {
+  const double a = std::sqrt(random.uniform(0.0, 1.0));
+  const double b = random.uniform(0.0, 1.0);
   return (1.0 - a) * triangle[0] + a * ((1.0 - b) * triangle[1] + b * triangle[2]);
 }
 
@@ -58,18 +53,18 @@ TEST(SurfaceDistance, ToOneTriangle) {
 }
 
 TEST(SurfaceDistance, IsTheLeastOverAllTriangles) {
-  std::mt19937 random(7);
+  Random random(7);
   for (const int count : {1, 4, 5, 63, 500}) {
     std::vector<glm::dvec3> corners;
     for (int i = 0; i < count; ++i) {
-      const glm::dvec3 center = randomPoint(random, 1.0);
+      const glm::dvec3 center = random.inBox(1.0);
       for (int k = 0; k < 3; ++k) {
-        corners.push_back(center + randomPoint(random, 0.2));
+        corners.push_back(center + random.inBox(0.2));
       }
     }
     const SurfaceDistance all(corners);
     for (int i = 0; i < 100; ++i) {
-      const glm::dvec3 point = randomPoint(random, 2.0);
+      const glm::dvec3 point = random.inBox(2.0);
       double least = std::numeric_limits<double>::infinity();
       for (size_t t = 0; t < corners.size(); t += 3) {
         least = std::min(least, SurfaceDistance({corners[t], corners[t + 1], corners[t + 2]}).to(point));
@@ -127,7 +122,7 @@ TEST_P(Levels, ErrorBoundsTheDistance) {
   constexpr double between = 1.25;
   const Mesh mesh = model(GetParam());
   const MeshLevels levels = simplified(mesh);
-  std::mt19937 random(3);
+  Random random(3);
   double worst = 0.0;
   for (const MeshLevel& level : levels.levels) {
     for (size_t p = 0; p < mesh.parts.size(); ++p) {
@@ -135,7 +130,7 @@ TEST_P(Levels, ErrorBoundsTheDistance) {
       const auto fewer = cornersOf(levels.vertices, levels.indices, level.parts[p].first, level.parts[p].count);
       for (const auto& [from, to] : {std::pair(exact, SurfaceDistance(fewer)), {fewer, SurfaceDistance(exact)}}) {
         for (int i = 0; i < 3000; ++i) {
-          const size_t t = 3 * (random() % (from.size() / 3));
+          const size_t t = 3 * random.index(from.size() / 3);
           worst = std::max(worst, to.to(randomPoint(random, {from[t], from[t + 1], from[t + 2]})) / level.error);
         }
       }

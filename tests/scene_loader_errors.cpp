@@ -8,11 +8,8 @@ namespace speculum {
 namespace {
 
 void expectFault(const std::string& text, const std::string& place, const std::string& part) {
-  const TemporaryFolder folder;
-  folder.write("triangle.obj", kTriangleObj);
-  const std::filesystem::path file = folder.write("scene.toml", text);
-  const std::string message = inputErrorOf([&] { loadScene(file); });
-  EXPECT_EQ(message.rfind(file.string() + ":" + place + " ", 0), 0u) << message << "\nexpected at " << place;
+  const std::string message = sceneFaultOf(text);
+  EXPECT_TRUE(message.starts_with(place + " ")) << message << "\nexpected at " << place;
   EXPECT_NE(message.find(part), std::string::npos) << message << "\nexpected to hold " << part;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   EXPECT_EQ(message.back(), ')') << message;
@@ -206,10 +203,10 @@ TEST(SceneFaults, FirstUnknownKeyIsNamed) {
 
 TEST(SceneFaults, MissingFilesAndFolders) {
   const TemporaryFolder folder;
-  const std::string missing = inputErrorOf([&] { loadScene(folder / "none.toml"); });
+  const std::string missing = messageOf<InputError>([&] { loadScene(folder / "none.toml"); });
   EXPECT_EQ(missing, (folder / "none.toml").string() +
                          ":1: file: cannot be read: No such file or directory (a scene file is needed)");
-  const std::string directory = inputErrorOf([&] { loadScene(folder / ""); });
+  const std::string directory = messageOf<InputError>([&] { loadScene(folder / ""); });
   EXPECT_NE(directory.find(":1: file: is a folder (a scene file is needed)"), std::string::npos) << directory;
 }
 
@@ -223,7 +220,7 @@ TEST(SceneFaults, ModelErrorsNameTheModelFile) {
   const TemporaryFolder folder;
   folder.write("models/bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
   const auto scene = folder.write("scenes/a.toml", kCamera + "[[object]]\nmodel = '../models/bad.obj'\n");
-  const std::string message = inputErrorOf([&] { loadScene(scene); });
+  const std::string message = messageOf<InputError>([&] { loadScene(scene); });
   EXPECT_EQ(message.rfind((folder / "models/bad.obj").string() + ":4: f: ", 0), 0u) << message;
 }
 

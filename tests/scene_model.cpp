@@ -78,9 +78,9 @@ TEST(ModelScene, LoadingAModelGivesIt) {
 TEST(ModelScene, RefusesImpossibleModels) {
   const TemporaryFolder folder;
   const fs::path tiny = folder.write("tiny.obj", box(1e-12));
-  const std::string message = inputErrorOf([&] { loadScene(tiny); });
+  const std::string message = messageOf<InputError>([&] { loadScene(tiny); });
   EXPECT_EQ(message.rfind(tiny.string() + ":1: v: the model's bounding sphere", 0), 0u) << message;
-  const std::string missing = inputErrorOf([&] { loadScene(folder / "none.obj"); });
+  const std::string missing = messageOf<InputError>([&] { loadScene(folder / "none.obj"); });
   EXPECT_NE(missing.find("none.obj:1: file: cannot be read"), std::string::npos) << missing;
 }
 
@@ -135,7 +135,7 @@ TEST(AddModel, LoadsAFileOnce) {
   EXPECT_EQ(scene.meshes.size(), 2u);
   const fs::path huge = folder.write("huge.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nf 1 2 3\n");
   for (const fs::path& file : {huge, folder.write("empty.obj", "v 0 0 0\n"), own.parent_path() / "nowhere.obj"}) {
-    const std::string error = inputErrorOf([&] { addModel(scene, file); });
+    const std::string error = messageOf<InputError>([&] { addModel(scene, file); });
     EXPECT_EQ(error.find(file.string() + ":"), 0u) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     EXPECT_EQ(scene.meshes.size(), 2u);

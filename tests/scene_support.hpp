@@ -1,48 +1,14 @@
 #pragma once
 
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
-
-#include <memory>
-#include <sstream>
 #include <string>
 
+#include "error_message.hpp"
+#include "log_capture.hpp"
 #include "scene/obj_loader.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
 
 namespace speculum {
-
-// Collects the log, one message a line, instead of the default logger while it lives.
-class LogCapture {
- public:
-  LogCapture() : previous_(spdlog::default_logger()) {
-    auto logger =
-        std::make_shared<spdlog::logger>("capture", std::make_shared<spdlog::sinks::ostream_sink_mt>(stream_));
-    logger->set_pattern("%l: %v");
-    spdlog::set_default_logger(logger);
-  }
-  ~LogCapture() { spdlog::set_default_logger(previous_); }
-  LogCapture(const LogCapture&) = delete;
-  LogCapture& operator=(const LogCapture&) = delete;
-
-  std::string text() const { return stream_.str(); }
-
- private:
-  std::ostringstream stream_;
-  std::shared_ptr<spdlog::logger> previous_;
-};
-
-// The message of the InputError that `action` throws.
-template <typename Action>
-std::string inputErrorOf(Action action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError was thrown";
-}
 
 // A broken input and what its error says.
 struct Fault {
@@ -60,6 +26,16 @@ inline void PrintTo(const Fault& fault, std::ostream* stream) {
 inline const std::string kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
 
 inline constexpr const char* kTriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+// Returns the error message about `text` as a scene file beside "triangle.obj", without the file's name.
+inline std::string sceneFaultOf(const std::string& text) {
+  const TemporaryFolder folder;
+  folder.write("triangle.obj", kTriangleObj);
+  const std::filesystem::path file = folder.write("scene.toml", text);
+  const std::string message = messageOf<InputError>([&] { loadScene(file); });
+  const std::string prefix = file.string() + ":";
+  return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+}
 
 inline std::string repeated(const std::string& part, size_t count) {
   std::string text;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "picture_support.hpp"
+#include "scene_text.hpp"
 
 namespace speculum {
 namespace {
@@ -9,25 +10,10 @@ namespace {
 using namespace testing_support;
 
 constexpr PictureSize size{160, 120};
-// The eye 4 m in front of the sphere's middle and 6 m in front of the mirror, in which the sphere is 8 m away.
-const std::string hall = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0, 1, 0]
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [5, 3]
-)";
 
+// The eye 4 m in front of the sphere's middle and 6 m in front of the mirror, in which the sphere is 8 m away.
 Options hallOptions(const std::string& samples = "1") {
-  Options options = headless(writeScene("hall", hall), size);
+  Options options = headless(writeScene("hall", replaced(wallScene, "0.9, 1, 0", "0, 1, 0")), size);
   set(options, {{"view.samples", samples},
                 {"reflection.samples", samples},
                 {"debug.check_finite", "false"},
@@ -37,10 +23,7 @@ Options hallOptions(const std::string& samples = "1") {
 
 const DrawnFrame& drawWith(Session& session, const std::optional<DebugView>& debug) {
   const DrawnFrame& drawn = session.draw(0.0, false);
-  Frame frame = session.renderer().beginFrame().value();
-  frame.capture = true;
-  session.sceneRenderer().record(frame, drawn.state, drawn.settings, drawn.plan, debug);
-  session.renderer().endFrame(frame);
+  recordFrame(session, drawn.state, drawn.settings, drawn.plan, debug);
   return drawn;
 }
 

@@ -11,6 +11,12 @@ struct Triangles {
   std::vector<glm::dvec3> positions;
   std::vector<uint32_t> indices;
 
+  void triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    for (const glm::dvec3& p : {a, b, c}) {
+      indices.push_back(static_cast<uint32_t>(positions.size()));
+      positions.push_back(p);
+    }
+  }
   void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     const auto first = static_cast<uint32_t>(positions.size());
     positions.insert(positions.end(), {a, b, c, d});
@@ -18,7 +24,6 @@ struct Triangles {
       indices.push_back(first + i);
     }
   }
-
   void box(const glm::dvec3& low, const glm::dvec3& high) {
     const auto p = [&](int i) {
       return glm::dvec3(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);

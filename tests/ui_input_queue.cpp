@@ -87,7 +87,7 @@ TEST(InputQueue, ClicksKeepTheirPointerPosition) {
   EXPECT_EQ(queue.take().size(), 1u);
 }
 
-TEST(InputQueue, DragWithinAFrameMovesBeforeItEnds) {
+TEST(InputQueue, DragMovesBeforeReleaseWithinAFrame) {
   InputQueue queue;
   queue.push(pointer(1.0));
   queue.push(button(true));

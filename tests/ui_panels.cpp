@@ -31,31 +31,33 @@ TEST_F(PanelTest, SettingsAreEditedAndReset) {
   EXPECT_TRUE(commands_.empty()) << "nothing is sent unless something was done";
 }
 
-TEST_F(PanelTest, ResetArrowIsReachedByKeyboard) {
+class ResetArrow : public PanelTest {
+ protected:
+  // A drag left the keyboard's focus on the slider; the arrow is to its right.
+  void expectArrowResetsExposure() {
+    EXPECT_NE(settings_.view.exposure, 1.0);
+    tap(ImGuiKey_RightArrow);
+    tap(ImGuiKey_RightArrow);
+    tap(ImGuiKey_Space);
+    EXPECT_EQ(settings_.view.exposure, 1.0);
+  }
+};
+
+TEST_F(ResetArrow, IsReachedByKeyboard) {
   drag("view.exposure", 0.2, 60);
-  ASSERT_NE(settings_.view.exposure, 1.0);
-  // The drag left the keyboard's focus on the slider; the arrow is to its right.
-  tap(ImGuiKey_RightArrow);
-  tap(ImGuiKey_RightArrow);
-  tap(ImGuiKey_Space);
-  EXPECT_EQ(settings_.view.exposure, 1.0);
+  expectArrowResetsExposure();
 }
 
-TEST_F(PanelTest, ResetArrowOfACutRowIsReached) {
+TEST_F(ResetArrow, OfACutRowIsReached) {
   const PixelRect row = widget("view.exposure");
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
-  ImGui::GetIO().DisplaySize.y = row.y + 3 + margin + panels::statusHeight();  // 3 pixels of it are in sight
-  run(3);
+  resize(900, row.y + 3 + margin + panels::statusHeight());  // 3 pixels of it are in sight
   hover("view.exposure", 0.2);
   moveTo(ImGui::GetIO().MousePos.x, row.y + 1);
   hold(true);
   moveTo(ImGui::GetIO().MousePos.x + 60, row.y + 1);
   hold(false);
-  ASSERT_NE(settings_.view.exposure, 1.0);
-  tap(ImGuiKey_RightArrow);
-  tap(ImGuiKey_RightArrow);
-  tap(ImGuiKey_Space);
-  EXPECT_EQ(settings_.view.exposure, 1.0);
+  expectArrowResetsExposure();
 }
 
 // Says whether a widget's rectangle lies between two columns of the display.
@@ -63,13 +65,12 @@ bool within(const PixelRect& rect, int left, int right) {
   return rect.x >= left && rect.x + rect.width <= right;
 }
 
-TEST_F(PanelTest, PanelsOfBothEdgesLieSideBySide) {
+TEST_F(PanelTest, PanelsOfBothEdgesDoNotOverlap) {
   scene_.mirrors[0].ripple = Ripple{.amplitude = 0.1};
   edit_.selected = {Selection::Kind::mirror, 0};
   windows_->toggleInspector();
   for (const float width : {900.0f, 560.0f, 500.0f}) {
-    ImGui::GetIO().DisplaySize.x = width;
-    run(4);
+    resize(width, 700);
     const float middle = windows_->freeRect().corner.x;
     EXPECT_GE(windows_->freeRect().size.x, 9.0f) << width;
     for (const char* name : {"screenshot", "bookmark.add", "view.clear_color", "panel.Accuracy", "settings.reset"}) {
@@ -85,47 +86,39 @@ TEST_F(PanelTest, PanelsOfBothEdgesLieSideBySide) {
     EXPECT_EQ(static_cast<float>(above) > ImGui::GetTextLineHeight(), width < 900.0f)
         << "beside three numbers there is no room for a label at " << width;
   }
-  ImGui::GetIO().DisplaySize.x = 360.0f;
-  run(4);
+  resize(360, 700);
   EXPECT_GT(ImGui::FindWindowByName(panels::inspectorTitle)->Size.x, 320.0f) << "no narrower where they overlap anyway";
 }
 
-TEST_F(PanelTest, AWidgetInUseStaysSoWhenItsLabelMovesAbove) {
+TEST_F(PanelTest, HeldWidgetsStayHeldWhenLabelsMove) {
   edit_.selected = {Selection::Kind::mirror, 0};
   windows_->toggleInspector();
-  ImGui::GetIO().DisplaySize.x = 900.0f;
   run(4);
   hover("edit.position", 0.2);
   hold(true);
   const ImGuiID held = ImGui::GetCurrentContext()->ActiveId;
   ASSERT_NE(held, 0u);
-  ImGui::GetIO().DisplaySize.x = 500.0f;
-  run(4);
+  resize(500, 700);
   EXPECT_EQ(ImGui::GetCurrentContext()->ActiveId, held);
   hold(false);
 }
 
 TEST_F(PanelTest, OlderWindowsFoldAndAClickUnfolds) {
-  ImGui::GetIO().DisplaySize.y = 400.0f;
-  click("panel.Performance", 0.1);
-  click("panel.Log", 0.1);
-  run(3);
+  resize(900, 400);
+  toggle("Performance");
+  toggle("Log");
   ASSERT_TRUE(has("log.copy") && has("performance.copy"));
-  click("panel.Accuracy", 0.1);
-  run(3);
+  toggle("Accuracy");
   EXPECT_TRUE(has("accuracy.measure") && has("log.copy"));
   EXPECT_FALSE(has("performance.copy"));
   const WindowRect free = windows_->freeRect();
   moveTo(free.corner.x + free.size.x + 12, free.corner.y + 18);  // the arrow of its title
-  hold(true);
-  hold(false);
+  press();
   run(3);
   EXPECT_TRUE(has("performance.copy") && has("accuracy.measure"));
   EXPECT_FALSE(has("log.copy")) << "it was opened before the others";
-  stop();
-  start();
-  ImGui::GetIO().DisplaySize.y = 700.0f;
-  run(3);
+  restart();
+  resize(900, 700);
   EXPECT_TRUE(has("performance.copy") && has("accuracy.measure") && has("log.copy")) << "folding is not remembered";
 }
 
@@ -209,8 +202,7 @@ TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
     const PixelRect list = widget("view.samples");
     const float line = ImGui::GetTextLineHeightWithSpacing();
     moveTo(list.x + 20, list.y + list.height + (static_cast<float>(row) + 0.9f) * line);
-    hold(true);
-    hold(false);
+    press();
     run(2);
   };
   choose(0);
@@ -243,7 +235,7 @@ TEST_F(PanelTest, MenusSendTheirCommands) {
   EXPECT_EQ(clickFor<LookFromMirror>("menu.Look out of mirror").side, MirrorSide::front);
 }
 
-TEST_F(PanelTest, FilesAreChosenFromTheWindowsOwnList) {
+TEST_F(PanelTest, FilesAreChosenFromOwnList) {
   std::filesystem::create_directory(config_.path() / "models");
   std::ofstream(config_.path() / "models" / "a.obj") << "v 0 0 0";
   std::ofstream(config_.path() / "notes.txt") << "no scene";
@@ -260,7 +252,7 @@ TEST_F(PanelTest, FilesAreChosenFromTheWindowsOwnList) {
 }
 
 TEST_F(PanelTest, PromptsFitNarrowWindows) {
-  ImGui::GetIO().DisplaySize = {300.0f, 500.0f};
+  resize(300, 500);
   for (const auto& [prompt, field] : {std::pair(Prompt::open, "open.typed"), std::pair(Prompt::saveAs, "edit.file")}) {
     edit_.proposedFile = config_.path();
     edit_.prompt = prompt;
@@ -282,23 +274,19 @@ TEST_F(PanelTest, ModelsWithoutASceneCanBeSaved) {
 }
 
 TEST_F(PanelTest, GalleryOpensScenes) {
-  click("panel.Scenes", 0.1);
-  run(2);
+  toggle("Scenes");
   EXPECT_EQ(clickFor<OpenScene>("gallery.two").file, "/scenes/two.obj");
   click("gallery.one");
   EXPECT_FALSE(sent<OpenScene>()) << "it is shown";
 }
 
 TEST_F(PanelTest, OpenWindowsAreRemembered) {
-  click("panel.Scenes", 0.1);
-  run(2);
+  toggle("Scenes");
   const PixelRect before = widget("gallery.two");
-  stop();
-  start();
+  restart();
   EXPECT_EQ(widget("gallery.two"), before);
-  click("panel.Scenes", 0.1);
-  stop();
-  start();
+  toggle("Scenes");
+  restart();
   EXPECT_FALSE(has("gallery.two"));
 }
 
@@ -312,14 +300,12 @@ TEST_F(PanelTest, LayoutIsKeptInTheUsersFolder) {
   const PixelRect moved = widget("time");
   EXPECT_EQ(moved.x - before.x, 130);
   EXPECT_EQ(moved.y - before.y, 80);
-  click("panel.Performance", 0.1);
-  run(2);
+  toggle("Performance");
   const PixelRect pause = widget("performance.pause");
   moveTo(pause.x + 4, pause.y - 18);  // the arrow of its title
-  hold(true);
-  hold(false);
+  press();
   EXPECT_FALSE(has("performance.pause")) << "collapsed";
-  click("panel.Log", 0.1);
+  toggle("Log");
   stop();
   EXPECT_TRUE(std::filesystem::exists(iniFile_));
   start();
@@ -330,19 +316,14 @@ TEST_F(PanelTest, LayoutIsKeptInTheUsersFolder) {
 
 TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
   windows_->toggleInspector();
-  click("panel.Performance", 0.1);
-  click("panel.Log", 0.1);
-  run(3);
+  toggle("Performance");
+  toggle("Log");
   const PixelRect list = widget("edit.add_mirror");
   const PixelRect copy = widget("log.copy");
   const PixelRect csv = widget("performance.copy");
   EXPECT_LT(list.y + list.height, csv.y);
   EXPECT_LT(csv.y + csv.height, copy.y);
   EXPECT_LT(copy.y + copy.height, 700);
-  const auto resize = [&](float w, float h) {
-    ImGui::GetIO().DisplaySize = {w, h};
-    run(5);
-  };
   resize(300, 200);
   resize(900, 700);
   EXPECT_EQ(widget("log.copy"), copy);
@@ -365,8 +346,7 @@ TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
   click("window.reset");
   run(3);
   EXPECT_FALSE(has("log.copy") || has("edit.add_mirror")) << "all are closed";
-  click("panel.Log", 0.1);
-  run(3);
+  toggle("Log");
   EXPECT_GT(widget("log.copy").x, moved.x + 50);
 }
 
@@ -379,8 +359,7 @@ TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
   EXPECT_GT(windows_->state().choices.percent, 110);
   const int percent = windows_->state().choices.percent;
   run(2);
-  stop();
-  start();
+  restart();
   EXPECT_EQ(windows_->state().choices.theme, Theme::light);
   EXPECT_EQ(windows_->state().choices.percent, percent);
 }
@@ -394,8 +373,7 @@ TEST_F(PanelTest, PresentModesAreThoseOffered) {
 TEST_F(PanelTest, LogIsFilteredCopiedAndCleared) {
   log_.add(LogLevel::info, "the quick brown fox");
   log_.add(LogLevel::error, "a lazy dog");
-  click("panel.Log", 0.1);
-  run(2);
+  toggle("Log");
   EXPECT_EQ(clickFor<CopyText>("log.copy").text, "info: the quick brown fox\nerror: a lazy dog\n");
   click("log.filter");
   type("dog");
@@ -405,8 +383,7 @@ TEST_F(PanelTest, LogIsFilteredCopiedAndCleared) {
 
 TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
   frame_.history.add(4, 1.0, 0.5);
-  click("panel.Performance", 0.1);
-  run(2);
+  toggle("Performance");
   EXPECT_TRUE(has("graph.Frame"));
   EXPECT_EQ(clickFor<CopyText>("performance.copy").text, frame_.history.csv());
   EXPECT_TRUE(clickFor<PauseHistory>("performance.pause", 0.1).paused);
@@ -417,8 +394,7 @@ TEST_F(PanelTest, PerformanceRowsSelectTheirMirrors) {
   frame_.passes = {{{.path = {1}}, "mirror wall"}};
   frame_.history.add(4, 1.0, 0.5);
   frame_.history.addGpu(4, 3.0, std::vector<std::pair<std::string, double>>{{"mirror wall", 2.0}});
-  click("panel.Performance", 0.1);
-  run(2);
+  toggle("Performance");
   const Selection wall{Selection::Kind::mirror, 1};
   EXPECT_EQ(clickFor<SelectNode>("name.mirror wall", 0.1).node, wall);
   EXPECT_EQ(output_.hoveredPath, std::vector<int>{1});
@@ -459,8 +435,7 @@ TEST_F(PanelTest, KeysFitNarrowWindows) {
   windows_->toggleHelp();
   run(4);
   EXPECT_EQ(widget("help.left").y, widget("help.right").y);
-  ImGui::GetIO().DisplaySize = {400.0f, 700.0f};
-  run(4);
+  resize(400, 700);
   EXPECT_EQ(widget("help.left").x, widget("help.right").x);
   EXPECT_GT(widget("help.right").y, widget("help.left").y);
   EXPECT_LT(widget("help.right").x + widget("help.right").width, 400);
@@ -468,8 +443,7 @@ TEST_F(PanelTest, KeysFitNarrowWindows) {
 
 TEST_F(PanelTest, HandlesAreNotDrawnOverATarget) {
   edit_.overlay.outline = {{{0.0, 350.0}, {900.0, 350.0}}, {{450.0, 0.0}, {450.0, 700.0}}};
-  click("panel.Targets", 0.1);
-  run(3);
+  toggle("Targets");
   ASSERT_TRUE(windows_->state().targets.canvas);
   const WindowRect canvas = *windows_->state().targets.canvas;
   const ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -525,12 +499,10 @@ TEST_F(Inspector, ClickAfterItOpenedIsThePictures) {
   windows_->openInspector();
   run(3);
   commands_.clear();
-  hold(true);
-  hold(false);
+  press();
   EXPECT_FALSE(sent<SelectNode>());
   moveTo(node.x + 40, node.y + 5);
-  hold(true);
-  hold(false);
+  press();
   EXPECT_TRUE(sent<SelectNode>()) << "the pointer has moved";
 }
 
@@ -675,8 +647,7 @@ class AccuracyWindow : public PanelTest {
   AccuracyWindow() {
     accuracy_.points = {{"cheap", 0.1, 1.0, 0.9, 1.1}, {"exact", 0.001, 8.0, 7.0, 9.0}, {"bad", 0.2, 9.0, 8.0, 9.5}};
     accuracy_.front = {0, 1};
-    click("panel.Accuracy", 0.1);
-    run(2);
+    toggle("Accuracy");
   }
 };
 
@@ -712,7 +683,7 @@ TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
 TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
   click("accuracy.difference", 0.05);
   EXPECT_TRUE(run(2).difference);
-  click("panel.Accuracy", 0.1);
+  toggle("Accuracy");
   EXPECT_FALSE(run(2).difference);
 }
 
@@ -724,14 +695,13 @@ class TargetsWindow : public PanelTest {
     frame_.passes = {mirror, main};
     frame_.skipped = {{.name = "mirror door", .path = {1}, .reason = "backface"}};
     frame_.target.size = {900, 700};
-    ImGui::GetIO().DisplaySize = {900.0f, 1800.0f};  // the passes are in view
-    run(5);
+    resize(900, 1800);  // the passes are in view
   }
   const std::optional<TargetRequest>& target() const { return output_.target; }
 };
 
 TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
-  click("panel.Targets", 0.1);
+  toggle("Targets");
   run(3);
   ASSERT_TRUE(target() && target()->drawn);
   EXPECT_TRUE(target()->path.empty());
@@ -753,7 +723,7 @@ TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
   EXPECT_FALSE(target()->drawn) << "the panel draws it";
   click("targets.fit");
   EXPECT_EQ(windows_->state().targets.zoom, 0.0);
-  click("panel.Targets", 0.1);
+  toggle("Targets");
   EXPECT_FALSE(target());
 }
 

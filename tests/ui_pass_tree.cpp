@@ -47,7 +47,7 @@ TEST(PassTree, ReusedImagesAreNotListedTwice) {
   EXPECT_EQ(roots[0].skipped, std::vector<int>{1});
 }
 
-TEST(MirrorCost, SumsPassesOrSaysWhyThereIsNone) {
+TEST(MirrorCost, SumsPassesOrSaysWhyNone) {
   FrameView frame;
   const auto pass = [&](std::vector<int> path, double ms, double texels) {
     PassView row{{.path = std::move(path)}};

@@ -179,26 +179,6 @@ TEST_F(Editing, EscapeCancelsTheDragThenDeselects) {
   EXPECT_TRUE(host_.closed) << "nothing was changed";
 }
 
-TEST_F(Editing, NodesAreDuplicatedAndDeleted) {
-  const std::string before = text();
-  clickBall();
-  send(DuplicateSelected{});
-  EXPECT_EQ(scene().objects.size(), 2u);
-  EXPECT_EQ(edit().selected, (Selection{Selection::Kind::object, 1}));
-  send(Undo{});
-  EXPECT_EQ(text(), before);
-  send(SelectNext{});
-  ASSERT_EQ(edit().selected, ahead);
-  const int drops = host_.drops;
-  send(RemoveSelected{});
-  EXPECT_GT(host_.drops, drops) << "cached images are of other mirrors now";
-  EXPECT_EQ(scene().mirrors.size(), 1u);
-  EXPECT_FALSE(edit().selected);
-  EXPECT_EQ(edit().undo, "remove mirror 'ahead'");
-  send(Undo{});
-  EXPECT_EQ(text(), before);
-}
-
 TEST_F(Editing, DuplicatesAndFramesStayBetweenPanels) {
   clickBall();
   const double x = object().position.x;
@@ -343,15 +323,6 @@ TEST_F(Editing, SelectedNodesMoveTogetherInOneStep) {
   send(Undo{});
   EXPECT_EQ(edit().undo, "");
   EXPECT_EQ(edit().others, std::vector<Selection>{lamp}) << "still selected";
-  EXPECT_EQ(saved().objects[0].position, glm::dvec3(0.3, 1.0, 0.5));
-  EXPECT_EQ(text(), before);
-  moveTo(ballAt_ + glm::dvec2(60.0, 0.0));
-  press(true);
-  moveTo(ballAt_ + glm::dvec2(120.0, 0.0));
-  EXPECT_GT(object().position.x, 0.35);
-  send(Escape{});
-  press(false);
-  EXPECT_EQ(edit().undo, "");
   EXPECT_EQ(text(), before);
 }
 
@@ -383,16 +354,12 @@ TEST_F(Editing, SelectedNodesAreCopiedAndDeletedTogether) {
   EXPECT_EQ(edit().undo.find("duplicate 3 "), 0u) << edit().undo;
   EXPECT_EQ(edit().selected, (Selection{Selection::Kind::mirror, 2}));
   EXPECT_EQ(edit().others, (std::vector<Selection>{{Selection::Kind::object, 1}, {Selection::Kind::mirror, 3}}));
-  saved();
-  ASSERT_EQ(saved_.mirrors.size(), 4u);
-  ASSERT_EQ(saved_.objects.size(), 2u);
-  const glm::dvec3 step = saved_.objects[1].position - saved_.objects[0].position;
-  EXPECT_GT(step.x, 3.0) << "beside the mirrors, which are 3 m wide";
-  expectNear(saved_.mirrors[2].position - saved_.mirrors[1].position, step);
-  expectNear(saved_.mirrors[3].position - saved_.mirrors[0].position, step);
+  EXPECT_EQ(saved().mirrors.size(), 4u);
   EXPECT_EQ(saved_.mirrors[2].rotation, saved_.mirrors[1].rotation);
-  EXPECT_EQ(saved_.mirrors[2].name, "behind 2");
+  const int drops = host_.drops;
   send(RemoveSelected{});
+  EXPECT_GT(host_.drops, drops) << "cached images are of other mirrors now";
+  EXPECT_FALSE(edit().selected);
   EXPECT_EQ(edit().undo.find("remove 3 "), 0u) << edit().undo;
   EXPECT_EQ(saved().mirrors.size(), 2u);
   send(Undo{});

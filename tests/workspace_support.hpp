@@ -9,11 +9,9 @@
 #include "app/workspace.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
-#include "platform/files.hpp"
-#include "platform/folders.hpp"
-#include "platform/process.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene_text.hpp"
+#include "user_folders.hpp"
 
 namespace speculum::testing_support {
 
@@ -72,19 +70,9 @@ class FakeHost : public WorkspaceHost {
 class WorkspaceTest : public testing::Test {
  protected:
   explicit WorkspaceTest(const std::string& toml = corridorScene(), const Options& more = {}) : options_(more) {
-    for (const char* name : {"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_CACHE_HOME"}) {
-      environment_.emplace_back(name, environment(name));
-      setEnvironment(name, (home_.path() / name).string());
-    }
     options_.scene = writeScene("workspace", toml).string();
     options_.size = {width, height};
     start();
-  }
-  ~WorkspaceTest() override {
-    workspace_.reset();
-    for (const auto& [name, value] : environment_) {
-      setEnvironment(name, value);
-    }
   }
 
   void start() {
@@ -175,14 +163,6 @@ class WorkspaceTest : public testing::Test {
     send(AskWhatToOpen{});
     setEnvironment("PATH", path);
   }
-  std::vector<std::filesystem::path> pictures() const {
-    std::error_code none;
-    std::vector<std::filesystem::path> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(picturesDir() / "Speculum", none)) {
-      paths.push_back(entry.path());
-    }
-    return paths;
-  }
   // Acts as if a frame of that picture had been drawn and, if it is wanted, read back.
   void drawFrame(const Image8& picture = Image8(4, 4)) {
     const SceneState state = workspace_->state(workspace_->time());
@@ -192,8 +172,7 @@ class WorkspaceTest : public testing::Test {
     frame();
   }
 
-  TemporaryDirectory home_;
-  std::vector<std::pair<std::string, std::string>> environment_;
+  UserFolders home_{"XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "XDG_CACHE_HOME"};
   Options options_;
   FakeHost host_;
   DeviceView device_;

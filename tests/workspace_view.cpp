@@ -161,9 +161,9 @@ TEST_F(WindowView, ScreenshotsAreSavedAndReported) {
   EXPECT_TRUE(workspace_->capture().bare());
   EXPECT_TRUE(view().status.withPanelOnly);
   drawFrame(Image8(5, 3));
-  ASSERT_EQ(pictures().size(), 1u);
-  EXPECT_EQ(readImage8(pictures()[0]).width, 5);
-  EXPECT_EQ(status(), "Saved " + pictures()[0].string());
+  ASSERT_EQ(home_.pictures().size(), 1u);
+  EXPECT_EQ(readImage8(home_.pictures()[0]).width, 5);
+  EXPECT_EQ(status(), "Saved " + home_.pictures()[0].string());
   EXPECT_EQ(view().log.lines().back().text, status());
   EXPECT_FALSE(workspace_->capture().wanted());
   send(Escape{});
@@ -177,10 +177,10 @@ TEST_F(WindowView, RecordingsAreEvenSequences) {
   drawFrame();
   drawFrame();
   send(ToggleRecording{true});
-  ASSERT_EQ(pictures().size(), 1u);
-  EXPECT_TRUE(fs::exists(pictures()[0] / "00001.png"));
-  EXPECT_FALSE(fs::exists(pictures()[0] / "00002.png"));
-  EXPECT_EQ(status(), "Recorded 2 frames at 30 a second in " + pictures()[0].string());
+  ASSERT_EQ(home_.pictures().size(), 1u);
+  EXPECT_TRUE(fs::exists(home_.pictures()[0] / "00001.png"));
+  EXPECT_FALSE(fs::exists(home_.pictures()[0] / "00002.png"));
+  EXPECT_EQ(status(), "Recorded 2 frames at 30 a second in " + home_.pictures()[0].string());
   EXPECT_EQ(workspace_->frameSeconds(1.0), 1.0);
 }
 

@@ -40,8 +40,7 @@ TEST(TailBeyondTheDepthLimit, IsBoundedByTheReflectances) {
   QuietSession session(truthOptions(file, size, 1));
   for (const int depth : {1, 2, 4}) {
     set(session, {{"reflection.max_depth", std::to_string(depth)}});
-    session.draw(0.0, true);
-    const LinearImage cut = session.radiance();
+    const LinearImage cut = drawRadiance(session);
     const double bound = 0.1 * std::pow(reflectance, depth);
     int over = 0;
     double most = 0.0;
@@ -76,14 +75,12 @@ TEST(MirrorsOfFewPixels, LeaveOutTheirAreaAtMost) {
   QuietSession session(options);
   const auto radiance = [&](const char* pixels) {
     set(session, {{"reflection.min_pixels", pixels}});
-    session.draw(0.0, true);
-    return session.radiance();
+    return drawRadiance(session);
   };
   const LinearImage whole = radiance("0");
   const LinearImage cut = radiance("2");
   const auto& skipped = session.lastFrame().plan.skipped;
-  const auto left = std::count_if(skipped.begin(), skipped.end(),
-                                  [](const SkippedMirror& s) { return s.reason == SkipReason::minPixels; });
+  const auto left = std::ranges::count(skipped, SkipReason::minPixels, &SkippedMirror::reason);
   EXPECT_GT(left, 100);
   double missing = 0.0;
   for (size_t i = 0; i < cut.pixels.size(); ++i) {

@@ -19,7 +19,9 @@ constexpr PictureSize size{160, 90};
 // A scene with its views: 0 is the camera's, others are bookmarks.
 class Drawn : public Studio {
  public:
-  Drawn(Gpu& gpu, const std::filesystem::path& file, double at) : Studio(gpu, headless(file, size)) { time = at; }
+  Drawn(Gpu& gpu, const std::filesystem::path& file, double at) : Studio(gpu, headless(file, size)), file_(file) {
+    time = at;
+  }
 
   size_t views() const { return scene.bookmarks.size() + 1; }
   void look(size_t view) {
@@ -27,13 +29,7 @@ class Drawn : public Studio {
     camera = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
   }
   Tracing tracing(PictureSize extent, int maxDepth) const {
-    Tracing tracing{scene,
-                    evaluate(scene, time),
-                    {.width = extent.width,
-                     .height = extent.height,
-                     .samples = 1,
-                     .maxDepth = maxDepth,
-                     .minThroughput = Settings().reflection.minThroughput}};
+    Tracing tracing = tracingOf(file_, extent, maxDepth, time);
     tracing.state.camera = camera.value();
     return tracing;
   }
@@ -41,6 +37,9 @@ class Drawn : public Studio {
     settings = changed;
     return fresh ? Studio::fresh() : draw();
   }
+
+ private:
+  std::filesystem::path file_;
 };
 
 Settings settingsWith(const std::vector<std::pair<std::string, std::string>>& changes) {

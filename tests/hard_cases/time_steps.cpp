@@ -93,19 +93,6 @@ TEST(TimeSteps, RotationsStayRotations) {
   }
 }
 
-TEST(TimeSteps, FloatAnglesAndSummedStepsDrift) {
-  const double exact = static_cast<double>(std::cos(turned(0.0, 47.3, 1e6) * std::numbers::pi_v<long double> / 180));
-  EXPECT_GT(std::abs(std::cos(glm::radians(47.3f * 1e6f)) - exact), 1e-3) << "the naive way should fail";
-  // An hour of frames, each turned by a small float matrix.
-  glm::mat3 sum(1.0f);
-  const glm::mat3 step(rotationFromDegrees({0, 47.3 / 60.0, 0}));
-  for (int i = 0; i < 3600 * 60; ++i) {
-    sum = step * sum;
-  }
-  EXPECT_GT(difference(glm::dmat3(sum), longTurn({0, 1, 0}, turned(0.0, 47.3, 3600))), 1e-4)
-      << "the naive way should fail";
-}
-
 // Turns and ripples after days and after millions of years, against whole numbers: speeds in steps of 2^-20.
 TEST(LongTimes, ProductsKeepTheirRemainder) {
   std::mt19937_64 random(11);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -95,6 +96,38 @@ Image8 draw(const Options& options, double time) {
   QuietSession session(options);
   session.draw(time, true);
   return session.picture();
+}
+
+Image8 draw(Session& session, double time) {
+  session.draw(time, true);
+  session.finish();
+  return session.picture();
+}
+
+LinearImage drawRadiance(Session& session, double time) {
+  runFrames(session, 1, time);
+  return session.radiance();
+}
+
+void recordFrame(Session& session, const SceneState& state, const Settings& settings, const FramePlan& plan,
+                 const std::optional<DebugView>& debug) {
+  Frame frame = session.renderer().beginFrame().value();
+  frame.capture = true;
+  session.sceneRenderer().record(frame, state, settings, plan, debug);
+  session.renderer().endFrame(frame);
+}
+
+double rootMeanSquare(const LinearImage& a, const LinearImage& b, const std::vector<bool>& counts) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) {
+    if (counts.empty() || counts[i]) {
+      const glm::dvec3 off = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]);
+      sum += glm::dot(off, off);
+      count += 1.0;
+    }
+  }
+  return std::sqrt(sum / count);
 }
 
 std::vector<bool> blackPixels(const Image8& image) {

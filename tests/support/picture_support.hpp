@@ -43,6 +43,17 @@ struct QuietSession : Session {
 // Draws one picture that is quiet.
 Image8 draw(const Options& options, double time = 0.0);
 
+// Draws a picture with the session, waits for it and returns it, or its radiance.
+Image8 draw(Session& session, double time = 0.0);
+LinearImage drawRadiance(Session& session, double time = 0.0);
+
+// Records and submits one frame of a plan. The picture is read back.
+void recordFrame(Session& session, const SceneState& state, const Settings& settings, const FramePlan& plan,
+                 const std::optional<DebugView>& debug = {});
+
+// Root mean square difference in radiance of the pixels whose `counts` is set, by default of all.
+double rootMeanSquare(const LinearImage& a, const LinearImage& b, const std::vector<bool>& counts = {});
+
 // Says of each pixel whether it is black.
 std::vector<bool> blackPixels(const Image8& image);
 

@@ -16,9 +16,12 @@ class Random {
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
 
+  // Less than `count`.
+  size_t index(size_t count) { return static_cast<size_t>(uniform(0.0, static_cast<double>(count) - 1e-9)); }
+
   template <size_t n>
   std::string pick(const std::array<const char*, n>& names) {
-    return names[static_cast<size_t>(uniform(0.0, n - 1e-9))];
+    return names[index(n)];
   }
 
   glm::dvec3 inBox(double halfSide) {

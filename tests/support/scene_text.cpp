@@ -70,6 +70,10 @@ size = [3, 2]
 )";
 }
 
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  return text.replace(text.find(part), part.size(), by);
+}
+
 std::string text(double value) {
   std::ostringstream out;
   out.precision(17);

@@ -54,20 +54,24 @@ Image8 Tracing::nearest(const Image8& actual) const {
   return nearest;
 }
 
-Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, double time) {
+Tracing tracingOf(const std::filesystem::path& file, PictureSize size, int maxDepth, double time) {
   const Scene scene = loadScene(file);
   const Settings settings = settingsOf(scene);
-  Truth truth{.tracing = {scene,
-                          evaluate(scene, time),
-                          {.width = size.width,
-                           .height = size.height,
-                           .samples = 1,
-                           .maxDepth = maxDepth,
-                           .minThroughput = settings.reflection.minThroughput,
-                           .clearColor = settings.view.clearColor},
-                          settings.view.displayCurve()}};
+  return {scene,
+          evaluate(scene, time),
+          {.width = size.width,
+           .height = size.height,
+           .samples = 1,
+           .maxDepth = maxDepth,
+           .minThroughput = settings.reflection.minThroughput,
+           .clearColor = settings.view.clearColor},
+          settings.view.displayCurve()};
+}
+
+Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, double time) {
+  Truth truth{.tracing = tracingOf(file, size, maxDepth, time)};
   truth.traced = truth.tracing.result();
-  truth.picture = toDisplay(truth.traced.image, settings.view.displayCurve());
+  truth.picture = toDisplay(truth.traced.image, truth.tracing.curve);
   return truth;
 }
 

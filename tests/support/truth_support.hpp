@@ -25,6 +25,9 @@ struct Tracing {
   Image8 nearest(const Image8& actual) const;
 };
 
+// One sample each, with the scene's own settings.
+Tracing tracingOf(const std::filesystem::path& file, PictureSize size, int maxDepth, double time = 0.0);
+
 struct Truth {
   Tracing tracing;
   TraceResult traced;
