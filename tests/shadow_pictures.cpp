@@ -155,17 +155,17 @@ glow = 0
 casts_shadow = true
 )";
   const std::string behindTheSun = "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [-90, 30, 20]\n";
-  QuietSession single(mapped(writeScene("shadow_maps_single_face", sunny)));
-  QuietSession several(mapped(writeScene("shadow_maps_several_faces", sunny + behindTheSun)));
-  EXPECT_EQ(difference(picture(single, 0.0), picture(several, 0.0), 0).over, 0);
+  const Image8 single = draw(mapped(writeScene("shadow_maps_single_face", sunny)));
+  const Image8 several = draw(mapped(writeScene("shadow_maps_several_faces", sunny + behindTheSun)));
+  EXPECT_EQ(difference(single, several, 0).over, 0);
 }
 
 // Objects of a level that differs from that of the map would shadow themselves.
 TEST(ShadowMaps, SimplifiedObjectsAreNotShadowed) {
   QuietSession session(mapped(room("levels")));
-  const Image8 exact = picture(session, 0.0);
+  const Image8 exact = draw(session);
   set(session, {{"view.mesh_error", "2"}, {"reflection.mesh_error", "2"}});
-  const PictureAgreement agreement = difference(picture(session, 0.0), exact, 24);
+  const PictureAgreement agreement = difference(draw(session), exact, 24);
   std::printf("%d of %d pixels over\n", agreement.over, agreement.counted);
   EXPECT_LT(agreement.over, agreement.counted / 200);
 }

@@ -1,5 +1,7 @@
 #include "accuracy/sweep_plan.hpp"
 
+#include <algorithm>
+
 namespace speculum {
 
 namespace {
@@ -47,15 +49,18 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
   }
 }
 
-// The way to the truth. From 16 pictures on each has one sample, whatever is set.
+// The way to the truth. From 16 pictures on each has one sample, whatever is set. No mean removes the error of a map.
 void addMeans(SweepPlanner& planner, const SweepContext& context) {
-  const Changes deep = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
+  Changes exact = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
+  if (std::ranges::find(context.effects, "effects.shadows") != context.effects.end()) {
+    exact.push_back({"effects.shadow_lookup", "traced"});
+  }
   planner.series({.key = "view.accumulate",
                   .name = "Pictures in a mean, one sample each",
                   .note = "Edges N^-0.75, and texture, highlights and shading edges with them",
                   .theorySlope = -0.75},
-                 {"1", "4", "16", "64"}, joined(drawn(context, "1"), deep));
-  planner.add(joined(joined(drawn(context, "4"), deep), {{"view.accumulate", "4"}}));
+                 {"1", "4", "16", "64"}, joined(drawn(context, "1"), exact));
+  planner.add(joined(joined(drawn(context, "4"), exact), {{"view.accumulate", "4"}}));
 }
 
 void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
