@@ -55,7 +55,7 @@ class Planner {
   void findShadows();
   ImageSurroundings surroundings() const;
   void simplify();
-  void simplifyWithMaps();
+  void addMaps(std::vector<SimplifiedPass>& passes);
   void reuseUnchanged();
   void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
@@ -112,40 +112,41 @@ void Planner::simplify() {
   if (settings_.clip == ClipMethod::none || plan_.effects.tracesFromObjects()) {
     return;
   }
-  if (plan_.effects.shadowMaps) {
-    simplifyWithMaps();
+  std::vector<SimplifiedPass> passes;
+  for (PassNode& node : nodes_) {
+    passes.push_back(
+        {&node.pass, readable(node.pass.view), &plan_.projection, meshErrorIn(node.pass.view, allSettings_)});
+  }
+  if (std::ranges::all_of(passes, [](const SimplifiedPass& pass) { return pass.texels == 0.0; })) {
     return;
   }
-  for (PassNode& node : nodes_) {
-    const double texels = meshErrorIn(node.pass.view, allSettings_);
-    if (texels > 0.0) {
-      simplifyPass(node.pass, readable(node.pass.view), plan_.projection, texels, allSettings_.effects, scene_, state_);
+  if (plan_.effects.shadowMaps) {
+    addMaps(passes);
+    simplifyAlike(passes, allSettings_.effects, scene_, state_);
+    return;
+  }
+  for (const SimplifiedPass& pass : passes) {
+    if (pass.texels > 0.0) {
+      simplifyPass(pass, allSettings_.effects, scene_, state_);
     }
   }
 }
 
-void Planner::simplifyWithMaps() {
-  std::vector<SimplifiedPass> passes;
-  bool simplifies = false;
-  for (PassNode& node : nodes_) {
-    const double texels = meshErrorIn(node.pass.view, allSettings_);
-    passes.push_back({&node.pass, readable(node.pass.view), &plan_.projection, texels});
-    simplifies = simplifies || texels > 0.0;
-  }
+// Adds the faces of shadow maps, and those of environment maps, whose surfaces look shadows up.
+void Planner::addMaps(std::vector<SimplifiedPass>& passes) {
   for (EnvironmentMap& map : plan_.maps) {
     for (PlannedPass& face : map.faces) {
       passes.push_back({&face, face.view, &map.projection});
     }
   }
-  constexpr double mapTexels = 1.0;  // look-ups blur shadows by as much
-  std::vector<SimplifiedPass> maps;
+  constexpr double softened = 2.0;  // texels that a look-up reads in each direction
   for (ShadowMap& map : plan_.shadowMaps) {
     for (ShadowFace& face : map.faces) {
-      maps.push_back({&face.pass, face.pass.view, &face.projection, mapTexels});
+      if (face.read) {
+        passes.push_back(
+            {&face.pass, face.pass.view, &face.projection, allSettings_.view.meshError > 0.0 ? softened : 0.0});
+      }
     }
-  }
-  if (simplifies) {
-    simplifyAlike(passes, maps, allSettings_.effects, scene_, state_);
   }
 }
 

@@ -74,6 +74,10 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
   return best;
 }
 
+double meshErrorIn(const View& view, const Settings& settings) {
+  return view.path.empty() ? settings.view.meshError : settings.reflection.meshError;
+}
+
 namespace {
 
 // Chooses the coarsest level whose error is no more than `largestError`, whatever the view sees of it.
@@ -91,14 +95,6 @@ LevelChoice coarsestLevel(const View& view, double largestError, const InstanceS
   std::vector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, level.all, level.clusters);
   return {static_cast<int>(end - 1 - levels.begin()), ranges.empty() ? std::vector{level.all} : std::move(ranges)};
 }
-
-}  // namespace
-
-double meshErrorIn(const View& view, const Settings& settings) {
-  return view.path.empty() ? settings.view.meshError : settings.reflection.meshError;
-}
-
-namespace {
 
 // Draws each instance of the pass as choose(instance, ranges seen of the mesh) says.
 template <typename Choose>
@@ -119,56 +115,44 @@ void applyLevels(PlannedPass& pass, const Scene& scene, const SceneState& state,
   pass.partial = std::move(partial);
 }
 
-bool keepsTriangles(const InstanceState& instance, const EffectSettings& effects, const Scene& scene) {
-  return effects.curved && scene.objects[instance.object].mirror;
+// Returns the largest error that the pass allows for an instance, in the mesh's unit.
+double errorOf(const SimplifiedPass& simplified, int i, const EffectSettings& effects, const Scene& scene,
+               const SceneState& state) {
+  const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+  if (effects.curved && scene.objects[instance.object].mirror) {
+    return 0.0;
+  }
+  return largestError(simplified.readable, *simplified.projection, instance, scene.meshes[instance.mesh],
+                      simplified.texels);
 }
 
 }  // namespace
 
-void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, double texels,
-                  const EffectSettings& effects, const Scene& scene, const SceneState& state) {
-  applyLevels(pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
+void simplifyPass(const SimplifiedPass& simplified, const EffectSettings& effects, const Scene& scene,
+                  const SceneState& state) {
+  applyLevels(*simplified.pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
     const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    const double largest = keepsTriangles(instance, effects, scene)
-                               ? 0.0
-                               : largestError(readable, projection, instance, mesh, texels);
-    return chooseLevel(readable, largest, instance, mesh, std::move(seen));
+    return chooseLevel(simplified.readable, errorOf(simplified, i, effects, scene, state), instance,
+                       scene.meshes[instance.mesh], std::move(seen));
   });
 }
 
-void simplifyAlike(std::span<const SimplifiedPass> passes, std::span<const SimplifiedPass> maps,
-                   const EffectSettings& effects, const Scene& scene, const SceneState& state) {
-  constexpr double unseen = std::numeric_limits<double>::infinity();
-  std::vector<double> largest(state.instances.size(), unseen);
-  const auto lower = [&](const SimplifiedPass& simplified, int i) {
-    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    const double error = keepsTriangles(instance, effects, scene)
-                             ? 0.0
-                             : largestError(simplified.readable, *simplified.projection, instance,
-                                            scene.meshes[instance.mesh], simplified.texels);
-    largest[static_cast<size_t>(i)] = std::min(largest[static_cast<size_t>(i)], error);
-  };
-  for (const SimplifiedPass& pass : passes) {
-    std::ranges::for_each(pass.pass->instances, [&](int i) { lower(pass, i); });
-  }
-  const std::vector<double> shown = largest;
-  for (const SimplifiedPass& map : maps) {
-    for (const int i : map.pass->instances) {
-      if (shown[static_cast<size_t>(i)] == unseen) {
-        lower(map, i);
-      }
+void simplifyAlike(std::span<const SimplifiedPass> passes, const EffectSettings& effects, const Scene& scene,
+                   const SceneState& state) {
+  std::vector<double> largest(state.instances.size(), std::numeric_limits<double>::infinity());
+  for (const SimplifiedPass& simplified : passes) {
+    for (const int i : simplified.pass->instances) {
+      double& error = largest[static_cast<size_t>(i)];
+      error = std::min(error, errorOf(simplified, i, effects, scene, state));
     }
   }
-  const auto apply = [&](const SimplifiedPass& simplified) {
+  for (const SimplifiedPass& simplified : passes) {
     applyLevels(*simplified.pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
       const InstanceState& instance = state.instances[static_cast<size_t>(i)];
       return coarsestLevel(simplified.readable, largest[static_cast<size_t>(i)], instance, scene.meshes[instance.mesh],
                            std::move(seen));
     });
-  };
-  std::ranges::for_each(passes, apply);
-  std::ranges::for_each(maps, apply);
+  }
 }
 
 std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {

@@ -24,12 +24,7 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
 // Texels by which simplified objects may be off in the view: view.mesh_error or reflection.mesh_error.
 double meshErrorIn(const View& view, const Settings& settings);
 
-// Chooses a mesh level for each instance of the pass, off by at most `texels`. Curved mirrors keep all triangles, since
-// reflections follow their normals. `readable` is the pass's view with what look-ups read around it.
-void simplifyPass(PlannedPass& pass, const View& readable, const Projection& projection, double texels,
-                  const EffectSettings& effects, const Scene& scene, const SceneState& state);
-
-// A pass whose objects may be simplified, and its view with what look-ups read around it.
+// A pass to simplify, or one that draws a shadow map, and its view with what look-ups read around it.
 struct SimplifiedPass {
   PlannedPass* pass = nullptr;
   View readable;
@@ -37,11 +32,15 @@ struct SimplifiedPass {
   double texels = 0.0;  // by which simplified objects may be off
 };
 
-// Chooses one mesh level for each instance in all passes and shadow maps: an object would stand in the shadow of a level
-// of its own that differs. No pass shows an object that is off by more than the pass's texels; the texels of a map count
-// for objects that no pass shows.
-void simplifyAlike(std::span<const SimplifiedPass> passes, std::span<const SimplifiedPass> maps,
-                   const EffectSettings& effects, const Scene& scene, const SceneState& state);
+// Chooses a mesh level for each instance of the pass. Curved mirrors keep all triangles, since reflections follow their
+// normals.
+void simplifyPass(const SimplifiedPass& simplified, const EffectSettings& effects, const Scene& scene,
+                  const SceneState& state);
+
+// Chooses one mesh level for each instance in all of the passes, off by at most the texels of each. Shadow maps need
+// that: an object would stand in the shadow of a level of its own that differs.
+void simplifyAlike(std::span<const SimplifiedPass> passes, const EffectSettings& effects, const Scene& scene,
+                   const SceneState& state);
 
 // Returns the indices into Scene::meshes of meshes drawn as a level, each once. Passes that cached images replace count
 // too.

@@ -16,6 +16,10 @@ namespace {
 // of directions.
 constexpr double smallestWindow = 1e-3;
 
+// Widens a face where boxes beside it are told from those in it: the edge of a drawn triangle may reach beyond its box
+// by a part of a pixel.
+constexpr double margin = 1.05;
+
 struct Window {
   glm::dvec2 low{1.0};
   glm::dvec2 high{-1.0};
@@ -44,8 +48,8 @@ Window windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axe
     behind = behind || !(w > 1e-6 * glm::length(p));
     const glm::dvec2 side(glm::dot(p, right), -glm::dot(p, axes.up));
     for (int axis = 0; axis < 2; ++axis) {
-      allLow[axis] = allLow[axis] && side[axis] < -w;
-      allHigh[axis] = allHigh[axis] && side[axis] > w;
+      allLow[axis] = allLow[axis] && side[axis] < -margin * w;
+      allHigh[axis] = allHigh[axis] && side[axis] > margin * w;
     }
     seen.low = glm::min(seen.low, side / w);
     seen.high = glm::max(seen.high, side / w);
