@@ -1,3 +1,4 @@
+#include <functional>
 #include <stdexcept>
 
 #include "edit_support.hpp"
@@ -91,6 +92,58 @@ TEST_F(SceneDocumentTest, SettingsAreStepsThatLeaveTheScene) {
   EXPECT_FALSE(document.undo()) << "a step of the scene";
   EXPECT_EQ(scene.objects[0].position.x, 0);
   EXPECT_TRUE(document.changesScene(UndoWay::forward));
+}
+
+TEST_F(SceneDocumentTest, RevertedDragOfASettingAddsNoStep) {
+  document.change("move object 'teapot'", kTeapot, moveTeapot(1));
+  const Settings before;
+  Settings after;
+  after.view.exposure = 2.0;
+  document.settingsChanged(before, after, false);
+  document.settingsChanged(after, before, true);
+  EXPECT_EQ(document.undoLabel(), "move object 'teapot'");
+  EXPECT_TRUE(document.changesScene(UndoWay::back));
+  document.settingsChanged(before, after, true);
+  EXPECT_EQ(document.undoLabel(), "change Exposure") << "the drag goes on";
+  EXPECT_TRUE(document.undo());
+  EXPECT_FALSE(document.undo()) << "a step of the scene";
+  EXPECT_EQ(scene.objects[0].position.x, 0);
+  EXPECT_FALSE(document.canUndo());
+}
+
+TEST_F(SceneDocumentTest, DragOfASettingContinuesOnlyItsOwnStep) {
+  const Settings start;
+  Settings samples;
+  samples.view.samples = 1;
+  Settings dragged = samples;
+  dragged.view.exposure = 2.0;
+  const auto expectOwnStep = [&](const char* interruption, const std::function<void()>& interrupt) {
+    document.settingsChanged(start, samples, false);
+    document.settingsChanged(samples, dragged, false);
+    interrupt();
+    document.settingsChanged(samples, dragged, true);
+    EXPECT_EQ(document.undoLabel(), "change Exposure") << interruption;
+    const std::optional<SettingsStep> step = document.undo();
+    ASSERT_TRUE(step) << interruption;
+    EXPECT_TRUE(step->before == samples) << interruption;
+  };
+  expectOwnStep("undo", [&] { document.undo(); });
+  expectOwnStep("undo and redo", [&] {
+    document.undo();
+    document.undo();
+    document.redo();
+  });
+  expectOwnStep("a step of the scene, undone", [&] {
+    document.undo();
+    document.change("move object 'teapot'", kTeapot, moveTeapot(1));
+    document.undo();
+  });
+  expectOwnStep("a drag of a node", [&] {
+    document.undo();
+    document.beginGesture();
+    document.change("move object 'teapot'", kTeapot, moveTeapot(2));
+    document.endGesture();
+  });
 }
 
 TEST_F(SceneDocumentTest, UnchangedValuesAddNoStep) {
@@ -207,6 +260,7 @@ TEST_F(SceneDocumentTest, DuplicatesGetNamesAndPositions) {
   document.duplicate(document.selection());
   EXPECT_EQ(scene.objects[2].name, "teapot 3");
   document.duplicate(kFloor);
+  EXPECT_EQ(scene.mirrors[1].name, "floor 2");
   EXPECT_NEAR(scene.mirrors[1].position.x, 4.4, 1e-12);
   document.duplicate(kLamp);
   EXPECT_GT(scene.lights[1].position.x, 0);

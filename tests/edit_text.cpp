@@ -1,9 +1,11 @@
 // The writer keeps what a user wrote and changes only values.
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <random>
 
 #include "edit_support.hpp"
+#include "random.hpp"
 #include "scene/toml_text.hpp"
 
 namespace speculum {
@@ -215,6 +217,47 @@ TEST(EditedText, AddedAndRemovedInBrackets) {
   scene.document.remove({Selection::Kind::mirror, 0});
   EXPECT_EQ(scene.scene.mirrors.size(), 1u);
   EXPECT_NE(scene.saved().find("size = [3, 4]"), std::string::npos);
+}
+
+TEST(EditedText, EmptiedBracketsLoseTheirComma) {
+  const std::string text = "light = [ {position = [0, 1, 0]}, ] # lamps\n" + std::string(kCamera);
+  TextScene scene(text);
+  scene.document.remove({Selection::Kind::light, 0});
+  EXPECT_EQ(scene.saved(), replaced(text, "{position = [0, 1, 0]},", ""));
+  scene.document.addLight({1, 2, 3}, {1, 2, 4});
+  EXPECT_NE(scene.saved().find("position = [1, 2, 3], radius = 0.01 }, ] # lamps\n"), std::string::npos);
+}
+
+// document.text() throws unless the text reads back as the scene.
+TEST(EditedText, ItemsComeAndGoAroundBlanksAndComments) {
+  const std::array gaps{"", " ", "\n", "\r\n\t", " # a, ]\n", "\n # {b}\r\n  # ,\n\n "};
+  testing_support::Random random(3);
+  const auto gap = [&] { return random.pick(gaps); };
+  for (int i = 0; i < 2000; ++i) {
+    const int count = 1 + i % 3;
+    std::string list = "[" + gap();
+    for (int n = 0; n < count; ++n) {
+      list += "{position = [" + std::to_string(n) + ", 1, 0]}" + gap();
+      list += n + 1 < count || i % 2 == 0 ? "," + gap() : "";
+    }
+    const std::string text = "light = " + list + "] # end\n" + kCamera;
+    Scene scene = parseScene("scene.toml", text);
+    SceneDocument document(scene);
+    for (int n = count; n-- > 0;) {
+      if (i % 5 == 0 || random.chance(0.5)) {
+        document.remove({Selection::Kind::light, n});
+      }
+    }
+    std::string saved;
+    ASSERT_NO_THROW(saved = document.text("scene.toml", {})) << text;
+    EXPECT_NE(saved.find("] # end\n"), std::string::npos) << saved;
+    document.addLight({7, 2, 3}, {7, 2, 4});
+    ASSERT_NO_THROW(document.text("scene.toml", {})) << text;
+    while (document.canUndo()) {
+      document.undo();
+    }
+    ASSERT_EQ(document.text("scene.toml", {}), text);
+  }
 }
 
 TEST(EditedText, SettingsInEveryForm) {

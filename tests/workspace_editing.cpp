@@ -324,6 +324,14 @@ TEST_F(Editing, SelectedNodesMoveTogetherInOneStep) {
   EXPECT_EQ(edit().undo, "");
   EXPECT_EQ(edit().others, std::vector<Selection>{lamp}) << "still selected";
   EXPECT_EQ(text(), before);
+  moveTo(ballAt_ + glm::dvec2(60.0, 0.0));
+  press(true);
+  moveTo(ballAt_ + glm::dvec2(120.0, 0.0));
+  EXPECT_GT(object().position.x, 0.35);
+  send(Escape{});
+  press(false);
+  EXPECT_EQ(edit().undo, "");
+  EXPECT_EQ(text(), before) << "Escape takes all of them back";
 }
 
 TEST_F(Editing, SelectedNodesRotateAboutTheFirst) {

@@ -82,6 +82,7 @@ void SceneDocument::record(Step step) {
 }
 
 void SceneDocument::push(Step step) {
+  settingsStepOpen_ = false;
   step.bytes = bytesOf(step.content);
   undoBytes_ += step.bytes;
   undo_.push_back(std::move(step));
@@ -202,18 +203,25 @@ void SceneDocument::settingsChanged(const Settings& before, const Settings& afte
   if (before == after) {
     return;
   }
-  if (!continued || undo_.empty() || !undo_.back().settings) {
+  redo_.clear();
+  if (!continued || !settingsStepOpen_) {
     push({.settings = SettingsStep{.before = before}});
+    settingsStepOpen_ = true;
   }
   Step& step = undo_.back();
   step.settings->after = after;
+  if (step.settings->before == after) {
+    undoBytes_ -= step.bytes;
+    undo_.pop_back();
+    settingsStepOpen_ = false;
+    return;
+  }
   step.label.clear();
   for (const SettingField& field : settingFields()) {
     if (!sameSetting(field, step.settings->before, after)) {
       step.label = step.label.empty() ? std::string("change ") + field.label : "change settings";
     }
   }
-  redo_.clear();
 }
 
 void SceneDocument::beginGesture() {
@@ -261,6 +269,7 @@ std::optional<SettingsStep> SceneDocument::undo() {
   Step& step = redo_.emplace_back(std::move(undo_.back()));
   undo_.pop_back();
   undoBytes_ -= step.bytes;
+  settingsStepOpen_ = false;
   if (!step.settings) {
     swapContent(step);
     selection_ = step.before;

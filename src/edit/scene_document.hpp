@@ -62,7 +62,8 @@ class SceneDocument {
   std::string addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
 
-  // Call after a change of the settings. `continued`: it belongs to the step before, if that changed settings.
+  // Call after a change of the settings. `continued`: it belongs to the step of the change before, unless another step,
+  // undo or redo came between. A step that ends with the settings of its beginning is taken away.
   void settingsChanged(const Settings& before, const Settings& after, bool continued);
 
   bool canUndo() const { return !undo_.empty(); }
@@ -122,6 +123,7 @@ class SceneDocument {
   std::deque<Step> undo_;
   std::vector<Step> redo_;
   size_t undoBytes_ = 0;
+  bool settingsStepOpen_ = false;  // the last of undo_ changes settings, and continued changes belong to it
   std::optional<Step> gesture_;
   Selection selection_;
   SceneContent saved_;

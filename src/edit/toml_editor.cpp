@@ -404,7 +404,17 @@ void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>&
   addBlock(known != nullptr ? endOfTables(*known) : text_.size(), "[[" + list + "]]", keys);
 }
 
-// Removes a run of items with the comma behind it, or at the end of the list with the comma before it.
+// Returns the end of the comma behind an item that ends at `at`, past blanks and comments; `at` if there is none.
+size_t TomlEditor::commaEnd(size_t at) const {
+  size_t comma = text_.find_first_not_of(" \t\r\n", at);
+  while (text_[comma] == '#') {
+    comma = text_.find_first_not_of(" \t\r\n", text_.find('\n', comma));
+  }
+  return text_[comma] == ',' ? comma + 1 : at;
+}
+
+// Removes a run of items with the comma behind it, or at the end of the list with the comma before it. A list that
+// becomes empty loses all commas, since none may stand there alone.
 void TomlEditor::resolve(const toml::node& list, const ListChange& change, std::vector<Edit>& edits) const {
   const std::vector<const toml::node*> items = itemsOf(list);
   std::vector<TextRange> ranges;
@@ -427,8 +437,9 @@ void TomlEditor::resolve(const toml::node& list, const ListChange& change, std::
       ++i;
     }
     const bool last = i + 1 == items.size();
+    const bool emptied = last && first == 0 && change.added.empty();
     const size_t begin = last && first > 0 ? ranges[first - 1].end : ranges[first].begin;
-    edits.push_back({{begin, last ? ranges[i].end : ranges[i + 1].begin}, ""});
+    edits.push_back({{begin, emptied ? commaEnd(end) : last ? end : ranges[i + 1].begin}, ""});
   }
   std::string added;
   for (const std::string& item : change.added) {

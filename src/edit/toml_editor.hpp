@@ -81,6 +81,7 @@ class TomlEditor {
   size_t contentEnd(const toml::table& table) const;
   size_t endOfTables(const toml::node& node) const;
   std::vector<const toml::node*> itemsOf(const toml::node& list) const;
+  size_t commaEnd(size_t at) const;
 
   void changeKey(const toml::table& table, const std::vector<KeyText>& base, const KeyText& key);
   void replaceChangedNumbers(const toml::node& value, std::string_view base, std::string_view edited);
