@@ -57,11 +57,13 @@ class IdleWindow : public Journey {
     const std::vector<PassView>& passes = view().frame.passes;
     return *std::ranges::find(passes, PassKind::main, &PassView::kind);
   }
-  // Returns the picture without the panel, whose figures differ from frame to frame.
+  // Returns the picture without the panel, whose figures differ from frame to frame, and without the messages below,
+  // which go after some seconds.
   std::vector<uint8_t> rightOfThePanel() {
     const Image8 image = picture();
+    constexpr int messages = 100;
     std::vector<uint8_t> right;
-    for (int y = 0; y < image.height; ++y) {
+    for (int y = 0; y < image.height - messages; ++y) {
       right.insert(right.end(), image.at(450, y), image.at(450, y) + static_cast<size_t>(4) * (image.width - 450));
     }
     return right;
