@@ -111,7 +111,7 @@ TEST_F(SceneDocumentTest, RevertedDragOfASettingAddsNoStep) {
   EXPECT_FALSE(document.canUndo());
 }
 
-TEST_F(SceneDocumentTest, DragOfASettingContinuesOnlyItsOwnStep) {
+TEST_F(SceneDocumentTest, SettingDragContinuesOnlyItsStep) {
   const Settings start;
   Settings samples;
   samples.view.samples = 1;
