@@ -59,7 +59,7 @@ float shadowShare(LightData light) {
   vec4 texels = textureGather(shadowTexels, corner / vec2(textureSize(shadowTexels, 0)));
   vec4 lit = vec4(lessThanEqual(texels, disparity + gradient.x * x + gradient.y * y));
   float share = dot(lit, (1.0 - abs(x)) * (1.0 - abs(y)));
-  return window.x > 0.0 ? share : 1.0;  // the face is empty
+  return window.x > 0.0 ? share : 1.0;  // nothing casts a shadow in an empty face
 }
 
 // Returns the share of light `index` of the pass that reaches the receiver.

@@ -44,8 +44,12 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
   add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipPlane), 1);
 }
 
-void bindBuffers(VkCommandBuffer commands, const Buffer& vertices, const Buffer& indices, const FrameData& data) {
-  const std::array buffers{vertices.get(), data.instanceBuffer()};
+void bindBuffers(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch) {
+  const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
+  const bool whole = batch.level < 0;
+  const Buffer& vertices = whole ? mesh.vertices : mesh.levelVertices;
+  const Buffer& indices = whole ? mesh.indices : mesh.levelIndices;
+  const std::array buffers{vertices.get(), info.data.instanceBuffer()};
   constexpr std::array<VkDeviceSize, 2> offsets{};
   vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
   vkCmdBindIndexBuffer(commands, indices.get(), 0, VK_INDEX_TYPE_UINT32);
@@ -141,9 +145,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
-  const bool whole = batch.level < 0;
-  bindBuffers(commands, whole ? mesh.vertices : mesh.levelVertices, whole ? mesh.indices : mesh.levelIndices,
-              info.data);
+  bindBuffers(commands, info, batch);
   uint32_t draws = 0;
   scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
   for (size_t p = 0; p < mesh.parts.size(); ++p) {

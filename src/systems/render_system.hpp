@@ -9,8 +9,8 @@ class DeferredShading;
 
 // Adds the inputs of scene.vert.
 void addVertexInput(GraphicsPipelineDesc& desc);
-// Binds a mesh and the frame's instances as these inputs.
-void bindBuffers(VkCommandBuffer commands, const Buffer& vertices, const Buffer& indices, const FrameData& data);
+// Binds the batch's mesh, at its level, and the frame's instances as these inputs.
+void bindBuffers(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch);
 
 // Draws the scene's objects and, where nothing was drawn, its sky.
 class RenderSystem {

@@ -106,12 +106,9 @@ uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, siz
     info.data.bind(pipeline, commands, data);
   }
   for (const Batch& batch : data.batches) {
-    const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
     const Mesh& source = info.scene.meshes[batch.mesh];
-    const bool whole = batch.level < 0;
-    bindBuffers(commands, whole ? mesh.vertices : mesh.levelVertices, whole ? mesh.indices : mesh.levelIndices,
-                info.data);
-    const std::vector<IndexRange> all{whole ? allOf(source) : levelsOf(source).levels[batch.level].all};
+    bindBuffers(commands, info, batch);
+    const std::vector<IndexRange> all{batch.level < 0 ? allOf(source) : levelsOf(source).levels[batch.level].all};
     for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
       ++draws;
