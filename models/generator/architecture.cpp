@@ -25,7 +25,7 @@ void squareMoulding(Model& model, const Profile& profile, double width, double y
 Model column() {
   Model model;
   model.paint(paints::kWhiteMarble);
-  generator::box(model, {-0.36, 0.0, -0.36}, {0.36, 0.12, 0.36}, 0.006, 1.0, false);
+  generator::box(model, {-0.36, 0.0, -0.36}, {0.36, 0.12, 0.36}, 0.006, 1.0, BoxFaces::allButBottom);
   Profile base({0.352, 0.121});
   base.arc({0.34, 0.20}, 0.9, 5).line({0.30, 0.205}).line({0.30, 0.22}).arc({0.285, 0.28}, -0.7, 4);
   base.line({0.285, 0.295}).arc({0.275, 0.34}, 0.9, 4).line({0.262, 0.345}).line({0.262, 0.365});
@@ -87,7 +87,7 @@ Model plinth() {
 Model baluster() {
   Model model;
   model.paint(paints::kTrim);
-  generator::box(model, {-0.09, 0.0, -0.09}, {0.09, 0.07, 0.09}, 0.004, 1.0, false);
+  generator::box(model, {-0.09, 0.0, -0.09}, {0.09, 0.07, 0.09}, 0.004, 1.0, BoxFaces::allButBottom);
   Profile p({0.075, 0.069});
   p.line({0.075, 0.09})
       .curve({0.03, 0.11}, {0.10, 0.20}, {0.085, 0.27}, 5)
@@ -104,7 +104,7 @@ Model bench() {
   generator::box(model, {-0.8, 0.39, -0.22}, {0.8, 0.45, 0.22}, 0.008);
   for (const double side : {-1.0, 1.0}) {
     const double x = 0.62 * side;
-    generator::box(model, {x - 0.03, 0.0, -0.17}, {x + 0.03, 0.395, 0.17}, 0.006, 1.0, false);
+    generator::box(model, {x - 0.03, 0.0, -0.17}, {x + 0.03, 0.395, 0.17}, 0.006, 1.0, BoxFaces::allButBottom);
   }
   generator::box(model, {-0.6, 0.2, -0.025}, {0.6, 0.25, 0.025}, 0.005);
   return model;
@@ -157,8 +157,8 @@ Model arch() {
   model.paint(paints::kWhiteMarble);
   for (const double side : {-1.0, 1.0}) {
     const double x = 0.95 * side;
-    generator::box(model, {x - 0.2, 0.0, -0.2}, {x + 0.2, 0.14, 0.2}, 0.01, 1.0, false);
-    generator::box(model, {x - 0.15, 0.13, -0.15}, {x + 0.15, 1.5, 0.15}, 0.008, 1.0, false);
+    generator::box(model, {x - 0.2, 0.0, -0.2}, {x + 0.2, 0.14, 0.2}, 0.01, 1.0, BoxFaces::allButBottom);
+    generator::box(model, {x - 0.15, 0.13, -0.15}, {x + 0.15, 1.5, 0.15}, 0.008, 1.0, BoxFaces::allButBottom);
     generator::box(model, {x - 0.19, 1.49, -0.19}, {x + 0.19, 1.6, 0.19}, 0.012);
   }
   Profile ring({0.30, -0.14});
@@ -216,14 +216,14 @@ Model coffers() {
   return model;
 }
 
-Model chequer() {
+Model chequer(BoxFaces faces) {
   Model model;
   model.paint(paints::kWhiteMarble);
   for (int i = 0; i < 8; ++i) {
     for (int k = 0; k < 8; ++k) {
       if ((i + k) % 2 == 0) continue;
       const glm::dvec3 low(-2.0 + 0.5 * i, -0.01, -2.0 + 0.5 * k);
-      generator::box(model, low, low + glm::dvec3(0.5, 0.0115, 0.5), 0.0015, 0.7, false);
+      generator::box(model, low, low + glm::dvec3(0.5, 0.0115, 0.5), 0.0015, 0.7, faces);
     }
   }
   return model;
@@ -232,7 +232,7 @@ Model chequer() {
 Model tile() {
   Model model;
   model.paint(paints::kWhiteMarble);
-  generator::box(model, {-0.5, 0.0, -0.5}, {0.5, 0.02, 0.5}, 0.006, 1.0, false);
+  generator::box(model, {-0.5, 0.0, -0.5}, {0.5, 0.02, 0.5}, 0.006, 1.0, BoxFaces::allButBottom);
   return model;
 }
 
@@ -257,14 +257,14 @@ Model lamp() {
 Model box() {
   Model model;
   model.paint(paints::kWood);
-  generator::box(model, {-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}, 0.015, 1.0, true);
+  generator::box(model, {-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}, 0.015);
   return model;
 }
 
 Model block() {
   Model model;
   model.paint(paints::kWhiteMarble);
-  generator::box(model, {-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}, 0.015, 1.0, true);
+  generator::box(model, {-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5}, 0.015);
   return model;
 }
 

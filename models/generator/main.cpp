@@ -36,7 +36,8 @@ void writeAll(const std::filesystem::path& directory) {
   arch().write(directory, "arch");
   room().write(directory, "room");
   coffers().write(directory, "coffers");
-  chequer().write(directory, "chequer");
+  chequer(BoxFaces::allButBottom).write(directory, "chequer");
+  chequer(BoxFaces::top).write(directory, "chequer_inlay");
   tile().write(directory, "tile");
   lamp().write(directory, "lamp");
   block().write(directory, "block");

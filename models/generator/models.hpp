@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "model.hpp"
+#include "profile.hpp"
 
 namespace speculum::generator {
 
@@ -35,12 +36,14 @@ Model arcadeBay();  // 3 m wide, 4.6 m high wall in z = 0 facing +Z with an arch
 Model arch();       // free-standing gate of two columns' width, 2.6 m high
 Model room();       // 10 x 4.6 x 15 m: end walls and one long wall with panels and mouldings; open on -X, and above
 Model coffers();    // 2 x 2 m of coffered ceiling in y = 0 seen from below
-Model chequer();    // 4 x 4 m: the light squares (0.5 m) of a chequered floor, 1.5 mm high with cut edges
-Model baluster();   // turned, 0.75 m high
-Model tile();       // 1 x 1 m slab, 0.02 m high, with cut edges
-Model lamp();       // hanging lamp; its hook is at y = 0 and it hangs 1.2 m down
-Model box();        // the unit cube on y = 0 with cut edges
-Model block();      // the same in marble
+// 4 x 4 m: the light squares (0.5 m) of a chequered floor, 1.5 mm high with cut edges. BoxFaces::top suits a floor in
+// y = 0 that hides what is below.
+Model chequer(BoxFaces faces);
+Model baluster();  // turned, 0.75 m high
+Model tile();      // 1 x 1 m slab, 0.02 m high, with cut edges
+Model lamp();      // hanging lamp; its hook is at y = 0 and it hangs 1.2 m down
+Model box();       // the unit cube on y = 0 with cut edges
+Model block();     // the same in marble
 
 // Moulded frame around an opening of width x height with its lip 0.035 m above z = 0; a mirror at z = 0.02 that is
 // 0.02 m larger than the opening on every side fits under it. The outer edge reaches back to z = -0.05.

@@ -112,7 +112,7 @@ void sweep(Model& model, const Profile& profile, const std::vector<glm::dvec2>& 
   }
 }
 
-void box(Model& model, const glm::dvec3& low, const glm::dvec3& high, double bevel, double uvScale, bool bottom) {
+void box(Model& model, const glm::dvec3& low, const glm::dvec3& high, double bevel, double uvScale, BoxFaces faces) {
   const glm::dvec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
   const auto at = [&](const glm::dvec3& sign, int flush, const glm::dvec3& normal) {
     glm::dvec3 p = sign * (half - bevel);
@@ -132,9 +132,12 @@ void box(Model& model, const glm::dvec3& low, const glm::dvec3& high, double bev
         sign[b] = sb, sign[c] = sc;
         return at(sign, axis, normal);
       };
-      if (bottom || axis != 1 || side > 0.0) model.quad(face(-1, -1), face(1, -1), face(1, 1), face(-1, 1));
+      const bool isTop = axis == 1 && side > 0.0, isBottom = axis == 1 && side < 0.0;
+      if (isTop || faces == BoxFaces::all || (faces == BoxFaces::allButBottom && !isBottom))
+        model.quad(face(-1, -1), face(1, -1), face(1, 1), face(-1, 1));
       if (bevel <= 0.0) continue;
       for (double other : {-1.0, 1.0}) {  // the bevel between this face and the next axis' face
+        if (faces == BoxFaces::top && !isTop && (b != 1 || other < 0.0)) continue;
         glm::dvec3 tilt(0.0);
         tilt[axis] = side, tilt[b] = other;
         tilt = glm::normalize(tilt);
@@ -150,6 +153,7 @@ void box(Model& model, const glm::dvec3& low, const glm::dvec3& high, double bev
   if (bevel <= 0.0) return;
   for (int k = 0; k < 8; ++k) {
     const glm::dvec3 sign(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+    if (faces == BoxFaces::top && sign.y < 0.0) continue;
     const glm::dvec3 normal = glm::normalize(sign);
     model.triangle(at(sign, 0, normal), at(sign, 1, normal), at(sign, 2, normal));
   }

@@ -38,9 +38,12 @@ void lathe(Model& model, const Profile& profile, int segments, double uvScale = 
 void sweep(Model& model, const Profile& profile, const std::vector<glm::dvec2>& path, bool closed, bool smooth,
            const Affine& place, double uvScale = 1.0);
 
-// Axis-aligned box with all edges cut at 45 degrees by `bevel`; `bottom` false leaves the lowest face out.
+enum class BoxFaces { all, allButBottom, top };
+
+// Axis-aligned box with its edges cut at 45 degrees by `bevel`. BoxFaces::allButBottom leaves the lowest face out;
+// BoxFaces::top keeps the highest face and the cuts around it.
 void box(Model& model, const glm::dvec3& low, const glm::dvec3& high, double bevel, double uvScale = 1.0,
-         bool bottom = true);
+         BoxFaces faces = BoxFaces::all);
 
 // Paths for sweep(), counter-clockwise, centred at the origin.
 std::vector<glm::dvec2> rectanglePath(double width, double height);

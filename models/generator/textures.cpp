@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "models.hpp"
 
 namespace speculum::generator {
