@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 #include <limits>
 #include <set>
 #include <utility>
@@ -23,12 +24,30 @@ double leastCosine(const View& view, const Projection& projection) {
   return 1.0 / std::sqrt(1.0 + square);
 }
 
-// Returns the view depth in metres of the instance's nearest point that is not clipped away.
+// Returns a lower bound of the view depth, in metres, of the instance's points that the view may see.
 double nearestDepth(const View& view, double cosine, const InstanceState& instance, const Mesh& mesh) {
-  const glm::dmat3 viewFromMesh = view.worldToView * instance.worldFromMesh.linear;
-  const glm::dvec3 along(viewFromMesh[0].z, viewFromMesh[1].z, viewFromMesh[2].z);
-  const double center = -(view.worldToView * (instance.worldFromMesh.translation - view.eye)).z;
-  const double depth = center - glm::dot(glm::abs(along), mesh.halfExtent);
+  const glm::dmat3& linear = instance.worldFromMesh.linear;
+  const glm::dmat3 axes(linear[0] * mesh.halfExtent.x, linear[1] * mesh.halfExtent.y, linear[2] * mesh.halfExtent.z);
+  const glm::dvec3 center = instance.worldFromMesh.translation - view.eye;
+  const auto leastAlong = [&](const glm::dvec3& direction) {
+    const glm::dvec3 reach = glm::abs(direction * axes);
+    return glm::dot(direction, center) - (reach.x + reach.y + reach.z);
+  };
+  const glm::dvec3 ahead = -glm::row(view.worldToView, 2);
+  double depth = leastAlong(ahead);
+  const bool isLarge = depth < 0.5 * glm::dot(ahead, center);
+  if (isLarge) {
+    // A point q of the visible cone has n.q >= 0 for each plane, so that its depth is no less than (ahead - w n).q for
+    // any w > 0. The box's least of that is largest where one axis of the box has no share in it.
+    for (const glm::dvec3& normal : view.cone) {
+      const glm::dvec3 weights = (ahead * axes) / (normal * axes);
+      for (int i = 0; i < 3; ++i) {
+        if (weights[i] > 0.0 && std::isfinite(weights[i])) {
+          depth = std::max(depth, leastAlong(ahead - weights[i] * normal));
+        }
+      }
+    }
+  }
   return view.clip ? std::max(depth, -view.clip->distance(view.eye) * cosine) : depth;
 }
 

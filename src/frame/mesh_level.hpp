@@ -6,8 +6,9 @@
 namespace speculum {
 
 // Returns the largest displacement of the mesh's points, in the mesh's unit, that moves nothing by more than `texels`
-// in the view's image; 0 if the mesh's box may reach the eye. A displacement d at view depth z moves a point in the
-// image by at most f d / (z cos a), with f the focal length in texels and a the angle between line of sight and axis.
+// in the view's image; 0 if the visible part of the mesh's box may reach the eye. A displacement d at view depth z
+// moves a point in the image by at most f d / (z cos a), with f the focal length in texels and a the angle between line
+// of sight and axis.
 double largestError(const View& view, const Projection& projection, const InstanceState& instance, const Mesh& mesh,
                     double texels);
 
