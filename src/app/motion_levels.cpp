@@ -17,6 +17,7 @@ constexpr double scaleStep = 0.9;
 // Below these, losing far reflections is seen less than losing detail.
 constexpr double softScale = 0.7;
 constexpr double blurredScale = 0.4;
+constexpr double coarseScale = 0.25;
 constexpr double leastScale = 0.125;
 constexpr int smallShadowMap = 256;     // texels of a face's side
 constexpr int smallEnvironment = 64;    // likewise
@@ -194,6 +195,8 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   simplify(2.0, 2.0);
   passesTo(12);
   passesTo(8);
+  scaleTo(coarseScale);
+  simplify(4.0, 4.0);
   scaleTo(leastScale);
   return levels;
 }
