@@ -9,6 +9,7 @@
 
 #include "accuracy/image_metrics.hpp"
 #include "app/demo.hpp"
+#include "platform/machine.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum {
@@ -204,6 +205,7 @@ void measure(const std::string& scene) {
 }  // namespace speculum
 
 int main(int argc, char** argv) {
+  speculum::keepFreedMemory();  // as the program does
   const speculum::test::VirtualDisplay display;
   for (int i = 1; i < argc; ++i) {
     speculum::measure(argv[i]);
