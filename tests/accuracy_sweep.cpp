@@ -295,7 +295,7 @@ reflectance = [0.8, 0.8, 0.8]
     int drawn = 0;  // pictures
     int timed = 0;  // frames
   };
-  // Runs the sweep with the store in `folder`, in memory without one.
+  // Runs the sweep with the store in `folder`.
   Run run(const fs::path& folder, const SweepProgress& progress = {}, const std::string& identity = "one") {
     TracingSubject subject(scene_, state_);
     SweepStore store(folder);
@@ -314,7 +314,7 @@ reflectance = [0.8, 0.8, 0.8]
 };
 
 TEST_F(SmallSweep, ErrorFallsAsTheThroughputBeyondDepth) {
-  const SweepResults results = run({}).results;
+  const SweepResults results = run(folder_ / "store").results;
   ASSERT_EQ(results.series.size(), 1u);
   const SweepSeries& series = results.series[0];
   for (size_t i = 1; i < series.points.size(); ++i) {
@@ -384,7 +384,7 @@ TEST_F(SmallSweep, ResultsSurviveTheirFile) {
 }
 
 TEST_F(SmallSweep, ResultsRefuseNumbersThatAreNoInt) {
-  nlohmann::ordered_json json = sweepJson(run({}).results);
+  nlohmann::ordered_json json = sweepJson(run(folder_ / "store").results);
   for (const char* value : {"1e300", "-1e300", "0.5", "2147483648", "18446744073709551615", "\"1\"", "[]"}) {
     json["ground_truth"]["threads"] = nlohmann::ordered_json::parse(value);
     EXPECT_EQ(readProblem(json.dump()),

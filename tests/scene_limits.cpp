@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "scene/scene_state.hpp"
-#include "scene/toml_depth.hpp"
+#include "scene/toml_file.hpp"
 #include "scene_support.hpp"
 
 namespace speculum {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "ui/mirror_cost.hpp"
 #include "ui/pass_tree.hpp"
 
 namespace speculum {

@@ -15,115 +15,74 @@ using nlohmann::ordered_json;
 
 constexpr double largestFigure = 1e12;
 
-ordered_json changesJson(const std::vector<SettingChange>& changes) {
-  ordered_json json = ordered_json::object();
-  for (const SettingChange& change : changes) {
-    json[change.key] = change.value;
-  }
-  return json;
-}
-
-ordered_json spreadJson(const Spread& spread) {
-  return {{"median", spread.median},
-          {"min", spread.minimum},
-          {"q1", spread.lowerQuartile},
-          {"q3", spread.upperQuartile},
-          {"repeats", spread.repeats}};
-}
-
-ordered_json pointJson(const SweepPoint& point) {
-  return {{"name", point.name},
-          {"settings", changesJson(point.changes)},
-          {"on_front", point.onFront},
-          {"error", errorsJson({point.whole, point.mirrors})},
-          {"gpu_ms", spreadJson(point.gpuMs)},
-          {"cpu_ms", spreadJson(point.cpuMs)},
-          {"frame_ms", spreadJson(point.frameMs)},
-          {"picture", point.picture},
-          {"heat_map", point.heatMap}};
-}
-
-ordered_json seriesJson(const SweepSeries& series) {
-  ordered_json json = {{"key", series.key},
-                       {"name", series.name},
-                       {"axis", series.axis == SweepSeries::Axis::linear ? "linear" : "logarithmic"},
-                       {"x", series.x},
-                       {"points", series.points},
-                       {"note", series.note},
-                       {"theory_slope", series.theorySlope},
-                       {"fitted", series.fitted}};
-  json["fit"] = series.fit ? ordered_json{{"slope", series.fit->slope}, {"offset", series.fit->offset}} : nullptr;
-  return json;
-}
-
-std::vector<SettingChange> readChanges(const JsonReader& reader, const char* key) {
-  std::vector<SettingChange> changes;
-  const ordered_json& settings = reader.member(key);
-  for (const auto& [name, value] : settings.items()) {
-    if (!settings.is_object() || !value.is_string()) {
-      reader.fail(key);
-    }
-    changes.push_back({name, value.get<std::string>()});
-  }
-  return changes;
-}
-
-Spread readSpread(const JsonReader& reader) {
-  return {reader.number("median"), reader.number("min"), reader.number("q1"), reader.number("q3"),
-          reader.integer("repeats")};
-}
-
-ImageMetrics readMetrics(const JsonReader& reader) {
-  return {.rmse = reader.number("rmse"),
-          .relativeRmse = reader.numberOrInfinity("relative_rmse"),
-          .psnr = reader.numberOrInfinity("psnr"),
-          .ssim = reader.number("ssim"),
-          .flip = reader.number("flip"),
-          .maxDiff = reader.number("max_diff"),
-          .p99Diff = reader.number("p99_diff"),
-          .pixelsOver = reader.integer("pixels_over"),
-          .pixels = reader.integer("pixels")};
-}
-
-SweepPoint readPoint(const JsonReader& reader) {
-  const ErrorFigures errors = reader.errors("error");
-  return {.name = reader.get<std::string>("name"),
-          .changes = readChanges(reader, "settings"),
-          .whole = errors.whole,
-          .mirrors = errors.mirrors,
-          .gpuMs = readSpread(reader.at("gpu_ms")),
-          .cpuMs = readSpread(reader.at("cpu_ms")),
-          .frameMs = readSpread(reader.at("frame_ms")),
-          .onFront = reader.get<bool>("on_front"),
-          .picture = reader.get<std::string>("picture"),
-          .heatMap = reader.get<std::string>("heat_map")};
-}
-
-SweepSeries readSeries(const JsonReader& reader, size_t pointCount) {
-  SweepSeries series{
-      .key = reader.get<std::string>("key"),
-      .name = reader.get<std::string>("name"),
-      .axis = reader.get<std::string>("axis") == "linear" ? SweepSeries::Axis::linear : SweepSeries::Axis::logarithmic,
-      .x = reader.get<std::vector<double>>("x"),
-      .points = reader.integers("points"),
-      .note = reader.get<std::string>("note"),
-      .theorySlope = reader.get<double>("theory_slope"),
-      .fitted = reader.integers("fitted")};
-  if (!reader.null("fit")) {
-    const JsonReader fit = reader.at("fit");
-    series.fit = LineFit{fit.get<double>("slope"), fit.get<double>("offset")};
-  }
-  const auto below = [](size_t count) { return [count](int i) { return i >= 0 && static_cast<size_t>(i) < count; }; };
-  if (series.points.size() != series.x.size() || !std::ranges::all_of(series.points, below(pointCount))) {
-    reader.fail("points");
-  }
-  if (!std::ranges::all_of(series.fitted, below(series.points.size()))) {
-    reader.fail("fitted");
-  }
-  return series;
-}
-
 }  // namespace
+
+NLOHMANN_JSON_SERIALIZE_ENUM(SweepSeries::Axis,
+                             {{SweepSeries::Axis::logarithmic, "logarithmic"}, {SweepSeries::Axis::linear, "linear"}})
+
+void members(auto&& json, Of<Spread> auto& spread) {
+  json.figure("median", spread.median);
+  json.figure("min", spread.minimum);
+  json.figure("q1", spread.lowerQuartile);
+  json.figure("q3", spread.upperQuartile);
+  json("repeats", spread.repeats);
+}
+
+void members(auto&& json, Of<SweepPoint> auto& point) {
+  json("name", point.name);
+  json("settings", point.changes);
+  json("on_front", point.onFront);
+  json.object("error", [&](auto&& error) {
+    error("whole", point.whole);
+    error("mirrors", point.mirrors);
+  });
+  json("gpu_ms", point.gpuMs);
+  json("cpu_ms", point.cpuMs);
+  json("frame_ms", point.frameMs);
+  json("picture", point.picture);
+  json("heat_map", point.heatMap);
+}
+
+void members(auto&& json, Of<LineFit> auto& fit) {
+  json("slope", fit.slope);
+  json("offset", fit.offset);
+}
+
+void members(auto&& json, Of<SweepSeries> auto& series) {
+  json("key", series.key);
+  json("name", series.name);
+  json("axis", series.axis);
+  json("x", series.x);
+  json("points", series.points);
+  json("note", series.note);
+  json("theory_slope", series.theorySlope);
+  json("fitted", series.fitted);
+  json("fit", series.fit);
+}
+
+void members(auto&& json, Of<SweepResults> auto& results) {
+  json("scene", results.scene);
+  json("title", results.title);
+  json("sweep", results.sweep);
+  json.pair("size", results.width, results.height);
+  json("time", results.time);
+  json("device", results.device);
+  json("driver", results.driver);
+  json("render_path", results.renderPath);
+  json("machine", results.machine);
+  json("version", results.version);
+  json("date", results.date);
+  json("settings", results.base);
+  json.object("ground_truth", [&](auto&& truth) {
+    truth("samples", results.truthSamples);
+    truth.figure("ms", results.truthMs);
+    truth("threads", results.truthThreads);
+    truth("noise_floor", results.floor);
+    truth("picture", results.truthPicture);
+  });
+  json("points", results.points);
+  json("series", results.series);
+}
 
 ordered_json parseJson(const std::vector<uint8_t>& bytes) {
   constexpr int mostMembers = 10'000;
@@ -140,45 +99,10 @@ ordered_json parseJson(const std::vector<uint8_t>& bytes) {
   });
 }
 
-ordered_json errorsJson(const ErrorFigures& errors) {
-  const auto counted = [](const ImageMetrics& metrics) {
-    ordered_json json = metricsJson(metrics);
-    json["pixels"] = metrics.pixels;
-    return json;
-  };
-  ordered_json json = {{"whole", counted(errors.whole)}};
-  json["mirrors"] = errors.mirrors ? counted(*errors.mirrors) : ordered_json(nullptr);
-  return json;
-}
-
-ordered_json sweepJson(const SweepResults& r) {
-  ordered_json json = {{"scene", r.scene},
-                       {"title", r.title},
-                       {"sweep", r.sweep},
-                       {"size", {r.width, r.height}},
-                       {"time", r.time},
-                       {"device", r.device},
-                       {"driver", r.driver},
-                       {"render_path", r.renderPath},
-                       {"machine", r.machine},
-                       {"version", r.version},
-                       {"date", r.date},
-                       {"settings", changesJson(r.base)},
-                       {"ground_truth",
-                        {{"samples", r.truthSamples},
-                         {"ms", r.truthMs},
-                         {"threads", r.truthThreads},
-                         {"noise_floor", errorsJson(r.floor)},
-                         {"picture", r.truthPicture}}}};
-  json["points"] = ordered_json::array();
-  for (const SweepPoint& point : r.points) {
-    json["points"].push_back(pointJson(point));
-  }
-  json["series"] = ordered_json::array();
-  for (const SweepSeries& series : r.series) {
-    json["series"].push_back(seriesJson(series));
-  }
-  return json;
+ordered_json sweepJson(const SweepResults& results) {
+  JsonWriter json;
+  members(json, results);
+  return std::move(json.written);
 }
 
 SweepResults readSweepResults(const std::filesystem::path& file) {
@@ -194,36 +118,64 @@ SweepResults readSweepResults(const std::filesystem::path& file) {
     throw InputError(file.string() + ": " + error.what() + " (a results.json of speculum accuracy is needed)");
   }
   const JsonReader reader(file, json);
-  SweepResults results{.scene = reader.get<std::string>("scene"),
-                       .title = reader.get<std::string>("title"),
-                       .sweep = reader.get<std::string>("sweep"),
-                       .time = reader.get<double>("time"),
-                       .device = reader.get<std::string>("device"),
-                       .driver = reader.get<std::string>("driver"),
-                       .renderPath = reader.get<std::string>("render_path"),
-                       .machine = reader.get<std::string>("machine"),
-                       .version = reader.get<std::string>("version"),
-                       .date = reader.get<std::string>("date"),
-                       .base = readChanges(reader, "settings")};
-  const std::vector<int> size = reader.integers("size");
-  if (size.size() != 2) {
-    reader.fail("size");
-  }
-  results.width = size[0];
-  results.height = size[1];
-  const JsonReader truth = reader.at("ground_truth");
-  results.truthMs = truth.number("ms");
-  results.truthThreads = truth.integer("threads");
-  results.truthSamples = truth.integer("samples");
-  results.floor = truth.errors("noise_floor");
-  results.truthPicture = truth.get<std::string>("picture");
-  for (const JsonReader& point : reader.items("points")) {
-    results.points.push_back(readPoint(point));
-  }
-  for (const JsonReader& series : reader.items("series")) {
-    results.series.push_back(readSeries(series, results.points.size()));
+  SweepResults results;
+  members(reader, results);
+  const auto below = [](size_t count) { return [count](int i) { return i >= 0 && static_cast<size_t>(i) < count; }; };
+  for (size_t i = 0; i < results.series.size(); ++i) {
+    const SweepSeries& series = results.series[i];
+    const std::string path = "series[" + std::to_string(i) + "].";
+    if (series.points.size() != series.x.size() || !std::ranges::all_of(series.points, below(results.points.size()))) {
+      reader.fail(path + "points");
+    }
+    if (!std::ranges::all_of(series.fitted, below(series.points.size()))) {
+      reader.fail(path + "fitted");
+    }
   }
   return results;
+}
+
+ordered_json JsonWriter::jsonOf(const std::vector<SettingChange>& changes) {
+  ordered_json json = ordered_json::object();
+  for (const SettingChange& change : changes) {
+    json[change.key] = change.value;
+  }
+  return json;
+}
+
+void JsonReader::figure(const char* key, double& value) const {
+  (*this)(key, value);
+  if (!(value >= 0.0 && value <= largestFigure)) {
+    fail(key);
+  }
+}
+
+void JsonReader::orInfinity(const char* key, double& value) const {
+  value = std::numeric_limits<double>::infinity();
+  if (!member(key).is_null()) {
+    (*this)(key, value);
+  }
+}
+
+void JsonReader::pair(const char* key, int& first, int& second) const {
+  std::vector<int> both;
+  (*this)(key, both);
+  if (both.size() != 2) {
+    fail(key);
+  }
+  first = both[0];
+  second = both[1];
+}
+
+void JsonReader::read(const std::string& key, const ordered_json& json, std::vector<SettingChange>& changes) const {
+  if (!json.is_object()) {
+    fail(key);
+  }
+  for (const auto& [name, value] : json.items()) {
+    if (!value.is_string()) {
+      fail(key);
+    }
+    changes.push_back({name, value.get<std::string>()});
+  }
 }
 
 const ordered_json& JsonReader::member(const char* key) const {
@@ -233,15 +185,7 @@ const ordered_json& JsonReader::member(const char* key) const {
   return json_.at(key);
 }
 
-const ordered_json& JsonReader::array(const char* key) const {
-  const ordered_json& value = member(key);
-  if (!value.is_array()) {
-    fail(key);
-  }
-  return value;
-}
-
-int JsonReader::integerOf(const ordered_json& value, const char* key) const {
+int JsonReader::integerOf(const ordered_json& value, const std::string& key) const {
   const auto fits = [](auto number) { return std::in_range<int>(number); };
   if (!(value.is_number_unsigned() ? fits(value.get<uint64_t>())
                                    : value.is_number_integer() && fits(value.get<int64_t>()))) {
@@ -250,44 +194,7 @@ int JsonReader::integerOf(const ordered_json& value, const char* key) const {
   return value.get<int>();
 }
 
-std::vector<int> JsonReader::integers(const char* key) const {
-  std::vector<int> values;
-  for (const ordered_json& value : array(key)) {
-    values.push_back(integerOf(value, key));
-  }
-  return values;
-}
-
-double JsonReader::number(const char* key) const {
-  const auto value = get<double>(key);
-  if (!(value >= 0.0 && value <= largestFigure)) {
-    fail(key);
-  }
-  return value;
-}
-
-double JsonReader::numberOrInfinity(const char* key) const {
-  return null(key) ? std::numeric_limits<double>::infinity() : get<double>(key);
-}
-
-ErrorFigures JsonReader::errors(const char* key) const {
-  const JsonReader reader = at(key);
-  ErrorFigures figures{.whole = readMetrics(reader.at("whole"))};
-  if (!reader.null("mirrors")) {
-    figures.mirrors = readMetrics(reader.at("mirrors"));
-  }
-  return figures;
-}
-
-std::vector<JsonReader> JsonReader::items(const char* key) const {
-  std::vector<JsonReader> readers;
-  for (const ordered_json& value : array(key)) {
-    readers.emplace_back(file_, value, path_ + key + "[" + std::to_string(readers.size()) + "].");
-  }
-  return readers;
-}
-
-void JsonReader::fail(const char* key) const {
+void JsonReader::fail(const std::string& key) const {
   throw InputError(file_.string() + ": " + path_ + key +
                    ": missing or of another kind (a results.json of speculum accuracy is needed)");
 }

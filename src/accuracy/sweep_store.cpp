@@ -39,25 +39,26 @@ Image8 maskImage(const PixelMask& mask) {
   return image;
 }
 
-Measurement readMeasurement(const fs::path& file, const ordered_json& json) {
-  const JsonReader reader(file, json);
-  Measurement m{.picture = reader.get<std::string>("picture"),
-                .heatMap = reader.get<std::string>("heat_map"),
-                .gpuMs = reader.get<std::vector<double>>("gpu_ms"),
-                .cpuMs = reader.get<std::vector<double>>("cpu_ms"),
-                .frameMs = reader.get<std::vector<double>>("frame_ms")};
-  if (!reader.null("error")) {
-    m.errors = reader.errors("error");
-  }
-  return m;
-}
-
 }  // namespace
 
+void members(auto&& json, Of<Measurement> auto& measurement) {
+  json("picture", measurement.picture);
+  json("heat_map", measurement.heatMap);
+  json("gpu_ms", measurement.gpuMs);
+  json("cpu_ms", measurement.cpuMs);
+  json("frame_ms", measurement.frameMs);
+  json("error", measurement.errors);
+}
+
+// The pictures have files of their own.
+void members(auto&& json, Of<GroundTruth> auto& truth) {
+  json("floor", truth.floor);
+  json("ms", truth.ms);
+  json("threads", truth.threads);
+  json("throughput_beyond", truth.throughputBeyond);
+}
+
 SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {
-  if (folder_.empty()) {
-    return;
-  }
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error || !isFolder(folder_)) {
@@ -74,8 +75,9 @@ void SweepStore::load() {
   }
   try {
     for (const auto& [key, value] : json->items()) {
-      Measurement measurement = readMeasurement(file, value);
-      const auto kept = [&](const std::string& name) { return name.empty() || isFile(folder_ / name); };
+      Measurement measurement;
+      members(JsonReader(file, value), measurement);
+      const auto kept = [&](const std::string& name) { return isFile(folder_ / name); };
       if (!kept(measurement.picture) || !kept(measurement.heatMap)) {
         measurement.errors.reset();
       }
@@ -88,34 +90,23 @@ void SweepStore::load() {
 }
 
 void SweepStore::save() const {
-  if (folder_.empty()) {
-    return;
+  JsonWriter json;
+  for (const auto& [key, measurement] : measurements_) {
+    json(key.c_str(), measurement);
   }
-  ordered_json json = ordered_json::object();
-  for (const auto& [key, m] : measurements_) {
-    json[key] = {{"picture", m.picture}, {"heat_map", m.heatMap}, {"gpu_ms", m.gpuMs},
-                 {"cpu_ms", m.cpuMs},    {"frame_ms", m.frameMs}, {"error", nullptr}};
-    if (m.errors) {
-      json[key]["error"] = errorsJson(*m.errors);
-    }
-  }
-  replaceFile(folder_ / "measurements.json", json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  replaceFile(folder_ / "measurements.json", json.written.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
   const fs::path base = folder_ / ("truth-" + key);
-  const std::optional<ordered_json> json = folder_.empty() ? std::nullopt : readJson(base.string() + ".json");
+  const std::optional<ordered_json> json = readJson(base.string() + ".json");
   if (!json) {
     return std::nullopt;
   }
   try {
-    const JsonReader reader(base, *json);
     GroundTruth truth{.image = readExr(base.string() + ".exr"),
-                      .mirrors = readPixelMask(base.string() + "-mirrors.png"),
-                      .floor = reader.errors("floor"),
-                      .ms = reader.get<double>("ms"),
-                      .threads = reader.get<int>("threads"),
-                      .throughputBeyond = reader.get<std::vector<double>>("throughput_beyond")};
+                      .mirrors = readPixelMask(base.string() + "-mirrors.png")};
+    members(JsonReader(base, *json), truth);
     return truth;
   } catch (const std::exception& problem) {
     spdlog::warn("{}", problem.what());
@@ -124,24 +115,16 @@ std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
 }
 
 void SweepStore::keepTruth(const std::string& key, const GroundTruth& truth) const {
-  if (folder_.empty()) {
-    return;
-  }
   const std::string base = (folder_ / ("truth-" + key)).string();
   writeExr(base + ".exr", truth.image);
   writePng(base + "-mirrors.png", maskImage(truth.mirrors));
-  const ordered_json json = {{"floor", errorsJson(truth.floor)},
-                             {"ms", truth.ms},
-                             {"threads", truth.threads},
-                             {"throughput_beyond", truth.throughputBeyond}};
+  JsonWriter json;
+  members(json, truth);
   // This file comes last: its presence means that the others are complete.
-  replaceFile(base + ".json", json.dump());
+  replaceFile(base + ".json", json.written.dump());
 }
 
 std::string SweepStore::keepPicture(const std::string& name, const Image8& image) const {
-  if (folder_.empty()) {
-    return {};
-  }
   writePng(folder_ / name, image);
   return name;
 }

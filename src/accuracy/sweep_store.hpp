@@ -12,7 +12,7 @@ namespace speculum {
 // Measurements of one configuration so far.
 struct Measurement {
   std::optional<ErrorFigures> errors;
-  std::string picture;  // file in the store's folder; empty if not kept
+  std::string picture;  // file in the store's folder
   std::string heatMap;
   std::vector<double> gpuMs;  // one value a round, as many in each
   std::vector<double> cpuMs;
@@ -23,8 +23,8 @@ struct Measurement {
 // continues. Every write replaces a whole file; a file that cannot be read counts as absent.
 class SweepStore {
  public:
-  // Creates the folder; throws std::runtime_error if that fails. Without a folder the store is in memory only.
-  explicit SweepStore(std::filesystem::path folder = {});
+  // Creates the folder; throws std::runtime_error if that fails.
+  explicit SweepStore(std::filesystem::path folder);
 
   Measurement& at(const std::string& key) { return measurements_[key]; }
   void save() const;
@@ -32,10 +32,8 @@ class SweepStore {
   std::optional<GroundTruth> truth(const std::string& key) const;
   void keepTruth(const std::string& key, const GroundTruth& truth) const;
 
-  // Writes a picture; returns its name in the folder, empty without one.
+  // Writes a picture; returns its name in the folder.
   std::string keepPicture(const std::string& name, const Image8& image) const;
-
-  const std::filesystem::path& folder() const { return folder_; }
 
  private:
   void load();

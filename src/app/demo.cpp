@@ -336,7 +336,6 @@ void Demo::setPresentMode(size_t index) {
   renderer_.setPresentMode(renderer_.presentModes().at(index));
 }
 
-// Call before the panels are made. Their callbacks then run first and pass all events on.
 void Demo::installInput() {
   WindowCallbacks callbacks;
   callbacks.key = [this](const KeyEvent& event) { handleKey(event); };

@@ -5,7 +5,6 @@
 #include "app/document_controller.hpp"
 #include "app/file_dialog.hpp"
 #include "app/frame_report.hpp"
-#include "app/log_capture.hpp"
 #include "app/playback.hpp"
 #include "app/pointer_controller.hpp"
 #include "app/recovery.hpp"

@@ -1,6 +1,7 @@
 #include "frame/effects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "frame/scene_names.hpp"
@@ -91,36 +92,21 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
 
 }  // namespace
 
-// The compiler warns of a kind without a case, here and in effectsOf(); warnings are errors in the presets ci and
-// asan-ubsan.
 std::vector<SettingChange> settingsWithout(EffectKind effect) {
-  switch (effect) {
-    case EffectKind::shadows:
-      return {{"effects.shadows", "false"}};
-    case EffectKind::roughness:
-      return {{"effects.roughness", "false"}};
-    case EffectKind::ripple:
-      return {{"effects.ripple", "false"}};
-    case EffectKind::castsLight:
-      return {{"effects.casts_light", "false"}};
-    case EffectKind::fresnel:
-      return {{"effects.fresnel", "false"}};
-    case EffectKind::textures:
-      return {{"effects.textures", "false"}};
-    case EffectKind::msaa:
-      return {{"view.samples", "1"}, {"reflection.samples", "1"}};
-    case EffectKind::toneMap:
-      return {{"view.tone_map", "clamp"}};
-    case EffectKind::glyphs:
-      return {{"effects.glyphs", "false"}};
-    case EffectKind::wireframe:
-      return {{"view.wireframe", "false"}};
-    case EffectKind::curved:
-      return {{"effects.curved", "false"}};
-    case EffectKind::count:
-      break;
-  }
-  return {};
+  // By EffectKind.
+  static const std::array<std::vector<SettingChange>, static_cast<size_t>(EffectKind::count)> changes = {
+      {{{"effects.shadows", "false"}},
+       {{"effects.roughness", "false"}},
+       {{"effects.ripple", "false"}},
+       {{"effects.casts_light", "false"}},
+       {{"effects.fresnel", "false"}},
+       {{"effects.textures", "false"}},
+       {{"view.samples", "1"}, {"reflection.samples", "1"}},
+       {{"view.tone_map", "clamp"}},
+       {{"effects.glyphs", "false"}},
+       {{"view.wireframe", "false"}},
+       {{"effects.curved", "false"}}}};
+  return changes.at(static_cast<size_t>(effect));
 }
 
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {
@@ -132,41 +118,18 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
   const Visible visible = visibleIn(plan);
   const TracedEffects& traced = plan.effects;
   const bool aces = settings.view.toneMap == ToneMap::aces;
-  const auto effectOf = [&](EffectKind effect) -> Effect {
-    switch (effect) {
-      case EffectKind::shadows:
-        return tracedEffect("shadows", traced.shadows, "no light casts them on what is drawn");
-      case EffectKind::roughness:
-        return tracedEffect("roughness", traced.roughness, "no visible mirror is rough");
-      case EffectKind::ripple:
-        return tracedEffect("ripple", traced.ripple, "no visible mirror has ripples");
-      case EffectKind::castsLight:
-        return tracedEffect("casts_light", traced.castsLight, "no mirror casts light on what is drawn");
-      case EffectKind::fresnel:
-        return fresnel(scene, state, settings, visible);
-      case EffectKind::textures:
-        return textures(scene, state, settings, visible);
-      case EffectKind::msaa:
-        return multisampling(settings, plan);
-      case EffectKind::toneMap:
-        return {"tone_map", aces, aces ? "view.tone_map = aces" : "view.tone_map = clamp"};
-      case EffectKind::glyphs:
-        return glyphs(scene, visible);
-      case EffectKind::wireframe:
-        return {"wireframe", settings.view.wireframe,
-                settings.view.wireframe ? "view.wireframe = true" : "view.wireframe = false"};
-      case EffectKind::curved:
-        return tracedEffect("curved", traced.curved, "no visible object is a mirror");
-      case EffectKind::count:
-        break;
-    }
-    return {};
-  };
-  std::vector<Effect> effects;
-  for (size_t i = 0; i < static_cast<size_t>(EffectKind::count); ++i) {
-    effects.push_back(effectOf(static_cast<EffectKind>(i)));
-  }
-  return effects;
+  const bool wire = settings.view.wireframe;
+  return {tracedEffect("shadows", traced.shadows, "no light casts them on what is drawn"),
+          tracedEffect("roughness", traced.roughness, "no visible mirror is rough"),
+          tracedEffect("ripple", traced.ripple, "no visible mirror has ripples"),
+          tracedEffect("casts_light", traced.castsLight, "no mirror casts light on what is drawn"),
+          fresnel(scene, state, settings, visible),
+          textures(scene, state, settings, visible),
+          multisampling(settings, plan),
+          {"tone_map", aces, aces ? "view.tone_map = aces" : "view.tone_map = clamp"},
+          glyphs(scene, visible),
+          {"wireframe", wire, wire ? "view.wireframe = true" : "view.wireframe = false"},
+          tracedEffect("curved", traced.curved, "no visible object is a mirror")};
 }
 
 }  // namespace speculum

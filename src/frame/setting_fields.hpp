@@ -71,19 +71,22 @@ struct SettingNeed {
   std::string_view value;
 };
 
-// Describes a setting. `--set`, [settings] of scenes, JSON, comparisons, the panel, tooltips, `--help`, completion and
-// docs/settings.md follow from it; the default is the member's in settings.hpp.
-struct SettingField {
-  std::string_view key;
-  SettingKind kind;
-  const char* label;      // in the panel
-  std::string_view text;  // what it does, one line
-  std::string_view cost;  // what it costs or saves: no figures of a device that is not the user's
+struct SettingTraits {
   std::string_view unit = {};
   FramePart changes = FramePart::mirrorImages;
   bool subject = false;  // chooses what is shown, not how well: no sweep varies it
   std::optional<SettingSlider> slider = std::nullopt;
   std::optional<SettingNeed> needs = std::nullopt;
+};
+
+// Describes a setting. `--set`, [settings] of scenes, JSON, comparisons, the panel, tooltips, `--help`, completion and
+// docs/settings.md follow from it; the default is the member's in settings.hpp.
+struct SettingField : SettingTraits {
+  std::string_view key;
+  SettingKind kind;
+  const char* label;      // in the panel
+  std::string_view text;  // what it does, one line
+  std::string_view cost;  // what it costs or saves: no figures of a device that is not the user's
 };
 
 // In the order of `--help`.

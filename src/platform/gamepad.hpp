@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace speculum {
@@ -27,6 +29,9 @@ struct GamepadState {
 
 // Returns the value of a stick's axis, -1 .. 1, as 0 within the dead zone where worn sticks rest, and without a jump at
 // its edge.
-float withoutDeadZone(float axis);
+inline float withoutDeadZone(float axis) {
+  constexpr float deadZone = 0.25f;
+  return std::copysign(std::clamp((std::abs(axis) - deadZone) / (1.0f - deadZone), 0.0f, 1.0f), axis) + 0.0f;
+}
 
 }  // namespace speculum

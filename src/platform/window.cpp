@@ -44,6 +44,18 @@ std::string printedWhereFlying() {
   return printed;
 }
 
+bool isCommand(int key, int modifiers) {
+  const bool modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
+  const bool character = key >= GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2;
+  return !modifier && (!character || (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0);
+}
+
+// Returns the key for shortcuts of text fields, by its printed letter. Typed text comes as characters.
+int meantCode(int key, std::string_view printed) {
+  const bool letter = printed.size() == 1 && printed[0] >= 'a' && printed[0] <= 'z';
+  return letter ? GLFW_KEY_A + (printed[0] - 'a') : key;
+}
+
 std::vector<ScreenRect> workAreas() {
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
@@ -169,11 +181,17 @@ void Window::installCallbacks() {
   glfwSetFramebufferSizeCallback(window_.get(),
                                  [](GLFWwindow* w, int, int) { of(w)->resized_ = of(w)->active_ = true; });
   glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
-  glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* w, int focused) {
+    of(w)->tell({.kind = InputEvent::Kind::focus, .down = focused == GLFW_TRUE});
+  });
   glfwSetWindowIconifyCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
   glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
-  glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
-  glfwSetCharCallback(window_.get(), [](GLFWwindow* w, unsigned) { of(w)->active_ = true; });
+  glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int entered) {
+    of(w)->tell({.kind = InputEvent::Kind::enter, .down = entered == GLFW_TRUE});
+  });
+  glfwSetCharCallback(window_.get(), [](GLFWwindow* w, unsigned character) {
+    of(w)->tell({.kind = InputEvent::Kind::text, .code = static_cast<int>(character)});
+  });
   glfwSetWindowContentScaleCallback(window_.get(), [](GLFWwindow* w, float x, float) { of(w)->followContentScale(x); });
   glfwSetMonitorCallback([](GLFWmonitor*, int) {
     for (Window* window : openWindows()) {
@@ -182,36 +200,49 @@ void Window::installCallbacks() {
   });
   glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int scancode, int action, int modifiers) {
     of(w)->active_ = true;
+    // Copies the name, because the next call of glfwGetKeyName may overwrite it.
+    const std::string printed(printedOn(code, scancode));
     if (const auto& key = of(w)->callbacks_.key) {
       const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
-      // Copies the name, because the next call of glfwGetKeyName may overwrite it.
-      const std::string printed(printedOn(code, scancode));
       key({meaningOfKey(static_cast<Key>(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE,
            action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0, control});
     }
+    if (action != GLFW_REPEAT) {  // the panels repeat by themselves
+      of(w)->tell({.kind = InputEvent::Kind::key,
+                   .code = meantCode(code, printed),
+                   .down = action == GLFW_PRESS,
+                   .command = isCommand(code, modifiers)});
+    }
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int modifiers) {
-    of(w)->active_ = true;
     const auto& mouseButton = of(w)->callbacks_.mouseButton;
     if (mouseButton && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
       mouseButton({static_cast<MouseButton>(button), action == GLFW_PRESS, (modifiers & GLFW_MOD_SHIFT) != 0});
     }
+    of(w)->tell({.kind = InputEvent::Kind::button, .code = button, .down = action == GLFW_PRESS});
   });
   glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* w, double x, double y) {
-    of(w)->active_ = true;
     if (const auto& cursor = of(w)->callbacks_.cursor) {
       cursor(x, y);
     }
+    of(w)->tell({.kind = InputEvent::Kind::pointer, .x = x, .y = y});
   });
   glfwSetDropCallback(window_.get(), [](GLFWwindow* w, int count, const char** names) {
     of(w)->dropFiles({names, names + count});
   });
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
-    of(w)->active_ = true;
     if (const auto& scroll = of(w)->callbacks_.scroll) {
       scroll(dx, dy);
     }
+    of(w)->tell({.kind = InputEvent::Kind::wheel, .x = dx, .y = dy});
   });
+}
+
+void Window::tell(const InputEvent& event) {
+  active_ = true;
+  if (listener_) {
+    listener_(event);
+  }
 }
 
 void Window::pollEvents() {

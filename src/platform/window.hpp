@@ -78,6 +78,17 @@ struct MouseButtonEvent {
   bool shift = false;
 };
 
+// An event as the panels take it.
+struct InputEvent {
+  enum class Kind { key, text, button, pointer, wheel, focus, enter };
+  Kind kind = Kind::key;
+  int code = 0;          // GLFW's of the key, by its printed letter, or of the button; the character
+  bool down = false;     // of key and button; the window has the focus, or the pointer is in it
+  bool command = false;  // a key without a character that is no modifier, or any key with Control or Alt
+  double x = 0.0;        // of pointer (screen coordinates) and wheel (notches)
+  double y = 0.0;
+};
+
 // Functions that the window calls on events; empty ones are skipped. Positions are in screen coordinates of the window,
 // origin top left.
 struct WindowCallbacks {
@@ -154,6 +165,8 @@ class Window {
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text
   void setCallbacks(WindowCallbacks callbacks) { callbacks_ = std::move(callbacks); }
+  // Calls `listener` with every event, after the callbacks; an empty one ends that.
+  void setListener(std::function<void(const InputEvent&)> listener) { listener_ = std::move(listener); }
   // Handles files as if they had been dropped on the window.
   void dropFiles(const std::vector<std::filesystem::path>& files);
 
@@ -171,12 +184,14 @@ class Window {
   };
   static Window* of(GLFWwindow* window);
   void installCallbacks();
+  void tell(const InputEvent& event);
   ScreenRect place() const;
   void setPlace(const ScreenRect& place);
 
   Library library_;
   std::unique_ptr<GLFWwindow, Destroy> window_;
   WindowCallbacks callbacks_;
+  std::function<void(const InputEvent&)> listener_;
   ScreenRect windowed_;  // before full screen
   bool covers_ = false;  // covers a monitor as full screen
   float contentScale_ = 1.0f;

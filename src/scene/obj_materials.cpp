@@ -2,11 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 #include "image/color.hpp"
 #include "image/image.hpp"
@@ -21,6 +19,8 @@ namespace speculum {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr size_t kMostMaterials = 10'000;  // of one file
 
 // Returns the path relative to the MTL file's folder. Replaces backslashes, because such files often come from Windows.
 fs::path relativeTo(const fs::path& file, std::string name) {
@@ -74,88 +74,34 @@ std::string_view textureName(const LineReader& line) {
   return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
 }
 
-// Returns a number for the parser, whose arithmetic overflows on 1e2147483648.
-std::string checkedNumber(const LineReader& line, double value, const Range& range) {
+double readNumber(const LineReader& line, double value, const Range& range) {
   if (!range.contains(value)) {
     line.fail(line.keyword(), fmt::format("is {}", value), range.text());
   }
-  // No number of a material makes a difference beyond; the parser rounds the largest doubles to infinity.
-  return ' ' + fmt::to_string(std::clamp(value, -1e38, 1e38));
+  return value;
 }
 
-// Returns the line of a color, given by three numbers or by one for all three. Colors as spectra or CIE XYZ are left
-// out with a warning.
-std::string checkedColor(const fs::path& file, LineReader& line, const Range& range) {
+// Returns a color, given by three numbers or by one for all three. Colors as spectra or CIE XYZ are left out with a
+// warning.
+std::optional<glm::dvec3> readColor(const fs::path& file, LineReader& line, const Range& range) {
   const std::vector<std::string_view>& tokens = line.tokens();
   if (tokens.size() > 1 && (tokens[1] == "spectral" || tokens[1] == "xyz")) {
     spdlog::warn("{}:{}: {} {} is not used (write {} r g b)", file.string(), line.number(), line.keyword(), tokens[1],
                  line.keyword());
-    return {};
+    return std::nullopt;
   }
   const std::vector<double>& numbers = tokens.size() == 2 ? line.numbers(1, 1) : line.numbers(3, 3);
-  std::string text(line.keyword());
+  glm::dvec3 color;
   for (size_t i = 0; i < 3; ++i) {
-    text += checkedNumber(line, numbers[numbers.size() == 3 ? i : 0], range);
+    color[static_cast<int>(i)] = readNumber(line, numbers[numbers.size() == 3 ? i : 0], range);
   }
-  return text;
+  return color;
 }
 
-// Returns the line of a number. With -halo, d fades with the angle; its number counts.
-std::string checkedFactor(LineReader& line) {
+// With -halo, d fades with the angle; its number counts.
+double readFactor(LineReader& line) {
   const bool halo = line.tokens().size() > 1 && line.tokens()[1] == "-halo";
-  return std::string(line.keyword()) + checkedNumber(line, line.numbers(1, 1, halo ? 2 : 1)[0], kAny);
-}
-
-struct MaterialLines {
-  int newmtl = 0;
-  int mapKd = 0;
-};
-
-struct CheckedMtl {
-  std::string text;                            // for the parser: the lines that are used, without comments and options
-  std::map<std::string, MaterialLines> lines;  // by material, the last one of a name
-};
-
-CheckedMtl checkMtl(const fs::path& file, std::string_view text) {
-  // The parser keeps some kilobytes for each material.
-  constexpr size_t kMostMaterials = 10'000;
-  CheckedMtl checked;
-  MaterialLines* current = nullptr;
-  size_t count = 0;
-  LineReader line(file, text, LineReader::Continuation::none);
-  while (line.next()) {
-    const std::string_view key = line.keyword();
-    const bool color = key == "Kd" || key == "Ks" || key == "Ke";
-    if (color) {
-      checked.text.append(checkedColor(file, line, key == "Ke" ? kRadiance : kSurfaceColor));
-    } else if (key == "Ns" || key == "d" || key == "Tr") {
-      checked.text.append(checkedFactor(line));
-    } else if (key == "newmtl") {
-      if (++count > kMostMaterials) {
-        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
-      }
-      current = &checked.lines[std::string(line.argument())];
-      current->newmtl = line.number();
-      checked.text.append("newmtl ").append(line.argument());
-    } else if (key == "map_Kd" || key == "map_d") {
-      checked.text.append(key).append(" ").append(textureName(line));
-      if (key == "map_Kd" && current != nullptr) {
-        current->mapKd = line.number();
-      }
-    }
-    checked.text.push_back('\n');
-  }
-  return checked;
-}
-
-// Converts everything but the texture.
-Material materialOf(const tinyobj::material_t& source) {
-  const auto color = [](const tinyobj::real_t(&rgb)[3]) { return glm::dvec3(rgb[0], rgb[1], rgb[2]); };
-  return {.name = source.name,
-          .diffuse = color(source.diffuse),
-          .specular = color(source.specular),
-          .emission = color(source.emission),
-          .shininess = std::clamp(static_cast<double>(source.shininess), kLeastShininess, kMostShininess)};
+  return readNumber(line, line.numbers(1, 1, halo ? 2 : 1)[0], kAny);
 }
 
 }  // namespace
@@ -176,22 +122,46 @@ bool ObjMaterials::read(std::string_view name) {
   if (!filesRead_.insert(fs::weakly_canonical(file, ignored)).second) {
     return true;
   }
-  const CheckedMtl checked = checkMtl(file, readInputText(file, "a Wavefront MTL file is needed"));
-  std::vector<tinyobj::material_t> materials;
-  std::map<std::string, int> indices;
-  std::string warning;
-  std::string error;
-  std::istringstream stream(checked.text);
-  tinyobj::LoadMtl(&indices, &materials, &stream, &warning, &error);
-  for (const tinyobj::material_t& source : materials) {
-    const std::string key(trimmed(source.name));
-    const auto found = checked.lines.find(key);
-    const MaterialLines lines = found == checked.lines.end() ? MaterialLines{} : found->second;
-    indices_.try_emplace(key, static_cast<int>(entries_.size()));
-    entries_.push_back({materialOf(source), source.dissolve >= 1.0 && source.alpha_texname.empty(),
-                        source.diffuse_texname, file, lines.newmtl, lines.mapKd});
-  }
+  readLines(file, readInputText(file, "a Wavefront MTL file is needed"));
   return true;
+}
+
+void ObjMaterials::readLines(const fs::path& file, std::string_view text) {
+  const size_t before = entries_.size();
+  Entry none;  // what stands above the first newmtl belongs to no material
+  Entry* entry = &none;
+  LineReader line(file, text, LineReader::Continuation::none);
+  while (line.next()) {
+    const std::string_view key = line.keyword();
+    if (key == "newmtl") {
+      if (entries_.size() - before == kMostMaterials) {
+        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
+      }
+      entry = &entries_.emplace_back();
+      entry->material.name = line.argument();
+      entry->file = file;
+      entry->line = line.number();
+      indices_.try_emplace(entry->material.name, static_cast<int>(entries_.size()) - 1);
+    } else if (key == "Kd") {
+      const std::optional<glm::dvec3> color = readColor(file, line, kSurfaceColor);
+      entry->diffuse = color ? color : entry->diffuse;
+    } else if (key == "Ks") {
+      entry->material.specular = readColor(file, line, kSurfaceColor).value_or(entry->material.specular);
+    } else if (key == "Ke") {
+      entry->material.emission = readColor(file, line, kRadiance).value_or(entry->material.emission);
+    } else if (key == "Ns") {
+      entry->material.shininess = std::clamp(readFactor(line), kLeastShininess, kMostShininess);
+    } else if (key == "d") {
+      entry->opacity = readFactor(line);
+    } else if (key == "Tr") {
+      entry->transparency = readFactor(line);
+    } else if (key == "map_d") {
+      entry->hasMask = entry->hasMask || !textureName(line).empty();
+    } else if (key == "map_Kd") {
+      entry->diffuseTexture = textureName(line);
+      entry->textureLine = line.number();
+    }
+  }
 }
 
 int ObjMaterials::find(std::string_view name) {
@@ -213,7 +183,8 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
   }
   const Entry& entry = entries_[index];
   Material material = entry.material;
-  if (!entry.opaque) {
+  material.diffuse = entry.diffuse.value_or(entry.diffuseTexture.empty() ? glm::dvec3(0.0) : material.diffuse);
+  if (entry.opacity.value_or(1.0 - entry.transparency) < 1.0 || entry.hasMask) {
     spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.line,
                  material.name);
   }
@@ -222,7 +193,7 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
     try {
       material.diffuseTexture = textureIndex(picture, textures);
     } catch (const FileError& error) {
-      throwInputError(entry.file, std::max(1, entry.textureLine), "map_Kd", picture.string() + ": " + error.problem(),
+      throwInputError(entry.file, entry.textureLine, "map_Kd", picture.string() + ": " + error.problem(),
                       "name a PNG or JPEG file, relative to the MTL file");
     }
   }

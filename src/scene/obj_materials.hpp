@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -30,13 +31,17 @@ class ObjMaterials {
 
  private:
   struct Entry {
-    Material material;  // without its texture
-    bool opaque = true;
+    Material material;  // without its diffuse color and texture
+    std::optional<glm::dvec3> diffuse;
+    std::optional<double> opacity;  // d, which counts more than Tr
+    double transparency = 0.0;      // Tr
+    bool hasMask = false;           // map_d
     std::string diffuseTexture;
     std::filesystem::path file;
     int line = 0;         // of newmtl
     int textureLine = 0;  // of map_Kd
   };
+  void readLines(const std::filesystem::path& file, std::string_view text);
 
   std::filesystem::path objFile_;
   std::vector<Entry> entries_;

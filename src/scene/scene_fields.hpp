@@ -53,180 +53,155 @@ Field<Owner, Value> field(Value Owner::*member, std::string_view key, std::strin
 
 // The fields of each type, in the order in which they are saved. A member that is missing here does not compile.
 // Reader, writer, the content of mirror images, the inspector, docs/scene_format.md and the fuzzers' dictionary follow.
+template <typename T>
+inline constexpr auto fieldsOf = nullptr;
 
-inline const auto& fieldsOf(const Sky*) {
-  static const std::tuple fields{
-      field(&Sky::zenith, "zenith", "straight up", {.range = kRadiance, .required = true, .color = true}),
-      field(&Sky::horizon, "horizon", "at the horizon", {.range = kRadiance, .required = true, .color = true}),
-      field(&Sky::ground, "ground", "below it", {.range = kRadiance, .required = true, .color = true})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<Sky> =
+    std::tuple{field(&Sky::zenith, "zenith", "straight up", {.range = kRadiance, .required = true, .color = true}),
+               field(&Sky::horizon, "horizon", "at the horizon", {.range = kRadiance, .required = true, .color = true}),
+               field(&Sky::ground, "ground", "below it", {.range = kRadiance, .required = true, .color = true})};
 
-inline const auto& fieldsOf(const Environment*) {
-  static const std::tuple fields{
-      field(&Environment::background, "background", "radiance of rays that hit nothing",
-            {.range = kRadiance, .color = true}),
-      field(&Environment::sky, "sky", "replaces the background"),
-      field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse color",
-            {.range = kRadiance, .color = true})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<Environment> =
+    std::tuple{field(&Environment::background, "background", "radiance of rays that hit nothing",
+                     {.range = kRadiance, .color = true}),
+               field(&Environment::sky, "sky", "replaces the background"),
+               field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse color",
+                     {.range = kRadiance, .color = true})};
 
-inline const auto& fieldsOf(const CameraSpec*) {
-  static const std::tuple fields{
-      field(&CameraSpec::position, "position", "the eye", {.unit = "m", .range = kCoordinate, .required = true}),
-      field(&CameraSpec::target, "target", "what it looks at; not the position",
-            {.unit = "m", .range = kCoordinate, .required = true}),
-      field(&CameraSpec::up, "up", "not along the view direction", {.range = kCoordinate}),
-      field(&CameraSpec::verticalFov, "vertical_fov", "vertical field of view", {.unit = "deg", .range = kFieldOfView}),
-      field(&CameraSpec::near, "near", "depth precision only: nothing is cut there", {.unit = "m", .range = kPositive}),
-      field(&CameraSpec::orbitSpeed, "orbit_speed", "around the target about up, by the right-hand rule",
-            {.unit = "deg/s", .range = kTurn})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<CameraSpec> = std::tuple{
+    field(&CameraSpec::position, "position", "the eye", {.unit = "m", .range = kCoordinate, .required = true}),
+    field(&CameraSpec::target, "target", "what it looks at; not the position",
+          {.unit = "m", .range = kCoordinate, .required = true}),
+    field(&CameraSpec::up, "up", "not along the view direction", {.range = kCoordinate}),
+    field(&CameraSpec::verticalFov, "vertical_fov", "vertical field of view", {.unit = "deg", .range = kFieldOfView}),
+    field(&CameraSpec::near, "near", "depth precision only: nothing is cut there", {.unit = "m", .range = kPositive}),
+    field(&CameraSpec::orbitSpeed, "orbit_speed", "around the target about up, by the right-hand rule",
+          {.unit = "deg/s", .range = kTurn})};
 
-inline const auto& fieldsOf(const Copies*) {
-  static const std::tuple fields{
-      field(&Copies::count, "count", "instances of the object",
-            {.range = kCopies, .use = FieldUse::placement, .step = 0.1}),
-      field(&Copies::step, "step", "from one instance to the next",
-            {.unit = "m", .range = kCoordinate, .use = FieldUse::placement, .shown = [](const Copies& copies) {
-               return copies.count > 1;
-             }})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<Copies> =
+    std::tuple{field(&Copies::count, "count", "instances of the object",
+                     {.range = kCopies, .use = FieldUse::placement, .step = 0.1}),
+               field(&Copies::step, "step", "from one instance to the next",
+                     {.unit = "m", .range = kCoordinate, .use = FieldUse::placement, .shown = [](const Copies& copies) {
+                        return copies.count > 1;
+                      }})};
 
-inline const auto& fieldsOf(const ObjectMirror*) {
-  static const std::tuple fields{
-      field(&ObjectMirror::reflectance, "reflectance", "as of a mirror",
-            {.range = kUnit, .alwaysSaved = true, .color = true}),
-      field(&ObjectMirror::fresnel, "fresnel", "as of a mirror"),
-      field(&ObjectMirror::baseColor, "base_color", "as of a mirror", {.range = kSurfaceColor, .color = true})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<ObjectMirror> = std::tuple{
+    field(&ObjectMirror::reflectance, "reflectance", "as of a mirror",
+          {.range = kUnit, .alwaysSaved = true, .color = true}),
+    field(&ObjectMirror::fresnel, "fresnel", "as of a mirror"),
+    field(&ObjectMirror::baseColor, "base_color", "as of a mirror", {.range = kSurfaceColor, .color = true})};
 
-inline const auto& fieldsOf(const Object*) {
-  static const std::tuple fields{
-      field(&Object::name, "name", "for messages and the panel", {.use = FieldUse::label}),
-      field(&Object::model, "model", "OBJ file, relative to the scene file",
-            {.required = true, .use = FieldUse::label, .shown = [](const Object&) { return false; }}),
-      field(&Object::position, "position", "of the model's origin",
-            {.unit = "m", .range = kCoordinate, .use = FieldUse::placement}),
-      field(&Object::rotation, "rotation", "pitch about X, yaw about Y, roll about Z; R = Ry Rx Rz",
-            {.unit = "deg", .range = kCoordinate, .use = FieldUse::placement, .step = 0.5}),
-      field(&Object::scale, "scale", "along the model's own axes; negative mirrors it, zero is an error",
-            {.uniform = true, .use = FieldUse::placement}),
-      field(&Object::spin, "spin", "added to the rotation",
-            {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5}),
-      field(&Object::color, "color", "replaces the model's diffuse color (Kd); textures multiply it",
-            {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.6)}),
-      field(&Object::specular, "specular", "replaces the model's specular color (Ks)",
-            {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.2)}),
-      field(&Object::shininess, "shininess", "replaces the model's exponent of highlights (Ns); clamped to 1 .. 1e6",
-            {.floor = kLeastShininess, .ceiling = kMostShininess, .step = 1.0, .start = 50.0}),
-      field(&Object::emission, "emission", "replaces the model's emission (Ke): radiance that lights nothing else",
-            {.range = kRadiance, .color = true, .start = glm::dvec3(1.0)}),
-      field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
-      field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<Object> = std::tuple{
+    field(&Object::name, "name", "for messages and the panel", {.use = FieldUse::label}),
+    field(&Object::model, "model", "OBJ file, relative to the scene file",
+          {.required = true, .use = FieldUse::label, .shown = [](const Object&) { return false; }}),
+    field(&Object::position, "position", "of the model's origin",
+          {.unit = "m", .range = kCoordinate, .use = FieldUse::placement}),
+    field(&Object::rotation, "rotation", "pitch about X, yaw about Y, roll about Z; R = Ry Rx Rz",
+          {.unit = "deg", .range = kCoordinate, .use = FieldUse::placement, .step = 0.5}),
+    field(&Object::scale, "scale", "along the model's own axes; negative mirrors it, zero is an error",
+          {.uniform = true, .use = FieldUse::placement}),
+    field(&Object::spin, "spin", "added to the rotation",
+          {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5}),
+    field(&Object::color, "color", "replaces the model's diffuse color (Kd); textures multiply it",
+          {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.6)}),
+    field(&Object::specular, "specular", "replaces the model's specular color (Ks)",
+          {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.2)}),
+    field(&Object::shininess, "shininess", "replaces the model's exponent of highlights (Ns); clamped to 1 .. 1e6",
+          {.floor = kLeastShininess, .ceiling = kMostShininess, .step = 1.0, .start = 50.0}),
+    field(&Object::emission, "emission", "replaces the model's emission (Ke): radiance that lights nothing else",
+          {.range = kRadiance, .color = true, .start = glm::dvec3(1.0)}),
+    field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
+    field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
 
-inline const auto& fieldsOf(const Orbit*) {
-  static const std::tuple fields{
-      field(&Orbit::center, "center", "point on the axis",
-            {.unit = "m", .range = kCoordinate, .use = FieldUse::placement}),
-      field(&Orbit::axis, "axis", "direction; not zero",
-            {.range = kCoordinate, .use = FieldUse::placement, .shown = [](const Orbit&) { return false; }}),
-      field(&Orbit::speed, "speed", "by the right-hand rule",
-            {.unit = "deg/s", .range = kTurn, .alwaysSaved = true, .use = FieldUse::placement, .step = 0.5})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<Orbit> =
+    std::tuple{field(&Orbit::center, "center", "point on the axis",
+                     {.unit = "m", .range = kCoordinate, .use = FieldUse::placement}),
+               field(&Orbit::axis, "axis", "direction; not zero",
+                     {.range = kCoordinate, .use = FieldUse::placement, .shown = [](const Orbit&) { return false; }}),
+               field(&Orbit::speed, "speed", "by the right-hand rule",
+                     {.unit = "deg/s", .range = kTurn, .alwaysSaved = true, .use = FieldUse::placement, .step = 0.5})};
 
-inline const auto& fieldsOf(const PointLight*) {
-  static const std::tuple fields{
-      field(&PointLight::name, "name", "for messages and the panel", {.use = FieldUse::label}),
-      field(&PointLight::position, "position", "of the centre",
-            {.unit = "m", .range = kCoordinate, .required = true, .use = FieldUse::placement}),
-      field(&PointLight::color, "color", "of light and sphere", {.range = kRadiance, .color = true}),
-      field(&PointLight::intensity, "intensity", "irradiance at 1 m on a surface that faces the light",
-            {.range = kRadiance, .step = 0.1}),
-      field(&PointLight::radius, "radius", "of the visible sphere, and the floor of the inverse square law",
-            {.unit = "m", .range = kLength, .step = 0.002}),
-      field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = kRadiance}),
-      field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors cast its shadows"),
-      field(&PointLight::orbit, "orbit", "circles around an axis", {.use = FieldUse::placement})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<PointLight> = std::tuple{
+    field(&PointLight::name, "name", "for messages and the panel", {.use = FieldUse::label}),
+    field(&PointLight::position, "position", "of the centre",
+          {.unit = "m", .range = kCoordinate, .required = true, .use = FieldUse::placement}),
+    field(&PointLight::color, "color", "of light and sphere", {.range = kRadiance, .color = true}),
+    field(&PointLight::intensity, "intensity", "irradiance at 1 m on a surface that faces the light",
+          {.range = kRadiance, .step = 0.1}),
+    field(&PointLight::radius, "radius", "of the visible sphere, and the floor of the inverse square law",
+          {.unit = "m", .range = kLength, .step = 0.002}),
+    field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = kRadiance}),
+    field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors cast its shadows"),
+    field(&PointLight::orbit, "orbit", "circles around an axis", {.use = FieldUse::placement})};
 
-inline const auto& fieldsOf(const Ripple*) {
-  static const std::tuple fields{
-      field(&Ripple::amplitude, "amplitude", "0: no ripple",
-            {.unit = "m", .range = kAmplitude, .alwaysSaved = true, .step = 0.0002}),
-      field(&Ripple::wavelength, "wavelength", "of both trains of waves",
-            {.unit = "m", .range = kWavelength, .step = 0.005}),
-      field(&Ripple::speed, "speed", "of the waves", {.unit = "m/s", .range = kWaveSpeed, .step = 0.005})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<Ripple> =
+    std::tuple{field(&Ripple::amplitude, "amplitude", "0: no ripple",
+                     {.unit = "m", .range = kAmplitude, .alwaysSaved = true, .step = 0.0002}),
+               field(&Ripple::wavelength, "wavelength", "of both trains of waves",
+                     {.unit = "m", .range = kWavelength, .step = 0.005}),
+               field(&Ripple::speed, "speed", "of the waves", {.unit = "m/s", .range = kWaveSpeed, .step = 0.005})};
 
 inline bool isRectangle(const Mirror& mirror) {
   return mirror.polygon.empty();
 }
 
-inline const auto& fieldsOf(const Mirror*) {
-  static const std::tuple fields{
-      field(&Mirror::name, "name", "for messages and the panel; its index from 0 unless given",
-            {.use = FieldUse::label}),
-      field(&Mirror::polygon, "polygon",
-            "instead of a rectangle: world-space vertices, planar, convex, counter-clockwise from the front",
-            {.unit = "m",
-             .range = kCoordinate,
-             .use = FieldUse::placement,
-             .applies = [](const Mirror& mirror) { return !isRectangle(mirror); }}),
-      field(&Mirror::position, "position", "of the centre of a rectangle",
-            {.unit = "m", .range = kCoordinate, .use = FieldUse::placement, .applies = isRectangle}),
-      field(&Mirror::rotation, "rotation", "as of objects; unrotated it faces +Z",
-            {.unit = "deg", .range = kCoordinate, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
-      field(&Mirror::size, "size", "width and height",
-            {.unit = "m", .range = kLength, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
-      field(&Mirror::spin, "spin", "added to the rotation",
-            {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
-      field(&Mirror::reflectance, "reflectance", "share of light reflected; with Fresnel at normal incidence",
-            {.range = kUnit, .color = true}),
-      field(&Mirror::fresnel, "fresnel", "schlick: more at grazing angles"),
-      field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
-            {.range = kSurfaceColor, .color = true}),
-      field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
-      field(&Mirror::backColor, "back_color", "diffuse color of the back of a one-sided mirror",
-            {.range = kSurfaceColor, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
-      field(&Mirror::roughness, "roughness", "spread of the reflection: GGX with alpha = roughness squared",
-            {.range = kUnit, .step = 0.002}),
-      // The loader drops ripples without height.
-      field(&Mirror::ripple, "ripple", "two trains of waves run over the mirror",
-            {.applies = [](const Mirror& mirror) { return !mirror.ripple || mirror.ripple->amplitude > 0.0; },
-             .start = Ripple{.amplitude = 0.002}}),
-      field(&Mirror::castsLight, "casts_light", "light bounced by the mirror reaches the scene")};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<Mirror> = std::tuple{
+    field(&Mirror::name, "name", "for messages and the panel; its index from 0 unless given", {.use = FieldUse::label}),
+    field(&Mirror::polygon, "polygon",
+          "instead of a rectangle: world-space vertices, planar, convex, counter-clockwise from the front",
+          {.unit = "m",
+           .range = kCoordinate,
+           .use = FieldUse::placement,
+           .applies = [](const Mirror& mirror) { return !isRectangle(mirror); }}),
+    field(&Mirror::position, "position", "of the centre of a rectangle",
+          {.unit = "m", .range = kCoordinate, .use = FieldUse::placement, .applies = isRectangle}),
+    field(&Mirror::rotation, "rotation", "as of objects; unrotated it faces +Z",
+          {.unit = "deg", .range = kCoordinate, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
+    field(&Mirror::size, "size", "width and height",
+          {.unit = "m", .range = kLength, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
+    field(&Mirror::spin, "spin", "added to the rotation",
+          {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
+    field(&Mirror::reflectance, "reflectance", "share of light reflected; with Fresnel at normal incidence",
+          {.range = kUnit, .color = true}),
+    field(&Mirror::fresnel, "fresnel", "schlick: more at grazing angles"),
+    field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
+          {.range = kSurfaceColor, .color = true}),
+    field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
+    field(&Mirror::backColor, "back_color", "diffuse color of the back of a one-sided mirror",
+          {.range = kSurfaceColor, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
+    field(&Mirror::roughness, "roughness", "spread of the reflection: GGX with alpha = roughness squared",
+          {.range = kUnit, .step = 0.002}),
+    // The loader drops ripples without height.
+    field(&Mirror::ripple, "ripple", "two trains of waves run over the mirror",
+          {.applies = [](const Mirror& mirror) { return !mirror.ripple || mirror.ripple->amplitude > 0.0; },
+           .start = Ripple{.amplitude = 0.002}}),
+    field(&Mirror::castsLight, "casts_light", "light bounced by the mirror reaches the scene")};
 
-inline const auto& fieldsOf(const Bookmark*) {
-  static const std::tuple fields{
-      field(&Bookmark::name, "name", "no other bookmark's", {.required = true, .use = FieldUse::label}),
-      field(&Bookmark::position, "position", "as the camera's", {.unit = "m", .range = kCoordinate, .required = true}),
-      field(&Bookmark::target, "target", "as the camera's", {.unit = "m", .range = kCoordinate, .required = true}),
-      field(&Bookmark::up, "up", "the camera's unless given", {.range = kCoordinate}),
-      field(&Bookmark::verticalFov, "vertical_fov", "the camera's unless given",
-            {.unit = "deg", .range = kFieldOfView})};
-  return fields;
-}
+template <>
+inline const auto fieldsOf<Bookmark> = std::tuple{
+    field(&Bookmark::name, "name", "no other bookmark's", {.required = true, .use = FieldUse::label}),
+    field(&Bookmark::position, "position", "as the camera's", {.unit = "m", .range = kCoordinate, .required = true}),
+    field(&Bookmark::target, "target", "as the camera's", {.unit = "m", .range = kCoordinate, .required = true}),
+    field(&Bookmark::up, "up", "the camera's unless given", {.range = kCoordinate}),
+    field(&Bookmark::verticalFov, "vertical_fov", "the camera's unless given", {.unit = "deg", .range = kFieldOfView})};
 
 template <typename T>
-concept Described = requires {
-  fieldsOf(static_cast<const T*>(nullptr));
-};
+concept Described = !std::is_null_pointer_v<std::remove_cvref_t<decltype(fieldsOf<T>)>>;
 
 template <typename T>
-inline constexpr size_t fieldCount =
-    std::tuple_size_v<std::decay_t<decltype(fieldsOf(static_cast<const T*>(nullptr)))>>;
+inline constexpr size_t fieldCount = std::tuple_size_v<std::remove_cvref_t<decltype(fieldsOf<T>)>>;
 
 static_assert(fieldCount<Sky> == memberCount<Sky>());
 static_assert(fieldCount<Environment> == memberCount<Environment>());
@@ -248,7 +223,7 @@ struct IsOptional<std::optional<T>> : std::true_type {};
 // Calls `visit` with each Field of a type.
 template <Described Node, typename Visitor>
 void forEachField(const Visitor& visit) {
-  std::apply([&](const auto&... field) { (visit(field), ...); }, fieldsOf(static_cast<const Node*>(nullptr)));
+  std::apply([&](const auto&... field) { (visit(field), ...); }, fieldsOf<Node>);
 }
 
 // Names of an enumeration's values in scene files, in the order of the enumerators.

@@ -20,8 +20,8 @@ std::vector<std::string> settingTexts(const TableReader& table, std::string_view
 // Keys of the table that a node is read from.
 template <Described Node>
 std::span<const std::string_view> keysOf() {
-  static const std::array<std::string_view, fieldCount<Node>> keys = std::apply(
-      [](const auto&... field) { return std::array{field.key...}; }, fieldsOf(static_cast<const Node*>(nullptr)));
+  static const std::array<std::string_view, fieldCount<Node>> keys =
+      std::apply([](const auto&... field) { return std::array{field.key...}; }, fieldsOf<Node>);
   return keys;
 }
 

@@ -4,16 +4,14 @@
 
 #include "ui/input_queue.hpp"
 
-struct GLFWwindow;
-
 namespace speculum {
 
-// Passes GLFW's events on to Dear ImGui's GLFW backend, one step a frame, because version 1.86 reads keys, buttons and
-// pointer only once, when a frame begins. The backend must not install callbacks. One instance a process.
+// Passes the window's events on to Dear ImGui's GLFW backend, one step a frame, because version 1.86 reads keys,
+// buttons and pointer only once, when a frame begins. The backend must not install callbacks.
 class GlfwInput {
  public:
-  // Callbacks that the window already has are called first, without waiting for a frame.
-  explicit GlfwInput(GLFWwindow* window);
+  // The window's callbacks are called first, without waiting for a frame.
+  explicit GlfwInput(Window& window);
   ~GlfwInput();
   GlfwInput(const GlfwInput&) = delete;
   GlfwInput& operator=(const GlfwInput&) = delete;
@@ -25,7 +23,7 @@ class GlfwInput {
  private:
   void give(const InputEvent& event);
 
-  GLFWwindow* window_;
+  Window& window_;
   InputQueue queue_;
   std::array<bool, 3> buttons_{};
   double x_ = 0.0;

@@ -3,17 +3,9 @@
 #include <deque>
 #include <vector>
 
-namespace speculum {
+#include "platform/window.hpp"
 
-struct InputEvent {
-  enum class Kind { key, text, button, pointer, wheel };
-  Kind kind = Kind::key;
-  int code = 0;          // GLFW's of the key or button; the character
-  bool down = false;     // of key and button
-  bool command = false;  // a key without a character that is no modifier, or any key with Control or Alt
-  double x = 0.0;        // of pointer (screen coordinates) and wheel (notches)
-  double y = 0.0;
-};
+namespace speculum {
 
 // Input in the order in which it came, for panels that look at the state of keys and buttons once a frame: a key or
 // button that goes down and up between two frames is down in one and up in the next, where the pointer was then, and a

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "ui/mirror_cost.hpp"
 #include "ui/panels.hpp"
+#include "ui/pass_tree.hpp"
 
 namespace speculum::panels {
 

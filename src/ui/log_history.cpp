@@ -1,5 +1,8 @@
 #include "ui/log_history.hpp"
 
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -15,6 +18,22 @@ bool contains(const std::string& text, std::string_view part) {
   };
   return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end() || part.empty();
 }
+
+class HistorySink : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit HistorySink(LogHistory& history) : history_(history) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    const LogLevel level = message.level >= spdlog::level::err    ? LogLevel::error
+                           : message.level >= spdlog::level::warn ? LogLevel::warning
+                                                                  : LogLevel::info;
+    history_.add(level, std::string(message.payload.begin(), message.payload.end()));
+  }
+  void flush_() override {}
+
+  LogHistory& history_;
+};
 
 }  // namespace
 
@@ -45,6 +64,22 @@ std::vector<LogLine> LogHistory::lines(LogLevel least, std::string_view part) co
   std::ranges::copy_if(lines_, std::back_inserter(chosen),
                        [&](const LogLine& line) { return line.level >= least && contains(line.text, part); });
   return chosen;
+}
+
+std::shared_ptr<void> captureLog(LogHistory& history) {
+  const std::shared_ptr<spdlog::logger> logger = spdlog::default_logger();
+  const spdlog::level::level_enum level = logger->level();
+  const auto capture = std::make_shared<HistorySink>(history);
+  for (const spdlog::sink_ptr& sink : logger->sinks()) {
+    sink->set_level(std::max(sink->level(), level));
+  }
+  capture->set_level(spdlog::level::info);
+  logger->sinks().push_back(capture);
+  logger->set_level(std::min(level, spdlog::level::info));
+  return {capture.get(), [=](void*) {
+            logger->set_level(level);
+            std::erase(logger->sinks(), capture);
+          }};
 }
 
 std::string_view logLevelName(LogLevel level) {

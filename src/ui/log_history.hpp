@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -33,6 +34,10 @@ class LogHistory {
   std::deque<LogLine> lines_;
   std::string problem_;  // that takeProblem() returns next
 };
+
+// Adds log lines of level info and above to a history, which must outlive the result, while that exists. Other outputs
+// of the log keep their level. Begin and end it while no other thread logs.
+[[nodiscard]] std::shared_ptr<void> captureLog(LogHistory& history);
 
 std::string_view logLevelName(LogLevel level);  // info, warning, error
 std::string logText(const std::vector<LogLine>& lines);

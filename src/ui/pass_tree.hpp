@@ -23,4 +23,8 @@ std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<con
 // Returns the last mirror in a pass's name, which is enough in a tree that shows its parents.
 std::string pathEnd(const std::string& name);
 
+// Says what the images of a mirror (index into Scene::mirrors) cost, on the screen and in other mirrors, or why it has
+// none.
+std::string mirrorCost(const FrameView& frame, int mirror);
+
 }  // namespace speculum

@@ -110,7 +110,7 @@ SimpleUI::Context::~Context() {
 struct SimpleUI::Backend {
   explicit Backend(Window& window) {
     ImGui_ImplGlfw_InitForVulkan(window.native(), false);
-    input.emplace(window.native());
+    input.emplace(window);
   }
   ~Backend() {
     shutdownVulkan();

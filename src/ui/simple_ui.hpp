@@ -10,7 +10,7 @@ namespace speculum {
 // The panels over the picture: Dear ImGui with its GLFW and Vulkan backends. One instance a process.
 class SimpleUI {
  public:
-  // Installs its input callbacks, which run after those that the window already has.
+  // Takes over the window's listener.
   SimpleUI(Renderer& renderer, Window& window);
   ~SimpleUI();
   SimpleUI(const SimpleUI&) = delete;

@@ -1,5 +1,3 @@
-// Builds these two parsers with sanitizers and coverage, which the distribution's builds lack.
-#define TINYOBJLOADER_IMPLEMENTATION
-#include <tiny_obj_loader.h>
+// Builds this parser with sanitizers and coverage, which the distribution's build lacks.
 #define TOML_IMPLEMENTATION
 #include <toml++/toml.h>
