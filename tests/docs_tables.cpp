@@ -1,16 +1,9 @@
 // The lists of settings and scene keys in docs/ follow from their descriptions. UPDATE_DOCS=1 in the environment
 // rewrites them.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <set>
-#include <sstream>
-
 #include "frame/setting_fields.hpp"
 #include "scene/scene_fields.hpp"
 #include "scene/toml_text.hpp"
+#include "test_headers.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {

@@ -1,8 +1,6 @@
 // The node that a ray finds at a pixel, against the color that the rasteriser drew there.
 #include "edit/pick.hpp"
 
-#include <gtest/gtest.h>
-
 #include "random.hpp"
 #include "scene_text.hpp"
 #include "studio.hpp"
@@ -164,19 +162,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene,
 
 // A column of two balls, a light that is seen and one that is not.
 const std::string nodes = R"(
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.6, 1, 0.5]
-scale = 0.2
-copies = { count = 2, step = [0, 5, 0] }
-[[light]]
-position = [-0.5, 1.5, 0]
-radius = 0.1
-[[light]]
-position = [-0.5, 0.7, 0]
-radius = 0.1
-glow = 0
+[[object]] name = "ball", model = "MODELS/sphere.obj", position = [0.6, 1, 0.5], scale = 0.2
+  copies = { count = 2, step = [0, 5, 0] }
+[[light]] position = [-0.5, 1.5, 0], radius = 0.1
+[[light]] position = [-0.5, 0.7, 0], radius = 0.1, glow = 0
 )";
 
 class Corridor : public testing::Test {

@@ -1,13 +1,9 @@
 // An effect that nothing calls for costs nothing. Objects and draws are counted where the program calls Vulkan, by
 // linking those calls through functions of this file.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-
 #include "app/stats.hpp"
 #include "picture_support.hpp"
 #include "sampling.hpp"
+#include "test_headers.hpp"
 
 namespace {
 
@@ -105,14 +101,9 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 std::filesystem::path sceneWith(const std::string& name, const std::string& rest) {
   return writeScene("ledger_" + name, R"(
-[environment]
-background = [0.3, 0.4, 0.5]
-ambient = [0.1, 0.1, 0.1]
-[camera]
-position = [0, 1, 3]
-target = [0, 0.5, 0]
-[[object]]
-model = "MODELS/teapot.obj"
+[environment] background = [0.3, 0.4, 0.5], ambient = [0.1, 0.1, 0.1]
+[camera] position = [0, 1, 3], target = [0, 0.5, 0]
+[[object]] model = "MODELS/teapot.obj"
 )" + rest);
 }
 

@@ -1,7 +1,6 @@
 // Every Vulkan function that can fail fails with every result that the registry lists, over a picture that is rendered
 // and over a window: the program recovers, or ends with one line and exit code 2.
 #include <cstdio>
-#include <map>
 
 #include "core/vulkan_result.hpp"
 #include "fault_layer/failing_functions.hpp"

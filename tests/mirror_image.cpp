@@ -1,9 +1,4 @@
 // Mirrors are right, not merely unchanged: a mirror image is the direct picture of the mirrored scene.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
-
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
 #include "picture_support.hpp"

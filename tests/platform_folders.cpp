@@ -1,9 +1,8 @@
 #include "platform/folders.hpp"
 
-#include <gtest/gtest.h>
-
 #include "error_message.hpp"
 #include "platform/process.hpp"
+#include "test_headers.hpp"
 
 namespace speculum::test {
 namespace {
@@ -18,7 +17,7 @@ TEST(Folders, CacheDirectoryFollowsXdg) {
 
 TEST(Folders, MissingDataDirectoryListsWhereItLooked) {
   const std::string error = messageOf([] { dataDirectory("no-such-data"); });
-  EXPECT_NE(error.find("share/speculum/no-such-data"), std::string::npos) << error;
+  EXPECT_TRUE(contains(error, "share/speculum/no-such-data"));
   EXPECT_TRUE(std::filesystem::exists(dataDirectory("shaders")));
 }
 

@@ -1,17 +1,14 @@
 #include "platform/machine.hpp"
 
-#include <gtest/gtest.h>
 #include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
-#include <memory>
 #include <thread>
-#include <vector>
 
 #include "platform/process.hpp"
+#include "test_headers.hpp"
 
 namespace speculum::test {
 namespace {

@@ -1,6 +1,5 @@
 #include "platform/process.hpp"
-
-#include <gtest/gtest.h>
+#include "test_headers.hpp"
 
 namespace speculum::test {
 namespace {

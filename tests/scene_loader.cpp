@@ -1,9 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "scene/scene_state.hpp"
 #include "scene_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

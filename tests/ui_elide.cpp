@@ -1,6 +1,5 @@
 // Shortened names and broken lines.
-#include <gtest/gtest.h>
-
+#include "test_headers.hpp"
 #include "ui/elide.hpp"
 
 namespace speculum {

@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
+#include "test_headers.hpp"
 #include "ui/frame_history.hpp"
 
 namespace speculum {

@@ -1,10 +1,6 @@
 // Keys and gamepad buttons, and the list of them.
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <sstream>
-
 #include "picture_support.hpp"
+#include "test_headers.hpp"
 #include "ui/input_map.hpp"
 
 namespace speculum {
@@ -64,7 +60,7 @@ TEST(InputMap, ListIsInTheDocs) {
   }
   for (const Shortcut& shortcut : all) {
     const std::string row = "- `" + std::string(shortcut.keys) + "`: " + shortcut.help + "\n";
-    EXPECT_NE(docs.str().find(row), std::string::npos) << row;
+    EXPECT_TRUE(contains(docs.str(), row)) << row;
   }
 }
 

@@ -1,5 +1,4 @@
-#include <gtest/gtest.h>
-
+#include "test_headers.hpp"
 #include "ui/log_history.hpp"
 
 namespace speculum {

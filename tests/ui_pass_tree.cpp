@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
+#include "test_headers.hpp"
 #include "ui/mirror_cost.hpp"
 #include "ui/pass_tree.hpp"
 

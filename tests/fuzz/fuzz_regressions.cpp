@@ -1,16 +1,10 @@
 // Every input that the fuzzers start from, and every one that they or a reader of the code ever found to crash, hang or
 // take too much memory, goes through what the fuzzers run; without Clang.
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <vector>
 
 #include "fuzz_checks.hpp"
 #include "heap_watch.hpp"
+#include "test_headers.hpp"
 #include "test_paths.hpp"
 
 namespace speculum::fuzz {
