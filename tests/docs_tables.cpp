@@ -1,6 +1,7 @@
 // The lists of settings and scene keys in docs/ follow from their descriptions. UPDATE_DOCS=1 in the environment
 // rewrites them.
 #include "frame/setting_fields.hpp"
+#include "platform/files.hpp"
 #include "scene/scene_fields.hpp"
 #include "scene/toml_text.hpp"
 #include "test_headers.hpp"
@@ -136,10 +137,7 @@ std::string fieldsList() {
 void expectPart(const std::filesystem::path& name, const std::string& first, const std::string& last,
                 const std::string& expected) {
   const std::filesystem::path file = sourceDir() / name;
-  std::ifstream stream(file);
-  std::stringstream content;
-  content << stream.rdbuf();
-  std::string text = content.str();
+  std::string text = readText(file);
   const size_t mark = text.find(first + "\n");
   const size_t end = text.find(last, mark);
   ASSERT_TRUE(mark != std::string::npos && end != std::string::npos) << name << " lacks " << first;

@@ -4,6 +4,7 @@
 
 #include "fuzz_checks.hpp"
 #include "heap_watch.hpp"
+#include "platform/files.hpp"
 #include "test_headers.hpp"
 #include "test_paths.hpp"
 
@@ -24,12 +25,6 @@ std::vector<fs::path> inputs(const std::string& folder) {
   return files;
 }
 
-std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 struct Subject {
   const char* name;
   void (*check)(std::string_view);
@@ -42,7 +37,7 @@ class FuzzInputs : public testing::TestWithParam<Subject> {
     EXPECT_FALSE(files.empty());
     for (const fs::path& file : files) {
       SCOPED_TRACE(file.string());
-      const std::string text = content(file);
+      const std::string text = readText(file);
       EXPECT_LE(text.size(), kLargestInput) << "the fuzzers pass over it";
       restartHeapPeak();
       const size_t before = heapPeak();
