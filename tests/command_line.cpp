@@ -333,14 +333,6 @@ TEST_F(CommandLine, ShippedScenesAreFoundFromAnyDirectory) {
   }
 }
 
-TEST_F(CommandLine, SmallestAndFlattestPicturesAreDrawn) {
-  for (const char* size : {"1x1", "8192x1", "1x2000"}) {
-    SCOPED_TRACE(size);
-    succeed({"render", "--scene", scene_, "--size", size, "--out", out("s.png"), "--validation", "--set",
-             "reflection.scale=4"});
-  }
-}
-
 TEST_F(CommandLine, BenchListsTheCostOfEffects) {
   const std::string scene =
       writeScene("effects", smallScene() +
