@@ -84,7 +84,7 @@ TEST(Completion, OffersTheScenesAndTheChoices) {
     const Words choices = completions({program, "info", option, ""});
     EXPECT_GE(choices.size(), 3u);
     for (const std::string& choice : choices) {
-      EXPECT_EQ(speculum({"info", option, choice}).exitCode, 0) << option << " " << choice;
+      EXPECT_NO_THROW(parseOptions(4, std::array{"speculum", "info", option, choice.c_str()}.data())) << choice;
     }
   }
 }

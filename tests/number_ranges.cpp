@@ -132,9 +132,12 @@ TEST(ScenesOfAnySize, ShowOnePicture) {
             "\nrotation = [-90, 2, 3]\nbase_color = [0.1, 0.2, 0.1]\nreflectance = [0.8, 0.7, 0.9]\nsize = [" +
             text(4.0 * metres) + ", " + text(3.0 * metres) + "]\n");
   };
-  const Image8 usual = draw(headless(sceneIn(1.0), size));
+  Gpu gpu(headless("", size));
+  Studio studio(gpu, headless(sceneIn(1.0), size));
+  const Image8 usual = studio.draw();
   for (const double metres : {1e-18, 1e-16, 1e-14, 1e-10, 1e-5, 1e5, 1e10, 1e14}) {
-    const PictureAgreement agreement = difference(draw(headless(sceneIn(metres), size)), usual, 2);
+    studio.show(loadScene(sceneIn(metres)));
+    const PictureAgreement agreement = difference(studio.fresh(), usual, 2);
     EXPECT_GE(agreement.within(), 0.99) << metres << " m: " << agreement.over << " pixels";
   }
 }
@@ -153,9 +156,12 @@ TEST(ScenesOfAnySize, BlurAlikeWhatIsFar) {
                           "[[mirror]]\nrotation = [-90, 0, 0]\nroughness = 0.3\nsize = [" + text(8.0 * metres) + ", " +
                           text(8.0 * metres) + "]\n");
   };
-  const Image8 usual = draw(headless(sceneIn(1.0), size));
+  Gpu gpu(headless("", size));
+  Studio studio(gpu, headless(sceneIn(1.0), size));
+  const Image8 usual = studio.draw();
   for (const double metres : {1e6, 1e7, 1e12}) {
-    const PictureAgreement agreement = difference(draw(headless(sceneIn(metres), size)), usual, 8);
+    studio.show(loadScene(sceneIn(metres)));
+    const PictureAgreement agreement = difference(studio.fresh(), usual, 8);
     EXPECT_GE(agreement.within(), 0.98) << metres << " m: " << agreement.over << " pixels, up to " << agreement.largest;
   }
 }
