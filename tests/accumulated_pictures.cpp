@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{64, 36};
+constexpr PictureSize size{48, 27};
 
 Options shipped(const std::string& scene, int pictures) {
   return headless(sourceFile("scenes/" + scene + ".toml"), size, {{"view.accumulate", std::to_string(pictures)}});
@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Tiles,
                                                : std::vector{"facing_mirrors", "mirror_ball"}));
 
 TEST(UnfinishedTiles, AreNotShownAndCanBeDropped) {
-  QuietSession session(inTiles("gallery"));
+  QuietSession session(inTiles("facing_mirrors"));
   set(session, {{"view.accumulate", "1"}});
   const LinearImage draft = drawRadiance(session, 1.0);
   set(session, {{"view.accumulate", "16"}});

@@ -107,7 +107,7 @@ class Faults : public FaultTest {
                 ends[End::line], ends[End::wrong]);
   }
 
-  int stride_ = environment("SPECULUM_ALL_FAULTS").empty() ? 31 : 1;
+  int stride_ = environment("SPECULUM_ALL_FAULTS").empty() ? 61 : 1;
   std::optional<std::vector<uint8_t>> picture_;
 };
 

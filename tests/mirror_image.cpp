@@ -128,7 +128,7 @@ TEST_P(MirrorImage, EqualsThePictureOfTheMirroredScene) {
   expectAlike(seen, direct, 1, "mirror_image_" + std::to_string(GetParam()), mask);
 }
 
-INSTANTIATE_TEST_SUITE_P(RandomPlanes, MirrorImage, testing::ValuesIn(sampledSeeds(20, 3)),
+INSTANTIATE_TEST_SUITE_P(RandomPlanes, MirrorImage, testing::ValuesIn(sampledSeeds(20, 5)),
                          testing::PrintToStringParamName());
 
 TEST(MirrorImages, HideWhatIsBehindThePlane) {

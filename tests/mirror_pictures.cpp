@@ -240,7 +240,7 @@ TEST(MirrorPictures, DriverKeepsNoMemoryOfFrames) {
       {sourceFile("scenes/rough.toml"), {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}}},
       {writeScene("many_lights", manyLights), {{"debug.check_finite", "true"}}}};
   for (const auto& [file, settings] : cases) {
-    QuietSession session(headless(file, {64, 36}, settings));
+    QuietSession session(headless(file, {32, 18}, settings));
     const auto leastOf = [&](int frames) {
       double least = 1e9;
       for (int i = 0; i < frames; ++i) {
